@@ -1,0 +1,92 @@
+#include "pipelines/ephemeris/kepler_orbit.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+
+namespace spindrift {
+namespace {
+
+constexpr double kEarthRadius_km = 6378.137;
+
+Unexpected refused(std::string message) {
+  return Unexpected{{ErrorCode::InvalidConfiguration, std::move(message)}};
+}
+
+/// Solves E - e sin E = M.
+///
+/// On [0, pi] the left side is convex, so Newton's steps from M + e, which is never too small, only
+/// ever descend: the first that does not is rounding, and the root is found. (No convergence limit
+/// is needed at any e < 1.)
+double eccentric_anomaly_rad(double mean_anomaly_rad, double eccentricity) {
+  const double wrapped_rad = std::remainder(mean_anomaly_rad, 2.0 * std::numbers::pi);
+  const double mean_rad = std::abs(wrapped_rad);
+  double eccentric_rad = std::min(mean_rad + eccentricity, std::numbers::pi);
+  for (double next_rad = eccentric_rad;; eccentric_rad = next_rad) {
+    next_rad = eccentric_rad - (eccentric_rad - eccentricity * std::sin(eccentric_rad) - mean_rad) /
+                                   (1.0 - eccentricity * std::cos(eccentric_rad));
+    if (!(next_rad < eccentric_rad)) {
+      return std::copysign(eccentric_rad, wrapped_rad);
+    }
+  }
+}
+
+}  // namespace
+
+Expected<KeplerOrbit> KeplerOrbit::make(const KeplerElements& elements) {
+  for (const double angle_rad :
+       {elements.raan_rad, elements.argument_of_perigee_rad, elements.mean_anomaly_rad}) {
+    if (!std::isfinite(angle_rad)) {
+      return refused("orbit: node, argument of perigee and mean anomaly must be numbers");
+    }
+  }
+  if (!(elements.inclination_rad >= 0.0 && elements.inclination_rad <= std::numbers::pi)) {
+    return refused(
+        fmt::format("orbit: inclination {} rad must lie in [0, pi]", elements.inclination_rad));
+  }
+  if (!(elements.eccentricity >= 0.0 && elements.eccentricity < 1.0)) {
+    return refused(fmt::format("orbit: eccentricity {} must lie in [0, 1)", elements.eccentricity));
+  }
+  const double perigee_km = elements.semi_major_axis_km * (1.0 - elements.eccentricity);
+  if (!(std::isfinite(elements.semi_major_axis_km) && perigee_km > kEarthRadius_km)) {
+    return refused(fmt::format(
+        "orbit: semi-major axis {} km with eccentricity {} puts the perigee at {:.3f} km from the "
+        "Earth's centre; it must lie above {} km",
+        elements.semi_major_axis_km, elements.eccentricity, perigee_km, kEarthRadius_km));
+  }
+  return KeplerOrbit{elements};
+}
+
+KeplerOrbit::KeplerOrbit(const KeplerElements& elements)
+    : epoch_{elements.epoch},
+      eccentricity_{elements.eccentricity},
+      mean_anomaly_rad_{elements.mean_anomaly_rad} {
+  const double a_km = elements.semi_major_axis_km;
+  const double e = elements.eccentricity;
+  const Eigen::Matrix3d R_icrf_perifocal =
+      (Eigen::AngleAxisd{elements.raan_rad, Eigen::Vector3d::UnitZ()} *
+       Eigen::AngleAxisd{elements.inclination_rad, Eigen::Vector3d::UnitX()} *
+       Eigen::AngleAxisd{elements.argument_of_perigee_rad, Eigen::Vector3d::UnitZ()})
+          .toRotationMatrix();
+  mean_motion_rad_s_ = std::sqrt(kEarthMu_km3_s2 / a_km) / a_km;
+  semi_major_icrf_km_ = a_km * R_icrf_perifocal.col(0);
+  semi_minor_icrf_km_ = a_km * std::sqrt((1.0 - e) * (1.0 + e)) * R_icrf_perifocal.col(1);
+}
+
+Expected<OrbitState> KeplerOrbit::at(TaiTime t) const {
+  const double mean_rad = mean_anomaly_rad_ + mean_motion_rad_s_ * seconds_between(epoch_, t);
+  const double eccentric_rad = eccentric_anomaly_rad(mean_rad, eccentricity_);
+  const double cos_e = std::cos(eccentric_rad);
+  const double sin_e = std::sin(eccentric_rad);
+  const double eccentric_rate_rad_s = mean_motion_rad_s_ / (1.0 - eccentricity_ * cos_e);
+  return OrbitState{.position_icrf_km =
+                        (cos_e - eccentricity_) * semi_major_icrf_km_ + sin_e * semi_minor_icrf_km_,
+                    .velocity_icrf_km_s = eccentric_rate_rad_s * (cos_e * semi_minor_icrf_km_ -
+                                                                  sin_e * semi_major_icrf_km_)};
+}
+
+}  // namespace spindrift

@@ -1,0 +1,50 @@
+/// @file
+/// Two-body orbit about the Earth from classical elements.
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/orbit_state.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// Gravitational parameter of the Earth (EGM96, as IERS Conventions 2010 in TT).
+inline constexpr double kEarthMu_km3_s2 = 398600.4418;
+
+/// Classical elements at an epoch, referred to EME2000.
+struct KeplerElements {
+  TaiTime epoch;
+  double semi_major_axis_km;
+  double eccentricity;     ///< [0, 1)
+  double inclination_rad;  ///< [0, pi]
+  double raan_rad;
+  double argument_of_perigee_rad;
+  double mean_anomaly_rad;
+};
+
+/// Valid at any time; good for hours, not for weeks: no perturbation is modelled.
+class KeplerOrbit {
+ public:
+  /// @return InvalidConfiguration for an orbit that is not an ellipse, or whose perigee lies
+  ///         inside the Earth.
+  static Expected<KeplerOrbit> make(const KeplerElements& elements);
+
+  /// Never fails; the type is that of every source of orbits.
+  Expected<OrbitState> at(TaiTime t) const;
+
+ private:
+  explicit KeplerOrbit(const KeplerElements& elements);
+
+  TaiTime epoch_;
+  double eccentricity_;
+  double mean_anomaly_rad_;
+  double mean_motion_rad_s_;
+  /// The ellipse's half axes: towards perigee, and along the motion there.
+  Eigen::Vector3d semi_major_icrf_km_;
+  Eigen::Vector3d semi_minor_icrf_km_;
+};
+
+}  // namespace spindrift

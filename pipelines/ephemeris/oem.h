@@ -1,0 +1,75 @@
+/// @file
+/// CCSDS Orbit Ephemeris Message (502.0-B, KVN) and its interpolation.
+
+#pragma once
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/orbit_state.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+enum class Interpolation {
+  Lagrange,  ///< Positions and velocities each by a polynomial of their own, degree + 1 points.
+  Hermite,   ///< One polynomial through positions and velocities, (degree + 1) / 2 points.
+};
+
+/// Beyond it the end intervals swing and divided differences lose more than the degree gains.
+inline constexpr int kMaxInterpolationDegree = 15;
+
+struct EphemerisPoint {
+  TaiTime t;
+  OrbitState state;
+};
+
+/// One metadata block with its data lines: states at strictly increasing times.
+struct OemSegment {
+  TaiTime usable_from;
+  TaiTime usable_to;
+  Interpolation interpolation;
+  int degree;
+  std::vector<EphemerisPoint> points;
+};
+
+/// Points that one interpolation looks at; two at least, so that it never extrapolates. An even
+/// Hermite degree is raised by one: a point brings two conditions.
+constexpr int points_needed(Interpolation interpolation, int degree) {
+  const int points = interpolation == Interpolation::Lagrange ? degree + 1 : (degree + 2) / 2;
+  return points < 2 ? 2 : points;
+}
+
+/// An interpolated ephemeris, valid by construction.
+class OrbitEphemeris {
+ public:
+  /// @return InvalidConfiguration for no segment; for one whose points are too few for its degree,
+  ///         out of order or do not reach its usable times; for segments out of order. Usable times
+  ///         of successive segments may touch but not overlap.
+  static Expected<OrbitEphemeris> make(std::vector<OemSegment> segments);
+
+  /// Where two segments touch, the later one answers.
+  /// @return NoCoverage, saying by how much `t` lies outside.
+  Expected<OrbitState> at(TaiTime t) const;
+
+  TaiTime usable_from() const { return segments_.front().usable_from; }
+  TaiTime usable_to() const { return segments_.back().usable_to; }
+
+ private:
+  explicit OrbitEphemeris(std::vector<OemSegment> segments) : segments_{std::move(segments)} {}
+  std::vector<OemSegment> segments_;
+};
+
+/// Reads the text of an OEM.
+///
+/// Earth-centred; EME2000 (J2000), ICRF or GCRF, one frame here, for their axes differ by 0.02
+/// arcsec; UTC or TAI. A segment is usable where its USEABLE times, its START and STOP times and
+/// its data lines all reach. Without INTERPOLATION: Hermite of degree 7, less if the points are
+/// few, since every data line has a velocity. Accelerations and covariances are checked for form
+/// only.
+/// @return InvalidConfiguration with the line number, the key and what is allowed.
+Expected<OrbitEphemeris> parse_oem(std::string_view text);
+
+}  // namespace spindrift

@@ -1,0 +1,34 @@
+/// @file
+/// Where the spacecraft is: from an orbit ephemeris message or from two-body elements.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/ephemeris/oem.h"
+#include "pipelines/ephemeris/orbit_state.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// An orbit that can be asked for its state at any time it covers.
+class Orbit {
+ public:
+  explicit Orbit(OrbitEphemeris ephemeris) : source_{std::move(ephemeris)} {}
+  explicit Orbit(KeplerOrbit orbit) : source_{orbit} {}
+
+  /// @return NoCoverage, saying by how much `t` lies outside the ephemeris.
+  Expected<OrbitState> at(TaiTime t) const {
+    return std::visit([t](const auto& source) { return source.at(t); }, source_);
+  }
+
+ private:
+  std::variant<OrbitEphemeris, KeplerOrbit> source_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,47 @@
+#include "pipelines/frames/celestial.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+namespace spindrift {
+namespace {
+
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+
+}  // namespace
+
+Eigen::Vector3d direction_icrf(const RaDec& place) {
+  const double cos_dec = std::cos(place.dec_rad);
+  return {cos_dec * std::cos(place.ra_rad), cos_dec * std::sin(place.ra_rad),
+          std::sin(place.dec_rad)};
+}
+
+RaDec ra_dec_of(const Eigen::Vector3d& direction_icrf) {
+  const double equatorial = std::hypot(direction_icrf.x(), direction_icrf.y());
+  const double ra_rad = equatorial > 0.0 ? std::atan2(direction_icrf.y(), direction_icrf.x()) : 0.0;
+  // A right ascension just below zero plus a full turn rounds to the full turn itself.
+  const double ra_positive_rad = ra_rad < 0.0 ? ra_rad + kTurn_rad : ra_rad;
+  return {.ra_rad = ra_positive_rad < kTurn_rad ? ra_positive_rad : 0.0,
+          .dec_rad = std::atan2(direction_icrf.z(), equatorial)};
+}
+
+double angle_between_rad(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& axis_icrf) {
+  const RaDec place = ra_dec_of(axis_icrf);
+  const Eigen::Vector3d east{-std::sin(place.ra_rad), std::cos(place.ra_rad), 0.0};
+  Eigen::Matrix<double, 3, 2> basis;
+  basis.col(0) = east;
+  basis.col(1) = axis_icrf.normalized().cross(east);
+  return basis;
+}
+
+double wrapped_rad(double angle_rad) {
+  const double wrapped = std::remainder(angle_rad, kTurn_rad);
+  return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,31 @@
+/// @file
+/// Directions in ICRF: right ascension and declination, angles between, the tangent plane.
+
+#pragma once
+
+#include <Eigen/Core>
+
+namespace spindrift {
+
+/// Right ascension in [0, 2 pi), declination in [-pi/2, pi/2].
+struct RaDec {
+  double ra_rad;
+  double dec_rad;
+};
+
+Eigen::Vector3d direction_icrf(const RaDec& place);
+
+/// `direction_icrf` needs no unit length. At a celestial pole the right ascension is 0.
+RaDec ra_dec_of(const Eigen::Vector3d& direction_icrf);
+
+/// Angle between two directions, [0, pi], good to an ulp near 0 and pi; lengths do not matter.
+double angle_between_rad(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
+/// Columns east and north: an orthonormal basis of the plane tangent to the sphere at `axis_icrf`.
+/// At a celestial pole, where east has no meaning, it is the basis of right ascension 0.
+Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& axis_icrf);
+
+/// `angle_rad` wrapped into (-pi, pi].
+double wrapped_rad(double angle_rad);
+
+}  // namespace spindrift
