@@ -1,0 +1,48 @@
+/// @file
+/// Mean attitude: the normalised mean of unit vectors. (Averaging right ascensions breaks across
+/// 0 h and at the poles.)
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <deque>
+#include <optional>
+
+#include "pipelines/spin/products.h"
+
+namespace spindrift {
+
+/// Mean of all fixes of a pass, and the covariance that their own covariances give it.
+class MeanAxis {
+ public:
+  void add(const SpinFix& fix);
+
+  std::size_t count() const { return count_; }
+  /// Unit; at least one fix must have been added.
+  Eigen::Vector3d axis_icrf() const { return sum_icrf_.normalized(); }
+  /// In the tangent plane at the mean: east, north. Fixes of different revolutions share no edge,
+  /// so their errors add in quadrature.
+  Eigen::Matrix2d covariance_rad2() const;
+
+ private:
+  Eigen::Vector3d sum_icrf_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_sum_rad2_ = Eigen::Matrix3d::Zero();
+  std::size_t count_ = 0;
+};
+
+/// Mean of the last fixes: the attitude that the rationality test predicts from.
+class AxisWindow {
+ public:
+  explicit AxisWindow(std::size_t length) : length_{length} {}
+
+  void add(const Eigen::Vector3d& axis_icrf);
+  /// Unit; empty before the first fix, and where the fixes cancel.
+  std::optional<Eigen::Vector3d> axis_icrf() const;
+
+ private:
+  std::size_t length_;
+  std::deque<Eigen::Vector3d> axes_icrf_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,35 @@
+/// @file
+/// Mean and scatter of a window of values of which some are wrong (spin.md, rationality tests).
+
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace spindrift {
+
+/// How far from the mean a value may lie.
+struct ClipRule {
+  double sigma;   ///< In empirical standard deviations.
+  double stated;  ///< Standard deviation that the noise model states; same unit as the values.
+};
+
+struct RobustMean {
+  double mean;
+  double sigma;  ///< Standard deviation of the values kept.
+  double limit;  ///< |value - mean| beyond this is an outlier.
+  std::size_t kept;
+
+  bool keeps(double value) const;
+};
+
+/// Starts at median and MAD, then mean and standard deviation of what lies within the limit, until
+/// the set no longer changes.
+///
+/// A value within one stated sigma of the mean is never an outlier: without that floor, values on a
+/// coarse telemetry grid would reject each other. With fewer than ten values the empirical scatter
+/// is itself uncertain by a quarter, and the floor is `rule.sigma` stated sigmas.
+/// @param values At least one, finite.
+RobustMean robust_mean(std::span<const double> values, const ClipRule& rule);
+
+}  // namespace spindrift

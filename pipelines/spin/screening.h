@@ -1,0 +1,54 @@
+/// @file
+/// Rationality test of the measurements: each against what the mean attitude predicts.
+
+#pragma once
+
+#include <array>
+#include <deque>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "pipelines/spin/config.h"
+#include "pipelines/spin/fix.h"
+#include "pipelines/spin/measurement.h"
+#include "pipelines/spin/products.h"
+#include "pipelines/spin/robust_mean.h"
+
+namespace spindrift {
+
+/// Measured minus predicted, of one quantity of one revolution.
+struct Residual {
+  SpinQuantity quantity;
+  double value_rad;
+  double sigma_rad;
+};
+
+/// One residual per measurement. A chord that the axis says is impossible has none: it is left to
+/// the other quantities to decide.
+std::vector<Residual> residuals(const SpinConfig& config, const RevolutionMeasurements& measured,
+                                const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf);
+
+/// A sliding window of residuals for every quantity. Deviations count from the window's mean, not
+/// from zero: an error that all share (a misplaced sensor, the Earth's oblateness) is not an
+/// outlier. Rejected residuals stay in the window, so the test follows when the attitude really
+/// changes.
+class ScreeningWindow {
+ public:
+  explicit ScreeningWindow(const SpinScreening& screening) : screening_{screening} {}
+
+  void add(const Residual& residual);
+  /// Of a residual that was added.
+  bool keeps(const Residual& residual) const;
+
+ private:
+  struct Channel {
+    std::deque<double> values_rad;
+    std::optional<RobustMean> mean;
+  };
+
+  SpinScreening screening_;
+  std::array<Channel, kSpinQuantities> channels_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,59 @@
+/// @file
+/// Spin period from successive edges of one channel, and its rationality test.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "pipelines/spin/config.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// One interval between edges `turns` revolutions apart, divided by them.
+struct PeriodCandidate {
+  double period_s;
+  double sigma_s;  ///< From the stated pulse noise.
+  bool accepted;
+};
+
+struct SpinPeriod {
+  double period_s;
+  double sigma_s;
+};
+
+/// Sliding window of period candidates: one alone is unreliable.
+///
+/// Rejected candidates stay in the window: when the rate really changes they become the majority,
+/// and the test follows.
+class SpinPeriodWindow {
+ public:
+  /// @param edge_sigma_s One standard deviation of an edge's time.
+  SpinPeriodWindow(const SpinScreening& screening, double edge_sigma_s);
+
+  /// Tests the interval `from` -> `to`, `turns` > 0 revolutions long, and adds it.
+  PeriodCandidate add(TaiTime from, TaiTime to, std::int64_t turns);
+
+  /// Sum of the intervals accepted over the sum of their turns. They follow one another from edge
+  /// to edge, so that the noise of the edges between cancels: what was accepted is not judged
+  /// again. Empty before the first candidate accepted.
+  std::optional<SpinPeriod> period() const { return period_; }
+  std::size_t size() const { return entries_.size(); }
+
+ private:
+  struct Entry {
+    double period_s;
+    double turns;
+    bool accepted;
+  };
+
+  SpinScreening screening_;
+  double edge_sigma_s_;
+  std::deque<Entry> entries_;
+  std::optional<SpinPeriod> period_;
+};
+
+}  // namespace spindrift
