@@ -1,0 +1,234 @@
+#include "services/archive/archive.h"
+
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Exception.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <numeric>
+#include <system_error>
+#include <utility>
+
+#include "services/archive/batch_writer.h"
+#include "services/archive/connection.h"
+#include "services/archive/write_lock.h"
+
+namespace spindrift {
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kRetryPause{1};
+constexpr std::size_t kCommitsRemembered = 1000;
+
+std::size_t row_count(std::span<const ArchiveBatch> batches) {
+  return std::accumulate(
+      batches.begin(), batches.end(), std::size_t{0},
+      [](std::size_t sum, const ArchiveBatch& batch) { return sum + spindrift::row_count(batch); });
+}
+
+}  // namespace
+
+/// What the writer thread works with. The lock is let go of last.
+struct Archive::Store {
+  Store(WriteLock held, SQLite::Database opened)
+      : lock{std::move(held)}, database{std::move(opened)}, writer{database} {}
+
+  WriteLock lock;
+  SQLite::Database database;
+  BatchWriter writer;
+};
+
+Expected<std::unique_ptr<Archive>> Archive::open(const std::filesystem::path& path,
+                                                 ArchiveOptions options) {
+  // One file has one lock, whichever link it is reached by.
+  std::error_code unresolved;
+  const std::filesystem::path real = std::filesystem::weakly_canonical(path, unresolved);
+  if (unresolved) {
+    return Unexpected{{ErrorCode::Unavailable,
+                       fmt::format("archive {}: {}", path.string(), unresolved.message())}};
+  }
+  // Before the lock, which would leave a file beside one that is not ours.
+  if (const auto ours = refuse_foreign_file(real); !ours) {
+    return Unexpected{ours.error()};
+  }
+  auto lock = WriteLock::acquire(real);
+  if (!lock) {
+    return Unexpected{lock.error()};
+  }
+  auto database = open_for_writing(real);
+  if (!database) {
+    return Unexpected{database.error()};
+  }
+  try {
+    auto store = std::make_unique<Store>(std::move(*lock), std::move(*database));
+    return std::unique_ptr<Archive>{
+        new Archive{real.string(), std::move(store), std::move(options)}};
+  } catch (const SQLite::Exception& exception) {
+    return Unexpected{archive_error(real.string(), exception)};
+  }
+}
+
+Archive::Archive(std::string path, std::unique_ptr<Store> store, ArchiveOptions options)
+    : path_{std::move(path)},
+      options_{std::move(options)},
+      store_{std::move(store)},
+      queue_{options_.queue_capacity},
+      commit_durations_{kCommitsRemembered},
+      writer_{[this] { run(); }} {}
+
+// Whoever wants to know what was not stored calls close() first.
+Archive::~Archive() { static_cast<void>(close()); }
+
+Expected<void> Archive::submit(ArchiveBatch batch) {
+  {
+    std::unique_lock lock{mutex_};
+    changed_.wait(lock, [this] { return state_ != State::Accepting || !failure_; });
+    if (state_ != State::Accepting) {
+      return refusal();
+    }
+    ++submitted_batches_;
+  }
+  if (!queue_.push(std::move(batch))) {
+    const std::lock_guard lock{mutex_};
+    --submitted_batches_;
+    return refusal();
+  }
+  return {};
+}
+
+Expected<void> Archive::flush() {
+  std::unique_lock lock{mutex_};
+  const std::uint64_t wanted = submitted_batches_;
+  changed_.wait(lock, [&] { return state_ != State::Accepting || committed_batches_ >= wanted; });
+  if (committed_batches_ < wanted) {
+    return refusal();
+  }
+  return {};
+}
+
+Expected<void> Archive::close() {
+  {
+    const std::lock_guard lock{mutex_};
+    state_ = State::Closing;
+  }
+  changed_.notify_all();
+  queue_.close();
+  if (writer_.joinable()) {
+    writer_.join();
+  }
+  store_.reset();
+  if (rows_lost_ > 0) {
+    return Unexpected{
+        {ErrorCode::Unavailable, fmt::format("{} rows that were accepted are not in archive {}: {}",
+                                             rows_lost_, path_, failure_->message)}};
+  }
+  return {};
+}
+
+ArchiveStatistics Archive::statistics() const {
+  const std::lock_guard lock{mutex_};
+  return {.rows_committed = rows_committed_,
+          .samples_committed = samples_committed_,
+          .queued_batches = queue_.size(),
+          .commit_p99_ms = commit_durations_.p99_ms(),
+          .failure = failure_};
+}
+
+void Archive::run() {
+  for (auto batches = queue_.take_all(); !batches.empty(); batches = queue_.take_all()) {
+    if (!store_patiently(batches)) {
+      store_singly(batches);
+    }
+  }
+}
+
+// Tries until it succeeds or the archive is closed.
+bool Archive::store_patiently(std::span<const ArchiveBatch> batches) {
+  auto stored = store(batches);
+  while (!stored && !close_comes_first()) {
+    stored = store(batches);
+  }
+  return stored.has_value();
+}
+
+// The last attempt: one bad row, or a disk with little room, costs no more than it must.
+void Archive::store_singly(std::span<const ArchiveBatch> batches) {
+  for (std::size_t i = 0; i < batches.size(); ++i) {
+    const auto one = batches.subspan(i, 1);
+    if (!store(one)) {
+      rows_lost_ += row_count(one);
+    }
+  }
+}
+
+Expected<void> Archive::store(std::span<const ArchiveBatch> batches) {
+  const auto begun = steady_clock::now();
+  auto stored = store_->writer.write(batches);
+  const std::chrono::duration<double, std::milli> duration = steady_clock::now() - begun;
+  if (stored) {
+    options_.on_committed(batches);
+    note_success(batches, duration.count());
+  } else {
+    note_failure(stored.error());
+  }
+  return stored;
+}
+
+void Archive::note_success(std::span<const ArchiveBatch> batches, double duration_ms) {
+  {
+    const std::lock_guard lock{mutex_};
+    commit_durations_.add(duration_ms);
+    rows_committed_ += row_count(batches);
+    for (const ArchiveBatch& batch : batches) {
+      samples_committed_ += batch.pulses.size();
+    }
+    committed_batches_ += batches.size();
+    if (state_ == State::Accepting) {
+      failure_.reset();
+    }
+  }
+  changed_.notify_all();
+}
+
+void Archive::note_failure(const Error& error) {
+  bool is_news = false;
+  bool stops = false;
+  {
+    const std::lock_guard lock{mutex_};
+    is_news = !failure_ || failure_->message != error.message;
+    failure_ = error;
+    stops = state_ == State::Accepting && (options_.on_write_failure == OnWriteFailure::Stop ||
+                                           error.code == ErrorCode::InvalidInput);
+    if (stops) {
+      state_ = State::Stopped;
+    }
+  }
+  if (stops) {
+    changed_.notify_all();
+    queue_.close();
+  }
+  if (is_news) {
+    options_.on_failure(error);
+  }
+}
+
+// Waits for the time of the next attempt, which a stopped archive only makes when it closes.
+bool Archive::close_comes_first() {
+  std::unique_lock lock{mutex_};
+  const auto closing = [this] { return state_ == State::Closing; };
+  if (state_ == State::Stopped) {
+    changed_.wait(lock, closing);
+    return true;
+  }
+  return changed_.wait_for(lock, kRetryPause, closing);
+}
+
+Unexpected Archive::refusal() const {
+  if (failure_) {
+    return Unexpected{*failure_};
+  }
+  return Unexpected{{ErrorCode::Unavailable, fmt::format("archive {} is closed", path_)}};
+}
+
+}  // namespace spindrift

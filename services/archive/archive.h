@@ -1,0 +1,117 @@
+/// @file
+/// The archive as a service sees it: batches go in, a thread of its own stores them.
+
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "services/archive/recent_durations.h"
+#include "services/archive/records.h"
+#include "services/queue/bounded_queue.h"
+
+namespace spindrift {
+
+/// What follows a write that failed for want of disk, I/O or the lock. Batches already accepted
+/// are kept in either case. A row that breaks a rule of the schema always stops.
+enum class OnWriteFailure {
+  Stop,   ///< Refuse what is submitted from now on; try once more when closing. For a file's run.
+  Retry,  ///< Let submitters wait, and try every second. For a pass that is under way.
+};
+
+/// The callbacks run on the writer thread, must not throw and must not call the archive.
+struct ArchiveOptions {
+  OnWriteFailure on_write_failure = OnWriteFailure::Stop;
+  std::size_t queue_capacity = 256;  ///< Batches.
+  /// After each commit, with what it stored.
+  std::function<void(std::span<const ArchiveBatch>)> on_committed = [](const auto& /*stored*/) {};
+  /// When writing begins to fail, and whenever it fails for another reason than before.
+  std::function<void(const Error&)> on_failure = [](const auto& /*error*/) {};
+};
+
+struct ArchiveStatistics {
+  std::uint64_t rows_committed = 0;     ///< As submitted: a pulse that was stored before counts.
+  std::uint64_t samples_committed = 0;  ///< The pulses among them.
+  std::size_t queued_batches = 0;
+  std::optional<double> commit_p99_ms;  ///< Whole transactions, the last 1000 of them.
+  std::optional<Error> failure;         ///< Writing fails at present, or failed and stopped.
+};
+
+/// One archive open for writing. Everything queued goes into one transaction, and the next one
+/// begins as soon as it is committed: few batches are stored at once, many at the rate of the disk.
+///
+/// `submit`, `flush` and `statistics` may be called from any thread; `close` from one, after which
+/// the others give errors.
+class Archive {
+ public:
+  /// @return Unavailable when another process (or this one) writes it, or it cannot be opened;
+  ///         InvalidConfiguration when the file is not an archive or needs a newer program.
+  static Expected<std::unique_ptr<Archive>> open(const std::filesystem::path& path,
+                                                 ArchiveOptions options);
+
+  Archive(const Archive&) = delete;
+  Archive& operator=(const Archive&) = delete;
+  Archive(Archive&&) = delete;
+  Archive& operator=(Archive&&) = delete;
+  ~Archive();
+
+  /// Takes `batch` over; waits while the queue is full and, with Retry, while writing fails.
+  /// @return the failure that stopped the archive, or Unavailable after `close`.
+  Expected<void> submit(ArchiveBatch batch);
+
+  /// Waits until everything submitted before is committed and announced.
+  /// @return as `submit`.
+  Expected<void> flush();
+
+  /// Stores what is still queued, trying once more what failed, and lets go of the file.
+  /// @return Unavailable with the number of rows that were accepted and could not be stored.
+  Expected<void> close();
+
+  ArchiveStatistics statistics() const;
+
+ private:
+  struct Store;
+  enum class State { Accepting, Stopped, Closing };
+
+  Archive(std::string path, std::unique_ptr<Store> store, ArchiveOptions options);
+
+  void run();
+  bool store_patiently(std::span<const ArchiveBatch> batches);
+  void store_singly(std::span<const ArchiveBatch> batches);
+  Expected<void> store(std::span<const ArchiveBatch> batches);
+  void note_success(std::span<const ArchiveBatch> batches, double duration_ms);
+  void note_failure(const Error& error);
+  bool close_comes_first();
+  Unexpected refusal() const;
+
+  const std::string path_;
+  const ArchiveOptions options_;
+  std::unique_ptr<Store> store_;
+  BoundedQueue<ArchiveBatch> queue_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  State state_ = State::Accepting;
+  std::optional<Error> failure_;
+  std::uint64_t submitted_batches_ = 0;
+  std::uint64_t committed_batches_ = 0;
+  std::uint64_t rows_committed_ = 0;
+  std::uint64_t samples_committed_ = 0;
+  std::size_t rows_lost_ = 0;
+  RecentDurations commit_durations_;
+
+  std::thread writer_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,226 @@
+#include "services/archive/batch_writer.h"
+
+#include <SQLiteCpp/Transaction.h>
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <string_view>
+#include <variant>
+
+#include "pipelines/frames/celestial.h"
+#include "services/archive/connection.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+constexpr double kRpmPerRad_s = 30.0 / std::numbers::pi;
+
+void bind(SQLite::Statement& statement, int index, std::int64_t value) {
+  statement.bind(index, value);
+}
+void bind(SQLite::Statement& statement, int index, double value) { statement.bind(index, value); }
+void bind(SQLite::Statement& statement, int index, const std::string& value) {
+  statement.bindNoCopy(index, value);
+}
+// A name_of(...): a literal, hence ended by a NUL and there for good.
+void bind(SQLite::Statement& statement, int index, std::string_view literal) {
+  statement.bindNoCopy(index, literal.data());
+}
+template <class T>
+void bind(SQLite::Statement& statement, int index, const std::optional<T>& value) {
+  if (value) {
+    bind(statement, index, *value);
+  } else {
+    statement.bind(index);
+  }
+}
+
+// Text is bound without a copy, so `values` must outlive the call and no more.
+template <class... Values>
+void execute(SQLite::Statement& statement, const Values&... values) {
+  statement.tryReset();  // Its status is that of the last step, which was reported then.
+  int index = 0;
+  (bind(statement, ++index, values), ...);
+  statement.exec();
+}
+
+std::int64_t as_signed(std::uint64_t value) { return static_cast<std::int64_t>(value); }
+std::int64_t as_flag(bool value) { return value ? 1 : 0; }
+
+std::optional<std::string_view> name_of(const std::optional<Rejection>& rejected_by) {
+  return rejected_by ? std::optional{spindrift::name_of(*rejected_by)} : std::nullopt;
+}
+
+struct AxisColumns {
+  double ra_deg;
+  double dec_deg;
+};
+
+AxisColumns columns_of(const Eigen::Vector3d& axis_icrf) {
+  const RaDec place = ra_dec_of(axis_icrf);
+  const double ra_deg = place.ra_rad * kDegPerRad;
+  // The last double below 2 pi becomes 360 exactly.
+  return {.ra_deg = ra_deg == 360.0 ? 0.0 : ra_deg, .dec_deg = place.dec_rad * kDegPerRad};
+}
+
+struct CovarianceColumns {
+  double sigma_deg;
+  double east_east_deg2;
+  double east_north_deg2;
+  double north_north_deg2;
+};
+
+CovarianceColumns columns_of(const Eigen::Matrix2d& covariance_rad2) {
+  const Eigen::Matrix2d deg2 = covariance_rad2 * (kDegPerRad * kDegPerRad);
+  return {.sigma_deg = std::sqrt(deg2.trace()),
+          .east_east_deg2 = deg2(0, 0),
+          .east_north_deg2 = deg2(0, 1),
+          .north_north_deg2 = deg2(1, 1)};
+}
+
+}  // namespace
+
+BatchWriter::BatchWriter(SQLite::Database& database)
+    : database_{database},
+      spacecraft_{database,
+                  "INSERT INTO spacecraft (spacecraft_id, name, kind) VALUES (?1, ?1, ?2)"
+                  " ON CONFLICT DO UPDATE SET kind = excluded.kind"},
+      run_{database,
+           "INSERT INTO run (run_id, spacecraft_id, mode, software_version, config_toml,"
+           " config_sha256, started_utc) VALUES (?, ?, ?, ?, ?, ?, ?)"},
+      run_finished_{database, "UPDATE run SET finished_utc = ? WHERE run_id = ?"},
+      pulse_{database,
+             "INSERT INTO pulse (spacecraft_id, t_tai_ns, channel, source, session, seq)"
+             " VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING"},
+      rejected_input_{database,
+                      "INSERT INTO rejected_input (run_id, source, line, reason)"
+                      " VALUES (?, ?, ?, ?) ON CONFLICT DO NOTHING"},
+      source_count_{database,
+                    "INSERT OR REPLACE INTO source_count (run_id, source, received, gaps,"
+                    " duplicates, disordered) VALUES (?, ?, ?, ?, ?, ?)"},
+      pulse_use_{database,
+                 "INSERT OR IGNORE INTO pulse_use (run_id, spacecraft_id, t_tai_ns, channel,"
+                 " revolution, accepted, rejected_by) VALUES (?, ?, ?, ?, ?, ?, ?)"},
+      revolution_{database,
+                  "INSERT OR REPLACE INTO revolution (run_id, revolution, t_tai_ns, period_s)"
+                  " VALUES (?, ?, ?, ?)"},
+      spin_measurement_{database,
+                        "INSERT OR REPLACE INTO spin_measurement (run_id, revolution, quantity,"
+                        " value, unit, sigma, accepted, rejected_by)"
+                        " VALUES (?, ?, ?, ?, ?, ?, ?, ?)"},
+      spin_fix_{database,
+                "INSERT OR REPLACE INTO spin_fix (run_id, revolution, t_tai_ns, geometry_case,"
+                " ra_deg, dec_deg, sigma_deg, cov_east_east_deg2, cov_east_north_deg2,"
+                " cov_north_north_deg2, alternate_ra_deg, alternate_dec_deg, resolution, norm,"
+                " accepted) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+      spin_estimate_{database,
+                     "INSERT OR REPLACE INTO spin_estimate (run_id, t_tai_ns, estimator, ra_deg,"
+                     " dec_deg, sigma_deg, cov_east_east_deg2, cov_east_north_deg2,"
+                     " cov_north_north_deg2, spin_rate_rpm, sigma_rpm, status)"
+                     " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"} {}
+
+Expected<void> BatchWriter::write(std::span<const ArchiveBatch> batches) {
+  try {
+    SQLite::Transaction transaction{database_, SQLite::TransactionBehavior::IMMEDIATE};
+    for (const ArchiveBatch& batch : batches) {
+      insert(batch);
+    }
+    transaction.commit();
+    return {};
+  } catch (const SQLite::Exception& exception) {
+    return Unexpected{archive_error(database_.getFilename(), exception)};
+  }
+}
+
+void BatchWriter::insert(const ArchiveBatch& batch) {
+  if (batch.start) {
+    insert(batch, *batch.start);
+  }
+  for (const PulseSample& sample : batch.pulses) {
+    insert(sample);
+  }
+  for (const RejectedInput& rejected : batch.rejected) {
+    insert(batch.run_id, rejected);
+  }
+  for (const SpinProduct& product : batch.products) {
+    std::visit([&](const auto& value) { insert(batch, value); }, product);
+  }
+  for (const SourceCount& count : batch.source_counts) {
+    insert(batch.run_id, count);
+  }
+  if (batch.finished_utc) {
+    execute(run_finished_, *batch.finished_utc, batch.run_id);
+  }
+}
+
+void BatchWriter::insert(const ArchiveBatch& batch, const RunStart& start) {
+  execute(spacecraft_, batch.spacecraft_id, start.spacecraft_kind);
+  execute(run_, batch.run_id, batch.spacecraft_id, start.mode, start.software_version,
+          start.config_toml, start.config_sha256, start.started_utc);
+}
+
+void BatchWriter::insert(const PulseSample& sample) {
+  execute(pulse_, sample.spacecraft, tai_ns(sample.pulse.t),
+          spindrift::name_of(sample.pulse.channel), sample.origin.source,
+          as_signed(sample.origin.session), as_signed(sample.origin.seq));
+}
+
+void BatchWriter::insert(const std::string& run_id, const RejectedInput& rejected) {
+  execute(rejected_input_, run_id, rejected.source, rejected.line, rejected.reason);
+}
+
+void BatchWriter::insert(const std::string& run_id, const SourceCount& count) {
+  execute(source_count_, run_id, count.source, count.received, count.gaps, count.duplicates,
+          count.disordered);
+}
+
+void BatchWriter::insert(const ArchiveBatch& batch, const PulseUse& use) {
+  execute(pulse_use_, batch.run_id, batch.spacecraft_id, tai_ns(use.pulse.t),
+          spindrift::name_of(use.pulse.channel), use.revolution, as_flag(!use.rejected_by),
+          name_of(use.rejected_by));
+}
+
+void BatchWriter::insert(const ArchiveBatch& batch, const RevolutionProduct& revolution) {
+  execute(revolution_, batch.run_id, revolution.revolution, tai_ns(revolution.t_sun1),
+          revolution.period_s);
+}
+
+void BatchWriter::insert(const ArchiveBatch& batch, const SpinMeasurement& measurement) {
+  const bool is_time = measurement.quantity == SpinQuantity::Period;
+  const double to_unit = is_time ? 1.0 : kDegPerRad;
+  execute(spin_measurement_, batch.run_id, measurement.revolution,
+          spindrift::name_of(measurement.quantity), measurement.value * to_unit,
+          std::string_view{is_time ? "s" : "deg"}, measurement.sigma * to_unit,
+          as_flag(!measurement.rejected_by), name_of(measurement.rejected_by));
+}
+
+void BatchWriter::insert(const ArchiveBatch& batch, const SpinFix& fix) {
+  const auto [ra_deg, dec_deg] = columns_of(fix.axis_icrf);
+  const CovarianceColumns covariance = columns_of(fix.covariance_rad2);
+  std::optional<double> alternate_ra_deg;
+  std::optional<double> alternate_dec_deg;
+  if (fix.alternate_axis_icrf) {
+    const AxisColumns alternate = columns_of(*fix.alternate_axis_icrf);
+    alternate_ra_deg = alternate.ra_deg;
+    alternate_dec_deg = alternate.dec_deg;
+  }
+  execute(spin_fix_, batch.run_id, fix.revolution, tai_ns(fix.t), std::int64_t{fix.geometry_case},
+          ra_deg, dec_deg, covariance.sigma_deg, covariance.east_east_deg2,
+          covariance.east_north_deg2, covariance.north_north_deg2, alternate_ra_deg,
+          alternate_dec_deg, spindrift::name_of(fix.resolution), fix.norm, as_flag(fix.accepted));
+}
+
+void BatchWriter::insert(const ArchiveBatch& batch, const SpinEstimate& estimate) {
+  const auto [ra_deg, dec_deg] = columns_of(estimate.axis_icrf);
+  const CovarianceColumns covariance = columns_of(estimate.covariance_rad2);
+  execute(spin_estimate_, batch.run_id, tai_ns(estimate.t), spindrift::name_of(estimate.estimator),
+          ra_deg, dec_deg, covariance.sigma_deg, covariance.east_east_deg2,
+          covariance.east_north_deg2, covariance.north_north_deg2,
+          estimate.spin_rate_rad_s * kRpmPerRad_s, estimate.spin_rate_sigma_rad_s * kRpmPerRad_s,
+          estimate.status);
+}
+
+}  // namespace spindrift

@@ -1,0 +1,53 @@
+/// @file
+/// Values of the domain to rows of SQL: the one place that knows both.
+
+#pragma once
+
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Statement.h>
+
+#include <span>
+
+#include "pipelines/core/expected.h"
+#include "services/archive/records.h"
+
+namespace spindrift {
+
+/// The prepared statements of one connection. `database` must outlive it.
+class BatchWriter {
+ public:
+  /// @throws SQLite::Exception
+  explicit BatchWriter(SQLite::Database& database);
+
+  /// Stores all of `batches` in one transaction, or nothing.
+  /// @return InvalidInput when a row breaks a rule of the schema (a NaN, an unknown run);
+  ///         Unavailable when SQLite cannot write.
+  Expected<void> write(std::span<const ArchiveBatch> batches);
+
+ private:
+  void insert(const ArchiveBatch& batch);
+  void insert(const ArchiveBatch& batch, const RunStart& start);
+  void insert(const PulseSample& sample);
+  void insert(const std::string& run_id, const RejectedInput& rejected);
+  void insert(const std::string& run_id, const SourceCount& count);
+  void insert(const ArchiveBatch& batch, const PulseUse& use);
+  void insert(const ArchiveBatch& batch, const RevolutionProduct& revolution);
+  void insert(const ArchiveBatch& batch, const SpinMeasurement& measurement);
+  void insert(const ArchiveBatch& batch, const SpinFix& fix);
+  void insert(const ArchiveBatch& batch, const SpinEstimate& estimate);
+
+  SQLite::Database& database_;
+  SQLite::Statement spacecraft_;
+  SQLite::Statement run_;
+  SQLite::Statement run_finished_;
+  SQLite::Statement pulse_;
+  SQLite::Statement rejected_input_;
+  SQLite::Statement source_count_;
+  SQLite::Statement pulse_use_;
+  SQLite::Statement revolution_;
+  SQLite::Statement spin_measurement_;
+  SQLite::Statement spin_fix_;
+  SQLite::Statement spin_estimate_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,145 @@
+#include "services/archive/connection.h"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "services/archive/schema.h"
+
+namespace spindrift {
+namespace {
+
+constexpr int kBusyTimeout_ms = 5000;
+
+// Layout of the header: https://www.sqlite.org/fileformat.html section 1.3.
+constexpr std::string_view kMagic{"SQLite format 3\0", 16};
+constexpr std::size_t kApplicationIdOffset = 68;
+constexpr int kHeaderRead = kApplicationIdOffset + 4;
+
+std::int32_t big_endian(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (const char byte : bytes) {
+    value = value << 8U | static_cast<unsigned char>(byte);
+  }
+  return static_cast<std::int32_t>(value);
+}
+
+void distrust(SQLite::Database& database) {
+  database.exec("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON");
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): SQLite has no other way to set it
+  sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+}
+
+// Through SQLite's own file, though without SQL, which would make files beside a database of
+// someone else's. Not by another descriptor: closing it would drop the POSIX locks that a
+// connection of this process holds on the file (https://www.sqlite.org/howtocorrupt.html
+// section 2.2).
+Expected<std::string> header_of(const std::filesystem::path& path) {
+  try {
+    const SQLite::Database database{path.string(), SQLite::OPEN_READONLY};
+    sqlite3_file* file = nullptr;
+    sqlite3_file_control(database.getHandle(), "main", SQLITE_FCNTL_FILE_POINTER, &file);
+    std::string header(kHeaderRead, '\0');
+    const int status = file->pMethods->xRead(file, header.data(), kHeaderRead, 0);
+    if (status != SQLITE_OK && status != SQLITE_IOERR_SHORT_READ) {
+      throw SQLite::Exception{sqlite3_errstr(status), status};
+    }
+    return header;
+  } catch (const SQLite::Exception& exception) {
+    return Unexpected{archive_error(path.string(), exception)};
+  }
+}
+
+// The application id goes in while the journal is still a rollback journal: so it stands in the
+// file itself, and not only in the WAL, from the first page on.
+void claim_if_empty(SQLite::Database& database) {
+  if (database.execAndGet("PRAGMA application_id").getInt() != kArchiveApplicationId) {
+    database.exec(fmt::format("PRAGMA application_id = {}", kArchiveApplicationId));
+  }
+}
+
+}  // namespace
+
+Expected<void> refuse_foreign_file(const std::filesystem::path& path) {
+  std::error_code no_file;
+  const std::uintmax_t size = std::filesystem::file_size(path, no_file);
+  if (no_file || size == 0) {
+    return {};
+  }
+  const auto header = header_of(path);
+  if (!header) {
+    return Unexpected{header.error()};
+  }
+  if (!header->starts_with(kMagic)) {
+    return Unexpected{{ErrorCode::InvalidConfiguration,
+                       fmt::format("{} is not an archive: it is not an SQLite file; it was left "
+                                   "untouched",
+                                   path.string())}};
+  }
+  const std::int32_t application_id =
+      big_endian(std::string_view{*header}.substr(kApplicationIdOffset));
+  if (application_id != kArchiveApplicationId) {
+    return Unexpected{{ErrorCode::InvalidConfiguration,
+                       fmt::format("{} is not an archive: it is an SQLite file with application_id "
+                                   "{}, an archive has {}; it was left untouched",
+                                   path.string(), application_id, kArchiveApplicationId)}};
+  }
+  return {};
+}
+
+Error archive_error(const std::string& path, const SQLite::Exception& exception) {
+  const int code = exception.getErrorCode();
+  const bool broken_rule = code == SQLITE_CONSTRAINT || code == SQLITE_MISMATCH;
+  return {broken_rule ? ErrorCode::InvalidInput : ErrorCode::Unavailable,
+          fmt::format("archive {}: {} (SQLite code {})", path, exception.what(),
+                      exception.getExtendedErrorCode())};
+}
+
+Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path) {
+  if (const auto ours = refuse_foreign_file(path); !ours) {
+    return Unexpected{ours.error()};
+  }
+  try {
+    SQLite::Database database{path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+                              kBusyTimeout_ms};
+    claim_if_empty(database);
+    distrust(database);
+    if (const auto migrated = migrate(database); !migrated) {
+      return Unexpected{migrated.error()};
+    }
+    const std::string journal = database.execAndGet("PRAGMA journal_mode = WAL").getString();
+    if (journal != "wal") {
+      return Unexpected{{ErrorCode::Unavailable,
+                         fmt::format("archive {}: its file system allows no write-ahead log, only "
+                                     "journal_mode {}",
+                                     path.string(), journal)}};
+    }
+    database.exec(
+        "PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON; PRAGMA journal_size_limit = "
+        "67108864");
+    refresh_leap_seconds(database);
+    return database;
+  } catch (const SQLite::Exception& exception) {
+    return Unexpected{archive_error(path.string(), exception)};
+  }
+}
+
+Expected<SQLite::Database> open_for_reading(const std::filesystem::path& path) {
+  if (const auto ours = refuse_foreign_file(path); !ours) {
+    return Unexpected{ours.error()};
+  }
+  try {
+    SQLite::Database database{path.string(), SQLite::OPEN_READONLY, kBusyTimeout_ms};
+    distrust(database);
+    return database;
+  } catch (const SQLite::Exception& exception) {
+    return Unexpected{archive_error(path.string(), exception)};
+  }
+}
+
+}  // namespace spindrift

@@ -1,0 +1,36 @@
+/// @file
+/// Opening an archive's file, and SQLite's exceptions as errors.
+
+#pragma once
+
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Exception.h>
+
+#include <filesystem>
+#include <string>
+
+#include "pipelines/core/expected.h"
+
+namespace spindrift {
+
+/// Looks at the head of the file and touches nothing. A file that is absent or empty may become
+/// an archive.
+/// @return InvalidConfiguration when `path` is not an archive.
+Expected<void> refuse_foreign_file(const std::filesystem::path& path);
+
+/// The one connection that writes: made if absent, brought to this program's schema, WAL with a
+/// sync at every commit. Its caller holds the archive's WriteLock.
+/// @return InvalidConfiguration when the file is not an archive, which leaves it untouched, or a
+///         newer one; Unavailable when it cannot be opened.
+Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path);
+
+/// A connection that cannot write, for one thread.
+/// @return InvalidConfiguration when the file is not an archive; Unavailable when it cannot be
+///         opened.
+Expected<SQLite::Database> open_for_reading(const std::filesystem::path& path);
+
+/// InvalidInput when a row breaks a rule of the schema and trying again is no use; Unavailable
+/// otherwise (disk full, I/O error, busy).
+Error archive_error(const std::string& path, const SQLite::Exception& exception);
+
+}  // namespace spindrift

@@ -1,0 +1,28 @@
+/// @file
+/// How long something took lately.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace spindrift {
+
+/// The last `capacity` durations, the oldest forgotten first.
+class RecentDurations {
+ public:
+  explicit RecentDurations(std::size_t capacity) : capacity_{capacity} {}
+
+  void add(double duration_ms);
+
+  /// Nearest rank: the smallest duration that 99 % do not exceed, ms. Empty before the first.
+  std::optional<double> p99_ms() const;
+
+ private:
+  std::size_t capacity_;
+  std::size_t oldest_ = 0;
+  std::vector<double> durations_ms_;
+};
+
+}  // namespace spindrift

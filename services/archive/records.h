@@ -1,0 +1,59 @@
+/// @file
+/// What the archive is given to store: values of the domain, never rows.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/spin/products.h"
+#include "services/ingest/rejected_input.h"
+#include "services/ingest/sample.h"
+
+namespace spindrift {
+
+/// Where a run came from: enough to do it again.
+struct RunStart {
+  std::string spacecraft_kind;  ///< spin or three_axis
+  std::string mode;             ///< live, process or replay
+  std::string software_version;
+  std::string config_toml;
+  std::string config_sha256;
+  std::string started_utc;  ///< ISO 8601, ending in Z.
+};
+
+/// How the samples of one source came in, all its sessions together, since the run began.
+struct SourceCount {
+  std::string source;
+  std::int64_t received = 0;
+  std::int64_t gaps = 0;  ///< Samples that are missing.
+  std::int64_t duplicates = 0;
+  std::int64_t disordered = 0;
+};
+
+/// The unit of submission: stored as a whole or not at all, in the order of the members.
+///
+/// A run's first batch carries `start`, its last one `finished_utc`. A pulse that the archive
+/// already holds is not stored again, and what became of an edge is said once a run; another
+/// product with the key of an earlier one of its run, and a source's count, take its place.
+struct ArchiveBatch {
+  std::string run_id;  ///< Unique over all archives that may ever be merged.
+  std::string spacecraft_id;
+  std::optional<RunStart> start = {};
+  std::vector<PulseSample> pulses = {};
+  std::vector<RejectedInput> rejected = {};
+  std::vector<SpinProduct> products = {};
+  std::vector<SourceCount> source_counts = {};
+  std::optional<std::string> finished_utc = {};  ///< ISO 8601, ending in Z.
+};
+
+/// Rows that `batch` asks for, those the archive already holds included.
+inline std::size_t row_count(const ArchiveBatch& batch) {
+  return batch.pulses.size() + batch.rejected.size() + batch.products.size() +
+         batch.source_counts.size() + (batch.start ? 1 : 0) + (batch.finished_utc ? 1 : 0);
+}
+
+}  // namespace spindrift

@@ -1,0 +1,62 @@
+#include "services/archive/schema.h"
+
+#include <SQLiteCpp/Statement.h>
+#include <SQLiteCpp/Transaction.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
+
+#include "pipelines/time/utc.h"
+
+namespace spindrift {
+
+namespace embedded {
+extern const char* const schema_0001_tables;
+extern const char* const schema_0002_views;
+}  // namespace embedded
+
+namespace {
+
+constexpr std::size_t kMigrations = 2;
+
+std::array<const char*, kMigrations> migrations() {
+  return {embedded::schema_0001_tables, embedded::schema_0002_views};
+}
+
+}  // namespace
+
+int archive_schema_version() { return static_cast<int>(kMigrations); }
+
+Expected<void> migrate(SQLite::Database& database) {
+  const int version = database.execAndGet("PRAGMA user_version").getInt();
+  if (version > archive_schema_version()) {
+    return Unexpected{
+        {ErrorCode::InvalidConfiguration,
+         fmt::format("archive {} has schema version {}, this program writes version {}: it needs "
+                     "the newer program",
+                     database.getFilename(), version, archive_schema_version())}};
+  }
+  const auto all = migrations();
+  for (auto next = static_cast<std::size_t>(version); next < all.size(); ++next) {
+    SQLite::Transaction transaction{database, SQLite::TransactionBehavior::IMMEDIATE};
+    database.exec(all.at(next));
+    database.exec(fmt::format("PRAGMA user_version = {}", next + 1));
+    transaction.commit();
+  }
+  return {};
+}
+
+void refresh_leap_seconds(SQLite::Database& database) {
+  SQLite::Transaction transaction{database, SQLite::TransactionBehavior::IMMEDIATE};
+  SQLite::Statement insert{database, "INSERT OR REPLACE INTO leap_second VALUES (?, ?)"};
+  for (const LeapSecond& leap : leap_seconds()) {
+    insert.bind(1, tai_ns(leap.start));
+    insert.bind(2, leap.tai_minus_utc_s);
+    insert.exec();
+    insert.reset();
+  }
+  transaction.commit();
+}
+
+}  // namespace spindrift

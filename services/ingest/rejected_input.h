@@ -1,0 +1,18 @@
+/// @file
+/// Telemetry that could not be read or cannot be true, with its reason.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace spindrift {
+
+/// Kept and counted instead of the sample that it is not.
+struct RejectedInput {
+  std::string source;  ///< File name, or source on the bus.
+  std::int64_t line;   ///< Line of the file, from 1; on the bus the sample's seq.
+  std::string reason;  ///< Field, value and what is allowed.
+};
+
+}  // namespace spindrift
