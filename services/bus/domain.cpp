@@ -1,0 +1,98 @@
+#include "services/bus/domain.h"
+
+#include <dds/ddsrt/log.h>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <map>
+#include <mutex>
+
+#include "services/bus/entity.h"
+#include "services/bus/network.h"
+
+namespace spindrift::bus {
+namespace {
+
+struct SharedDomain {
+  Entity entity;
+  int members;
+};
+
+/// The domains of this process: Cyclone refuses to create one twice, so they are counted.
+struct Registry {
+  std::mutex mutex;
+  std::map<std::uint32_t, SharedDomain> domains;
+};
+
+Registry& registry() {
+  static Registry instance;
+  return instance;
+}
+
+/// Cyclone says why it failed only in its log. While this lives the log is kept, not printed.
+class LogCapture {
+ public:
+  LogCapture() { dds_set_log_sink(&append, &text_); }
+  ~LogCapture() { dds_set_log_sink(nullptr, nullptr); }
+  LogCapture(const LogCapture&) = delete;
+  LogCapture& operator=(const LogCapture&) = delete;
+  LogCapture(LogCapture&&) = delete;
+  LogCapture& operator=(LogCapture&&) = delete;
+
+  const std::string& text() const { return text_; }
+
+ private:
+  static void append(void* text, const dds_log_data_t* entry) {
+    static_cast<std::string*>(text)->append(entry->message);
+  }
+
+  std::string text_;
+};
+
+Expected<Entity> create_domain(std::uint32_t id) {
+  const NetworkConfiguration network = network_configuration();
+  const LogCapture log;
+  auto domain = Entity::own(dds_create_domain(id, network.text.c_str()),
+                            fmt::format("DDS domain {} with {}", id, network.name));
+  if (!domain) {
+    return Unexpected{
+        Error{domain.error().code, fmt::format("{}: {}", domain.error().message, log.text())}};
+  }
+  // Warnings of a domain that works nevertheless go where they would have gone.
+  static_cast<void>(std::fputs(log.text().c_str(), stderr));
+  return domain;
+}
+
+}  // namespace
+
+Expected<Domain> Domain::join(std::uint32_t id) {
+  if (id > kMaxDomainId) {
+    return Unexpected{Error{ErrorCode::InvalidConfiguration,
+                            fmt::format("DDS domain {}: must be 0 to {}", id, kMaxDomainId)}};
+  }
+  const std::lock_guard lock{registry().mutex};
+  auto& domains = registry().domains;
+  if (const auto known = domains.find(id); known != domains.end()) {
+    ++known->second.members;
+    return Domain{id};
+  }
+  auto created = create_domain(id);
+  if (!created) {
+    return Unexpected{created.error()};
+  }
+  domains.emplace(id, SharedDomain{.entity = std::move(*created), .members = 1});
+  return Domain{id};
+}
+
+Domain::~Domain() {
+  if (!id_) {
+    return;
+  }
+  const std::lock_guard lock{registry().mutex};
+  const auto joined = registry().domains.find(*id_);
+  if (--joined->second.members == 0) {
+    registry().domains.erase(joined);
+  }
+}
+
+}  // namespace spindrift::bus

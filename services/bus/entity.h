@@ -1,0 +1,46 @@
+/// @file
+/// Ownership of one Cyclone DDS entity, and its return codes as errors.
+
+#pragma once
+
+#include <dds/dds.h>
+
+#include <string_view>
+#include <utility>
+
+#include "pipelines/core/expected.h"
+
+namespace spindrift::bus {
+
+/// Unavailable: "`what`: reason of Cyclone". `result` is a negative return code.
+Error dds_error(std::string_view what, dds_return_t result);
+
+/// Deletes its entity when it goes.
+class Entity {
+ public:
+  /// Takes what a `dds_create_*` call returned.
+  /// @return Unavailable with `what` when that was an error.
+  static Expected<Entity> own(dds_entity_t created, std::string_view what);
+
+  ~Entity() { destroy(); }
+  Entity(Entity&& other) noexcept : handle_{std::exchange(other.handle_, 0)} {}
+  Entity& operator=(Entity&& other) noexcept {
+    if (this != &other) {
+      destroy();
+      handle_ = std::exchange(other.handle_, 0);
+    }
+    return *this;
+  }
+  Entity(const Entity&) = delete;
+  Entity& operator=(const Entity&) = delete;
+
+  dds_entity_t handle() const { return handle_; }
+
+ private:
+  explicit Entity(dds_entity_t handle) : handle_{handle} {}
+  void destroy() const;
+
+  dds_entity_t handle_;
+};
+
+}  // namespace spindrift::bus

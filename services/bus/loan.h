@@ -1,0 +1,40 @@
+/// @file
+/// Samples lent by the middleware: no copy until a value of ours is made of them.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "services/bus/entity.h"
+
+namespace spindrift::bus {
+
+/// Up to 256 samples on loan from the middleware, given back at the end.
+class Loan {
+ public:
+  static constexpr std::size_t kMaxSamples = 256;
+
+  explicit Loan(const Entity& reader);
+  ~Loan();
+  Loan(const Loan&) = delete;
+  Loan& operator=(const Loan&) = delete;
+  Loan(Loan&&) = delete;
+  Loan& operator=(Loan&&) = delete;
+
+  /// How many were taken. Unavailable when Cyclone refused.
+  const Expected<std::size_t>& count() const { return count_; }
+
+  /// Null when the sample only tells that its writers ended or disposed of the instance.
+  const void* operator[](std::size_t i) const {
+    return infos_[i].valid_data ? samples_[i] : nullptr;
+  }
+
+ private:
+  dds_entity_t reader_;
+  std::array<void*, kMaxSamples> samples_{};
+  std::array<dds_sample_info_t, kMaxSamples> infos_{};
+  Expected<std::size_t> count_;
+};
+
+}  // namespace spindrift::bus

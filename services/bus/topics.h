@@ -1,0 +1,28 @@
+/// @file
+/// The topics of spindrift: name and type together, since one type may serve several.
+
+#pragma once
+
+#include <dds/dds.h>
+
+// The generated types, named without their header: only an adapter needs to see inside.
+struct spindrift_Pulse;
+struct spindrift_SpinFix;
+struct spindrift_SpinEstimate;
+struct spindrift_Health;
+
+namespace spindrift::bus {
+
+/// `Sample` is the generated C type of `type`.
+template <class Sample>
+struct Topic {
+  const char* name;
+  const dds_topic_descriptor_t* type;
+};
+
+extern const Topic<spindrift_Pulse> kPulseTopic;
+extern const Topic<spindrift_SpinFix> kSpinFixTopic;
+extern const Topic<spindrift_SpinEstimate> kSpinEstimateTopic;
+extern const Topic<spindrift_Health> kHealthTopic;
+
+}  // namespace spindrift::bus

@@ -1,0 +1,114 @@
+#include "services/publisher/to_idl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+
+#include "pipelines/frames/celestial.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDeg_rad = 180.0 / std::numbers::pi;
+constexpr double kRpm_rad_s = 60.0 / (2.0 * std::numbers::pi);
+constexpr double kNotAvailable = std::numeric_limits<double>::quiet_NaN();
+
+/// `field` is zeroed and keeps its last byte 0.
+Expected<void> put_name(std::span<char> field, std::string_view name, std::string_view what) {
+  if (name.size() >= field.size()) {
+    return Unexpected{Error{ErrorCode::InvalidInput,
+                            fmt::format("{} = \"{}\": {} bytes, at most {} go on the bus", what,
+                                        name, name.size(), field.size() - 1)}};
+  }
+  std::copy(name.begin(), name.end(), field.begin());
+  return {};
+}
+
+/// Cut between characters, not within one of UTF-8.
+void put_text(std::span<char> field, std::string_view text) {
+  std::size_t length = std::min(text.size(), field.size() - 1);
+  while (length < text.size() && length > 0 &&
+         (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) {
+    --length;
+  }
+  std::copy_n(text.begin(), length, field.begin());
+}
+
+/// 1-sigma, both axes together: square root of the trace.
+double sigma_deg(const Eigen::Matrix2d& covariance_rad2) {
+  return std::sqrt(covariance_rad2.trace()) * kDeg_rad;
+}
+
+}  // namespace
+
+Expected<spindrift_Pulse> to_idl(const PulseSample& sample) {
+  spindrift_Pulse out{.spacecraft = {},
+                      .source = {},
+                      .session = sample.origin.session,
+                      .seq = sample.origin.seq,
+                      .t_tai_ns = tai_ns(sample.pulse.t),
+                      .channel = static_cast<spindrift_PulseChannel>(sample.pulse.channel)};
+  return put_name(out.spacecraft, sample.spacecraft, "spacecraft")
+      .and_then([&] { return put_name(out.source, sample.origin.source, "source"); })
+      .map([&out] { return out; });
+}
+
+Expected<spindrift_SpinFix> to_idl(std::string_view spacecraft, const SpinFix& fix) {
+  const RaDec place = ra_dec_of(fix.axis_icrf);
+  spindrift_SpinFix out{.spacecraft = {},
+                        .t_tai_ns = tai_ns(fix.t),
+                        .revolution = fix.revolution,
+                        .geometry_case = fix.geometry_case,
+                        .ra_deg = place.ra_rad * kDeg_rad,
+                        .dec_deg = place.dec_rad * kDeg_rad,
+                        .sigma_deg = sigma_deg(fix.covariance_rad2),
+                        .alternate_ra_deg = kNotAvailable,
+                        .alternate_dec_deg = kNotAvailable,
+                        .resolution = static_cast<spindrift_Resolution>(fix.resolution)};
+  if (fix.alternate_axis_icrf) {
+    const RaDec alternate = ra_dec_of(*fix.alternate_axis_icrf);
+    out.alternate_ra_deg = alternate.ra_rad * kDeg_rad;
+    out.alternate_dec_deg = alternate.dec_rad * kDeg_rad;
+  }
+  return put_name(out.spacecraft, spacecraft, "spacecraft").map([&out] { return out; });
+}
+
+Expected<spindrift_SpinEstimate> to_idl(std::string_view spacecraft, const SpinEstimate& estimate) {
+  const RaDec place = ra_dec_of(estimate.axis_icrf);
+  const Eigen::Matrix2d covariance_deg2 = estimate.covariance_rad2 * (kDeg_rad * kDeg_rad);
+  spindrift_SpinEstimate out{
+      .spacecraft = {},
+      .estimator = {},
+      .t_tai_ns = tai_ns(estimate.t),
+      .ra_deg = place.ra_rad * kDeg_rad,
+      .dec_deg = place.dec_rad * kDeg_rad,
+      .sigma_deg = sigma_deg(estimate.covariance_rad2),
+      .covariance_deg2 = {covariance_deg2(0, 0), covariance_deg2(0, 1), covariance_deg2(1, 1)},
+      .spin_rate_rpm = estimate.spin_rate_rad_s * kRpm_rad_s,
+      .sigma_rpm = estimate.spin_rate_sigma_rad_s * kRpm_rad_s,
+      .status = {}};
+  put_text(out.status, estimate.status);
+  return put_name(out.spacecraft, spacecraft, "spacecraft")
+      .and_then([&] { return put_name(out.estimator, name_of(estimate.estimator), "estimator"); })
+      .map([&out] { return out; });
+}
+
+Expected<spindrift_Health> to_idl(const Health& health) {
+  spindrift_Health out{.service = {},
+                       .t_tai_ns = tai_ns(health.t),
+                       .samples_received = health.samples_received,
+                       .samples_committed = health.samples_committed,
+                       .gaps = health.gaps,
+                       .duplicates = health.duplicates,
+                       .queue_depth = health.queue_depth,
+                       .commit_p99_ms = health.commit_p99_ms,
+                       .status = {}};
+  put_text(out.status, health.status);
+  return put_name(out.service, health.service, "service").map([&out] { return out; });
+}
+
+}  // namespace spindrift
