@@ -1,0 +1,37 @@
+/// @file
+/// The mission file: everything that must be known of a spacecraft before its telemetry arrives.
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/orbit.h"
+#include "pipelines/spin/config.h"
+
+namespace spindrift {
+
+enum class SpacecraftKind { Spin, ThreeAxis };
+
+/// As in the mission file: "spin", "three_axis".
+std::string_view name_of(SpacecraftKind kind);
+
+struct Mission {
+  std::string spacecraft_id;
+  SpacecraftKind kind;
+  std::optional<Orbit> orbit;      ///< Always there for a spinner.
+  std::optional<SpinConfig> spin;  ///< There for a spinner, and only then.
+  std::string toml_text;           ///< The file as read.
+  std::string sha256;              ///< Of toml_text, hexadecimal.
+};
+
+/// Reads a mission file, and the orbit file that it names, by the rules of
+/// schemas/mission.schema.toml.
+/// @return InvalidConfiguration with every problem, one a line:
+///         "FILE:LINE: KEY = VALUE: what is allowed"; the line where one is to blame.
+Expected<Mission> load_mission(const std::filesystem::path& path);
+
+}  // namespace spindrift

@@ -1,0 +1,72 @@
+#include "services/mission/mission_orbit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "services/mission/text_file.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+Expected<std::optional<Orbit>> orbit_from_oem(const std::string& oem,
+                                              const std::filesystem::path& folder) {
+  const auto refused = [&](const std::string& reason) {
+    return Unexpected{
+        {ErrorCode::InvalidConfiguration, fmt::format("orbit.oem = \"{}\": {}", oem, reason)}};
+  };
+  const auto text = read_text_file(folder / oem);
+  if (!text) {
+    return refused(text.error().message);
+  }
+  auto ephemeris = parse_oem(*text);
+  if (!ephemeris) {
+    return refused(ephemeris.error().message);
+  }
+  return Orbit{std::move(*ephemeris)};
+}
+
+Expected<std::optional<Orbit>> orbit_from_elements(const MissionValues& values) {
+  const auto number = [&](std::string_view key) {
+    return std::get<double>(values.find(fmt::format("orbit.elements.{}", key))->second);
+  };
+  const auto orbit = KeplerOrbit::make(
+      {.epoch = tai_from_ns(std::get<std::int64_t>(values.at("orbit.elements.epoch_tai_ns"))),
+       .semi_major_axis_km = number("a_km"),
+       .eccentricity = number("e"),
+       .inclination_rad = number("i_deg") * kRadPerDeg,
+       .raan_rad = number("raan_deg") * kRadPerDeg,
+       .argument_of_perigee_rad = number("argp_deg") * kRadPerDeg,
+       .mean_anomaly_rad = number("mean_anomaly_deg") * kRadPerDeg});
+  if (!orbit) {
+    return Unexpected{{ErrorCode::InvalidConfiguration,
+                       fmt::format("[orbit.elements]: {}", orbit.error().message)}};
+  }
+  return Orbit{*orbit};
+}
+
+}  // namespace
+
+Expected<std::optional<Orbit>> load_orbit(const MissionValues& values,
+                                          const std::filesystem::path& folder) {
+  if (const auto oem = values.find("orbit.oem"); oem != values.end()) {
+    return orbit_from_oem(std::get<std::string>(oem->second), folder);
+  }
+  static constexpr std::array<std::string_view, 7> kElements = {
+      "orbit.elements.epoch_tai_ns",    "orbit.elements.a_km",     "orbit.elements.e",
+      "orbit.elements.i_deg",           "orbit.elements.raan_deg", "orbit.elements.argp_deg",
+      "orbit.elements.mean_anomaly_deg"};
+  const bool complete = std::all_of(kElements.begin(), kElements.end(),
+                                    [&](std::string_view key) { return values.contains(key); });
+  return complete ? orbit_from_elements(values) : Expected<std::optional<Orbit>>{std::nullopt};
+}
+
+}  // namespace spindrift

@@ -1,0 +1,21 @@
+/// @file
+/// The [orbit] of a mission file as an orbit.
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/orbit.h"
+#include "services/mission/scalar.h"
+
+namespace spindrift {
+
+/// Reads the orbit file, if one is named (relative to `folder`), or takes the elements, if all of
+/// them are there. Empty when there is neither.
+/// @return InvalidConfiguration with the key, its value and the reason.
+Expected<std::optional<Orbit>> load_orbit(const MissionValues& values,
+                                          const std::filesystem::path& folder);
+
+}  // namespace spindrift

@@ -1,0 +1,65 @@
+#include "services/mission/mission_spin.h"
+
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "pipelines/frames/celestial.h"
+
+namespace spindrift {
+namespace {
+
+double number(const MissionValues& values, const std::string& key) {
+  return std::get<double>(values.at(key));
+}
+
+double radians(const MissionValues& values, const std::string& key) {
+  return number(values, key) * (std::numbers::pi / 180.0);
+}
+
+std::optional<InfraredSensor> infrared_sensor(const MissionValues& values,
+                                              const std::string& table) {
+  if (!values.contains(table + ".mount_angle_deg")) {
+    return std::nullopt;
+  }
+  return InfraredSensor{.mount_angle_rad = radians(values, table + ".mount_angle_deg"),
+                        .azimuth_rad = radians(values, table + ".azimuth_deg"),
+                        .healthy = std::get<bool>(values.at(table + ".healthy"))};
+}
+
+std::optional<SpinPrior> prior(const MissionValues& values) {
+  if (!values.contains("spin.prior.ra_deg")) {
+    return std::nullopt;
+  }
+  return SpinPrior{.axis_icrf = direction_icrf({.ra_rad = radians(values, "spin.prior.ra_deg"),
+                                                .dec_rad = radians(values, "spin.prior.dec_deg")}),
+                   .sigma_rad = radians(values, "spin.prior.sigma_deg")};
+}
+
+HorizonModel horizon_model(const std::string& name) {
+  return name == "sphere" ? HorizonModel::Sphere : HorizonModel::Ellipsoid;
+}
+
+}  // namespace
+
+SpinConfig spin_config(const MissionValues& values) {
+  return {
+      .sun_sensor = {.slit_cant_rad = radians(values, "spin.sun_sensor.slit_cant_deg"),
+                     .slit_separation_rad = radians(values, "spin.sun_sensor.slit_separation_deg")},
+      .north = infrared_sensor(values, "spin.ir.north"),
+      .south = infrared_sensor(values, "spin.ir.south"),
+      .noise = {.sun_s = number(values, "spin.noise.sun_pulse_s"),
+                .infrared_s = number(values, "spin.noise.ir_pulse_s")},
+      .horizon = {.model = horizon_model(std::get<std::string>(values.at("spin.horizon.model"))),
+                  .co2_altitude_km = number(values, "spin.horizon.co2_altitude_km")},
+      .screening = {.window = static_cast<int>(
+                        std::get<std::int64_t>(values.at("spin.screening.window"))),
+                    .sigma = number(values, "spin.screening.sigma"),
+                    .interference_s = number(values, "spin.screening.interference_s")},
+      .geometry = {.determinant_usable = number(values, "spin.geometry.determinant_usable"),
+                   .determinant_ambiguous = number(values, "spin.geometry.determinant_ambiguous")},
+      .prior = prior(values)};
+}
+
+}  // namespace spindrift

@@ -1,0 +1,26 @@
+/// @file
+/// Finds the telemetry files among what a person names, and what each of them holds.
+
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "services/telemetry_files/telemetry_kind.h"
+
+namespace spindrift {
+
+struct TelemetryFile {
+  std::filesystem::path path;
+  TelemetryKind kind;
+};
+
+/// Every path is a CSV file or a directory, which means every *.csv in it, by name. In the order
+/// given.
+/// @return InvalidConfiguration with every path that cannot be read, every directory without
+///         telemetry and every header that is none, one a line.
+Expected<std::vector<TelemetryFile>> scan_telemetry(std::span<const std::filesystem::path> paths);
+
+}  // namespace spindrift
