@@ -1,0 +1,31 @@
+/// @file
+/// The counts and the answer of a run, gathered as its products pass by.
+
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "pipelines/spin/products.h"
+
+namespace spindrift {
+
+struct RunSummary {
+  std::string run_id;
+  std::string spacecraft_id;
+  std::int64_t edges_received = 0;  ///< Duplicates too.
+  std::int64_t edges_accepted = 0;
+  std::map<std::string_view, std::int64_t> edges_rejected;  ///< By the test that did it.
+  std::int64_t input_rejected = 0;                          ///< Rows and samples that are none.
+  std::int64_t revolutions = 0;
+  std::int64_t fixes = 0;
+  std::int64_t fixes_accepted = 0;
+  std::optional<SpinEstimate> mean;  ///< The last one.
+
+  void count(const SpinProduct& product);
+};
+
+}  // namespace spindrift

@@ -1,0 +1,82 @@
+#include "services/processor/spacecraft_run.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <iterator>
+#include <random>
+#include <utility>
+
+#include "services/clock/wall_clock.h"
+#include "services/processor/version.h"
+
+namespace spindrift {
+namespace {
+
+/// Unique over all archives that may ever be merged; sorts by time of start.
+std::string new_run_id(const std::string& started_utc) {
+  std::random_device random;
+  return fmt::format("{}-{:08x}{:08x}", started_utc, random(), random());
+}
+
+}  // namespace
+
+SpacecraftRun::SpacecraftRun(const Mission& mission, const std::string& mode)
+    : start_{.spacecraft_kind = std::string{name_of(mission.kind)},
+             .mode = mode,
+             .software_version = kSoftwareVersion,
+             .config_toml = mission.toml_text,
+             .config_sha256 = mission.sha256,
+             .started_utc = utc_now()},
+      pass_{*mission.spin, *mission.orbit} {
+  summary_.run_id = new_run_id(start_.started_utc);
+  summary_.spacecraft_id = mission.spacecraft_id;
+  for (const std::string& setting : settings_without_effect(*mission.spin)) {
+    spdlog::warn("{}: {}", mission.spacecraft_id, setting);
+  }
+}
+
+ArchiveBatch SpacecraftRun::batch() const {
+  ArchiveBatch batch;
+  batch.run_id = summary_.run_id;
+  batch.spacecraft_id = summary_.spacecraft_id;
+  return batch;
+}
+
+ArchiveBatch SpacecraftRun::begin() {
+  ArchiveBatch first = batch();
+  first.start = start_;
+  return first;
+}
+
+ArchiveBatch SpacecraftRun::take(PulseBatch samples) {
+  ArchiveBatch taken = batch();
+  summary_.edges_received += static_cast<std::int64_t>(samples.pulses.size());
+  summary_.input_rejected += static_cast<std::int64_t>(samples.rejected.size());
+  for (const PulseSample& sample : samples.pulses) {
+    keep(pass_.push(sample.pulse), taken);
+  }
+  taken.pulses = std::move(samples.pulses);
+  taken.rejected = std::move(samples.rejected);
+  return taken;
+}
+
+ArchiveBatch SpacecraftRun::finish(std::vector<SourceCount> source_counts) {
+  ArchiveBatch last = batch();
+  keep(pass_.finish(), last);
+  last.source_counts = std::move(source_counts);
+  last.finished_utc = utc_now();
+  return last;
+}
+
+void SpacecraftRun::keep(SpinOutput output, ArchiveBatch& batch) {
+  for (const std::string& notice : output.notices) {
+    spdlog::warn("{}: {}", summary_.spacecraft_id, notice);
+  }
+  for (const SpinProduct& product : output.products) {
+    summary_.count(product);
+  }
+  std::move(output.products.begin(), output.products.end(), std::back_inserter(batch.products));
+}
+
+}  // namespace spindrift

@@ -1,0 +1,83 @@
+#include "services/spindrift/process.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+
+#include "services/archive/archive.h"
+#include "services/mission/mission.h"
+#include "services/processor/processor.h"
+#include "services/spindrift/pulse_input.h"
+#include "services/spindrift/submit_all.h"
+#include "services/spindrift/summary_text.h"
+
+namespace spindrift {
+namespace {
+
+// Pulses a batch: large enough that a commit costs nothing, small enough to stay in the cache.
+constexpr std::size_t kBatch = 4096;
+
+Expected<void> run(Processor& processor, PulseTelemetry telemetry, Archive& archive) {
+  if (auto begun = submit_all(archive, processor.begin()); !begun) {
+    return begun;
+  }
+  if (auto noted = submit_all(
+          archive, processor.take({.pulses = {}, .rejected = std::move(telemetry.rejected)}));
+      !noted) {
+    return noted;
+  }
+  auto& samples = telemetry.samples;
+  for (std::size_t from = 0; from < samples.size(); from += kBatch) {
+    const std::size_t to = std::min(from + kBatch, samples.size());
+    PulseBatch batch;
+    batch.pulses.assign(
+        std::make_move_iterator(samples.begin() + static_cast<std::ptrdiff_t>(from)),
+        std::make_move_iterator(samples.begin() + static_cast<std::ptrdiff_t>(to)));
+    if (auto stored = submit_all(archive, processor.take(std::move(batch))); !stored) {
+      return stored;
+    }
+  }
+  return submit_all(archive, processor.finish({}));
+}
+
+}  // namespace
+
+Expected<void> process(const ProcessOptions& options) {
+  const auto mission = load_mission(options.mission);
+  if (!mission) {
+    return Unexpected{mission.error()};
+  }
+  auto processor = Processor::make({*mission}, "process");
+  if (!processor) {
+    return Unexpected{processor.error()};
+  }
+  auto telemetry = load_pulses(options.telemetry, mission->spacecraft_id);
+  if (!telemetry) {
+    return Unexpected{telemetry.error()};
+  }
+  if (!telemetry->rejected.empty()) {
+    if (options.strict) {
+      return Unexpected{{ErrorCode::InvalidConfiguration, bad_rows(telemetry->rejected)}};
+    }
+    spdlog::warn("{}", bad_rows(telemetry->rejected));
+  }
+
+  auto archive = Archive::open(options.db, {});
+  if (!archive) {
+    return Unexpected{archive.error()};
+  }
+  const auto done = run(*processor, std::move(*telemetry), **archive);
+  // Whatever stopped the run: what was accepted is stored before the archive is let go.
+  const auto closed = (*archive)->close();
+  if (!done || !closed) {
+    return Unexpected{(done ? closed : done).error()};
+  }
+  fmt::print("{}", report(processor->summaries(), options.db, options.json));
+  return {};
+}
+
+}  // namespace spindrift

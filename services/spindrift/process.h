@@ -1,0 +1,26 @@
+/// @file
+/// `spindrift process`: the pipelines over recorded telemetry, into an archive.
+
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+
+namespace spindrift {
+
+struct ProcessOptions {
+  std::filesystem::path mission;
+  std::vector<std::filesystem::path> telemetry;
+  std::filesystem::path db;
+  bool strict = false;  ///< A bad row is an error.
+  bool json = false;
+};
+
+/// Prints its summary on standard output.
+/// @return InvalidConfiguration for bad input, before anything is written; Unavailable for a
+///         failure while running.
+Expected<void> process(const ProcessOptions& options);
+
+}  // namespace spindrift

@@ -1,0 +1,29 @@
+/// @file
+/// `spindrift replay`: recorded pulses onto the bus, as the front-end sent them.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+
+namespace spindrift {
+
+struct ReplayOptions {
+  std::filesystem::path mission;
+  std::vector<std::filesystem::path> telemetry;
+  double speed = 1.0;  ///< Times real time; 0: as fast as it is taken.
+  std::uint32_t domain = 0;
+  std::string partition = "replay";
+  bool json = false;
+};
+
+/// Waits for a subscriber, publishes, waits until everything has arrived.
+/// @return InvalidConfiguration for bad input; Unavailable when nobody subscribes, the bus fails or
+///         a subscriber does not take what it was sent.
+Expected<void> replay(const ReplayOptions& options);
+
+}  // namespace spindrift

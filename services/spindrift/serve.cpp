@@ -1,0 +1,170 @@
+#include "services/spindrift/serve.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <stop_token>
+#include <thread>
+#include <utility>
+
+#include "services/archive/archive.h"
+#include "services/bus/participant.h"
+#include "services/ingest/pulse_subscriber.h"
+#include "services/mission/mission.h"
+#include "services/processor/processor.h"
+#include "services/publisher/result_publisher.h"
+#include "services/spindrift/announcer.h"
+#include "services/spindrift/heartbeat.h"
+#include "services/spindrift/stop_signal.h"
+#include "services/spindrift/submit_all.h"
+#include "services/spindrift/summary_text.h"
+
+namespace spindrift {
+namespace {
+
+// Batches of up to 256 samples between the thread that takes and the one that computes.
+constexpr std::size_t kTakenBatches = 256;
+constexpr std::chrono::milliseconds kStuckPoll{200};
+
+Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::path>& paths) {
+  std::vector<Mission> missions;
+  std::string problems;
+  for (const std::filesystem::path& path : paths) {
+    auto mission = load_mission(path);
+    if (mission) {
+      missions.push_back(std::move(*mission));
+    } else {
+      problems += (problems.empty() ? "" : "\n") + mission.error().message;
+    }
+  }
+  if (!problems.empty()) {
+    return Unexpected{{ErrorCode::InvalidConfiguration, problems}};
+  }
+  return missions;
+}
+
+/// Works on what is taken until the queue is closed and empty, or the archive refuses.
+Expected<void> work(BoundedQueue<PulseBatch>& queue, Processor& processor, Archive& archive) {
+  for (auto batches = queue.take_all(); !batches.empty(); batches = queue.take_all()) {
+    for (PulseBatch& batch : batches) {
+      if (auto stored = submit_all(archive, processor.take(std::move(batch))); !stored) {
+        queue.close();  // Nobody empties it any more: the taking thread must not wait for room.
+        return stored;
+      }
+    }
+  }
+  return {};
+}
+
+/// While writing fails, submitting waits. A service that is told to stop does not wait for ever: it
+/// makes the last attempt now.
+void give_up_when_stuck(const std::stop_token& done, const std::atomic<bool>& stopping,
+                        BoundedQueue<PulseBatch>& queue, Archive& archive) {
+  while (!done.stop_requested()) {
+    if (stopping && archive.statistics().failure) {
+      queue.close();
+      static_cast<void>(
+          archive.close());  // What it could not store is said when it is closed again.
+      return;
+    }
+    std::this_thread::sleep_for(kStuckPoll);
+  }
+}
+
+/// From "ready" until a signal, or a failure, and everything taken is with the archive.
+Expected<void> run(const bus::Participant& participant, const ResultPublisher& publisher,
+                   Processor& processor, Archive& archive, StopSignal& stop_signal) {
+  BoundedQueue<PulseBatch> queue{kTakenBatches};
+  auto started = PulseSubscriber::start(participant, queue);
+  if (!started) {
+    return Unexpected{started.error()};
+  }
+  PulseSubscriber& subscriber = **started;
+  std::atomic<bool> stopping = false;
+  stop_signal.on_stop([&] {
+    stopping = true;
+    subscriber.stop();
+    queue.close();
+  });
+  const std::jthread give_up{
+      [&](const std::stop_token& done) { give_up_when_stuck(done, stopping, queue, archive); }};
+  Expected<void> worked;
+  {
+    const Heartbeat heartbeat{
+        {.subscriber = subscriber, .queue = queue, .archive = archive, .publisher = publisher},
+        &StopSignal::raise};
+    spdlog::info("ready");
+    worked = work(queue, processor, archive);
+  }
+  if (!worked) {
+    StopSignal::raise();
+  }
+  stop_signal.join();
+
+  const auto status = subscriber.status();
+  if (worked && !status) {
+    worked = Unexpected{status.error()};
+  } else if (worked && !status->failure.empty()) {
+    worked = Unexpected{{ErrorCode::Unavailable, status->failure}};
+  }
+  const auto finished = submit_all(
+      archive, processor.finish(status ? source_counts(*status) : std::vector<SourceCount>{}));
+  return worked ? finished : worked;
+}
+
+}  // namespace
+
+Expected<void> serve(const ServeOptions& options) {
+  auto missions = load_missions(options.missions);
+  if (!missions) {
+    return Unexpected{missions.error()};
+  }
+  auto processor = Processor::make(*missions, options.partition == "replay" ? "replay" : "live");
+  if (!processor) {
+    return Unexpected{processor.error()};
+  }
+  // A full disk shall be an error of the write, not the end of the process.
+  std::signal(SIGXFSZ, SIG_IGN);
+  StopSignal stop_signal;
+
+  const auto participant =
+      bus::Participant::create({.domain = options.domain, .partition = options.partition});
+  if (!participant) {
+    return Unexpected{participant.error()};
+  }
+  spdlog::info("{}", participant->description());
+  const auto publisher = ResultPublisher::create(*participant);
+  if (!publisher) {
+    return Unexpected{publisher.error()};
+  }
+  Announcer announcer{*publisher};
+  auto archive = Archive::open(
+      options.db,
+      {.on_write_failure = OnWriteFailure::Retry,
+       .on_committed = [&](std::span<const ArchiveBatch> stored) { announcer.committed(stored); },
+       .on_failure =
+           [](const Error& error) {
+             spdlog::critical("the archive does not store, nothing more is accepted: {}",
+                              error.message);
+           }});
+  if (!archive) {
+    return Unexpected{archive.error()};
+  }
+  spdlog::info("archive {}", options.db.string());
+
+  auto done = submit_all(**archive, processor->begin());
+  if (done) {
+    done = run(*participant, *publisher, *processor, **archive, stop_signal);
+  }
+  const auto closed = (*archive)->close();
+  if (!done || !closed) {
+    return Unexpected{(done ? closed : done).error()};
+  }
+  fmt::print("{}", report(processor->summaries(), options.db, options.json));
+  return {};
+}
+
+}  // namespace spindrift
