@@ -89,7 +89,7 @@ Association Associator::finish() {
   }
   while (!open_.empty()) {
     close(open_.front());
-    out.closed.push_back(std::move(open_.front()));
+    out.closed.push_back(open_.front());
     open_.pop_front();
   }
   return out;
@@ -243,7 +243,7 @@ void Associator::close_before(double phase_turns, Association& out) {
   const double reach_turns = last_turns + kOtherGate_turns;
   while (!open_.empty() && phase_turns > static_cast<double>(open_.front().number) + reach_turns) {
     close(open_.front());
-    out.closed.push_back(std::move(open_.front()));
+    out.closed.push_back(open_.front());
     open_.pop_front();
   }
 }

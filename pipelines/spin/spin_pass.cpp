@@ -159,7 +159,7 @@ void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
                       .measured = measure(config_, revolution),
                       .sightlines = {},
                       .residuals = {}};
-  const auto first_edge = std::find_if(revolution.edges.begin(), revolution.edges.end(),
+  const auto* const first_edge = std::find_if(revolution.edges.begin(), revolution.edges.end(),
                                        [](const auto& edge) { return edge.has_value(); });
   candidate.sightlines = sightlines_of(candidate.measured, **first_edge, out);
   if (!started_) {

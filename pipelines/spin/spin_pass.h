@@ -38,7 +38,7 @@ std::vector<std::string> settings_without_effect(const SpinConfig& config);
 
 class SpinPass {
  public:
-  static constexpr std::size_t kFirstRevolutions = 20;
+  static constexpr std::size_t kFirstRevolutions = 10;
 
   SpinPass(const SpinConfig& config, Orbit orbit);
 

@@ -26,7 +26,7 @@ class SpacecraftRun {
   /// The run itself, before its first sample.
   ArchiveBatch begin();
 
-  ArchiveBatch take(PulseBatch batch);
+  ArchiveBatch take(PulseBatch samples);
 
   /// The pass has ended: what was still held, the counts of the senders, the end of the run.
   ArchiveBatch finish(std::vector<SourceCount> source_counts);
