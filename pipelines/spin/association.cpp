@@ -26,6 +26,10 @@ constexpr double kOtherGate_turns = 0.2;
 constexpr double kOpen_turns = 0.75;
 // A chord hovering about sun1 keeps its revolution until it has drifted this far past.
 constexpr double kHover_turns = 0.25;
+// Intervals within so many sigmas of each other are the same, beyond twice that another period.
+constexpr double kStepSigmas = 6.0;
+// So many edges in a row that miss their place and agree on another one move it there.
+constexpr std::size_t kStraysToAgree = 5;
 // Weight of a new edge in the expected phase of its channel.
 constexpr double kFollow = 0.1;
 
@@ -34,6 +38,11 @@ constexpr std::array<PulseChannel, kPulseChannels> kChannels = {
     PulseChannel::NorthOut, PulseChannel::SouthIn, PulseChannel::SouthOut};
 
 double fraction(double turns) { return turns - std::floor(turns); }
+
+/// Of the time between two sun edges, from the stated pulse noise.
+double interval_sigma_s(const SpinConfig& config) {
+  return std::numbers::sqrt2 * config.noise.sun_s;
+}
 
 double gate_turns(PulseChannel channel) {
   return channel == PulseChannel::Sun1 ? kSunGate_turns : kOtherGate_turns;
@@ -54,6 +63,41 @@ double circular_median(const std::vector<double>& phases_turns) {
   };
   return *std::min_element(phases_turns.begin(), phases_turns.end(),
                            [&](double a, double b) { return spread(a) < spread(b); });
+}
+
+/// The interval that most of a run of edges agree on.
+struct SteadyInterval {
+  double mean_s;
+  double agreeing;    ///< How many intervals do.
+  std::size_t first;  ///< The edge where the first of them begins.
+};
+
+/// @param tolerance_s How far from their median agreeing intervals may lie, as a function of it.
+template <class Times, class Tolerance>
+std::optional<SteadyInterval> steady_interval(const Times& edges, const Tolerance& tolerance_s) {
+  std::vector<double> intervals_s;
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    intervals_s.push_back(seconds_between(edges[i - 1], edges[i]));
+  }
+  std::vector<double> sorted_s = intervals_s;
+  const auto middle = sorted_s.begin() + static_cast<std::ptrdiff_t>(sorted_s.size() / 2);
+  std::nth_element(sorted_s.begin(), middle, sorted_s.end());
+
+  double sum_s = 0.0;
+  std::size_t agreeing = 0;
+  std::size_t first = 0;
+  for (std::size_t i = intervals_s.size(); i-- > 0;) {
+    if (std::abs(intervals_s[i] - *middle) <= tolerance_s(*middle)) {
+      sum_s += intervals_s[i];
+      ++agreeing;
+      first = i;
+    }
+  }
+  if (*middle <= 0.0 || 2 * agreeing <= intervals_s.size()) {
+    return std::nullopt;
+  }
+  const auto count = static_cast<double>(agreeing);
+  return SteadyInterval{.mean_s = sum_s / count, .agreeing = count, .first = first};
 }
 
 }  // namespace
@@ -105,33 +149,44 @@ bool Associator::start_clock(std::size_t fewest_intervals) {
   if (sun1.size() < fewest_intervals + 1) {
     return false;
   }
-  std::vector<double> intervals_s;
-  for (std::size_t i = 1; i < sun1.size(); ++i) {
-    intervals_s.push_back(seconds_between(sun1[i - 1], sun1[i]));
+  const auto turn = steady_interval(sun1, [](double median_s) { return kSameInterval * median_s; });
+  if (turn) {
+    clock_ = Clock{.t_sun1 = sun1[turn->first],
+                   .revolution = 0,
+                   .period = {.period_s = turn->mean_s,
+                              .sigma_s = interval_sigma_s(config_) / turn->agreeing}};
   }
-  std::vector<double> sorted_s = intervals_s;
-  const auto middle = sorted_s.begin() + static_cast<std::ptrdiff_t>(sorted_s.size() / 2);
-  std::nth_element(sorted_s.begin(), middle, sorted_s.end());
+  return turn.has_value();
+}
 
-  double sum_s = 0.0;
-  std::size_t agreeing = 0;
-  std::size_t first_agreeing = 0;
-  for (std::size_t i = intervals_s.size(); i-- > 0;) {
-    if (std::abs(intervals_s[i] - *middle) <= kSameInterval * *middle) {
-      sum_s += intervals_s[i];
-      ++agreeing;
-      first_agreeing = i;
-    }
+/// After a step in the spin rate the last sun1 edges agree with one another and not with the clock:
+/// a new one starts at `sun1`, its count not behind the old one's.
+void Associator::restart_clock_after_step(const Pulse& sun1) {
+  recent_sun1_.push_back(sun1.t);
+  if (recent_sun1_.size() <= kStartIntervals) {
+    return;
   }
-  if (*middle <= 0.0 || 2 * agreeing <= intervals_s.size()) {
-    return false;
+  const double tolerance_s = kStepSigmas * interval_sigma_s(config_);
+  const auto turn = steady_interval(recent_sun1_, [&](double) { return tolerance_s; });
+  recent_sun1_.pop_front();
+  if (!turn) {
+    return;
   }
-  const auto count = static_cast<double>(agreeing);
-  clock_ = Clock{.t_sun1 = sun1[first_agreeing],
-                 .revolution = 0,
-                 .period = {.period_s = sum_s / count,
-                            .sigma_s = std::numbers::sqrt2 * config_.noise.sun_s / count}};
-  return true;
+  // Several turns of the clock are lost edges, not a step.
+  const double turns = std::max(1.0, std::round(turn->mean_s / clock_->period.period_s));
+  if (std::abs(turn->mean_s - turns * clock_->period.period_s) <= 2.0 * tolerance_s) {
+    return;
+  }
+  auto number = std::max(static_cast<std::int64_t>(std::round(phase_turns(sun1.t))), first_open_);
+  if (!open_.empty() && open_.back().edge(PulseChannel::Sun1)) {
+    number = std::max(number, open_.back().number + 1);
+  }
+  clock_ = Clock{
+      .t_sun1 = sun1.t,
+      .revolution = number,
+      .period = {.period_s = turn->mean_s, .sigma_s = interval_sigma_s(config_) / turn->agreeing}};
+  period_window_ = SpinPeriodWindow{config_.screening, config_.noise.sun_s};
+  strays_ = {};
 }
 
 void Associator::learn_phases() {
@@ -193,6 +248,9 @@ double Associator::unwrapped(PulseChannel channel, double phase_turns) const {
 }
 
 void Associator::place(const Pulse& pulse, Association& out) {
+  if (pulse.channel == PulseChannel::Sun1) {
+    restart_clock_after_step(pulse);
+  }
   const double phase = phase_turns(pulse.t);
   std::optional<double>& expected = expected_turns_.at(index_of(pulse.channel));
   if (!expected) {
@@ -200,8 +258,14 @@ void Associator::place(const Pulse& pulse, Association& out) {
   }
   close_before(phase, out);
 
-  const double turns = std::round(phase - *expected);
-  const double off_turns = std::abs(phase - *expected - turns);
+  double turns = std::round(phase - *expected);
+  double off_turns = std::abs(phase - *expected - turns);
+  if (off_turns <= gate_turns(pulse.channel)) {
+    strays_.at(index_of(pulse.channel)).clear();
+  } else if (pulse.channel != PulseChannel::Sun1 && found_again(pulse)) {
+    turns = std::round(phase_turns(pulse.t) - *expected);
+    off_turns = 0.0;
+  }
   Revolution* const revolution = off_turns <= gate_turns(pulse.channel)
                                      ? open_revolution(static_cast<std::int64_t>(turns))
                                      : nullptr;
@@ -219,6 +283,29 @@ void Associator::place(const Pulse& pulse, Association& out) {
   } else {
     out.left_over.push_back(unassociated(pulse));
   }
+}
+
+/// Adds to the strays of the channel; true when they agree on a new place, which is then expected.
+bool Associator::found_again(const Pulse& pulse) {
+  std::deque<TaiTime>& strays = strays_.at(index_of(pulse.channel));
+  strays.push_back(pulse.t);
+  if (strays.size() < kStraysToAgree) {
+    return false;
+  }
+  std::vector<double> phases;
+  for (const TaiTime t : strays) {
+    phases.push_back(fraction(phase_turns(t)));
+  }
+  strays.pop_front();
+  const double median = circular_median(phases);
+  const bool agree = std::all_of(phases.begin(), phases.end(), [&](double phase) {
+    return std::abs(std::remainder(phase - median, 1.0)) <= kOtherGate_turns;
+  });
+  if (agree) {
+    expected_turns_.at(index_of(pulse.channel)) = unwrapped(pulse.channel, median);
+    strays.clear();
+  }
+  return agree;
 }
 
 /// Empty when that revolution is closed already, or precedes the first sun1.

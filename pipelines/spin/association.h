@@ -4,7 +4,8 @@
 /// A clock counts spin phase in turns from the sun1 edges. Each other channel is expected at its
 /// own phase, learnt from the edges themselves and followed as the Earth moves; an edge belongs to
 /// the revolution whose expected phase it is nearest to. So a chord that straddles the next sun1,
-/// or hovers about it, stays with one revolution.
+/// or hovers about it, stays with one revolution. When the edges of a channel agree on another
+/// place (the Earth moved during a silence, the spin rate stepped), they are believed.
 
 #pragma once
 
@@ -58,6 +59,7 @@ class Associator {
   };
 
   bool start_clock(std::size_t fewest_intervals);
+  void restart_clock_after_step(const Pulse& sun1);
   void learn_phases();
   Association place_waiting();
   void place(const Pulse& pulse, Association& out);
@@ -66,6 +68,7 @@ class Associator {
   Revolution* open_revolution(std::int64_t number);
   double phase_turns(TaiTime t) const;
   double unwrapped(PulseChannel channel, double phase_turns) const;
+  bool found_again(const Pulse& pulse);
   void follow(const Revolution& revolution);
 
   SpinConfig config_;
@@ -74,6 +77,9 @@ class Associator {
   std::optional<Clock> clock_;
   /// Where each channel's edge is expected, in turns behind sun1; empty until first seen.
   std::array<std::optional<double>, kPulseChannels> expected_turns_;
+  /// Edges of each channel that were not where it is expected, since the last one that was.
+  std::array<std::deque<TaiTime>, kPulseChannels> strays_;
+  std::deque<TaiTime> recent_sun1_;
   std::deque<Revolution> open_;  ///< In order of number; only those with an edge.
   std::int64_t first_open_ = 0;  ///< Revolutions before this one are closed.
 };

@@ -22,10 +22,10 @@ std::string_view name_of(SpinQuantity quantity) {
 }
 
 std::string_view name_of(Rejection rejection) {
-  static constexpr std::array<std::string_view, 13> kNames = {
-      "unassociated",   "duplicate",      "late",         "unpaired",    "geometry",
-      "no_orbit",       "period",         "sun_angle",    "north_chord", "south_chord",
-      "north_dihedral", "south_dihedral", "mixed_azimuth"};
+  static constexpr std::array<std::string_view, 12> kNames = {
+      "unassociated", "late",           "unpaired",       "geometry",
+      "no_orbit",     "period",         "sun_angle",      "north_chord",
+      "south_chord",  "north_dihedral", "south_dihedral", "mixed_azimuth"};
   return kNames.at(static_cast<std::size_t>(rejection));
 }
 

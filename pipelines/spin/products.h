@@ -30,11 +30,10 @@ std::string_view name_of(SpinQuantity quantity);
 /// Why an edge or a measurement was left out.
 enum class Rejection {
   Unassociated,  ///< No revolution had a place for the edge.
-  Duplicate,     ///< The same channel at the same nanosecond stands already.
   Late,          ///< Arrived after its time had been processed.
   Unpaired,      ///< Its partner edge is missing: it gives no measurement.
   Geometry,      ///< The measurement has no meaning (chord of half a turn, slit lag out of range).
-  NoOrbit,       ///< The orbit does not cover it, or Sun and Earth are in line: not testable.
+  NoOrbit,       ///< The orbit does not cover it: not testable.
   Period,        ///< Failed the spin-period test.
   SunAngle,      ///< Failed the 3-sigma test of that quantity; likewise the following.
   NorthChord,

@@ -12,7 +12,7 @@
 
 namespace spindrift {
 
-/// Holds pulses until nothing earlier is to be expected: until one arrives that is `kReorder_s` of
+/// Holds pulses until nothing earlier is to be expected: until one arrives that is `kReorder` of
 /// telemetry time younger.
 class ReorderWindow {
  public:

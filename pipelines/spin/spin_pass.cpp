@@ -160,7 +160,7 @@ void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
                       .sightlines = {},
                       .residuals = {}};
   const auto* const first_edge = std::find_if(revolution.edges.begin(), revolution.edges.end(),
-                                       [](const auto& edge) { return edge.has_value(); });
+                                              [](const auto& edge) { return edge.has_value(); });
   candidate.sightlines = sightlines_of(candidate.measured, **first_edge, out);
   if (!started_) {
     first_.push_back(std::move(candidate));

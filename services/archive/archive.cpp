@@ -137,7 +137,7 @@ ArchiveStatistics Archive::statistics() const {
 
 void Archive::run() {
   for (auto batches = queue_.take_all(); !batches.empty(); batches = queue_.take_all()) {
-    if (!store_patiently(batches)) {
+    if (gave_up_ || !store_patiently(batches)) {
       store_singly(batches);
     }
   }
@@ -152,12 +152,15 @@ bool Archive::store_patiently(std::span<const ArchiveBatch> batches) {
   return stored.has_value();
 }
 
-// The last attempt: one bad row, or a disk with little room, costs no more than it must.
+// The last attempt. A bad row costs its own batch. Where writing itself fails, nothing later is
+// stored either: a result must not stand in the archive without the samples that it rests on.
 void Archive::store_singly(std::span<const ArchiveBatch> batches) {
   for (std::size_t i = 0; i < batches.size(); ++i) {
     const auto one = batches.subspan(i, 1);
-    if (!store(one)) {
+    const auto stored = gave_up_ ? Expected<void>{refusal()} : store(one);
+    if (!stored) {
       rows_lost_ += row_count(one);
+      gave_up_ = gave_up_ || stored.error().code != ErrorCode::InvalidInput;
     }
   }
 }

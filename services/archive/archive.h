@@ -109,6 +109,7 @@ class Archive {
   std::uint64_t rows_committed_ = 0;
   std::uint64_t samples_committed_ = 0;
   std::size_t rows_lost_ = 0;
+  bool gave_up_ = false;  ///< Of the writer thread.
   RecentDurations commit_durations_;
 
   std::thread writer_;

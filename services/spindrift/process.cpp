@@ -11,6 +11,7 @@
 #include "services/archive/archive.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
+#include "services/spindrift/outcome.h"
 #include "services/spindrift/pulse_input.h"
 #include "services/spindrift/submit_all.h"
 #include "services/spindrift/summary_text.h"
@@ -72,9 +73,8 @@ Expected<void> process(const ProcessOptions& options) {
   }
   const auto done = run(*processor, std::move(*telemetry), **archive);
   // Whatever stopped the run: what was accepted is stored before the archive is let go.
-  const auto closed = (*archive)->close();
-  if (!done || !closed) {
-    return Unexpected{(done ? closed : done).error()};
+  if (auto outcome = outcome_of(done, (*archive)->close()); !outcome) {
+    return outcome;
   }
   fmt::print("{}", report(processor->summaries(), options.db, options.json));
   return {};

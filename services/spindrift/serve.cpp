@@ -18,6 +18,7 @@
 #include "services/publisher/result_publisher.h"
 #include "services/spindrift/announcer.h"
 #include "services/spindrift/heartbeat.h"
+#include "services/spindrift/outcome.h"
 #include "services/spindrift/stop_signal.h"
 #include "services/spindrift/submit_all.h"
 #include "services/spindrift/summary_text.h"
@@ -159,9 +160,8 @@ Expected<void> serve(const ServeOptions& options) {
   if (done) {
     done = run(*participant, *publisher, *processor, **archive, stop_signal);
   }
-  const auto closed = (*archive)->close();
-  if (!done || !closed) {
-    return Unexpected{(done ? closed : done).error()};
+  if (auto outcome = outcome_of(done, (*archive)->close()); !outcome) {
+    return outcome;
   }
   fmt::print("{}", report(processor->summaries(), options.db, options.json));
   return {};

@@ -1,0 +1,270 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <future>
+#include <limits>
+#include <random>
+#include <span>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "services/archive/archive.h"
+#include "tests/integration/archive_fixture.h"
+
+namespace spindrift {
+namespace {
+
+using testing::batch_of;
+using ::testing::HasSubstr;
+using testing::pulse_at;
+using testing::start_of;
+
+constexpr std::int64_t kPulsesPerBatch = 1000;
+
+ArchiveBatch pulses_from(std::int64_t first_tai_ns) {
+  ArchiveBatch batch = batch_of("run-1");
+  for (std::int64_t i = 0; i < kPulsesPerBatch; ++i) {
+    batch.pulses.push_back(pulse_at(first_tai_ns + i));
+  }
+  return batch;
+}
+
+/// While it lives, the kernel refuses to let any file of this process grow beyond `bytes`.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{.rlim_cur = bytes, .rlim_max = before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+  FileSizeLimit(FileSizeLimit&&) = delete;
+  FileSizeLimit& operator=(FileSizeLimit&&) = delete;
+  ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+/// Fulfils `failed` with the first error there is.
+std::function<void(const Error&)> first_into(std::promise<Error>& failed) {
+  return [&failed, reported = false](const Error& error) mutable {
+    if (!std::exchange(reported, true)) {
+      failed.set_value(error);
+    }
+  };
+}
+
+/// Holds the writer after its first commit until `go_on`.
+std::function<void(std::span<const ArchiveBatch>)> held_until(std::shared_future<void> go_on) {
+  return [go_on = std::move(go_on)](const auto& /*stored*/) { go_on.wait(); };
+}
+
+/// Numbers of committed batches, as the writer reports them, each the successor of the one before;
+/// kills it after `until_kill` of them and reads on to the end.
+/// @return the last number.
+std::int64_t kill_after(int until_kill, pid_t writer, int reports, std::int64_t last_reported) {
+  std::int64_t number = 0;
+  while (read(reports, &number, sizeof number) == sizeof number) {
+    EXPECT_EQ(number, last_reported + 1);
+    last_reported = number;
+    if (--until_kill == 0) {
+      EXPECT_EQ(kill(writer, SIGKILL), 0);
+    }
+  }
+  return last_reported;
+}
+
+class ArchiveFailure : public testing::ArchiveFixture {
+ protected:
+  /// Room for a small commit behind what the write-ahead log already holds, not for many.
+  rlim_t little_room() const {
+    return std::filesystem::file_size(path().string() + "-wal") + 100'000;
+  }
+
+  /// An archive that fulfils `failed` when writing fails.
+  std::unique_ptr<Archive> open_watched(OnWriteFailure policy, std::promise<Error>& failed) const {
+    ArchiveOptions options;
+    options.on_write_failure = policy;
+    options.queue_capacity = 4;
+    options.on_failure = first_into(failed);
+    auto archive = open(options);
+    EXPECT_TRUE(archive->submit(start_of("run-1")));
+    EXPECT_TRUE(archive->flush());
+    return archive;
+  }
+
+  /// Submits until refused. @return how many batches were accepted.
+  static std::int64_t fill(Archive& archive) {
+    std::int64_t accepted = 0;
+    while (archive.submit(pulses_from(accepted * kPulsesPerBatch))) {
+      ++accepted;
+    }
+    return accepted;
+  }
+
+  std::int64_t stored_pulses() const { return number("SELECT count(*) FROM pulse"); }
+};
+
+TEST_F(ArchiveFailure, StopRefusesAtOnceAndClosingStoresAllThatWasAccepted) {
+  std::promise<Error> failed;
+  const auto archive = open_watched(OnWriteFailure::Stop, failed);
+  std::int64_t accepted = 0;
+  {
+    const FileSizeLimit full_disk{little_room()};
+    accepted = fill(*archive);
+    EXPECT_EQ(failed.get_future().get().code, ErrorCode::Unavailable);
+    const auto refused = archive->flush();
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr(path().string()));
+    EXPECT_TRUE(archive->statistics().failure.has_value());
+    EXPECT_LT(stored_pulses(), accepted * kPulsesPerBatch);
+  }
+  const auto closed = archive->close();
+
+  EXPECT_TRUE(closed) << closed.error().message;
+  EXPECT_EQ(stored_pulses(), accepted * kPulsesPerBatch);
+}
+
+TEST_F(ArchiveFailure, ClosingOnAFullDiskSaysHowManyRowsAreNotStored) {
+  std::promise<Error> failed;
+  const auto archive = open_watched(OnWriteFailure::Stop, failed);
+  std::int64_t accepted = 0;
+  {
+    const FileSizeLimit full_disk{little_room()};
+    accepted = fill(*archive);
+    const auto closed = archive->close();
+
+    ASSERT_FALSE(closed);
+    EXPECT_EQ(closed.error().code, ErrorCode::Unavailable);
+    const std::int64_t lost = accepted * kPulsesPerBatch - stored_pulses();
+    EXPECT_GT(lost, 0);
+    EXPECT_THAT(closed.error().message,
+                ::testing::StartsWith(std::to_string(lost) + " rows that were accepted"));
+  }
+  EXPECT_EQ(text("PRAGMA integrity_check"), "ok");
+}
+
+TEST_F(ArchiveFailure, RetryHoldsSubmittersAndStoresEverythingOnceThereIsRoom) {
+  constexpr std::int64_t kBatches = 40;
+  std::promise<Error> failed;
+  const auto archive = open_watched(OnWriteFailure::Retry, failed);
+  std::future<bool> submitter;
+  {
+    const FileSizeLimit full_disk{little_room()};
+    submitter = std::async(std::launch::async, [&] {
+      bool all_accepted = true;
+      for (std::int64_t i = 0; i < kBatches; ++i) {
+        all_accepted = archive->submit(pulses_from(i * kPulsesPerBatch)) && all_accepted;
+      }
+      return all_accepted;
+    });
+    failed.get_future().wait();
+    EXPECT_EQ(submitter.wait_for(std::chrono::milliseconds{200}), std::future_status::timeout);
+    EXPECT_TRUE(archive->statistics().failure.has_value());
+  }
+  EXPECT_TRUE(submitter.get());
+  ASSERT_TRUE(archive->flush());
+
+  EXPECT_FALSE(archive->statistics().failure.has_value());
+  EXPECT_EQ(stored_pulses(), kBatches * kPulsesPerBatch);
+  EXPECT_TRUE(archive->close());
+}
+
+TEST_F(ArchiveFailure, RowThatBreaksTheSchemaStopsEvenRetryAndCostsOnlyItsOwnBatch) {
+  std::promise<Error> failed;
+  std::promise<void> all_queued;
+  ArchiveOptions options;
+  options.on_write_failure = OnWriteFailure::Retry;
+  options.on_committed = held_until(all_queued.get_future().share());
+  options.on_failure = first_into(failed);
+  const auto archive = open(options);
+  ArchiveBatch bad = batch_of("run-1");
+  bad.products = {RevolutionProduct{.revolution = 1,
+                                    .t_sun1 = tai_from_ns(0),
+                                    .period_s = std::numeric_limits<double>::quiet_NaN()}};
+  ASSERT_TRUE(archive->submit(start_of("run-1")));
+  while (archive->statistics().queued_batches > 0) {
+    std::this_thread::yield();
+  }
+  ASSERT_TRUE(archive->submit(pulses_from(0)));
+  ASSERT_TRUE(archive->submit(bad));
+  ASSERT_TRUE(archive->submit(pulses_from(kPulsesPerBatch)));
+  all_queued.set_value();
+
+  const Error error = failed.get_future().get();
+  EXPECT_EQ(error.code, ErrorCode::InvalidInput);
+  EXPECT_THAT(error.message, HasSubstr("revolution.period_s"));
+  EXPECT_FALSE(archive->submit(batch_of("run-1")));
+  const auto closed = archive->close();
+  ASSERT_FALSE(closed);
+  EXPECT_THAT(closed.error().message, ::testing::StartsWith("1 rows that were accepted"));
+  EXPECT_EQ(stored_pulses(), 2 * kPulsesPerBatch);
+}
+
+/// Submits numbered batches for ever and writes the number of each committed one to `reports`.
+[[noreturn]] void write_until_killed(const std::filesystem::path& path, std::int64_t first,
+                                     const std::string& run_id, int reports) {
+  ArchiveOptions options;
+  options.on_committed = [reports](std::span<const ArchiveBatch> batches) {
+    for (const ArchiveBatch& batch : batches) {
+      if (!batch.pulses.empty()) {
+        const std::int64_t number = tai_ns(batch.pulses.front().pulse.t);
+        static_cast<void>(write(reports, &number, sizeof number));
+      }
+    }
+  };
+  auto archive = Archive::open(path, options);
+  if (!archive || !(*archive)->submit(start_of(run_id))) {
+    _exit(1);
+  }
+  for (std::int64_t number = first;; ++number) {
+    ArchiveBatch batch = batch_of(run_id);
+    batch.pulses = {pulse_at(number)};
+    if (!(*archive)->submit(std::move(batch))) {
+      _exit(1);
+    }
+  }
+}
+
+TEST_F(ArchiveFailure, KillAtAnyMomentLosesNothingThatWasReportedCommitted) {
+  constexpr int kKills = 20;
+  std::mt19937 rng{9};
+  std::uniform_int_distribution<int> reports_before_kill{1, 400};
+  std::int64_t last_reported = -1;
+
+  for (int round = 0; round < kKills; ++round) {
+    SCOPED_TRACE(round);
+    std::array<int, 2> reports{};
+    ASSERT_EQ(pipe(reports.data()), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+      write_until_killed(path(), last_reported + 1, "run-" + std::to_string(round), reports[1]);
+    }
+    close(reports[1]);
+    last_reported = kill_after(reports_before_kill(rng), child, reports[0], last_reported);
+    close(reports[0]);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status)) << "the writer ended by itself";
+
+    EXPECT_EQ(text("PRAGMA integrity_check"), "ok");
+    EXPECT_EQ(
+        number("SELECT count(*) FROM pulse WHERE t_tai_ns <= " + std::to_string(last_reported)),
+        last_reported + 1);
+  }
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,99 @@
+/// @file
+/// An archive in a fresh directory, things to put into it, and questions to its file.
+
+#pragma once
+
+#include <SQLiteCpp/Database.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "services/archive/archive.h"
+#include "services/archive/connection.h"
+
+namespace spindrift::testing {
+
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory() {
+    std::string name = (std::filesystem::temp_directory_path() / "spindrift_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw std::runtime_error{"no temporary directory " + name};
+    }
+    path_ = name;
+  }
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+  TemporaryDirectory(TemporaryDirectory&&) = delete;
+  TemporaryDirectory& operator=(TemporaryDirectory&&) = delete;
+  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline const RunStart kRunStart{.spacecraft_kind = "spin",
+                                .mode = "process",
+                                .software_version = "0.1.0",
+                                .config_toml = "[spacecraft]\nid = \"SPINNER\"\n",
+                                .config_sha256 = "00ff",
+                                .started_utc = "2026-11-20T03:00:00Z"};
+
+inline ArchiveBatch batch_of(const std::string& run_id) {
+  return {.run_id = run_id, .spacecraft_id = "SPINNER"};
+}
+
+inline ArchiveBatch start_of(const std::string& run_id) {
+  ArchiveBatch batch = batch_of(run_id);
+  batch.start = kRunStart;
+  return batch;
+}
+
+inline PulseSample pulse_at(std::int64_t t_tai_ns, std::uint64_t seq = 0) {
+  return {.spacecraft = "SPINNER",
+          .origin = {.source = "station", .session = 7, .seq = seq},
+          .pulse = {.t = tai_from_ns(t_tai_ns), .channel = PulseChannel::Sun1}};
+}
+
+class ArchiveFixture : public ::testing::Test {
+ protected:
+  const std::filesystem::path& directory() const { return directory_.path(); }
+  std::filesystem::path path() const { return directory_.path() / "pass.db"; }
+
+  std::unique_ptr<Archive> open(ArchiveOptions options = {}) const {
+    auto archive = Archive::open(path(), std::move(options));
+    if (!archive) {
+      throw std::runtime_error{archive.error().message};
+    }
+    return std::move(*archive);
+  }
+
+  SQLite::Database reader() const {
+    auto database = open_for_reading(path());
+    if (!database) {
+      throw std::runtime_error{database.error().message};
+    }
+    return std::move(*database);
+  }
+
+  std::int64_t number(const std::string& query) const {
+    return reader().execAndGet(query).getInt64();
+  }
+  double real(const std::string& query) const { return reader().execAndGet(query).getDouble(); }
+  std::string text(const std::string& query) const {
+    return reader().execAndGet(query).getString();
+  }
+
+ private:
+  TemporaryDirectory directory_;
+};
+
+}  // namespace spindrift::testing

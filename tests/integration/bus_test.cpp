@@ -1,0 +1,292 @@
+#include <dds/dds.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <optional>
+
+#include "services/bus/network.h"
+#include "services/bus/wait_set.h"
+#include "tests/support/bus_child.h"
+#include "tests/support/bus_fixture.h"
+
+namespace spindrift {
+namespace {
+
+using namespace std::chrono_literals;
+using bus::Participant;
+using bus::Reader;
+using bus::Writer;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+/// CYCLONEDDS_URI for as long as it lives.
+class NetworkOverride {
+ public:
+  explicit NetworkOverride(const std::string& uri) {
+    if (const char* before = std::getenv("CYCLONEDDS_URI"); before != nullptr) {
+      before_ = before;
+    }
+    setenv("CYCLONEDDS_URI", uri.c_str(), 1);
+  }
+  ~NetworkOverride() {
+    if (before_) {
+      setenv("CYCLONEDDS_URI", before_->c_str(), 1);
+    } else {
+      unsetenv("CYCLONEDDS_URI");
+    }
+  }
+  NetworkOverride(const NetworkOverride&) = delete;
+  NetworkOverride& operator=(const NetworkOverride&) = delete;
+  NetworkOverride(NetworkOverride&&) = delete;
+  NetworkOverride& operator=(NetworkOverride&&) = delete;
+
+ private:
+  std::optional<std::string> before_;
+};
+
+Reader<spindrift_Pulse> pulse_reader(const Participant& participant,
+                                     const bus::Qos& qos = bus::telemetry_reader_qos()) {
+  return Reader<spindrift_Pulse>::create(participant, bus::kPulseTopic, qos).value();
+}
+
+Writer<spindrift_Pulse> pulse_writer(const Participant& participant,
+                                     const bus::Qos& qos = bus::telemetry_writer_qos()) {
+  return Writer<spindrift_Pulse>::create(participant, bus::kPulseTopic, qos).value();
+}
+
+TEST(Network, IsThisHostOnlyUnlessToldOtherwise) {
+  const NetworkOverride none{""};
+  const auto network = bus::network_configuration();
+  EXPECT_THAT(network.name, HasSubstr("loopback.xml"));
+  EXPECT_THAT(network.text, AllOf(HasSubstr("<NetworkInterface name=\"lo\"/>"),
+                                  HasSubstr("<AllowMulticast>false</AllowMulticast>"),
+                                  HasSubstr("<Peer Address=\"localhost\"/>")));
+}
+
+TEST(Network, IsThatOfTheEnvironmentWhenSet) {
+  const NetworkOverride file{"file:///etc/ship.xml"};
+  EXPECT_EQ(bus::network_configuration().text, "file:///etc/ship.xml");
+  EXPECT_EQ(bus::network_configuration().name, "CYCLONEDDS_URI=file:///etc/ship.xml");
+}
+
+TEST(Participant, TellsDomainPartitionAndNetworkInForce) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  EXPECT_THAT(participant.description(), AllOf(HasSubstr("domain "), HasSubstr("partition 'test-"),
+                                               HasSubstr(bus::network_configuration().name)));
+}
+
+TEST(Participant, RefusesADomainWhosePortsDoNotExist) {
+  const auto refused = Participant::create({.domain = 231});
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, ErrorCode::InvalidConfiguration);
+  EXPECT_EQ(refused.error().message, "DDS domain 231: must be 0 to 230");
+}
+
+TEST(Participant, NamesTheCauseWhenTheNetworkIsRefused) {
+  const NetworkOverride unknown{
+      "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"nosuch0\"/>"
+      "</Interfaces></General></Domain></CycloneDDS>"};
+  const auto refused = Participant::create(bus_of_its_own());
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, ErrorCode::Unavailable);
+  EXPECT_THAT(refused.error().message,
+              AllOf(HasSubstr("CYCLONEDDS_URI"), HasSubstr("nosuch0: does not match")));
+}
+
+TEST(Participant, SharesItsDomainWithOthersOfTheProcess) {
+  const auto config = bus_of_its_own();
+  std::optional<Participant> first = Participant::create(config).value();
+  const auto second = Participant::create(config).value();
+  first.reset();
+  const auto third = Participant::create(config).value();
+  const auto reader = pulse_reader(second);
+  const auto writer = pulse_writer(third);
+  ASSERT_TRUE(writer.wait_for_reader(30s));
+  ASSERT_TRUE(writer.write(idl_pulse(7)));
+  EXPECT_THAT(seqs_of(take_samples(reader, 1)), ElementsAre(7));
+}
+
+TEST(Reader, GivesEveryFieldThatWasWritten) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto reader = pulse_reader(participant);
+  const auto writer = pulse_writer(participant);
+  const spindrift_Pulse sent{.spacecraft = "a spacecraft of 32 characters ..",
+                             .source = "and its source, of as many, too.",
+                             .session = 0xFEDC'BA98'7654'3210,
+                             .seq = 0x0123'4567'89AB'CDEF,
+                             .t_tai_ns = -5,
+                             .channel = spindrift_SOUTH_OUT};
+  ASSERT_TRUE(writer.write(sent));
+  const auto taken = take_samples(reader, 1);
+  ASSERT_EQ(taken.size(), 1U);
+  EXPECT_STREQ(taken[0].spacecraft, sent.spacecraft);
+  EXPECT_STREQ(taken[0].source, sent.source);
+  EXPECT_EQ(taken[0].session, sent.session);
+  EXPECT_EQ(taken[0].seq, sent.seq);
+  EXPECT_EQ(taken[0].t_tai_ns, sent.t_tai_ns);
+  EXPECT_EQ(taken[0].channel, sent.channel);
+}
+
+TEST(Reader, ThatJoinsLateReceivesTheHistoryOfTelemetry) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto writer = pulse_writer(participant);
+  for (std::uint64_t seq = 0; seq < 1000; ++seq) {
+    ASSERT_TRUE(writer.write(idl_pulse(seq)));
+  }
+  EXPECT_EQ(seqs_of(take_samples(pulse_reader(participant), 1000)), first_seqs(1000));
+}
+
+TEST(Reader, ThatJoinsLateReceivesTheLastResultOnly) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto writer = pulse_writer(participant, bus::results_qos());
+  for (std::uint64_t seq = 0; seq < 10; ++seq) {
+    ASSERT_TRUE(writer.write(idl_pulse(seq)));
+  }
+  const auto reader = pulse_reader(participant, bus::results_qos());
+  EXPECT_THAT(seqs_of(take_samples(reader, 1)), ElementsAre(9));
+}
+
+TEST(Reader, DoesNotHearAnotherPartition) {
+  const auto config = bus_of_its_own();
+  const auto ours = Participant::create(config).value();
+  const auto theirs =
+      Participant::create({.domain = config.domain, .partition = config.partition + "-other"})
+          .value();
+  const auto reader = pulse_reader(ours);
+  const auto stranger = pulse_writer(theirs);
+  const auto writer = pulse_writer(ours);
+  ASSERT_TRUE(stranger.write(idl_pulse(1)));
+  ASSERT_TRUE(writer.write(idl_pulse(2)));
+  EXPECT_THAT(seqs_of(take_samples(reader, 1)), ElementsAre(2));
+  EXPECT_EQ(reader.status().value().writers, 1U);
+}
+
+TEST(Reader, TakesTheEndOfASourceForNoSample) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto reader = pulse_reader(participant);
+  bus::Qos disposing = bus::telemetry_writer_qos();
+  dds_qset_writer_data_lifecycle(disposing.get(), true);
+  {
+    const auto writer = pulse_writer(participant, disposing);
+    ASSERT_TRUE(writer.write(idl_pulse(0)));
+    EXPECT_THAT(seqs_of(take_samples(reader, 1)), ElementsAre(0));
+  }
+  std::size_t samples = 0;
+  ASSERT_TRUE(eventually(
+      [&] { return reader.take([&samples](const spindrift_Pulse&) { ++samples; }).value() > 0; }));
+  EXPECT_EQ(samples, 0U);
+}
+
+TEST(Reader, NamesAnIncompatibleWriterOfAnotherProcess) {
+  const auto config = bus_of_its_own();
+  const auto participant = Participant::create(config).value();
+  const auto reader = pulse_reader(participant);
+  ForeignWriter writer{config, "weak", 0};
+  ASSERT_TRUE(eventually([&] { return !reader.status().value().incompatible_writers.empty(); }));
+  const auto status = reader.status().value();
+  EXPECT_EQ(status.writers, 0U);
+  EXPECT_THAT(status.incompatible_writers,
+              ElementsAre(AllOf(
+                  HasSubstr("writer of process "), HasSubstr("bus_foreign_writer"),
+                  HasSubstr(" (pid " + std::to_string(writer.pid()) + ") on host "),
+                  EndsWith(", topic spindrift/pulse, offers BEST_EFFORT, VOLATILE; spindrift needs "
+                           "RELIABLE, TRANSIENT_LOCAL"))));
+}
+
+TEST(Reader, ForgetsAnIncompatibleWriterThatLeft) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto reader = pulse_reader(participant);
+  bus::Qos exclusive = bus::telemetry_writer_qos();
+  dds_qset_ownership(exclusive.get(), DDS_OWNERSHIP_EXCLUSIVE);
+  {
+    const auto writer = pulse_writer(participant, exclusive);
+    EXPECT_THAT(reader.status().value().incompatible_writers,
+                ElementsAre(EndsWith("offers EXCLUSIVE; spindrift needs SHARED")));
+  }
+  EXPECT_TRUE(eventually([&] { return reader.status().value().incompatible_writers.empty(); }));
+}
+
+TEST(Reader, DoesNotMindAnIncompatibleWriterOfAnotherPartition) {
+  const auto config = bus_of_its_own();
+  const auto ours = Participant::create(config).value();
+  const auto theirs =
+      Participant::create({.domain = config.domain, .partition = config.partition + "-other"})
+          .value();
+  const auto reader = pulse_reader(ours);
+  const bus::Qos weak{dds_create_qos()};
+  const auto near = pulse_writer(ours, weak);
+  const auto far = pulse_writer(theirs, weak);
+  EXPECT_THAT(reader.status().value().incompatible_writers, testing::SizeIs(1));
+}
+
+TEST(Writer, NamesAnIncompatibleReader) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto writer = pulse_writer(participant, bus::results_qos());
+  bus::Qos demanding = bus::results_qos();
+  dds_qset_deadline(demanding.get(), DDS_MSECS(500));
+  const auto reader = pulse_reader(participant, demanding);
+  const auto status = writer.status().value();
+  EXPECT_EQ(status.readers, 0U);
+  EXPECT_THAT(
+      status.incompatible_readers,
+      ElementsAre(AllOf(HasSubstr("(pid " + std::to_string(getpid()) + ")"),
+                        EndsWith("asks for deadline 0.5 s; spindrift offers no deadline"))));
+}
+
+TEST(Writer, WaitsForAReaderOnlySoLong) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto writer = pulse_writer(participant);
+  const auto waited = writer.wait_for_reader(20ms);
+  ASSERT_FALSE(waited.has_value());
+  EXPECT_EQ(waited.error().code, ErrorCode::Unavailable);
+  EXPECT_THAT(waited.error().message, HasSubstr("waiting for a reader of spindrift/pulse"));
+}
+
+TEST(Writer, GivesUpOnAFullReaderWhenStopped) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto reader = pulse_reader(participant, bus::telemetry_reader_qos(1));
+  const auto writer = pulse_writer(participant);
+  ASSERT_TRUE(writer.write(idl_pulse(0)));
+  std::stop_source stop;
+  std::thread stopper{[&stop] {
+    std::this_thread::sleep_for(50ms);
+    stop.request_stop();
+  }};
+  const auto written = writer.write(idl_pulse(1), stop.get_token());
+  stopper.join();
+  ASSERT_FALSE(written.has_value());
+  EXPECT_THAT(written.error().message, HasSubstr("writing to spindrift/pulse"));
+}
+
+TEST(Writer, OfAnotherProcessWaitsForASlowReaderAndLosesNothing) {
+  constexpr std::size_t kCount = 20'000;
+  const auto config = bus_of_its_own();
+  const auto participant = Participant::create(config).value();
+  const auto reader = pulse_reader(participant, bus::telemetry_reader_qos(500));
+  ForeignWriter writer{config, "telemetry", kCount};
+  // The reader is full before the first sample is taken.
+  ASSERT_TRUE(eventually([&] { return reader.status().value().rejected > 0; }));
+  EXPECT_EQ(seqs_of(take_samples(reader, kCount)), first_seqs(kCount));
+  EXPECT_EQ(writer.exit_status(), 0);
+}
+
+TEST(WaitSet, WakesForDataAndForStop) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto reader = pulse_reader(participant);
+  const auto writer = pulse_writer(participant);
+  auto waitset = bus::WaitSet::create(participant).value();
+  ASSERT_TRUE(waitset.attach(reader.data()));
+  ASSERT_TRUE(writer.write(idl_pulse(0)));
+  EXPECT_TRUE(waitset.wait().value());
+  EXPECT_EQ(take_samples(reader, 1).size(), 1U);
+  std::thread stopper{[&waitset] { waitset.stop(); }};
+  EXPECT_FALSE(waitset.wait().value());
+  stopper.join();
+  EXPECT_FALSE(waitset.wait().value());
+}
+
+}  // namespace
+}  // namespace spindrift

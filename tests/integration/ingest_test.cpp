@@ -1,0 +1,302 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+#include <latch>
+
+#include "services/ingest/from_idl.h"
+#include "services/ingest/pulse_subscriber.h"
+#include "services/publisher/pulse_publisher.h"
+#include "tests/support/bus_child.h"
+#include "tests/support/bus_fixture.h"
+
+namespace spindrift {
+namespace {
+
+using namespace std::chrono_literals;
+using bus::Participant;
+using bus::Writer;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+enum class Consumer { Works, IsHeld };
+
+/// A subscriber and somebody who empties its queue; when held, only after `release()`.
+class Station {
+ public:
+  explicit Station(const bus::BusConfig& config, std::size_t capacity = 64,
+                   Consumer consumer = Consumer::Works)
+      : participant_{Participant::create(config).value()},
+        queue_{capacity},
+        subscriber_{PulseSubscriber::start(participant_, queue_).value()},
+        consumer_{[this] { consume(); }} {
+    if (consumer == Consumer::Works) {
+      release();
+    }
+  }
+  ~Station() { finish(); }
+  Station(const Station&) = delete;
+  Station& operator=(const Station&) = delete;
+  Station(Station&&) = delete;
+  Station& operator=(Station&&) = delete;
+
+  void release() {
+    if (!gate_.try_wait()) {
+      gate_.count_down();
+    }
+  }
+
+  Participant& participant() { return participant_; }
+  PulseSubscriberStatus status() const { return subscriber_->status().value(); }
+
+  SequenceCounts counts_of(const std::string& source) const {
+    const auto by_source = status().by_source;
+    const auto found = by_source.find(source);
+    return found == by_source.end() ? SequenceCounts{} : found->second;
+  }
+
+  /// Everything that arrived, once the subscriber has stopped.
+  PulseBatch finish() {
+    release();
+    subscriber_->stop();
+    queue_.close();
+    if (consumer_.joinable()) {
+      consumer_.join();
+    }
+    return std::move(arrived_);
+  }
+
+ private:
+  void consume() {
+    gate_.wait();
+    for (auto batches = queue_.take_all(); !batches.empty(); batches = queue_.take_all()) {
+      for (PulseBatch& batch : batches) {
+        std::move(batch.pulses.begin(), batch.pulses.end(), std::back_inserter(arrived_.pulses));
+        std::move(batch.rejected.begin(), batch.rejected.end(),
+                  std::back_inserter(arrived_.rejected));
+      }
+    }
+  }
+
+  Participant participant_;
+  BoundedQueue<PulseBatch> queue_;
+  std::unique_ptr<PulseSubscriber> subscriber_;
+  PulseBatch arrived_;
+  std::latch gate_{1};
+  std::thread consumer_;
+};
+
+Writer<spindrift_Pulse> pulse_writer(const Participant& participant) {
+  return Writer<spindrift_Pulse>::create(participant, bus::kPulseTopic, bus::telemetry_writer_qos())
+      .value();
+}
+
+std::vector<std::uint64_t> seqs_of(const std::vector<PulseSample>& samples) {
+  std::vector<std::uint64_t> seqs;
+  seqs.reserve(samples.size());
+  for (const PulseSample& sample : samples) {
+    seqs.push_back(sample.origin.seq);
+  }
+  return seqs;
+}
+
+TEST(FromIdl, KeepsEveryField) {
+  const PulseSample sample = from_idl(idl_pulse(41, 17)).value();
+  EXPECT_EQ(sample.spacecraft, "SPINNER");
+  EXPECT_EQ(sample.origin.source, "front-end");
+  EXPECT_EQ(sample.origin.session, 17U);
+  EXPECT_EQ(sample.origin.seq, 41U);
+  EXPECT_EQ(tai_ns(sample.pulse.t), kTestTime_tai_ns + 41'000'000'000);
+  EXPECT_EQ(sample.pulse.channel, PulseChannel::Sun1);
+}
+
+TEST(FromIdl, NamesTheChannelsAsTheIdlDoes) {
+  const auto channel_of = [](spindrift_PulseChannel channel) {
+    spindrift_Pulse pulse = idl_pulse(0);
+    pulse.channel = channel;
+    return name_of(from_idl(pulse).value().pulse.channel);
+  };
+  EXPECT_EQ(channel_of(spindrift_SUN1), "sun1");
+  EXPECT_EQ(channel_of(spindrift_SUN2), "sun2");
+  EXPECT_EQ(channel_of(spindrift_NORTH_IN), "north_in");
+  EXPECT_EQ(channel_of(spindrift_NORTH_OUT), "north_out");
+  EXPECT_EQ(channel_of(spindrift_SOUTH_IN), "south_in");
+  EXPECT_EQ(channel_of(spindrift_SOUTH_OUT), "south_out");
+}
+
+struct Impossible {
+  std::function<void(spindrift_Pulse&)> spoil;
+  const char* reason;
+};
+
+TEST(FromIdl, RefusesWhatCannotBeTrueWithItsReason) {
+  const std::vector<Impossible> cases = {
+      {[](auto& pulse) { pulse.spacecraft[0] = '\0'; },
+       "spacecraft = \"\": must be 1 to 32 printable ASCII characters"},
+      {[](auto& pulse) { pulse.spacecraft[1] = '\n'; }, "spacecraft = \"S?INNER\": must be"},
+      {[](auto& pulse) { pulse.source[0] = '\xFF'; },
+       "source = \"?ront-end\": must be printable ASCII"},
+      {[](auto& pulse) { pulse.t_tai_ns = 63'072'009'999'999'999; },
+       "t_tai_ns = 63072009999999999: must lie in the years 1972 to 2099"},
+      {[](auto& pulse) { pulse.t_tai_ns = 4'102'444'800'000'000'000; }, "must lie in the years"},
+      {[](auto& pulse) { pulse.t_tai_ns = std::numeric_limits<std::int64_t>::min(); },
+       "must lie in the years"},
+      {[](auto& pulse) {
+         const std::uint32_t unknown = 6;
+         std::memcpy(&pulse.channel, &unknown, sizeof unknown);
+       },
+       "channel = 6: must be 0 to 5"},
+      {[](auto& pulse) { std::memset(&pulse.channel, 0xFF, sizeof pulse.channel); },
+       "channel = 4294967295: must be 0 to 5"}};
+  for (const Impossible& impossible : cases) {
+    SCOPED_TRACE(impossible.reason);
+    spindrift_Pulse pulse = idl_pulse(0);
+    impossible.spoil(pulse);
+    const auto refused = from_idl(pulse);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
+    EXPECT_THAT(refused.error().message, HasSubstr(impossible.reason));
+  }
+}
+
+TEST(FromIdl, TakesTheFirstAndLastTimeOfTelemetry) {
+  for (const std::int64_t t_tai_ns : {63'072'010'000'000'000, 4'102'444'799'999'999'999}) {
+    spindrift_Pulse pulse = idl_pulse(0);
+    pulse.t_tai_ns = t_tai_ns;
+    EXPECT_EQ(tai_ns(from_idl(pulse).value().pulse.t), t_tai_ns);
+  }
+}
+
+TEST(PulseSubscriber, QueuesWhatAPublisherSends) {
+  Station station{bus_of_its_own()};
+  auto publisher = PulsePublisher::create(station.participant(), "antenna").value();
+  const auto session = publisher.next().session;
+  const Pulse pulse{.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::NorthOut};
+  ASSERT_TRUE(publisher.publish("SPINNER", pulse, {}));
+  ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received == 1; }));
+  const PulseBatch arrived = station.finish();
+  ASSERT_EQ(arrived.pulses.size(), 1U);
+  EXPECT_EQ(arrived.pulses[0].spacecraft, "SPINNER");
+  EXPECT_EQ(arrived.pulses[0].origin.source, "antenna");
+  EXPECT_EQ(arrived.pulses[0].origin.session, session);
+  EXPECT_EQ(arrived.pulses[0].origin.seq, 0U);
+  EXPECT_EQ(arrived.pulses[0].pulse, pulse);
+}
+
+TEST(PulseSubscriber, LosesNothingToASlowConsumer) {
+  constexpr std::size_t kCount = 20'000;
+  const auto config = bus_of_its_own();
+  Station station{config, 2, Consumer::IsHeld};
+  ForeignWriter writer{config, "telemetry", kCount};
+  // Queue and reader are full before the first pulse is consumed.
+  ASSERT_TRUE(eventually([&] { return station.status().reader.rejected > 0; }));
+  station.release();
+  ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == kCount; }));
+  EXPECT_EQ(writer.exit_status(), 0);
+  EXPECT_EQ(station.counts_of("front-end"), (SequenceCounts{.received = kCount}));
+  const PulseBatch arrived = station.finish();
+  EXPECT_EQ(seqs_of(arrived.pulses), first_seqs(kCount));
+}
+
+TEST(PulseSubscriber, PassesOnWhatCannotBeTrueAsRejected) {
+  Station station{bus_of_its_own()};
+  const auto writer = pulse_writer(station.participant());
+  spindrift_Pulse impossible = idl_pulse(1);
+  impossible.t_tai_ns = -1;
+  ASSERT_TRUE(writer.write(idl_pulse(0)));
+  ASSERT_TRUE(writer.write(impossible));
+  ASSERT_TRUE(writer.write(idl_pulse(2)));
+  ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 3; }));
+  EXPECT_EQ(station.counts_of("front-end").missing, 0U);
+  const PulseBatch arrived = station.finish();
+  EXPECT_EQ(arrived.pulses.size(), 2U);
+  ASSERT_EQ(arrived.rejected.size(), 1U);
+  EXPECT_EQ(arrived.rejected[0].source, "front-end");
+  EXPECT_EQ(arrived.rejected[0].line, 1);
+  EXPECT_THAT(arrived.rejected[0].reason, HasSubstr("t_tai_ns = -1"));
+}
+
+TEST(PulseSubscriber, CountsGapsDuplicatesAndDisorderAndPassesAllOn) {
+  Station station{bus_of_its_own()};
+  const auto writer = pulse_writer(station.participant());
+  for (const std::uint64_t seq : {0U, 4U, 1U, 1U}) {
+    ASSERT_TRUE(writer.write(idl_pulse(seq)));
+  }
+  ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 4; }));
+  EXPECT_EQ(station.counts_of("front-end"),
+            (SequenceCounts{.received = 4, .missing = 2, .duplicates = 1, .disordered = 1}));
+  EXPECT_EQ(station.finish().pulses.size(), 4U);
+}
+
+/// A source that starts, sends `count` pulses and ends.
+Expected<void> run_source(const Participant& participant, int count) {
+  auto publisher = PulsePublisher::create(participant, "antenna").value();
+  Expected<void> sent = publisher.wait_for_subscriber(30s);
+  for (int i = 0; i < count && sent; ++i) {
+    sent = publisher.publish(
+        "SPINNER", {.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::Sun1}, {});
+  }
+  return sent.and_then([&publisher] { return publisher.wait_for_acknowledgments(30s); });
+}
+
+TEST(PulseSubscriber, CountsNoGapWhenASourceRestarts) {
+  Station station{bus_of_its_own()};
+  ASSERT_TRUE(run_source(station.participant(), 5));
+  ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received == 5; }));
+  ASSERT_TRUE(run_source(station.participant(), 10));
+  ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received == 15; }));
+  EXPECT_EQ(station.counts_of("antenna"), (SequenceCounts{.received = 15}));
+}
+
+TEST(PulseSubscriber, CatchesUpOnWhatWasSentBeforeItStarted) {
+  const auto config = bus_of_its_own();
+  const auto participant = Participant::create(config).value();
+  const auto writer = pulse_writer(participant);
+  for (std::uint64_t seq = 0; seq < 1000; ++seq) {
+    ASSERT_TRUE(writer.write(idl_pulse(seq)));
+  }
+  Station station{config};
+  EXPECT_TRUE(eventually(
+      [&] { return station.counts_of("front-end") == SequenceCounts{.received = 1000}; }));
+}
+
+TEST(PulseSubscriber, NamesAnIncompatibleWriterWhileItIsThere) {
+  const auto config = bus_of_its_own();
+  Station station{config};
+  EXPECT_THAT(station.status().reader.incompatible_writers, ElementsAre());
+  ForeignWriter writer{config, "weak", 0};
+  ASSERT_TRUE(eventually([&] { return !station.status().reader.incompatible_writers.empty(); }));
+  EXPECT_THAT(station.status().reader.incompatible_writers,
+              ElementsAre(HasSubstr("pid " + std::to_string(writer.pid()))));
+}
+
+TEST(PulseSubscriber, StopsWhilePulsesArriveAndKeepsWhatItTook) {
+  Station station{bus_of_its_own(), 2};
+  std::jthread front_end{[&station](const std::stop_token& stop) {
+    auto publisher = PulsePublisher::create(station.participant(), "antenna").value();
+    Expected<void> published;
+    while (published && !stop.stop_requested()) {
+      published = publisher.publish(
+          "SPINNER", {.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::Sun1}, stop);
+    }
+  }};
+  ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received > 1000; }));
+  const PulseBatch arrived = station.finish();
+  EXPECT_EQ(arrived.pulses.size(), station.counts_of("antenna").received);
+  EXPECT_FALSE(station.status().taking);
+  EXPECT_EQ(station.status().failure, "");
+}
+
+TEST(PulseSubscriber, SaysSoWhenItsQueueIsClosedTooEarly) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  BoundedQueue<PulseBatch> queue{4};
+  const auto subscriber = PulseSubscriber::start(participant, queue).value();
+  queue.close();
+  ASSERT_TRUE(pulse_writer(participant).write(idl_pulse(0)));
+  ASSERT_TRUE(eventually([&] { return !subscriber->status().value().taking; }));
+  EXPECT_THAT(subscriber->status().value().failure, HasSubstr("closed while they arrive"));
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,248 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "pipelines/frames/celestial.h"
+#include "services/publisher/pulse_publisher.h"
+#include "services/publisher/result_publisher.h"
+#include "services/publisher/to_idl.h"
+#include "tests/support/bus_fixture.h"
+
+namespace spindrift {
+namespace {
+
+using namespace std::chrono_literals;
+using bus::Participant;
+using bus::Reader;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr double kRad_deg = std::numbers::pi / 180.0;
+// A few roundings of values up to 360.
+constexpr double kRounding = 1e-12;
+
+template <class Sample>
+Reader<Sample> results_reader(const Participant& participant, const bus::Topic<Sample>& topic) {
+  return Reader<Sample>::create(participant, topic, bus::results_qos()).value();
+}
+
+Eigen::Vector3d axis_deg(double ra_deg, double dec_deg) {
+  return direction_icrf({.ra_rad = ra_deg * kRad_deg, .dec_rad = dec_deg * kRad_deg});
+}
+
+SpinFix a_fix() {
+  return {.revolution = 4'000'000'000,
+          .t = tai_from_ns(kTestTime_tai_ns),
+          .geometry_case = 3,
+          .axis_icrf = axis_deg(310.0, -64.0),
+          .covariance_rad2 = Eigen::Vector2d{9.0, 16.0}.asDiagonal() * (kRad_deg * kRad_deg),
+          .alternate_axis_icrf = std::nullopt,
+          .resolution = Resolution::Geometry,
+          .norm = 1.0,
+          .accepted = true};
+}
+
+SpinEstimate an_estimate() {
+  SpinEstimate estimate{.t = tai_from_ns(kTestTime_tai_ns),
+                        .estimator = SpinEstimator::Mean,
+                        .axis_icrf = axis_deg(12.5, 88.0),
+                        .covariance_rad2 = {},
+                        .spin_rate_rad_s = 100.0 * 2.0 * std::numbers::pi / 60.0,
+                        .spin_rate_sigma_rad_s = 0.5 * 2.0 * std::numbers::pi / 60.0,
+                        .status = "120 revolutions"};
+  estimate.covariance_rad2 << 0.25, -0.125, -0.125, 2.0;
+  estimate.covariance_rad2 *= kRad_deg * kRad_deg;
+  return estimate;
+}
+
+Health a_health() {
+  return {.service = "spindrift@ship",
+          .t = tai_from_ns(kTestTime_tai_ns),
+          .samples_received = 6,
+          .samples_committed = 5,
+          .gaps = 4,
+          .duplicates = 3,
+          .queue_depth = 2,
+          .commit_p99_ms = 1.5,
+          .status = "ok"};
+}
+
+TEST(ResultPublisher, PublishesAFixInDegrees) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto publisher = ResultPublisher::create(participant).value();
+  SpinFix fix = a_fix();
+  fix.alternate_axis_icrf = axis_deg(130.0, 20.0);
+  ASSERT_TRUE(publisher.publish("SPINNER", fix));
+  const auto taken = take_samples(results_reader(participant, bus::kSpinFixTopic), 1);
+  ASSERT_EQ(taken.size(), 1U);
+  EXPECT_STREQ(taken[0].spacecraft, "SPINNER");
+  EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
+  EXPECT_EQ(taken[0].revolution, 4'000'000'000);
+  EXPECT_EQ(taken[0].geometry_case, 3);
+  EXPECT_NEAR(taken[0].ra_deg, 310.0, kRounding);
+  EXPECT_NEAR(taken[0].dec_deg, -64.0, kRounding);
+  EXPECT_NEAR(taken[0].sigma_deg, 5.0, kRounding);  // sqrt(9 + 16)
+  EXPECT_NEAR(taken[0].alternate_ra_deg, 130.0, kRounding);
+  EXPECT_NEAR(taken[0].alternate_dec_deg, 20.0, kRounding);
+  EXPECT_EQ(taken[0].resolution, spindrift_GEOMETRY);
+}
+
+TEST(ResultPublisher, PublishesAnEstimateInDegreesAndRpm) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto publisher = ResultPublisher::create(participant).value();
+  ASSERT_TRUE(publisher.publish("SPINNER", an_estimate()));
+  const auto taken = take_samples(results_reader(participant, bus::kSpinEstimateTopic), 1);
+  ASSERT_EQ(taken.size(), 1U);
+  EXPECT_STREQ(taken[0].spacecraft, "SPINNER");
+  EXPECT_STREQ(taken[0].estimator, "mean");
+  EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
+  EXPECT_NEAR(taken[0].ra_deg, 12.5, kRounding * 100.0);  // Two degrees from the pole.
+  EXPECT_NEAR(taken[0].dec_deg, 88.0, kRounding);
+  EXPECT_NEAR(taken[0].sigma_deg, 1.5, kRounding);  // sqrt(0.25 + 2)
+  EXPECT_NEAR(taken[0].covariance_deg2[0], 0.25, kRounding);
+  EXPECT_NEAR(taken[0].covariance_deg2[1], -0.125, kRounding);
+  EXPECT_NEAR(taken[0].covariance_deg2[2], 2.0, kRounding);
+  EXPECT_NEAR(taken[0].spin_rate_rpm, 100.0, kRounding);
+  EXPECT_NEAR(taken[0].sigma_rpm, 0.5, kRounding);
+  EXPECT_STREQ(taken[0].status, "120 revolutions");
+}
+
+TEST(ResultPublisher, PublishesHealth) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto publisher = ResultPublisher::create(participant).value();
+  ASSERT_TRUE(publisher.publish(a_health()));
+  const auto taken = take_samples(results_reader(participant, bus::kHealthTopic), 1);
+  ASSERT_EQ(taken.size(), 1U);
+  EXPECT_STREQ(taken[0].service, "spindrift@ship");
+  EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
+  EXPECT_EQ(taken[0].samples_received, 6U);
+  EXPECT_EQ(taken[0].samples_committed, 5U);
+  EXPECT_EQ(taken[0].gaps, 4U);
+  EXPECT_EQ(taken[0].duplicates, 3U);
+  EXPECT_EQ(taken[0].queue_depth, 2U);
+  EXPECT_EQ(taken[0].commit_p99_ms, 1.5);
+  EXPECT_STREQ(taken[0].status, "ok");
+}
+
+TEST(ResultPublisher, GivesALateJoinerTheCurrentStateOfEverySpacecraft) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto publisher = ResultPublisher::create(participant).value();
+  for (std::int64_t revolution = 0; revolution < 5; ++revolution) {
+    SpinFix fix = a_fix();
+    fix.revolution = revolution;
+    ASSERT_TRUE(publisher.publish("ONE", fix));
+    fix.revolution += 10;
+    ASSERT_TRUE(publisher.publish("TWO", fix));
+  }
+  std::vector<std::int64_t> revolutions;
+  for (const auto& fix : take_samples(results_reader(participant, bus::kSpinFixTopic), 2)) {
+    revolutions.push_back(fix.revolution);
+  }
+  EXPECT_THAT(revolutions, testing::UnorderedElementsAre(4, 14));
+}
+
+TEST(ResultPublisher, NamesASubscriberThatAsksForMore) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto publisher = ResultPublisher::create(participant).value();
+  EXPECT_THAT(publisher.incompatible_readers().value(), ElementsAre());
+  bus::Qos demanding = bus::results_qos();
+  dds_qset_durability(demanding.get(), DDS_DURABILITY_PERSISTENT);
+  const auto reader =
+      Reader<spindrift_Health>::create(participant, bus::kHealthTopic, demanding).value();
+  EXPECT_THAT(publisher.incompatible_readers().value(),
+              ElementsAre(HasSubstr("topic spindrift/health, asks for PERSISTENT; spindrift "
+                                    "offers TRANSIENT_LOCAL")));
+}
+
+TEST(ToIdl, MarksAnAbsentAlternateByNan) {
+  const auto out = to_idl("SPINNER", a_fix()).value();
+  EXPECT_TRUE(std::isnan(out.alternate_ra_deg));
+  EXPECT_TRUE(std::isnan(out.alternate_dec_deg));
+}
+
+TEST(ToIdl, NamesResolutionsAsTheIdlDoes) {
+  const auto resolution_of = [](Resolution resolution) {
+    SpinFix fix = a_fix();
+    fix.resolution = resolution;
+    return to_idl("SPINNER", fix).value().resolution;
+  };
+  EXPECT_EQ(resolution_of(Resolution::Geometry), spindrift_GEOMETRY);
+  EXPECT_EQ(resolution_of(Resolution::Constraint), spindrift_CONSTRAINT);
+  EXPECT_EQ(resolution_of(Resolution::Prior), spindrift_PRIOR);
+  EXPECT_EQ(resolution_of(Resolution::Dispersion), spindrift_DISPERSION);
+  EXPECT_EQ(resolution_of(Resolution::Ambiguous), spindrift_AMBIGUOUS);
+}
+
+TEST(ToIdl, RefusesANameThatDoesNotFit) {
+  const std::string fits(32, 'x');
+  EXPECT_STREQ(to_idl(fits, a_fix()).value().spacecraft, fits.c_str());
+  const auto refused = to_idl(fits + "x", a_fix());
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
+  EXPECT_THAT(refused.error().message, HasSubstr("33 bytes, at most 32 go on the bus"));
+  EXPECT_FALSE(to_idl(fits + "x", an_estimate()).has_value());
+  Health health = a_health();
+  health.service = std::string(65, 'x');
+  EXPECT_FALSE(to_idl(health).has_value());
+}
+
+TEST(ToIdl, CutsStatusTextBetweenCharacters) {
+  SpinEstimate estimate = an_estimate();
+  estimate.status = std::string(64, 'x');
+  EXPECT_EQ(to_idl("SPINNER", estimate).value().status, estimate.status);
+  estimate.status = std::string(63, 'x') + "\u00e9";  // Two bytes, the second of them the 65th.
+  EXPECT_EQ(to_idl("SPINNER", estimate).value().status, std::string(63, 'x'));
+}
+
+/// What a subscriber that comes afterwards has of `count` pulses of source "replay".
+std::vector<spindrift_Pulse> published(const Pulse& pulse, std::size_t count) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  auto publisher = PulsePublisher::create(participant, "replay").value();
+  for (std::size_t i = 0; i < count; ++i) {
+    EXPECT_TRUE(publisher.publish("SPINNER", pulse, {}));
+  }
+  return take_samples(
+      Reader<spindrift_Pulse>::create(participant, bus::kPulseTopic, bus::telemetry_reader_qos())
+          .value(),
+      count);
+}
+
+TEST(PulsePublisher, PublishesEveryField) {
+  const auto taken =
+      published({.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::SouthIn}, 1);
+  ASSERT_EQ(taken.size(), 1U);
+  EXPECT_STREQ(taken[0].spacecraft, "SPINNER");
+  EXPECT_STREQ(taken[0].source, "replay");
+  EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
+  EXPECT_EQ(taken[0].channel, spindrift_SOUTH_IN);
+}
+
+TEST(PulsePublisher, NumbersItsSamplesFromZeroInOneSession) {
+  const auto taken =
+      published({.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::Sun1}, 100);
+  EXPECT_EQ(seqs_of(taken), first_seqs(100));
+  EXPECT_EQ(taken.front().session, taken.back().session);
+}
+
+TEST(PulsePublisher, DrawsAnotherSessionAtEachStart) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto first = PulsePublisher::create(participant, "replay").value();
+  const auto second = PulsePublisher::create(participant, "replay").value();
+  EXPECT_NE(first.next().session, second.next().session);
+}
+
+TEST(PulsePublisher, UsesNoSeqForASampleThatIsRefused) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  auto publisher = PulsePublisher::create(participant, "replay").value();
+  const Pulse pulse{.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::Sun1};
+  EXPECT_FALSE(publisher.publish(std::string(33, 'x'), pulse, {}));
+  EXPECT_EQ(publisher.next().seq, 0U);
+  EXPECT_TRUE(publisher.publish("SPINNER", pulse, {}));
+  EXPECT_EQ(publisher.next().seq, 1U);
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,161 @@
+/// Properties of a fix over random geometries, revolutions as the oracle sees them.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/fix.h"
+#include "pipelines/spin/geometry.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+using enum SpinQuantity;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree_rad = kPi / 180.0;
+constexpr int kTrials = 600;
+
+/// A body anywhere on the sky that turns once in six seconds, so that the nanosecond to which its
+/// edges are told is 1e-9 rad; Sun and Earth where its sensors see them.
+struct Scene {
+  testing::SpinningBody body;
+  Eigen::Vector3d sun_icrf;
+  Eigen::Vector3d earth_icrf;
+  double range_km;
+
+  Sightlines sightlines() const {
+    return {.sun_icrf = sun_icrf,
+            .earth_icrf = earth_icrf,
+            .disc_rad = earth_disc_half_angle_rad(range_km, 40.0).value()};
+  }
+  Revolution seen() const {
+    return testing::revolution_seen(body, testing::at_rest(sun_icrf, range_km * earth_icrf),
+                                    tai_from_ns(1'795'143'637'000'000'000));
+  }
+};
+
+class Scenes {
+ public:
+  explicit Scenes(std::uint64_t seed) : rng_{seed} {}
+
+  Eigen::Vector3d direction() {
+    const double x = normal_(rng_);
+    const double y = normal_(rng_);
+    return Eigen::Vector3d{x, y, normal_(rng_)}.normalized();
+  }
+  double between(double low, double high) { return low + (high - low) * uniform_(rng_); }
+
+  Scene next() {
+    const Eigen::Vector3d axis = direction();
+    const auto away = [&](double angle_rad) -> Eigen::Vector3d {
+      return Eigen::AngleAxisd{angle_rad, axis.cross(direction()).normalized()} * axis;
+    };
+    SpinConfig config = testing::usual_config();
+    config.sun_sensor.slit_cant_rad = between(20.0, 50.0) * kDegree_rad;
+    config.sun_sensor.slit_separation_rad = between(-60.0, 60.0) * kDegree_rad;
+    config.north->mount_angle_rad = between(70.0, 88.0) * kDegree_rad;
+    config.south->mount_angle_rad = between(92.0, 110.0) * kDegree_rad;
+    config.north->azimuth_rad = between(-kPi, kPi);
+    config.south->azimuth_rad = between(-kPi, kPi);
+    config.noise = {.sun_s = 2e-5, .infrared_s = 1e-4};
+    return {.body = {.axis_icrf = axis,
+                     .rate_rad_s = 2.0 * kPi / 6.0,
+                     .first_turn_rad = between(0.0, 2.0 * kPi),
+                     .config = config},
+            .sun_icrf = away(between(55.0, 125.0) * kDegree_rad),
+            .earth_icrf = away(between(80.0, 100.0) * kDegree_rad),
+            .range_km = between(9000.0, 20000.0)};
+  }
+
+ private:
+  std::mt19937_64 rng_;
+  std::normal_distribution<double> normal_;
+  std::uniform_real_distribution<double> uniform_;
+};
+
+/// Sun and Earth within 10 deg of one line multiply every error by six and more.
+bool nearly_in_line(const Scene& scene) {
+  return scene.sun_icrf.cross(scene.earth_icrf).norm() < std::sin(10.0 * kDegree_rad);
+}
+
+TEST(SpinFixProperty, RecoversTheAxisFromBothChords) {
+  Scenes scenes{101};
+  int recovered = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    SCOPED_TRACE(trial);
+    const Scene scene = scenes.next();
+    const auto fix = spindrift::fix(scene.body.config, scene.seen(), {}, scene.sightlines());
+    if (!fix || fix->geometry_case != 1 || nearly_in_line(scene)) {
+      continue;
+    }
+    ASSERT_LT(angle_between_rad(fix->axis_icrf, scene.body.axis_icrf), 1e-6);
+    ASSERT_NEAR(fix->norm, 1.0, 1e-6);
+    ++recovered;
+  }
+  EXPECT_GT(recovered, kTrials / 2);
+}
+
+TEST(SpinFixProperty, RecoversTheAxisFromOneChordWhereTheDeterminantIsUsable) {
+  for (const SpinQuantity left_out : {NorthChord, SouthChord}) {
+    Scenes scenes{102};
+    int recovered = 0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      SCOPED_TRACE(trial);
+      const Scene scene = scenes.next();
+      const auto fix =
+          spindrift::fix(scene.body.config, scene.seen(), {left_out}, scene.sightlines());
+      if (!fix || fix->alternate_axis_icrf || nearly_in_line(scene)) {
+        continue;
+      }
+      ASSERT_LT(angle_between_rad(fix->axis_icrf, scene.body.axis_icrf), 1e-6);
+      ++recovered;
+    }
+    EXPECT_GT(recovered, kTrials / 2) << name_of(left_out);
+  }
+}
+
+TEST(SpinFixProperty, TurnsWithSunAndEarth) {
+  Scenes scenes{103};
+  int compared = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    SCOPED_TRACE(trial);
+    const Scene scene = scenes.next();
+    const Revolution seen = scene.seen();
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd{scenes.between(0.0, kPi), scenes.direction()}.toRotationMatrix();
+    const Sightlines here = scene.sightlines();
+    const Sightlines there{.sun_icrf = turn * here.sun_icrf,
+                           .earth_icrf = turn * here.earth_icrf,
+                           .disc_rad = here.disc_rad};
+    const auto fix_here = spindrift::fix(scene.body.config, seen, {}, here);
+    const auto fix_there = spindrift::fix(scene.body.config, seen, {}, there);
+    ASSERT_EQ(fix_here.has_value(), fix_there.has_value());
+    if (!fix_here || nearly_in_line(scene)) {
+      continue;
+    }
+    // Rounding of a number of order 1, amplified a hundredfold at most.
+    constexpr double kRounding = 1e-12;
+    ASSERT_LT((fix_there->axis_icrf - turn * fix_here->axis_icrf).norm(), kRounding);
+    // The covariance too, as a tensor in space: its components along east and north change.
+    const auto in_space = [](const SpinFix& fix) -> Eigen::Matrix3d {
+      const Eigen::Matrix<double, 3, 2> basis = tangent_basis(fix.axis_icrf);
+      return basis * fix.covariance_rad2 * basis.transpose();
+    };
+    const Eigen::Matrix3d turned = turn * in_space(*fix_here) * turn.transpose();
+    // Differences one sigma wide, of 1e-5 rad at least, keep 1e-12 to 1e-7 of themselves.
+    ASSERT_LT((in_space(*fix_there) - turned).norm(), 1e-6 * turned.norm());
+    ASSERT_EQ(fix_there->resolution, fix_here->resolution);
+    ++compared;
+  }
+  EXPECT_GT(compared, kTrials / 2);
+}
+
+}  // namespace
+}  // namespace spindrift

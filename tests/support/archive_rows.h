@@ -1,0 +1,65 @@
+/// @file
+/// What an archive holds, as text that is equal exactly when the bits are.
+
+#pragma once
+
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Statement.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace spindrift {
+
+inline std::vector<std::string> rows_of(const std::filesystem::path& db, const std::string& query) {
+  const SQLite::Database database{db.string(), SQLite::OPEN_READONLY};
+  SQLite::Statement statement{database, query};
+  std::vector<std::string> rows;
+  while (statement.executeStep()) {
+    std::string row;
+    for (int i = 0; i < statement.getColumnCount(); ++i) {
+      const SQLite::Column column = statement.getColumn(i);
+      row += column.isFloat() ? fmt::format("{:a}", column.getDouble()) : column.getString();
+      row += '|';
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+inline std::int64_t number_of(const std::filesystem::path& db, const std::string& query) {
+  SQLite::Database database{db.string(), SQLite::OPEN_READONLY};
+  return database.execAndGet(query).getInt64();
+}
+
+inline double real_of(const std::filesystem::path& db, const std::string& query) {
+  SQLite::Database database{db.string(), SQLite::OPEN_READONLY};
+  return database.execAndGet(query).getDouble();
+}
+
+/// All products of all runs but the name of the run.
+inline std::vector<std::string> product_rows(const std::filesystem::path& db) {
+  std::vector<std::string> rows;
+  for (const std::string& query : std::vector<std::string>{
+           "SELECT spacecraft_id, t_tai_ns, channel FROM pulse ORDER BY 1, 2, 3",
+           "SELECT spacecraft_id, t_tai_ns, channel, revolution, accepted, rejected_by"
+           " FROM pulse_use ORDER BY 1, 2, 3",
+           "SELECT revolution, t_tai_ns, period_s FROM revolution ORDER BY 1",
+           "SELECT revolution, quantity, value, unit, sigma, accepted, rejected_by"
+           " FROM spin_measurement ORDER BY 1, 2",
+           "SELECT revolution, t_tai_ns, geometry_case, ra_deg, dec_deg, sigma_deg,"
+           " alternate_ra_deg, alternate_dec_deg, resolution, accepted, cov_east_east_deg2,"
+           " cov_east_north_deg2, cov_north_north_deg2, norm FROM spin_fix ORDER BY 1",
+           "SELECT t_tai_ns, estimator, ra_deg, dec_deg, sigma_deg, spin_rate_rpm, sigma_rpm,"
+           " status, cov_east_east_deg2, cov_east_north_deg2, cov_north_north_deg2"
+           " FROM spin_estimate ORDER BY 1, 2"}) {
+    for (std::string& row : rows_of(db, query)) {
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,82 @@
+/// @file
+/// A corner of the bus of its own for each test, and waiting for what DDS does in its own time.
+
+#pragma once
+
+#include <spindrift.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdint>
+#include <numeric>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "services/bus/participant.h"
+#include "services/bus/reader.h"
+#include "services/bus/writer.h"
+
+namespace spindrift {
+
+/// Another domain for each process as far as the numbers go, another partition for each call.
+inline bus::BusConfig bus_of_its_own() {
+  static int calls = 0;
+  return {.domain = 1 + static_cast<std::uint32_t>(getpid()) % 200,
+          .partition = "test-" + std::to_string(getpid()) + "-" + std::to_string(++calls)};
+}
+
+/// Waits for `condition`. @return false when it does not come, which only a failing test sees.
+template <class Condition>
+bool eventually(const Condition& condition) {
+  using namespace std::chrono_literals;
+  const auto deadline = std::chrono::steady_clock::now() + 30s;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) {
+      return false;
+    }
+    std::this_thread::sleep_for(2ms);
+  }
+  return true;
+}
+
+/// Takes until there are `count` samples.
+template <class Sample>
+std::vector<Sample> take_samples(const bus::Reader<Sample>& reader, std::size_t count) {
+  std::vector<Sample> samples;
+  eventually([&] {
+    reader.take([&samples](const Sample& sample) { samples.push_back(sample); }).value();
+    return samples.size() >= count;
+  });
+  return samples;
+}
+
+inline std::vector<std::uint64_t> seqs_of(const std::vector<spindrift_Pulse>& pulses) {
+  std::vector<std::uint64_t> seqs;
+  seqs.reserve(pulses.size());
+  for (const spindrift_Pulse& pulse : pulses) {
+    seqs.push_back(pulse.seq);
+  }
+  return seqs;
+}
+
+/// 0, 1, 2, ...
+inline std::vector<std::uint64_t> first_seqs(std::size_t count) {
+  std::vector<std::uint64_t> seqs(count);
+  std::iota(seqs.begin(), seqs.end(), 0U);
+  return seqs;
+}
+
+/// 2026-11-20T03:00:00 UTC and `seq` seconds.
+inline constexpr std::int64_t kTestTime_tai_ns = 1'795'143'637'000'000'000;
+
+inline spindrift_Pulse idl_pulse(std::uint64_t seq, std::uint64_t session = 1) {
+  return {.spacecraft = "SPINNER",
+          .source = "front-end",
+          .session = session,
+          .seq = seq,
+          .t_tai_ns = kTestTime_tai_ns + static_cast<std::int64_t>(seq) * 1'000'000'000,
+          .channel = spindrift_SUN1};
+}
+
+}  // namespace spindrift

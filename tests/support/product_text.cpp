@@ -1,0 +1,103 @@
+#include "tests/support/product_text.h"
+
+#include <iterator>
+#include <sstream>
+#include <utility>
+
+#include "pipelines/spin/products.h"
+
+namespace spindrift::testing {
+namespace {
+
+/// Words parted by blanks; doubles in hexadecimal.
+class Line {
+ public:
+  Line() { text_ << std::hexfloat; }
+
+  template <class Word>
+  Line& operator<<(const Word& word) {
+    text_ << word << ' ';
+    return *this;
+  }
+  Line& operator<<(TaiTime t) { return *this << tai_ns(t); }
+  Line& operator<<(const Eigen::Vector3d& v) { return *this << v.x() << v.y() << v.z(); }
+  Line& operator<<(const Eigen::Matrix2d& m) {
+    return *this << m(0, 0) << m(0, 1) << m(1, 0) << m(1, 1);
+  }
+  Line& operator<<(SpinQuantity quantity) { return *this << name_of(quantity); }
+  Line& operator<<(Rejection rejection) { return *this << name_of(rejection); }
+  Line& operator<<(Resolution resolution) { return *this << name_of(resolution); }
+  template <class Value>
+  Line& operator<<(const std::optional<Value>& value) {
+    return value ? *this << *value : *this << "-";
+  }
+
+  std::string text() const { return text_.str(); }
+
+ private:
+  std::ostringstream text_;
+};
+
+Line line_of(const PulseUse& use) {
+  Line line;
+  line << "use" << use.pulse.t << name_of(use.pulse.channel) << use.revolution << use.rejected_by;
+  return line;
+}
+
+Line line_of(const RevolutionProduct& revolution) {
+  Line line;
+  line << "revolution" << revolution.revolution << revolution.t_sun1 << revolution.period_s;
+  return line;
+}
+
+Line line_of(const SpinMeasurement& measurement) {
+  Line line;
+  line << "measurement" << measurement.revolution << measurement.quantity << measurement.value
+       << measurement.sigma << measurement.rejected_by;
+  return line;
+}
+
+Line line_of(const SpinFix& fix) {
+  Line line;
+  line << "fix" << fix.revolution << fix.t << fix.geometry_case << fix.axis_icrf
+       << fix.covariance_rad2 << fix.alternate_axis_icrf << fix.resolution << fix.norm
+       << fix.accepted;
+  return line;
+}
+
+Line line_of(const SpinEstimate& estimate) {
+  Line line;
+  line << "estimate" << estimate.t << name_of(estimate.estimator) << estimate.axis_icrf
+       << estimate.covariance_rad2 << estimate.spin_rate_rad_s << estimate.spin_rate_sigma_rad_s
+       << estimate.status;
+  return line;
+}
+
+}  // namespace
+
+std::string text_of(const SpinProduct& product) {
+  return std::visit([](const auto& value) { return line_of(value).text(); }, product);
+}
+
+SpinOutput run(SpinPass pass, const std::vector<Pulse>& arrivals) {
+  SpinOutput all;
+  const auto collect = [&](SpinOutput some) {
+    std::move(some.products.begin(), some.products.end(), std::back_inserter(all.products));
+    std::move(some.notices.begin(), some.notices.end(), std::back_inserter(all.notices));
+  };
+  for (const Pulse& pulse : arrivals) {
+    collect(pass.push(pulse));
+  }
+  collect(pass.finish());
+  return all;
+}
+
+std::vector<std::string> texts_of(const SpinOutput& output) {
+  std::vector<std::string> texts;
+  for (const SpinProduct& product : output.products) {
+    texts.push_back(text_of(product));
+  }
+  return texts;
+}
+
+}  // namespace spindrift::testing

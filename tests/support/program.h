@@ -1,0 +1,98 @@
+/// @file
+/// The real program as a child process: its arguments, what it prints, how it ends.
+
+#pragma once
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "tests/support/temporary_folder.h"
+
+namespace spindrift {
+
+inline std::string text_of(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream{path, std::ios::binary}.rdbuf();
+  return text.str();
+}
+
+class Program {
+ public:
+  /// @param largest_file_kib Beyond which no file of it may grow, as on a full disk; 0: any.
+  explicit Program(std::vector<std::string> arguments, int largest_file_kib = 0) {
+    arguments.insert(arguments.begin(), SPINDRIFT_PROGRAM);
+    if (largest_file_kib > 0) {
+      const std::string limit = "ulimit -f " + std::to_string(largest_file_kib);
+      arguments.insert(arguments.begin(), {"/bin/bash", "-c", limit + "; exec \"$@\"", "bash"});
+    }
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) {
+      argv.push_back(argument.data());
+    }
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    const int flags = O_WRONLY | O_CREAT | O_TRUNC;
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out_path().c_str(), flags, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log_path().c_str(), flags, 0600);
+    if (posix_spawn(&pid_, argv.front(), &actions, nullptr, argv.data(), environ) != 0) {
+      pid_ = 0;
+    }
+    posix_spawn_file_actions_destroy(&actions);
+  }
+  ~Program() {
+    if (pid_ > 0) {
+      signal(SIGKILL);
+      exit_status();
+    }
+  }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  Program(Program&&) = delete;
+  Program& operator=(Program&&) = delete;
+
+  void signal(int number) const { kill(pid_, number); }
+
+  /// Waits for its end. @return -1 when it did not end by itself.
+  int exit_status() {
+    int status = 0;
+    const bool ended = waitpid(std::exchange(pid_, 0), &status, 0) > 0 && WIFEXITED(status);
+    return ended ? WEXITSTATUS(status) : -1;
+  }
+
+  /// Waits until it has said so on standard error. @return false when it does not come.
+  bool says(const std::string& words) const {
+    using namespace std::chrono_literals;
+    for (int tries = 0; tries < 6000; ++tries) {
+      if (log().find(words) != std::string::npos) {
+        return true;
+      }
+      std::this_thread::sleep_for(10ms);
+    }
+    return false;
+  }
+
+  std::string out() const { return text_of(out_path()); }
+  std::string log() const { return text_of(log_path()); }
+
+ private:
+  std::string out_path() const { return (folder_.path() / "out").string(); }
+  std::string log_path() const { return (folder_.path() / "log").string(); }
+
+  TemporaryFolder folder_;
+  pid_t pid_ = 0;
+};
+
+}  // namespace spindrift

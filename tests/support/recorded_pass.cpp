@@ -1,0 +1,78 @@
+#include "tests/support/recorded_pass.h"
+
+#include <toml++/toml.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "pipelines/ephemeris/oem.h"
+#include "pipelines/frames/celestial.h"
+
+namespace spindrift::testing {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file{path};
+  file.exceptions(std::ios::failbit);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::vector<Pulse> pulses_in(const std::string& csv) {
+  std::istringstream lines{csv};
+  std::string line;
+  std::getline(lines, line);
+  std::vector<Pulse> pulses;
+  while (std::getline(lines, line)) {
+    const auto comma = line.find(',');
+    const auto end = line.find_last_not_of('\r') + 1;
+    pulses.push_back(
+        {.t = tai_from_ns(std::stoll(line.substr(0, comma))),
+         .channel = pulse_channel_from(std::string_view{line}.substr(comma + 1, end - comma - 1))
+                        .value()});
+  }
+  return pulses;
+}
+
+SpinConfig config_in(const toml::table& mission) {
+  const toml::node_view spin = mission["spin"];
+  const auto number = [](const auto& node) { return node.template value<double>().value(); };
+  const auto infrared = [&](const auto& node) {
+    return InfraredSensor{.mount_angle_rad = number(node["mount_angle_deg"]) * kDegree_rad,
+                          .azimuth_rad = number(node["azimuth_deg"]) * kDegree_rad};
+  };
+  return {.sun_sensor = {.slit_cant_rad = number(spin["sun_sensor"]["slit_cant_deg"]) * kDegree_rad,
+                         .slit_separation_rad =
+                             number(spin["sun_sensor"]["slit_separation_deg"]) * kDegree_rad},
+          .north = infrared(spin["ir"]["north"]),
+          .south = infrared(spin["ir"]["south"]),
+          .noise = {.sun_s = number(spin["noise"]["sun_pulse_s"]),
+                    .infrared_s = number(spin["noise"]["ir_pulse_s"])},
+          .horizon = {.model = HorizonModel::Sphere,
+                      .co2_altitude_km = number(spin["horizon"]["co2_altitude_km"])},
+          .screening = {},
+          .geometry = {},
+          .prior = {}};
+}
+
+}  // namespace
+
+RecordedPass recorded_pass(const std::string& name) {
+  const std::filesystem::path folder = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin" / name;
+  const auto truth = nlohmann::json::parse(text_of(folder / "truth.json"));
+  return {.config = config_in(toml::parse(text_of(folder / "mission.toml"))),
+          .orbit = Orbit{parse_oem(text_of(folder / "orbit.oem")).value()},
+          .pulses = pulses_in(text_of(folder / "pulses.csv")),
+          .true_axis_icrf =
+              direction_icrf({.ra_rad = truth.at("ra_deg").get<double>() * kDegree_rad,
+                              .dec_rad = truth.at("dec_deg").get<double>() * kDegree_rad}),
+          .true_rate_rad_s = truth.at("rpm").get<double>() * 2.0 * std::numbers::pi / 60.0};
+}
+
+}  // namespace spindrift::testing

@@ -1,0 +1,296 @@
+// `spindrift process`, as a user runs it: the program, files, the archive.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <random>
+#include <sstream>
+
+#include "pipelines/frames/celestial.h"
+#include "tests/support/archive_rows.h"
+#include "tests/support/program.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::filesystem::path kPasses = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin";
+constexpr double kDegree = std::numbers::pi / 180.0;
+const std::string kLastMean =
+    " FROM spin_estimate WHERE estimator = 'mean' ORDER BY t_tai_ns DESC LIMIT 1";
+
+std::vector<std::string> arguments(const std::filesystem::path& mission,
+                                   const std::filesystem::path& telemetry,
+                                   const std::filesystem::path& db) {
+  return {"process",          "--mission", mission.string(), "--telemetry",
+          telemetry.string(), "--db",      db.string(),      "--json"};
+}
+
+std::vector<std::string> arguments(const std::string& pass, const std::filesystem::path& db) {
+  return arguments(kPasses / pass / "mission.toml", kPasses / pass, db);
+}
+
+nlohmann::json truth_of(const std::string& pass) {
+  return nlohmann::json::parse(text_of(kPasses / pass / "truth.json"));
+}
+
+/// Error of the archive's answer, in degrees.
+double error_deg(const std::filesystem::path& db, const nlohmann::json& truth) {
+  const auto place = [](double ra_deg, double dec_deg) {
+    return direction_icrf({.ra_rad = ra_deg * kDegree, .dec_rad = dec_deg * kDegree});
+  };
+  return angle_between_rad(place(real_of(db, "SELECT ra_deg" + kLastMean),
+                                 real_of(db, "SELECT dec_deg" + kLastMean)),
+                           place(truth["ra_deg"], truth["dec_deg"])) /
+         kDegree;
+}
+
+/// A mission folder to spoil.
+struct PassCopy {
+  TemporaryFolder folder;
+  std::filesystem::path db = folder.path() / "out.db";
+
+  explicit PassCopy(const std::string& pass) {
+    for (const char* name : {"mission.toml", "orbit.oem", "pulses.csv"}) {
+      std::filesystem::copy(kPasses / pass / name, folder.path() / name);
+    }
+  }
+  std::filesystem::path mission() const { return folder.path() / "mission.toml"; }
+  std::vector<std::string> arguments_here() const {
+    return arguments(mission(), folder.path(), db);
+  }
+};
+
+TEST(Process, FindsTheAxisOfTheNominalPassWithin006DegAndThreeOfItsSigma) {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "out.db";
+  Program program{arguments("nominal", db)};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+
+  const double error = error_deg(db, truth_of("nominal"));
+  EXPECT_LT(error, 0.06);
+  EXPECT_LT(error, 3.0 * real_of(db, "SELECT sigma_deg" + kLastMean));
+  EXPECT_NEAR(real_of(db, "SELECT spin_rate_rpm" + kLastMean), 60.0,
+              4.0 * real_of(db, "SELECT sigma_rpm" + kLastMean));
+}
+
+TEST(Process, FindsTheRealAxisOfGms5Within015Deg) {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "out.db";
+  Program program{arguments("gms5", db)};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+
+  EXPECT_LT(error_deg(db, truth_of("gms5")), 0.15);
+  // Its Earth is an ellipsoid: what the program does not do it says.
+  EXPECT_THAT(program.log(), HasSubstr("spin.horizon.model"));
+}
+
+TEST(Process, PrintsWhatItStored) {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "out.db";
+  Program program{arguments("north-only", db)};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+
+  const auto run = nlohmann::json::parse(program.out())["runs"][0];
+  EXPECT_EQ(run["edges_received"], number_of(db, "SELECT count(*) FROM pulse"));
+  EXPECT_EQ(run["edges_accepted"], number_of(db, "SELECT sum(accepted) FROM pulse_use"));
+  EXPECT_EQ(run["revolutions"], number_of(db, "SELECT count(*) FROM revolution"));
+  EXPECT_EQ(run["fixes_accepted"], number_of(db, "SELECT sum(accepted) FROM spin_fix"));
+  EXPECT_EQ(run["mean"]["ra_deg"], real_of(db, "SELECT ra_deg" + kLastMean));
+  EXPECT_EQ(run["mean"]["t_tai_ns"], number_of(db, "SELECT t_tai_ns" + kLastMean));
+  EXPECT_EQ(run["run_id"], rows_of(db, "SELECT run_id FROM run")
+                               .at(0)
+                               .substr(0, run["run_id"].get<std::string>().size()));
+}
+
+TEST(Process, SaysWhatBecameOfEveryEdge) {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "out.db";
+  Program program{arguments("nominal", db)};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+
+  EXPECT_EQ(number_of(db, "SELECT count(*) FROM pulse"), 3600);
+  EXPECT_EQ(number_of(db,
+                      "SELECT count(*) FROM pulse JOIN pulse_use USING"
+                      " (spacecraft_id, t_tai_ns, channel)"),
+            3600);
+}
+
+TEST(Process, KeepsTheProvenanceOfTheRun) {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "out.db";
+  Program program{arguments("nominal", db)};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+
+  EXPECT_EQ(number_of(db,
+                      "SELECT count(*) FROM run WHERE mode = 'process' AND spacecraft_id ="
+                      " 'SPINNER' AND length(config_sha256) = 64 AND software_version != '' AND"
+                      " started_utc LIKE '____-__-__T%Z' AND finished_utc >= started_utc"),
+            1);
+  EXPECT_EQ(rows_of(db, "SELECT config_toml FROM run").at(0),
+            text_of(kPasses / "nominal" / "mission.toml") + "|");
+}
+
+TEST(Process, AddsARunWithoutStoringAnEdgeTwice) {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "out.db";
+  for (int i = 0; i < 2; ++i) {
+    Program program{arguments("nominal", db)};
+    ASSERT_EQ(program.exit_status(), 0) << program.log();
+  }
+
+  EXPECT_EQ(number_of(db, "SELECT count(*) FROM run"), 2);
+  EXPECT_EQ(number_of(db, "SELECT count(*) FROM pulse"), 3600);
+  EXPECT_EQ(number_of(db, "SELECT count(*) FROM pulse_use"), 7200);
+}
+
+TEST(Process, GivesTheSameRowsWhateverTheOrderOfTheFile) {
+  const PassCopy pass{"north-only"};
+  std::istringstream csv{text_of(pass.folder.path() / "pulses.csv")};
+  std::string header;
+  std::getline(csv, header);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(csv, line);) {
+    lines.push_back(line);
+  }
+  std::shuffle(lines.begin(), lines.end(), std::mt19937{20261120});
+  std::string shuffled = header + "\n";
+  for (const std::string& line : lines) {
+    shuffled += line + "\n";
+  }
+  pass.folder.write("pulses.csv", shuffled);
+
+  const auto in_order = pass.folder.path() / "in_order.db";
+  Program first{arguments("north-only", in_order)};
+  Program second{pass.arguments_here()};
+  ASSERT_EQ(first.exit_status(), 0) << first.log();
+  ASSERT_EQ(second.exit_status(), 0) << second.log();
+  EXPECT_EQ(product_rows(in_order), product_rows(pass.db));
+}
+
+TEST(Process, CountsAndStoresBadRowsWithTheirReason) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("more.csv",
+                    "t_tai_ns,channel\n1795143637568806257,sun3\nsoon,sun1\n1795143637568806257\n");
+  Program program{pass.arguments_here()};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+
+  EXPECT_EQ(nlohmann::json::parse(program.out())["runs"][0]["input_rejected"], 3);
+  const auto rows =
+      rows_of(pass.db, "SELECT source, line, reason FROM rejected_input ORDER BY line");
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_THAT(rows[0], ::testing::AllOf(HasSubstr("more.csv|2|"), HasSubstr("sun3")));
+  EXPECT_THAT(rows[1], ::testing::AllOf(HasSubstr("more.csv|3|"), HasSubstr("soon")));
+  EXPECT_THAT(rows[2], HasSubstr("more.csv|4|"));
+  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3600);
+}
+
+TEST(Process, RefusesBadRowsWhenStrict) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("more.csv", "t_tai_ns,channel\n1795143637568806257,sun3\n");
+  auto strict = pass.arguments_here();
+  strict.emplace_back("--strict");
+  Program program{strict};
+  EXPECT_EQ(program.exit_status(), 2);
+  EXPECT_THAT(program.log(), HasSubstr("more.csv:2: "));
+  EXPECT_FALSE(std::filesystem::exists(pass.db));
+}
+
+TEST(Process, RefusesAnUnknownMissionKey) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("mission.toml", text_of(pass.mission()) + "\n[spin.colour]\nhue = 3\n");
+  Program program{pass.arguments_here()};
+  EXPECT_EQ(program.exit_status(), 2);
+  EXPECT_THAT(program.log(), HasSubstr("spin.colour"));
+  EXPECT_THAT(program.log(), HasSubstr("mission.toml:"));
+  EXPECT_FALSE(std::filesystem::exists(pass.db));
+}
+
+TEST(Process, RefusesAnOrbitThatCannotBeRead) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("orbit.oem", "CCSDS_OEM_VERS = 2.0\nthis is no orbit\n");
+  Program program{pass.arguments_here()};
+  EXPECT_EQ(program.exit_status(), 2);
+  EXPECT_THAT(program.log(), HasSubstr("orbit.oem"));
+}
+
+TEST(Process, StoresThePassAndSaysWhereTheOrbitDoesNotReach) {
+  const PassCopy pass{"nominal"};
+  std::filesystem::copy_file(kPasses / "gms5" / "orbit.oem", pass.folder.path() / "orbit.oem",
+                             std::filesystem::copy_options::overwrite_existing);
+  Program program{pass.arguments_here()};
+  EXPECT_EQ(program.exit_status(), 0) << program.log();
+  EXPECT_THAT(program.log(), HasSubstr("orbit: "));
+  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3600);
+  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM spin_fix"), 0);
+  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM revolution"), 600);
+}
+
+TEST(Process, RefusesADatabaseThatIsNotOursAndLeavesItAlone) {
+  const PassCopy pass{"nominal"};
+  {
+    SQLite::Database foreign{pass.db.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE};
+    foreign.exec("CREATE TABLE letters (a TEXT)");
+  }
+  const std::string before = text_of(pass.db);
+  Program program{pass.arguments_here()};
+  EXPECT_EQ(program.exit_status(), 2);
+  EXPECT_THAT(program.log(), HasSubstr(pass.db.string()));
+  EXPECT_EQ(text_of(pass.db), before);
+}
+
+TEST(Process, RefusesTelemetryWithoutARow) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("pulses.csv", "t_tai_ns,channel\n");
+  Program program{pass.arguments_here()};
+  EXPECT_EQ(program.exit_status(), 2);
+  EXPECT_THAT(program.log(), HasSubstr("no row of pulses"));
+}
+
+TEST(Process, RefusesTelemetryWithAnUnknownHeader) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("notes.csv", "when,what\n1,2\n");
+  Program program{pass.arguments_here()};
+  EXPECT_EQ(program.exit_status(), 2);
+  EXPECT_THAT(program.log(), HasSubstr("notes.csv:1"));
+}
+
+TEST(Process, RejectsTheEdgesOfAnotherSpacecraft) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("other.csv", "t_tai_ns,channel,spacecraft\n1795143637568806257,sun1,OTHER\n");
+  Program program{pass.arguments_here()};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  EXPECT_THAT(rows_of(pass.db, "SELECT reason FROM rejected_input").at(0), HasSubstr("OTHER"));
+  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3600);
+}
+
+TEST(CommandLine, IsRefusedWithTwoWhenBad) {
+  for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{
+           {},
+           {"process"},
+           {"levitate"},
+           {"replay", "--mission", "m", "--telemetry", "t", "--speed", "-1"},
+           {"serve", "--mission", "m", "--db", "d", "--domain", "999"}}) {
+    Program program{bad};
+    EXPECT_EQ(program.exit_status(), 2);
+    EXPECT_NE(program.log(), "");
+    EXPECT_EQ(program.out(), "");
+  }
+}
+
+TEST(CommandLine, TellsItsVersionAndHelp) {
+  Program version{{"--version"}};
+  EXPECT_EQ(version.exit_status(), 0);
+  EXPECT_THAT(version.out(), HasSubstr("spindrift "));
+  Program help{{"serve", "--help"}};
+  EXPECT_EQ(help.exit_status(), 0);
+  EXPECT_THAT(help.out(), HasSubstr("--partition"));
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,261 @@
+// `spindrift serve` fed by `spindrift replay`: real processes, real DDS, the real archive.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <spindrift.h>
+
+#include <nlohmann/json.hpp>
+
+#include "services/bus/qos.h"
+#include "services/bus/reader.h"
+#include "services/publisher/pulse_publisher.h"
+#include "tests/support/archive_rows.h"
+#include "tests/support/bus_child.h"
+#include "tests/support/bus_fixture.h"
+#include "tests/support/program.h"
+
+namespace spindrift {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+
+const std::filesystem::path kPasses = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin";
+
+/// A service of its own for one test.
+class Service {
+ public:
+  explicit Service(const std::string& pass, const std::string& partition = "",
+                   int largest_file_kib = 0)
+      : bus_{bus_of_its_own()}, pass_{pass} {
+    if (!partition.empty()) {
+      bus_.partition = partition;
+    }
+    program_.emplace(
+        std::vector<std::string>{"serve", "--mission", mission(), "--db", db().string(), "--domain",
+                                 std::to_string(bus_.domain), "--partition", bus_.partition,
+                                 "--json"},
+        largest_file_kib);
+  }
+
+  Program& program() { return *program_; }
+  const bus::BusConfig& bus() const { return bus_; }
+  std::filesystem::path db() const { return folder_.path() / "served.db"; }
+  std::string mission() const { return (kPasses / pass_ / "mission.toml").string(); }
+
+  bool ready() const { return program_->says("ready"); }
+
+  int replay(const std::string& speed) const {
+    Program replay{{"replay", "--mission", mission(), "--telemetry", (kPasses / pass_).string(),
+                    "--speed", speed, "--domain", std::to_string(bus_.domain), "--partition",
+                    bus_.partition}};
+    return replay.exit_status();
+  }
+
+  int stop() {
+    program_->signal(SIGTERM);
+    return program_->exit_status();
+  }
+
+ private:
+  TemporaryFolder folder_;
+  bus::BusConfig bus_;
+  std::string pass_;
+  std::optional<Program> program_;
+};
+
+TEST(Serve, GivesTheRowsOfProcessBitForBit) {
+  Service service{"gms5"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  ASSERT_EQ(service.replay("0"), 0);
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+
+  const TemporaryFolder folder;
+  const auto offline = folder.path() / "processed.db";
+  Program process{{"process", "--mission", service.mission(), "--telemetry",
+                   (kPasses / "gms5").string(), "--db", offline.string()}};
+  ASSERT_EQ(process.exit_status(), 0) << process.log();
+
+  const auto rows = product_rows(offline);
+  EXPECT_GT(rows.size(), 15000U);
+  EXPECT_EQ(product_rows(service.db()), rows);
+}
+
+TEST(Serve, CountsWhatEachSourceSent) {
+  Service service{"nominal"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  ASSERT_EQ(service.replay("0"), 0);
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+
+  EXPECT_EQ(rows_of(service.db(),
+                    "SELECT source, received, gaps, duplicates, disordered FROM source_count"),
+            std::vector<std::string>{"replay|3600|0|0|0|"});
+  const auto report = nlohmann::json::parse(service.program().out());
+  EXPECT_EQ(report["runs"][0]["edges_received"], 3600);
+}
+
+TEST(Serve, PublishesItsResultsForThoseWhoComeLater) {
+  Service service{"nominal"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  ASSERT_EQ(service.replay("0"), 0);
+  const auto participant = bus::Participant::create(service.bus()).value();
+  const auto estimates = bus::Reader<spindrift_SpinEstimate>::create(
+                             participant, bus::kSpinEstimateTopic, bus::results_qos())
+                             .value();
+  const auto health =
+      bus::Reader<spindrift_Health>::create(participant, bus::kHealthTopic, bus::results_qos())
+          .value();
+
+  const auto estimate = take_samples(estimates, 1);
+  ASSERT_FALSE(estimate.empty());
+  std::vector<spindrift_Health> beats;
+  ASSERT_TRUE(eventually([&] {
+    health.take([&](const spindrift_Health& beat) { beats.push_back(beat); }).value();
+    return !beats.empty() && beats.back().samples_committed == 3600;
+  }));
+  EXPECT_STREQ(beats.back().status, "ok");
+  EXPECT_EQ(beats.back().samples_received, 3600U);
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+
+  EXPECT_STREQ(estimate.back().spacecraft, "SPINNER");
+  EXPECT_STREQ(estimate.back().estimator, "mean");
+  // Announced is what is stored.
+  EXPECT_EQ(real_of(service.db(), "SELECT ra_deg FROM spin_estimate WHERE t_tai_ns = " +
+                                      std::to_string(estimate.back().t_tai_ns)),
+            estimate.back().ra_deg);
+}
+
+TEST(Serve, StoresAnEdgeOnceHoweverOftenItArrives) {
+  Service service{"nominal"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  ASSERT_EQ(service.replay("0"), 0);
+  ASSERT_EQ(service.replay("0"), 0);
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+
+  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM pulse"), 3600);
+  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM pulse_use WHERE rejected_by = 'late'"),
+            0);
+  EXPECT_EQ(number_of(service.db(), "SELECT max(revolution) FROM revolution"), 599);
+}
+
+TEST(Serve, StoresWhatCannotBeTrueWithItsReason) {
+  Service service{"nominal"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  const auto participant = bus::Participant::create(service.bus()).value();
+  auto front_end = PulsePublisher::create(participant, "front-end").value();
+  ASSERT_TRUE(front_end.wait_for_subscriber(30s));
+  const std::stop_token never;
+  const Pulse pulse{.t = tai_from_ns(1795143637568806257), .channel = PulseChannel::Sun1};
+  ASSERT_TRUE(front_end.publish("NOBODY", pulse, never));
+  ASSERT_TRUE(
+      front_end.publish("SPINNER", {.t = tai_from_ns(-1), .channel = pulse.channel}, never));
+  ASSERT_TRUE(front_end.publish("SPINNER", pulse, never));
+  ASSERT_TRUE(front_end.wait_for_acknowledgments(30s));
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+
+  const auto rows =
+      rows_of(service.db(), "SELECT source, line, reason FROM rejected_input ORDER BY 2");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_THAT(rows[0], ::testing::AllOf(HasSubstr("front-end|0|"), HasSubstr("NOBODY")));
+  EXPECT_THAT(rows[1], HasSubstr("front-end|1|"));
+  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM pulse"), 1);
+}
+
+TEST(Serve, FinishesItsRunWhenStopped) {
+  Service service{"nominal"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  service.program().signal(SIGINT);
+  ASSERT_EQ(service.program().exit_status(), 0) << service.program().log();
+  EXPECT_EQ(number_of(service.db(),
+                      "SELECT count(*) FROM run WHERE mode = 'live' AND finished_utc IS NOT NULL"),
+            1);
+}
+
+TEST(Serve, CallsItsRunAReplayInThatPartition) {
+  Service service{"nominal", "replay"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  EXPECT_EQ(rows_of(service.db(), "SELECT mode FROM run"), std::vector<std::string>{"replay|"});
+}
+
+TEST(Serve, RefusesASecondWriterAndNamesTheHolder) {
+  Service service{"nominal"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  Program second{{"process", "--mission", service.mission(), "--telemetry",
+                  (kPasses / "nominal").string(), "--db", service.db().string()}};
+  EXPECT_EQ(second.exit_status(), 1);
+  EXPECT_THAT(second.log(), HasSubstr("pid"));
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+}
+
+TEST(Serve, LeavesAWholeArchiveWhenKilled) {
+  Service service{"gms5"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  Program replay{{"replay", "--mission", service.mission(), "--telemetry",
+                  (kPasses / "gms5").string(), "--speed", "100", "--domain",
+                  std::to_string(service.bus().domain), "--partition", service.bus().partition}};
+  ASSERT_TRUE(eventually([&] {
+    return std::filesystem::exists(service.db()) &&
+           number_of(service.db(), "SELECT count(*) FROM spin_estimate") > 50;
+  }));
+  service.program().signal(SIGKILL);
+  EXPECT_EQ(service.program().exit_status(), -1);
+  replay.signal(SIGKILL);
+
+  EXPECT_EQ(rows_of(service.db(), "PRAGMA integrity_check"), std::vector<std::string>{"ok|"});
+  EXPECT_EQ(rows_of(service.db(), "PRAGMA foreign_key_check"), std::vector<std::string>{});
+  // No result without the edges that it rests on.
+  EXPECT_EQ(number_of(service.db(),
+                      "SELECT count(*) FROM pulse_use LEFT JOIN pulse USING"
+                      " (spacecraft_id, t_tai_ns, channel) WHERE pulse.t_tai_ns IS NULL"),
+            0);
+}
+
+TEST(Serve, StopsAcceptingLoudlyWhenTheDiskIsFullAndEndsWithOne) {
+  Service service{"gms5", "", 600};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  Program replay{{"replay", "--mission", service.mission(), "--telemetry",
+                  (kPasses / "gms5").string(), "--speed", "0", "--domain",
+                  std::to_string(service.bus().domain), "--partition", service.bus().partition}};
+  ASSERT_TRUE(service.program().says("the archive does not store")) << service.program().log();
+  EXPECT_EQ(service.stop(), 1);
+  EXPECT_THAT(service.program().log(), HasSubstr("rows that were accepted are not in archive"));
+  replay.signal(SIGKILL);
+
+  // What is there is whole: samples and products of each batch together.
+  EXPECT_EQ(rows_of(service.db(), "PRAGMA integrity_check"), std::vector<std::string>{"ok|"});
+  EXPECT_EQ(number_of(service.db(),
+                      "SELECT count(*) FROM pulse_use LEFT JOIN pulse USING"
+                      " (spacecraft_id, t_tai_ns, channel) WHERE pulse.t_tai_ns IS NULL"),
+            0);
+}
+
+TEST(Serve, NamesAWriterWhoseQosDoesNotDo) {
+  Service service{"nominal"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  const ForeignWriter weak{service.bus(), "weak", 1};
+  ASSERT_TRUE(service.program().says("BEST_EFFORT")) << service.program().log();
+  EXPECT_THAT(service.program().log(), HasSubstr("pid " + std::to_string(weak.pid())));
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+}
+
+TEST(Serve, RefusesTwoMissionsOfOneSpacecraft) {
+  const TemporaryFolder folder;
+  const std::string mission = (kPasses / "nominal" / "mission.toml").string();
+  Program program{
+      {"serve", "--mission", mission, mission, "--db", (folder.path() / "out.db").string()}};
+  EXPECT_EQ(program.exit_status(), 2);
+  EXPECT_THAT(program.log(), HasSubstr("SPINNER"));
+}
+
+TEST(Replay, GivesUpWhenNobodySubscribes) {
+  const bus::BusConfig bus = bus_of_its_own();
+  Program program{{"replay", "--mission", (kPasses / "nominal" / "mission.toml").string(),
+                   "--telemetry", (kPasses / "nominal").string(), "--domain",
+                   std::to_string(bus.domain), "--partition", bus.partition}};
+  EXPECT_EQ(program.exit_status(), 1);
+  EXPECT_THAT(program.log(), HasSubstr("nobody subscribes"));
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,585 @@
+#include "pipelines/ephemeris/oem.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/time/utc.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+
+std::string text_of(const std::string& name) {
+  const std::ifstream file{std::string{SPINDRIFT_TEST_DATA "/"} + name, std::ios::binary};
+  EXPECT_TRUE(file) << name;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+std::string fault(std::string_view text) {
+  const auto ephemeris = parse_oem(text);
+  if (ephemeris) {
+    return "accepted";
+  }
+  EXPECT_EQ(ephemeris.error().code, ErrorCode::InvalidConfiguration);
+  return ephemeris.error().message;
+}
+
+std::string with_line(int number, const std::string& line, std::string text) {
+  std::size_t at = 0;
+  for (int i = 1; i < number; ++i) {
+    at = text.find('\n', at) + 1;
+  }
+  return text.replace(at, text.find('\n', at) - at, line);
+}
+
+/// 21 lines: keys to line 16, data from line 17 on.
+const std::string kValid =
+    "CCSDS_OEM_VERS = 2.0\n"
+    "CREATION_DATE = 2026-11-20T00:00:00\n"
+    "ORIGINATOR = TEST\n"
+    "META_START\n"
+    "OBJECT_NAME = SPINNER\n"
+    "OBJECT_ID = 2026-999A\n"
+    "CENTER_NAME = EARTH\n"
+    "REF_FRAME = EME2000\n"
+    "TIME_SYSTEM = TAI\n"
+    "START_TIME = 2026-11-20T03:00:00\n"
+    "USEABLE_START_TIME = 2026-11-20T03:01:00\n"
+    "USEABLE_STOP_TIME = 2026-11-20T03:03:00\n"
+    "STOP_TIME = 2026-11-20T03:04:00\n"
+    "INTERPOLATION = LAGRANGE\n"
+    "INTERPOLATION_DEGREE = 2\n"
+    "META_STOP\n"
+    "2026-11-20T03:00:00 7000 0 0 0 7.5 0\n"
+    "2026-11-20T03:01:00 6990 450 0 0 7.5 0\n"
+    "2026-11-20T03:02:00 6980 900 0 0 7.5 0\n"
+    "2026-11-20T03:03:00 6970 1350 0 0 7.5 0\n"
+    "2026-11-20T03:04:00 6960 1800 0 0 7.5 0\n";
+
+/// A vector of polynomials of one degree, with its derivative, about kStart; minutes, so that the
+/// powers stay of order one.
+struct PolynomialOrbit {
+  std::vector<Eigen::Vector3d> coefficients_km;
+
+  OrbitState at(TaiTime t) const {
+    const double u = seconds_between(kStart, t) / 60.0;
+    OrbitState state{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    for (std::size_t k = coefficients_km.size(); k-- > 0;) {
+      state.velocity_icrf_km_s = state.position_icrf_km + u * state.velocity_icrf_km_s;
+      state.position_icrf_km = coefficients_km[k] + u * state.position_icrf_km;
+    }
+    state.velocity_icrf_km_s /= 60.0;
+    return state;
+  }
+};
+
+PolynomialOrbit random_polynomial(std::mt19937& rng, int degree) {
+  std::uniform_real_distribution<double> any_km{-7'000.0, 7'000.0};
+  PolynomialOrbit orbit;
+  for (int k = 0; k <= degree; ++k) {
+    const double x = any_km(rng);
+    const double y = any_km(rng);
+    orbit.coefficients_km.push_back(Eigen::Vector3d{x, y, any_km(rng)} / std::pow(4.0, k));
+  }
+  return orbit;
+}
+
+template <class Source>
+OemSegment sampled(const Source& orbit, TaiTime from, double step_s, int count,
+                   Interpolation interpolation, int degree) {
+  std::vector<EphemerisPoint> points;
+  for (int i = 0; i < count; ++i) {
+    const TaiTime t = shifted(from, i * step_s);
+    points.push_back({t, orbit(t)});
+  }
+  const TaiTime first = points.front().t;
+  const TaiTime last = points.back().t;
+  return {first, last, interpolation, degree, std::move(points)};
+}
+
+OrbitEphemeris ephemeris_of(OemSegment segment) {
+  std::vector<OemSegment> segments;
+  segments.push_back(std::move(segment));
+  return OrbitEphemeris::make(std::move(segments)).value();
+}
+
+const KeplerOrbit kTransfer = KeplerOrbit::make({.epoch = kStart,
+                                                 .semi_major_axis_km = 24'400.0,
+                                                 .eccentricity = 0.7,
+                                                 .inclination_rad = 0.5,
+                                                 .raan_rad = 1.0,
+                                                 .argument_of_perigee_rad = 3.0,
+                                                 .mean_anomaly_rad = 0.2})
+                                  .value();
+
+// --- interpolation
+
+TEST(OrbitEphemeris, LagrangeReproducesPolynomialsOfItsDegree) {
+  // Nodes and times within 4 minutes of kStart, terms of order 7000 km times (4/4)^k: rounding of
+  // 1e-12 km a term, grown by divided differences over few uneven nodes to below 1e-8 km.
+  std::mt19937 rng{1};
+  std::uniform_real_distribution<double> within_s{-240.0, 240.0};
+  for (int degree = 1; degree <= 9; ++degree) {
+    SCOPED_TRACE(degree);
+    const PolynomialOrbit orbit = random_polynomial(rng, degree);
+    const OrbitEphemeris ephemeris =
+        ephemeris_of(sampled([&](TaiTime t) { return orbit.at(t); }, shifted(kStart, -240.0), 40.0,
+                             13, Interpolation::Lagrange, degree));
+    for (int trial = 0; trial < 100; ++trial) {
+      const TaiTime t = shifted(kStart, within_s(rng));
+      const OrbitState state = ephemeris.at(t).value();
+      ASSERT_LT((state.position_icrf_km - orbit.at(t).position_icrf_km).norm(), 1e-8);
+      ASSERT_LT((state.velocity_icrf_km_s - orbit.at(t).velocity_icrf_km_s).norm(), 1e-9);
+    }
+  }
+}
+
+TEST(OrbitEphemeris, HermiteReproducesPolynomialsOfItsDegree) {
+  std::mt19937 rng{2};
+  std::uniform_real_distribution<double> within_s{-240.0, 240.0};
+  for (const int degree : {3, 5, 7, 9}) {
+    SCOPED_TRACE(degree);
+    const PolynomialOrbit orbit = random_polynomial(rng, degree);
+    const OrbitEphemeris ephemeris =
+        ephemeris_of(sampled([&](TaiTime t) { return orbit.at(t); }, shifted(kStart, -240.0), 60.0,
+                             9, Interpolation::Hermite, degree));
+    for (int trial = 0; trial < 100; ++trial) {
+      const TaiTime t = shifted(kStart, within_s(rng));
+      const OrbitState state = ephemeris.at(t).value();
+      ASSERT_LT((state.position_icrf_km - orbit.at(t).position_icrf_km).norm(), 1e-8);
+      ASSERT_LT((state.velocity_icrf_km_s - orbit.at(t).velocity_icrf_km_s).norm(), 1e-9);
+    }
+  }
+}
+
+TEST(OrbitEphemeris, PassesThroughItsNodes) {
+  for (const auto interpolation : {Interpolation::Lagrange, Interpolation::Hermite}) {
+    for (int degree = 1; degree <= kMaxInterpolationDegree; ++degree) {
+      SCOPED_TRACE(degree);
+      const OemSegment segment = sampled([](TaiTime t) { return kTransfer.at(t).value(); }, kStart,
+                                         60.0, 40, interpolation, degree);
+      const OrbitEphemeris ephemeris = ephemeris_of(segment);
+      for (const EphemerisPoint& point : segment.points) {
+        const OrbitState state = ephemeris.at(point.t).value();
+        ASSERT_LT((state.position_icrf_km - point.state.position_icrf_km).norm(), 1e-8);
+        ASSERT_LT((state.velocity_icrf_km_s - point.state.velocity_icrf_km_s).norm(), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(OrbitEphemeris, IsContinuousWhereTheWindowMoves) {
+  // 1 ns of orbit is 1e-8 km. Hermite: the velocity too, against a degree that is far too low to
+  // hide a jump in its own accuracy (3 at 10 minutes: kilometres of error).
+  for (const auto interpolation : {Interpolation::Lagrange, Interpolation::Hermite}) {
+    const OemSegment segment = sampled([](TaiTime t) { return kTransfer.at(t).value(); }, kStart,
+                                       600.0, 12, interpolation, 3);
+    const OrbitEphemeris ephemeris = ephemeris_of(segment);
+    for (std::size_t i = 1; i + 1 < segment.points.size(); ++i) {
+      const TaiTime node = segment.points[i].t;
+      const OrbitState before = ephemeris.at(node - std::chrono::nanoseconds{1}).value();
+      const OrbitState after = ephemeris.at(node).value();
+      ASSERT_LT((after.position_icrf_km - before.position_icrf_km).norm(), 2e-8);
+      ASSERT_LT((after.velocity_icrf_km_s - before.velocity_icrf_km_s).norm(), 1e-10);
+    }
+  }
+}
+
+TEST(OrbitEphemeris, HermiteCubicKeepsItsBoundOnAKeplerOrbit) {
+  // |error| <= h^4/384 max|r''''|. On an ellipse |r''''| is greatest at perigee, about
+  // mu (1 + 3e) / r_p^3 times n-like rates; on the circle used here it is exactly a n^4.
+  const KeplerOrbit circle = KeplerOrbit::make({kStart, 7'000.0, 0.0, 0.9, 0.1, 0.0, 0.0}).value();
+  const double n_rad_s = std::sqrt(kEarthMu_km3_s2 / std::pow(7'000.0, 3));
+  constexpr double kStep_s = 60.0;
+  const double bound_km = std::pow(kStep_s, 4) / 384.0 * 7'000.0 * std::pow(n_rad_s, 4);
+  const OrbitEphemeris ephemeris =
+      ephemeris_of(sampled([&](TaiTime t) { return circle.at(t).value(); }, kStart, kStep_s, 100,
+                           Interpolation::Hermite, 3));
+  double worst_km = 0.0;
+  for (double t_s = 0.0; t_s < 99.0 * kStep_s; t_s += 7.3) {
+    const TaiTime t = shifted(kStart, t_s);
+    worst_km = std::max(
+        worst_km,
+        (ephemeris.at(t).value().position_icrf_km - circle.at(t).value().position_icrf_km).norm());
+  }
+  EXPECT_LT(worst_km, bound_km);
+  EXPECT_GT(worst_km, 0.9 * bound_km);
+}
+
+TEST(OrbitEphemeris, LagrangeKeepsItsBoundOnAKeplerOrbit) {
+  // Degree 7 about the middle of 8 nodes: |prod (t - t_k)| / 8! max|r^(8)|, the product greatest
+  // half way, (1/2 3/2 5/2 7/2)^2 h^8.
+  const KeplerOrbit circle = KeplerOrbit::make({kStart, 7'000.0, 0.0, 0.9, 0.1, 0.0, 0.0}).value();
+  const double n_rad_s = std::sqrt(kEarthMu_km3_s2 / std::pow(7'000.0, 3));
+  constexpr double kStep_s = 180.0;
+  const double bound_km =
+      std::pow(105.0 / 16.0, 2) / 40'320.0 * 7'000.0 * std::pow(kStep_s * n_rad_s, 8);
+  const OrbitEphemeris ephemeris =
+      ephemeris_of(sampled([&](TaiTime t) { return circle.at(t).value(); }, kStart, kStep_s, 40,
+                           Interpolation::Lagrange, 7));
+  double worst_km = 0.0;
+  for (double t_s = 4.0 * kStep_s; t_s < 35.0 * kStep_s; t_s += 7.3) {
+    const TaiTime t = shifted(kStart, t_s);
+    worst_km = std::max(
+        worst_km,
+        (ephemeris.at(t).value().position_icrf_km - circle.at(t).value().position_icrf_km).norm());
+  }
+  EXPECT_LT(worst_km, bound_km);
+  EXPECT_GT(worst_km, 0.9 * bound_km);
+}
+
+TEST(OrbitEphemeris, AnswersOnlyWhereItIsUsable) {
+  OemSegment first = sampled([](TaiTime t) { return kTransfer.at(t).value(); }, kStart, 60.0, 10,
+                             Interpolation::Hermite, 3);
+  OemSegment second = sampled([](TaiTime t) { return kTransfer.at(t).value(); },
+                              shifted(kStart, 600.0), 60.0, 10, Interpolation::Lagrange, 4);
+  first.usable_from = shifted(kStart, 30.0);
+  std::vector<OemSegment> segments{first, second};
+  const OrbitEphemeris ephemeris = OrbitEphemeris::make(segments).value();
+  EXPECT_EQ(ephemeris.usable_from(), shifted(kStart, 30.0));
+  EXPECT_EQ(ephemeris.usable_to(), shifted(kStart, 1140.0));
+  const std::vector<std::pair<double, std::string>> outside = {
+      {17.5, "12.5 s before"},
+      {541.0, "1 s after one segment ends and 59 s before the next"},
+      {1140.25, "0.25 s after"},
+  };
+  for (const auto& [t_s, where] : outside) {
+    const auto state = ephemeris.at(shifted(kStart, t_s));
+    ASSERT_FALSE(state) << t_s;
+    EXPECT_EQ(state.error().code, ErrorCode::NoCoverage);
+    EXPECT_THAT(state.error().message, HasSubstr(where));
+  }
+  for (const double t_s : {30.0, 540.0, 600.0, 1140.0}) {
+    EXPECT_TRUE(ephemeris.at(shifted(kStart, t_s))) << t_s;
+  }
+}
+
+TEST(OrbitEphemeris, LaterSegmentAnswersWhereTwoTouch) {
+  // A manoeuvre: the same place, another velocity.
+  const auto still = [](double speed_km_s) {
+    return [speed_km_s](TaiTime t) {
+      return OrbitState{{7'000.0, speed_km_s * seconds_between(shifted(kStart, 60.0), t), 0.0},
+                        {0.0, speed_km_s, 0.0}};
+    };
+  };
+  const OrbitEphemeris ephemeris =
+      OrbitEphemeris::make(
+          {sampled(still(7.0), kStart, 30.0, 3, Interpolation::Hermite, 3),
+           sampled(still(8.0), shifted(kStart, 60.0), 30.0, 3, Interpolation::Hermite, 3)})
+          .value();
+  const auto speed_at = [&](double t_s) {
+    return ephemeris.at(shifted(kStart, t_s)).value().velocity_icrf_km_s.y();
+  };
+  EXPECT_NEAR(speed_at(59.999), 7.0, 1e-12);
+  EXPECT_NEAR(speed_at(60.0), 8.0, 1e-12);
+}
+
+TEST(OrbitEphemeris, RefusesSegmentsThatCannotBeInterpolated) {
+  const OemSegment good = sampled([](TaiTime t) { return kTransfer.at(t).value(); }, kStart, 60.0,
+                                  4, Interpolation::Lagrange, 3);
+  const auto refusal = [](std::vector<OemSegment> segments) {
+    const auto ephemeris = OrbitEphemeris::make(std::move(segments));
+    return ephemeris ? "accepted" : ephemeris.error().message;
+  };
+  EXPECT_EQ(refusal({good}), "accepted");
+  EXPECT_THAT(refusal({}), HasSubstr("no segment"));
+  OemSegment segment = good;
+  segment.degree = 4;
+  EXPECT_THAT(refusal({good, segment}),
+              AllOf(HasSubstr("segment 2"), HasSubstr("needs 5 data lines, there are 4")));
+  segment.degree = 0;
+  EXPECT_THAT(refusal({segment}), HasSubstr("INTERPOLATION_DEGREE = 0: must lie in 1 to 15"));
+  segment = good;
+  segment.points[2].t = segment.points[1].t;
+  EXPECT_THAT(refusal({segment}), HasSubstr("must be later"));
+  segment = good;
+  segment.usable_to = shifted(kStart, 181.0);
+  EXPECT_THAT(refusal({segment}), HasSubstr("within the data lines"));
+  EXPECT_THAT(refusal({good, good}), HasSubstr("must not begin before"));
+}
+
+// --- the message
+
+TEST(Oem, ReadsWhatItSays) {
+  const OrbitEphemeris ephemeris = parse_oem(kValid).value();
+  EXPECT_EQ(ephemeris.usable_from(), parse_tai("2026-11-20T03:01:00").value());
+  EXPECT_EQ(ephemeris.usable_to(), parse_tai("2026-11-20T03:03:00").value());
+  const OrbitState state = ephemeris.at(parse_tai("2026-11-20T03:02:00").value()).value();
+  EXPECT_NEAR((state.position_icrf_km - Eigen::Vector3d{6980, 900, 0}).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((state.velocity_icrf_km_s - Eigen::Vector3d{0, 7.5, 0}).norm(), 0.0, 1e-12);
+}
+
+TEST(Oem, UtcTimesStandAfterTheirLeapSeconds) {
+  const OrbitEphemeris ephemeris = parse_oem(replaced(kValid, "= TAI", "= UTC")).value();
+  EXPECT_EQ(ephemeris.usable_from(), parse_utc("2026-11-20T03:01:00").value());
+}
+
+TEST(Oem, LineEndingsBlanksAndCommentsDoNotMatter) {
+  std::string text = replaced(kValid, "\n", " \t\r\n\r\nCOMMENT of no = importance\r\nCOMMENT\r\n");
+  text = replaced(text, " = ", "=");
+  text = replaced(text, "EARTH", "Earth");
+  text = replaced(text, "LAGRANGE", "Lagrange");
+  text = replaced(text, "6980 900", "+6.98E+03\t 9.0e2");
+  EXPECT_EQ(fault(text), "accepted");
+  EXPECT_EQ(fault(kValid.substr(0, kValid.size() - 1)), "accepted");
+}
+
+TEST(Oem, EveryFrameNearIcrfIsTaken) {
+  for (const std::string frame : {"EME2000", "J2000", "ICRF", "GCRF"}) {
+    EXPECT_EQ(fault(replaced(kValid, "EME2000", frame)), "accepted") << frame;
+  }
+}
+
+TEST(Oem, AccelerationsAreReadOver) {
+  EXPECT_EQ(fault(replaced(kValid, " 7.5 0\n", " 7.5 0 0.001 0.002 0.003\n")), "accepted");
+}
+
+TEST(Oem, WithoutInterpolationItIsHermiteOfDegreeSeven) {
+  const std::string silent = with_line(14, "", with_line(15, "", kValid));
+  const auto x_km = [](const std::string& text) {
+    const TaiTime between = parse_tai("2026-11-20T03:01:15").value();
+    return parse_oem(text).value().at(between).value().position_icrf_km.x();
+  };
+  const auto hermite = [](int degree) {
+    return with_line(15, "INTERPOLATION_DEGREE = " + std::to_string(degree),
+                     with_line(14, "INTERPOLATION = HERMITE", kValid));
+  };
+  EXPECT_EQ(x_km(silent), x_km(hermite(7)));
+  EXPECT_GT(std::abs(x_km(silent) - x_km(hermite(5))), 0.01);
+  EXPECT_GT(std::abs(x_km(silent) - x_km(kValid)), 0.01);
+}
+
+TEST(Oem, TwoDataLinesAreEnoughWithoutInterpolation) {
+  std::string text = with_line(14, "", with_line(15, "", kValid));
+  for (const int line : {19, 20, 21}) {
+    text = with_line(line, "", text);
+  }
+  text = with_line(11, "", with_line(12, "", text));
+  EXPECT_EQ(fault(text), "accepted");
+}
+
+TEST(Oem, IsUsableOnlyAsFarAsItsData) {
+  const std::string text = with_line(21, "", with_line(20, "", kValid));
+  EXPECT_EQ(parse_oem(text).value().usable_to(), parse_tai("2026-11-20T03:02:00").value());
+}
+
+TEST(Oem, SaysWhichLineAndKeyIsWrong) {
+  const std::vector<std::array<std::string, 4>> cases = {
+      // line, its new text, message names line, message says
+      {"1", "CCSDS_OPM_VERS = 2.0", "line 1:", "must begin with CCSDS_OEM_VERS"},
+      {"1", "CCSDS_OEM_VERS = 4.0", "line 1:", "CCSDS_OEM_VERS = 4.0: must be 1.0 or 2.0 or 3.0"},
+      {"2", "CREATION_DATE = yesterday", "line 2:", "CREATION_DATE = yesterday"},
+      {"3", "", "line 4:", "ORIGINATOR is missing"},
+      {"3", "ORIGIN = TEST", "line 3:", "ORIGIN = TEST: this key is not allowed here"},
+      {"4", "", "line 5:", "OBJECT_NAME = SPINNER: this key is not allowed here"},
+      {"5", "OBJECT_NAME =", "line 5:", "OBJECT_NAME = : a value must follow"},
+      {"5", "OBJECT_ID = 2026-999A",
+       "line 6:", "OBJECT_ID = 2026-999A: this key stands here twice"},
+      {"6", "", "line 16:", "OBJECT_ID is missing"},
+      {"7", "CENTER_NAME = MARS", "line 7:", "CENTER_NAME = MARS: must be EARTH"},
+      {"8", "REF_FRAME = ITRF2014",
+       "line 8:", "REF_FRAME = ITRF2014: must be EME2000 or J2000 or GCRF or ICRF"},
+      {"9", "TIME_SYSTEM = GPS", "line 9:", "TIME_SYSTEM = GPS: must be UTC or TAI"},
+      {"10", "START_TIME = 2026-11-20", "line 10:", "START_TIME = 2026-11-20"},
+      {"10", "START_TIME = 2026-11-20T05:00:00", "line 11:", "USEABLE_START_TIME"},
+      {"11", "USEABLE_START_TIME = 2026-11-20T02:00:00",
+       "line 11:", "between START_TIME and STOP_TIME"},
+      {"12", "USEABLE_STOP_TIME = 2026-11-20T04:00:00",
+       "line 12:", "between START_TIME and STOP_TIME"},
+      {"13", "", "line 16:", "STOP_TIME is missing"},
+      {"14", "INTERPOLATION = LINEAR",
+       "line 14:", "INTERPOLATION = LINEAR: must be LAGRANGE or HERMITE"},
+      {"14", "", "line 15:", "INTERPOLATION_DEGREE = 2: needs INTERPOLATION"},
+      {"15", "", "line 14:", "INTERPOLATION = LAGRANGE: needs INTERPOLATION_DEGREE"},
+      {"15", "INTERPOLATION_DEGREE = 2.5", "line 15:", "a whole number from 1 to 15"},
+      {"15", "INTERPOLATION_DEGREE = 16", "line 15:", "a whole number from 1 to 15"},
+      {"15", "INTERPOLATION_DEGREE = 0", "line 15:", "a whole number from 1 to 15"},
+      {"15", "INTERPOLATION_DEGREE = 5", "segment 1:", "needs 6 data lines, there are 5"},
+      {"16", "", "line 17:", "META_STOP must stand here"},
+      {"18", "USER_DEFINED_X = 1", "line 18:", "USER_DEFINED_X"},
+      {"18", "2026-11-20T03:01:00 6990 450 0 0 7.5", "line 18:", "there are 5"},
+      {"18", "2026-11-20T03:01:00 6990 450 0 0 7.5 0 1", "line 18:", "there are 7"},
+      {"18", "2026-11-20T03:01:00 6990 4S0 0 0 7.5 0", "line 18:", "'4S0' is not a number"},
+      {"18", "2026-11-20T03:01:00 nan 450 0 0 7.5 0", "line 18:", "'nan' is not a number"},
+      {"18", "2026-11-20T03:01:00 inf 450 0 0 7.5 0", "line 18:", "'inf' is not a number"},
+      {"18", "2026-11-20T03:01:00 1e999 450 0 0 7.5 0", "line 18:", "'1e999' is not a number"},
+      {"18", "2026-11-20T02:59:59 6990 450 0 0 7.5 0", "line 18:", "between START_TIME"},
+      {"18", "2026-11-20T03:02:00 6990 450 0 0 7.5 0", "segment 1:", "must be later"},
+  };
+  for (const auto& [line, text, where, what] : cases) {
+    SCOPED_TRACE(text);
+    EXPECT_THAT(fault(with_line(std::stoi(line), text, kValid)),
+                AllOf(HasSubstr(where), HasSubstr(what)));
+  }
+}
+
+TEST(Oem, RefusesMessagesThatEndTooEarly) {
+  EXPECT_THAT(fault(""), HasSubstr("must begin with CCSDS_OEM_VERS"));
+  EXPECT_THAT(fault("COMMENT only"), HasSubstr("must begin with CCSDS_OEM_VERS"));
+  std::size_t end = 0;
+  for (int line = 1; line <= 16; ++line) {
+    end = kValid.find('\n', end) + 1;
+    SCOPED_TRACE(line);
+    EXPECT_NE(fault(kValid.substr(0, end)), "accepted");
+  }
+}
+
+TEST(Oem, CovariancesAreCheckedForForm) {
+  const std::string good = kValid +
+                           "COVARIANCE_START\n"                                // line 22
+                           "EPOCH = 2026-11-20T03:00:00\n"                     // line 23
+                           "COV_REF_FRAME = RTN\n"                             // line 24
+                           "1\n1 2\n1 2 3\n1 2 3 4\n1 2 3 4 5\n1 2 3 4 5 6\n"  // to line 30
+                           "EPOCH = 2026-11-20T03:01:00\n"
+                           "1\n1 2\n1 2 3\n1 2 3 4\n1 2 3 4 5\n1 2 3 4 5 6\n"
+                           "COVARIANCE_STOP\n";
+  EXPECT_EQ(fault(good), "accepted");
+  const std::vector<std::array<std::string, 4>> cases = {
+      {"23", "", "line 25:", "EPOCH is missing"},
+      {"23", "EPOCH = noon", "line 23:", "EPOCH = noon"},
+      {"24", "COV_FRAME = RTN", "line 24:", "COV_FRAME = RTN: this key is not allowed here"},
+      {"26", "1 2 3", "line 26:", "row 2 of a covariance must hold 2 numbers; there are 3"},
+      {"27", "1 x 3", "line 27:", "'x' is not a number"},
+      {"38", "", "line 37:", "COVARIANCE_STOP must stand here"},
+  };
+  for (const auto& [line, text, where, what] : cases) {
+    SCOPED_TRACE(line);
+    EXPECT_THAT(fault(with_line(std::stoi(line), text, good)),
+                AllOf(HasSubstr(where), HasSubstr(what)));
+  }
+}
+
+TEST(Oem, SegmentsFollowEachOther) {
+  const std::string segment = kValid.substr(kValid.find("META_START"));
+  EXPECT_EQ(fault(kValid + replaced(segment, "T03:", "T04:")), "accepted");
+  EXPECT_THAT(fault(kValid + segment), AllOf(HasSubstr("segment 2"), HasSubstr("begin before")));
+}
+
+// --- messages of others
+
+TEST(Oem, EarthCentredMessagesOfOthersAreRead) {
+  for (const std::string name :
+       {"OEMExample5.txt", "ISS.resampled.truncated.txt", "oemLowerCaseValue.oem"}) {
+    EXPECT_EQ(fault(text_of("ccsds/oem/" + name)), "accepted") << name;
+  }
+}
+
+TEST(Oem, StkMinutesAreInterpolatedToTheirAccuracy) {
+  // STK's own states every minute: leave one out, ask for it. Degree 4 over nodes at 0 1 3 4 5 min:
+  // 2*1*1*2*3 min^5 / 5! times r n^5, with n = 7.73 km/s / 6697 km: 1.07e-3 km; a fifth more for an
+  // orbit that is not quite a circle.
+  constexpr double kBound_km = 1.3e-3;
+  std::string text = text_of("ccsds/oem/oemLowerCaseValue.oem");
+  const std::size_t line = text.find("2015-08-27T00:02:00");
+  text.erase(line, text.find('\n', line) - line);
+  text = replaced(text, "INTERPOLATION_DEGREE = 5", "INTERPOLATION_DEGREE = 4");
+  const OrbitEphemeris ephemeris = parse_oem(text).value();
+  const OrbitState state = ephemeris.at(parse_utc("2015-08-27T00:02:00").value()).value();
+  const Eigen::Vector3d expected_km{-6.853181141966417e+002, -6.496825943988374e+003,
+                                    1.476218678060546e+003};
+  EXPECT_LT((state.position_icrf_km - expected_km).norm(), kBound_km);
+}
+
+TEST(Oem, OtherCentresFramesAndTimesAreRefusedByName) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"OEMExample1.txt", "line 10: CENTER_NAME = MARS BARYCENTER: must be EARTH"},
+      {"OEMExample2.txt", "line 11: REF_FRAME = TOD: must be"},
+      {"OEMExample3.txt", "CENTER_NAME = MARS BARYCENTER"},
+      {"OEMExample3.xml", "line 1: an OEM in KVN form must begin"},
+      {"OEMExample4.txt", "CENTER_NAME = MARS"},
+      {"OEMExample5ITRF.txt", "REF_FRAME = ITRF2014"},
+      {"OEMExample6.txt", "CENTER_NAME = MARS"},
+      {"OEMExample7.txt.pre", "line 9: REF_FRAME is missing"},
+      {"OEMExample7.txt.post", "must begin with CCSDS_OEM_VERS"},
+      {"OEMExample8.txt", "CENTER_NAME = MARS BARYCENTER"},
+      {"OEMExample9.txt", "REF_FRAME = ITRF-93"},
+      {"OEMExampleWithHeaderComment.txt", "CENTER_NAME = MARS BARYCENTER"},
+      {"OEM-Issue839.txt", "CENTER_NAME = MARS BARYCENTER"},
+      {"test.oem", "REF_FRAME = TOD"},
+      {"test_cov.oem", "REF_FRAME = TOD"},
+  };
+  for (const auto& [name, reason] : cases) {
+    EXPECT_THAT(fault(text_of("ccsds/oem/" + name)), HasSubstr(reason)) << name;
+  }
+}
+
+/// The same message about the Earth, in a frame and a time system that are taken.
+std::string moved_to_the_earth(const std::string& name) {
+  std::string text = replaced(text_of("ccsds/oem/" + name), "MARS BARYCENTER", "EARTH");
+  text = replaced(text, "= MARS\n", "= EARTH\n");
+  text = replaced(text, "= TOD", "= GCRF");
+  text = replaced(text, "= ITRF-93", "= GCRF");
+  return replaced(text, "= MRT", "= TAI");
+}
+
+TEST(Oem, FaultsThatFilesWereMadeForAreFound) {
+  const std::vector<std::array<std::string, 3>> cases = {
+      {"OEM-covariance-number-format-error.txt", "line 52:", "'this-is-not-a-number'"},
+      {"OEM-ephemeris-number-format-error.txt", "line 44:", "'this-is-not-a-number'"},
+      {"OEM-inconsistent-time-systems.txt", "line 33:", "TIME_SYSTEM = TCG"},
+      {"OEM-keyword-within-covariance.txt", "line 91:", "USER_DEFINED_TEST_KEY"},
+      {"OEM-keyword-within-ephemeris.txt", "line 24:", "USER_DEFINED_TEST_KEY"},
+      {"OEM-too-few-covariance-columns.txt", "line 55:", "must hold 5 numbers; there are 4"},
+      {"OEM-too-many-covariance-columns.txt", "line 51:", "must hold 1 numbers; there are 6"},
+      {"OEM-too-large-covariance-dimension.txt", "line 91:", "EPOCH is missing"},
+      {"OEM-too-small-covariance-dimension.txt", "line 89:", "'EPOCH' is not a number"},
+      {"OEM-wrong-keyword.txt", "line 19:", "WRONG_KEYWORD = 123"},
+      {"OEMExample8.txt", "line 16:", "INTERPOLATION = HERMITE: needs INTERPOLATION_DEGREE"},
+      // One data line twice, or out of order.
+      {"OEMExample1.txt", "segment 3:", "1996-12-30T01:28:02.267000000Z must be later"},
+      {"OEMExampleWithHeaderComment.txt", "segment 3:", "must be later"},
+      {"OEM-Issue839.txt", "segment 3:", "must be later"},
+      // The third segment covers the second one's time again.
+      {"OEMExample3.txt", "segment 3:", "must not begin before"},
+      {"OEMExample6.txt", "segment 3:", "must not begin before"},
+  };
+  for (const auto& [name, where, what] : cases) {
+    EXPECT_THAT(fault(moved_to_the_earth(name)), AllOf(HasSubstr(where), HasSubstr(what))) << name;
+  }
+}
+
+TEST(Oem, NothingElseIsWrongWithTheOthers) {
+  for (const std::string name :
+       {"OEMExample2.txt", "OEMExample4.txt", "OEMExample9.txt", "test.oem", "test_cov.oem"}) {
+    EXPECT_EQ(fault(moved_to_the_earth(name)), "accepted") << name;
+  }
+}
+
+TEST(Oem, OrbitsOfThePassesAreRead) {
+  const OrbitEphemeris gms5 = parse_oem(text_of("spin/gms5/orbit.oem")).value();
+  EXPECT_EQ(gms5.usable_from(), parse_utc("1996-02-17T23:05:00").value());
+  // Geostationary: 42 164 km; the printed drift stays within 40 km of it.
+  const OrbitState state = gms5.at(parse_utc("1996-02-17T23:37:12.5").value()).value();
+  EXPECT_NEAR(state.position_icrf_km.norm(), 42'164.0, 40.0);
+  for (const std::string pass : {"nominal", "north-only"}) {
+    EXPECT_EQ(fault(text_of("spin/" + pass + "/orbit.oem")), "accepted") << pass;
+  }
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,148 @@
+#include "services/ingest/sequence_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <set>
+#include <vector>
+
+namespace spindrift {
+namespace {
+
+Origin origin(std::uint64_t seq, std::uint64_t session = 1, std::string source = "front-end") {
+  return {.source = std::move(source), .session = session, .seq = seq};
+}
+
+SequenceCounts counts_after(SequenceTracker& tracker, const std::vector<std::uint64_t>& seqs) {
+  for (const std::uint64_t seq : seqs) {
+    tracker.record(origin(seq));
+  }
+  return tracker.by_source().at("front-end");
+}
+
+TEST(SequenceTracker, FindsNothingInOrder) {
+  SequenceTracker tracker;
+  EXPECT_EQ(counts_after(tracker, {0, 1, 2, 3}), (SequenceCounts{.received = 4}));
+}
+
+TEST(SequenceTracker, CountsEveryMissingSampleOfAGap) {
+  SequenceTracker tracker;
+  EXPECT_EQ(counts_after(tracker, {0, 1, 5, 7}), (SequenceCounts{.received = 4, .missing = 4}));
+}
+
+TEST(SequenceTracker, FillsTheGapWithALateArrival) {
+  SequenceTracker tracker;
+  EXPECT_EQ(counts_after(tracker, {0, 3, 1, 2}), (SequenceCounts{.received = 4, .disordered = 2}));
+}
+
+TEST(SequenceTracker, CountsADuplicateOnceMoreEachTime) {
+  SequenceTracker tracker;
+  EXPECT_EQ(tracker.record(origin(0)), Arrival::New);
+  EXPECT_EQ(tracker.record(origin(0)), Arrival::Duplicate);
+  EXPECT_EQ(tracker.record(origin(2)), Arrival::New);
+  EXPECT_EQ(tracker.record(origin(0)), Arrival::Duplicate);
+  EXPECT_EQ(tracker.by_source().at("front-end"),
+            (SequenceCounts{.received = 4, .missing = 1, .duplicates = 2}));
+}
+
+TEST(SequenceTracker, TakesNoGapBeforeTheFirstSampleSeen) {
+  SequenceTracker tracker;
+  EXPECT_EQ(counts_after(tracker, {1000, 1001}), (SequenceCounts{.received = 2}));
+}
+
+TEST(SequenceTracker, TakesNoGapAtARestartOfTheSource) {
+  SequenceTracker tracker;
+  for (const std::uint64_t session : {11U, 12U, 13U}) {
+    for (std::uint64_t seq = 0; seq < 10; ++seq) {
+      EXPECT_EQ(tracker.record(origin(seq, session)), Arrival::New);
+    }
+  }
+  EXPECT_EQ(tracker.by_source().at("front-end"), (SequenceCounts{.received = 30}));
+}
+
+TEST(SequenceTracker, KeepsSourcesOfTheSameSessionNumberApart) {
+  SequenceTracker tracker;
+  EXPECT_EQ(tracker.record(origin(0, 1, "north")), Arrival::New);
+  EXPECT_EQ(tracker.record(origin(0, 1, "south")), Arrival::New);
+  EXPECT_EQ(tracker.record(origin(2, 1, "south")), Arrival::New);
+  EXPECT_EQ(tracker.by_source().at("north"), (SequenceCounts{.received = 1}));
+  EXPECT_EQ(tracker.by_source().at("south"), (SequenceCounts{.received = 2, .missing = 1}));
+}
+
+TEST(SequenceTracker, HoldsTheLastSeqThereIs) {
+  SequenceTracker tracker;
+  constexpr std::uint64_t kLast = ~std::uint64_t{0};
+  EXPECT_EQ(counts_after(tracker, {kLast, kLast - 2, kLast, kLast - 1}),
+            (SequenceCounts{.received = 4, .duplicates = 1, .disordered = 2}));
+}
+
+/// The same by definition: a set of all that arrived.
+struct Definition {
+  std::set<std::uint64_t> seen;
+  SequenceCounts counts;
+
+  Arrival record(std::uint64_t seq) {
+    ++counts.received;
+    const bool late = !seen.empty() && seq < *seen.rbegin();
+    const bool is_new = seen.insert(seq).second;
+    counts.duplicates += is_new ? 0 : 1;
+    counts.disordered += is_new && late ? 1 : 0;
+    counts.missing = *seen.rbegin() - *seen.begin() + 1 - seen.size();
+    return is_new ? Arrival::New : Arrival::Duplicate;
+  }
+};
+
+TEST(SequenceTracker, AgreesWithTheDefinitionOnAnyStream) {
+  std::mt19937_64 random{20261120};  // NOLINT(cert-msc51-cpp): the same streams every time.
+  for (int stream = 0; stream < 200; ++stream) {
+    SCOPED_TRACE(stream);
+    SequenceTracker tracker;
+    Definition definition;
+    const std::uint64_t start = random() % 1000;
+    std::uniform_int_distribution<std::uint64_t> jump{0, 1 + random() % 40};
+    for (std::uint64_t i = 0; i < 500; ++i) {
+      const std::uint64_t seq = start + i + jump(random);
+      ASSERT_EQ(tracker.record(origin(seq)), definition.record(seq));
+      ASSERT_EQ(tracker.by_source().at("front-end"), definition.counts);
+    }
+  }
+}
+
+TEST(SequenceTracker, GivesUpTheLowestOfTooManyGapsAndStillCountsThem) {
+  SequenceTracker tracker;
+  const std::uint64_t count = SequenceTracker::kMaxRuns + 100;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    tracker.record(origin(2 * i));
+  }
+  EXPECT_EQ(tracker.record(origin(0)), Arrival::New);
+  EXPECT_EQ(tracker.record(origin(2 * (count - 1))), Arrival::Duplicate);
+  EXPECT_EQ(tracker.by_source().at("front-end"),
+            (SequenceCounts{
+                .received = count + 2, .missing = count - 1, .duplicates = 1, .disordered = 1}));
+}
+
+TEST(SequenceTracker, ForgetsTheSessionSilentForLongest) {
+  SequenceTracker tracker;
+  for (std::uint64_t session = 0; session < SequenceTracker::kMaxSessions; ++session) {
+    tracker.record(origin(0, session));
+  }
+  tracker.record(origin(1, 0));
+  tracker.record(origin(0, SequenceTracker::kMaxSessions));
+  EXPECT_EQ(tracker.record(origin(1, 0)), Arrival::Duplicate);
+  EXPECT_EQ(tracker.record(origin(0, 1)), Arrival::New);
+}
+
+TEST(SequenceTracker, CountsTooManySourcesTogether) {
+  SequenceTracker tracker;
+  for (std::size_t i = 0; i < SequenceTracker::kMaxSources + 10; ++i) {
+    tracker.record(origin(0, 1, "source " + std::to_string(i)));
+  }
+  EXPECT_EQ(tracker.by_source().size(), SequenceTracker::kMaxSources + 1);
+  EXPECT_EQ(tracker.by_source().at(SequenceTracker::kOtherSources),
+            (SequenceCounts{.received = 10}));
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,272 @@
+#include "pipelines/spin/fix.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/geometry.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+using enum SpinQuantity;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree_rad = kPi / 180.0;
+const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+constexpr double kRange_km = 16000.0;
+
+/// A body about `axis_icrf` between Sun and Earth, one turn in six seconds: a nanosecond is 1e-9
+/// rad of spin phase.
+struct Scene {
+  Eigen::Vector3d sun_icrf = Eigen::Vector3d{1.0, 0.2, 0.1}.normalized();
+  Eigen::Vector3d earth_icrf = Eigen::Vector3d{0.3, 1.0, -0.02}.normalized();
+  Eigen::Vector3d axis_icrf = Eigen::Vector3d{0.1, -0.05, 1.0}.normalized();
+  double rate_rad_s = 2.0 * kPi / 6.0;
+  SpinConfig config = testing::usual_config();
+
+  Sightlines sightlines() const {
+    return {.sun_icrf = sun_icrf,
+            .earth_icrf = earth_icrf,
+            .disc_rad = std::asin(6418.137 / kRange_km)};
+  }
+  Revolution seen() const {
+    return testing::revolution_seen(
+        {.axis_icrf = axis_icrf, .rate_rad_s = rate_rad_s, .first_turn_rad = 0.1, .config = config},
+        testing::at_rest(sun_icrf, kRange_km * earth_icrf), kStart);
+  }
+  Expected<SpinFix> fix(const std::set<SpinQuantity>& left_out = {}) const {
+    return spindrift::fix(config, seen(), left_out, sightlines());
+  }
+};
+
+// A nanosecond of an edge, amplified by the geometry at hand (5.7 for the earth angle of two beams
+// 10 deg apart, 33 for one beam with |Delta| = 0.03).
+constexpr double kExact_rad = 1e-7;
+
+TEST(SpinFix, CaseOneHasBothChords) {
+  const Scene scene;
+  const SpinFix fix = scene.fix().value();
+  EXPECT_EQ(fix.geometry_case, 1);
+  EXPECT_EQ(fix.resolution, Resolution::Geometry);
+  EXPECT_TRUE(fix.accepted);
+  EXPECT_FALSE(fix.alternate_axis_icrf);
+  EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+  EXPECT_NEAR(fix.norm, 1.0, kExact_rad);
+  EXPECT_EQ(fix.t, scene.seen().edge(PulseChannel::Sun1));
+}
+
+TEST(SpinFix, CasesTwoAndThreeHaveOneChord) {
+  const Scene scene;
+  for (const auto& [left_out, geometry_case] :
+       {std::pair{SouthChord, 2}, std::pair{NorthChord, 3}}) {
+    const SpinFix fix = scene.fix({left_out}).value();
+    EXPECT_EQ(fix.geometry_case, geometry_case);
+    EXPECT_EQ(fix.resolution, Resolution::Geometry);
+    EXPECT_TRUE(fix.accepted);
+    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+  }
+}
+
+TEST(SpinFix, OneDihedralIsEnough) {
+  const Scene scene;
+  for (const SpinQuantity left_out : {NorthDihedral, SouthDihedral}) {
+    const SpinFix fix = scene.fix({left_out}).value();
+    EXPECT_EQ(fix.geometry_case, 1);
+    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+  }
+}
+
+TEST(SpinFix, ASensorThatTheMissionDoesNotHaveMakesItCaseTwo) {
+  Scene scene;
+  scene.config.south.reset();
+  EXPECT_EQ(scene.fix().value().geometry_case, 2);
+}
+
+TEST(SpinFix, WithoutSunAngleOrChordOrDihedralThereIsNone) {
+  const Scene scene;
+  for (const std::set<SpinQuantity>& left_out :
+       {std::set{SunAngle}, std::set{NorthChord, SouthChord},
+        std::set{NorthDihedral, SouthDihedral}}) {
+    const auto fix = scene.fix(left_out);
+    ASSERT_FALSE(fix);
+    EXPECT_EQ(fix.error().code, ErrorCode::Unobservable);
+  }
+}
+
+TEST(SpinFix, DihedralsOnEitherSideOfPiAreAveragedThere) {
+  // The Earth opposite the Sun about the axis; the dihedrals of both beams stand about pi.
+  const Scene scene{.sun_icrf = Eigen::Vector3d{1.0, 0.0, 0.3}.normalized(),
+                    .earth_icrf = Eigen::Vector3d::UnitX() * -1.0,
+                    .axis_icrf = Eigen::Vector3d::UnitZ()};
+  Revolution revolution = scene.seen();
+  for (const PulseChannel channel : {PulseChannel::NorthIn, PulseChannel::NorthOut}) {
+    revolution.edges.at(index_of(channel)) = shifted(*revolution.edge(channel), 1e-4);
+  }
+  for (const PulseChannel channel : {PulseChannel::SouthIn, PulseChannel::SouthOut}) {
+    revolution.edges.at(index_of(channel)) = shifted(*revolution.edge(channel), -1e-4);
+  }
+  const SpinFix fix = spindrift::fix(scene.config, revolution, {}, scene.sightlines()).value();
+  EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+}
+
+TEST(SpinFix, SunAndEarthInLineLeaveTheAxisOpen) {
+  const Eigen::Vector3d sun = Eigen::Vector3d{1.0, 0.2, 0.1}.normalized();
+  const Eigen::Vector3d across = sun.unitOrthogonal();
+  for (const double apart_deg : {0.0, 2.9, 177.1, 180.0}) {
+    Scene scene{.sun_icrf = sun};
+    scene.earth_icrf = Eigen::AngleAxisd{apart_deg * kDegree_rad, across} * sun;
+    RevolutionMeasurements measured = measure(scene.config, Scene{}.seen());
+    const auto solution = solve_axis(scene.config, measured, scene.sightlines());
+    ASSERT_FALSE(solution) << apart_deg;
+    EXPECT_EQ(solution.error().code, ErrorCode::Unobservable);
+    EXPECT_NE(solution.error().message.find("3 and 177 deg"), std::string::npos);
+  }
+}
+
+TEST(SpinFix, EqualMountsAreRefusedWithTheirAngle) {
+  Scene scene;
+  scene.config.south->mount_angle_rad = scene.config.north->mount_angle_rad;
+  const auto fix = scene.fix();
+  ASSERT_FALSE(fix);
+  EXPECT_EQ(fix.error().code, ErrorCode::Unobservable);
+}
+
+/// The Sun on the body's equator and the Earth, 87 deg from the axis, behind it by a dihedral
+/// whose cosine is `determinant` / cos(85 deg): then Delta is `determinant`.
+Scene scene_of_determinant(double determinant) {
+  const double dihedral_rad = std::acos(determinant / std::cos(85.0 * kDegree_rad));
+  const double earth_angle_rad = 87.0 * kDegree_rad;
+  Scene scene{.sun_icrf = Eigen::Vector3d::UnitX(), .axis_icrf = Eigen::Vector3d::UnitZ()};
+  scene.earth_icrf =
+      direction_icrf({.ra_rad = dihedral_rad, .dec_rad = 0.5 * kPi - earth_angle_rad});
+  scene.config.south.reset();
+  return scene;
+}
+
+TEST(SpinFix, ALargeDeterminantLeavesNoAlternate) {
+  for (const double delta : {0.0302, 0.05, -0.0302, -0.05}) {
+    const Scene scene = scene_of_determinant(delta);
+    const SpinFix fix = scene.fix().value();
+    EXPECT_FALSE(fix.alternate_axis_icrf) << delta;
+    EXPECT_EQ(fix.resolution, Resolution::Geometry);
+    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+  }
+}
+
+TEST(SpinFix, ASmallDeterminantLeavesTheOtherRootAsAlternate) {
+  for (const double delta : {0.0298, 0.0102, -0.0102, -0.0298}) {
+    const Scene scene = scene_of_determinant(delta);
+    const SpinFix fix = scene.fix().value();
+    EXPECT_EQ(fix.resolution, Resolution::Geometry) << delta;
+    EXPECT_TRUE(fix.accepted);
+    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+    ASSERT_TRUE(fix.alternate_axis_icrf);
+    EXPECT_GT(angle_between_rad(*fix.alternate_axis_icrf, scene.axis_icrf), kDegree_rad);
+  }
+}
+
+TEST(SpinFix, AVanishingDeterminantIsAmbiguousAndNotAccepted) {
+  for (const double delta : {0.0098, 0.0, -0.0098}) {
+    const Scene scene = scene_of_determinant(delta);
+    const SpinFix fix = scene.fix().value();
+    EXPECT_EQ(fix.resolution, Resolution::Ambiguous) << delta;
+    EXPECT_FALSE(fix.accepted);
+    EXPECT_EQ(fix.geometry_case, 2);
+    ASSERT_TRUE(fix.alternate_axis_icrf);
+    const double off_rad = angle_between_rad(fix.axis_icrf, scene.axis_icrf);
+    const double alternate_off_rad = angle_between_rad(*fix.alternate_axis_icrf, scene.axis_icrf);
+    EXPECT_LT(std::min(off_rad, alternate_off_rad), kExact_rad);
+    EXPECT_GT(std::max(off_rad, alternate_off_rad), kDegree_rad);
+  }
+}
+
+TEST(SpinFix, LimitsOfTheDeterminantAreThoseOfTheMission) {
+  Scene scene = scene_of_determinant(0.05);
+  scene.config.geometry = {.determinant_usable = 0.08, .determinant_ambiguous = 0.06};
+  EXPECT_EQ(scene.fix().value().resolution, Resolution::Ambiguous);
+  scene.config.geometry = {.determinant_usable = 0.08, .determinant_ambiguous = 0.04};
+  EXPECT_TRUE(scene.fix().value().alternate_axis_icrf);
+  scene.config.geometry = {.determinant_usable = 0.04, .determinant_ambiguous = 0.01};
+  EXPECT_FALSE(scene.fix().value().alternate_axis_icrf);
+}
+
+TEST(SpinFix, AChordWiderThanTheDiscIsRefused) {
+  Scene scene = scene_of_determinant(0.02);
+  Revolution revolution = scene.seen();
+  const TaiTime in = revolution.edge(PulseChannel::NorthIn).value();
+  revolution.edges.at(index_of(PulseChannel::NorthOut)) = shifted(in, 0.9 / scene.rate_rad_s);
+  const auto fix = spindrift::fix(scene.config, revolution, {}, scene.sightlines());
+  ASSERT_FALSE(fix);
+  EXPECT_EQ(fix.error().code, ErrorCode::Unobservable);
+}
+
+/// Sum over noisy copies of the revolution of the squared error, normalised by the covariance that
+/// the undisturbed revolution states.
+double squared_errors(const Scene& scene, const std::set<SpinQuantity>& left_out, int draws,
+                      std::mt19937_64& rng) {
+  const Revolution exact = scene.seen();
+  const SpinFix stated = spindrift::fix(scene.config, exact, left_out, scene.sightlines()).value();
+  const Eigen::Matrix<double, 3, 2> basis = tangent_basis(stated.axis_icrf);
+  std::normal_distribution<double> normal;
+  double sum = 0.0;
+  for (int draw = 0; draw < draws; ++draw) {
+    Revolution noisy = exact;
+    for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+      const bool sun = channel < index_of(PulseChannel::NorthIn);
+      const double sigma_s = sun ? scene.config.noise.sun_s : scene.config.noise.infrared_s;
+      noisy.edges.at(channel) = shifted(exact.edges.at(channel).value(), sigma_s * normal(rng));
+    }
+    const auto fix = spindrift::fix(scene.config, noisy, left_out, scene.sightlines());
+    const Eigen::Vector2d error_rad = basis.transpose() * fix.value().axis_icrf;
+    sum += error_rad.dot(stated.covariance_rad2.ldlt().solve(error_rad));
+  }
+  return sum;
+}
+
+TEST(SpinFix, CovarianceIsTheScatterThatTheNoiseMakes) {
+  constexpr int kDraws = 3000;
+  std::mt19937_64 rng{91};
+  // Noise small enough that the geometry is linear within it: 1e-4 rad of spin phase at most.
+  Scene scene;
+  scene.config.noise = {.sun_s = 2e-5, .infrared_s = 1e-4};
+  // 99.9 % of chi-square with 6000 degrees of freedom, standard deviation sqrt(12000).
+  constexpr double kSpread = 3.29 * 109.5;
+  for (const std::set<SpinQuantity>& left_out :
+       {std::set<SpinQuantity>{}, std::set{SouthChord}, std::set{NorthChord},
+        std::set{NorthDihedral}, std::set{SouthChord, NorthDihedral}}) {
+    SCOPED_TRACE(left_out.size());
+    EXPECT_NEAR(squared_errors(scene, left_out, kDraws, rng), 2.0 * kDraws, kSpread);
+  }
+}
+
+TEST(SpinFix, CovarianceGrowsWithTheSquareOfTheNoise) {
+  Scene scene;
+  scene.config.noise = {.sun_s = 1e-5, .infrared_s = 5e-5};
+  const Eigen::Matrix2d once = scene.fix().value().covariance_rad2;
+  scene.config.noise = {.sun_s = 2e-5, .infrared_s = 1e-4};
+  const Eigen::Matrix2d twice = scene.fix().value().covariance_rad2;
+  // Edges move by whole nanoseconds: 5e-5 of the lesser noise.
+  EXPECT_LT((twice - 4.0 * once).norm(), 4e-4 * twice.norm());
+}
+
+TEST(SpinFix, ASolutionThatOneSigmaDestroysIsRefused) {
+  // At its widest the chord has a double root; one sigma wider and there is none.
+  Scene scene = scene_of_determinant(0.02);
+  scene.earth_icrf = direction_icrf(
+      {.ra_rad = std::acos(0.02 / std::cos(85.0 * kDegree_rad)), .dec_rad = 5.0 * kDegree_rad});
+  scene.config.noise.infrared_s = 5e-2;
+  const auto fix = scene.fix();
+  ASSERT_FALSE(fix);
+  EXPECT_EQ(fix.error().code, ErrorCode::Unobservable);
+  EXPECT_NE(fix.error().message.find("within one sigma"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace spindrift

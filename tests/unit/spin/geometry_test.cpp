@@ -1,0 +1,333 @@
+#include "pipelines/spin/geometry.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "pipelines/frames/celestial.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree_rad = kPi / 180.0;
+// Half a unit of the ninth decimal of a degree, as the golden values are printed.
+constexpr double kPrinted_rad = 0.5e-9 * kDegree_rad;
+// Some tens of ulps of a number of order 1, for well-conditioned formulas.
+constexpr double kRounding = 1e-14;
+
+Eigen::Vector3d at_deg(double ra_deg, double dec_deg) {
+  return direction_icrf({.ra_rad = ra_deg * kDegree_rad, .dec_rad = dec_deg * kDegree_rad});
+}
+
+// Two cones that meet in two axes; all values worked out in 30 digits by mpmath.
+const Eigen::Vector3d kSun_icrf = at_deg(10.0, 4.3);
+const Eigen::Vector3d kEarth_icrf = at_deg(80.0, -20.0);
+const Eigen::Vector3d kAxis_icrf = at_deg(268.625, 68.4485);
+const Eigen::Vector3d kFalseAxis_icrf = at_deg(281.751608418, -23.899303556);
+constexpr double kSunAngle_rad = 90.143759304 * kDegree_rad;
+constexpr double kEarthAngle_rad = 131.253314001 * kDegree_rad;
+constexpr double kDihedral_rad = 67.046435278 * kDegree_rad;
+
+TEST(SpinGeometry, PredictsTheAnglesOfAKnownAxis) {
+  const PredictedAngles angles = predict_angles(kAxis_icrf, kSun_icrf, kEarth_icrf);
+  EXPECT_NEAR(angles.sun_angle_rad, kSunAngle_rad, kPrinted_rad);
+  EXPECT_NEAR(angles.earth_angle_rad, kEarthAngle_rad, kPrinted_rad);
+  EXPECT_NEAR(angles.dihedral_rad, kDihedral_rad, kPrinted_rad);
+}
+
+TEST(SpinGeometry, TheFalseAxisHasTheSameConesAndTheOppositeDihedral) {
+  const PredictedAngles angles = predict_angles(kFalseAxis_icrf, kSun_icrf, kEarth_icrf);
+  EXPECT_NEAR(angles.sun_angle_rad, kSunAngle_rad, 2.0 * kPrinted_rad);
+  EXPECT_NEAR(angles.earth_angle_rad, kEarthAngle_rad, 2.0 * kPrinted_rad);
+  EXPECT_NEAR(angles.dihedral_rad, -kDihedral_rad, 2.0 * kPrinted_rad);
+}
+
+TEST(SpinGeometry, RecoversAKnownAxis) {
+  const Eigen::Vector3d axis = axis_icrf({.sun_icrf = kSun_icrf,
+                                          .earth_icrf = kEarth_icrf,
+                                          .sun_angle_rad = kSunAngle_rad,
+                                          .earth_angle_rad = kEarthAngle_rad,
+                                          .dihedral_rad = kDihedral_rad});
+  EXPECT_NEAR(axis.norm(), 1.0, 4.0 * kPrinted_rad);
+  EXPECT_LT(angle_between_rad(axis, kAxis_icrf), 4.0 * kPrinted_rad);
+}
+
+TEST(SpinGeometry, TheOppositeDihedralGivesTheMirrorImageInThePlaneOfSunAndEarth) {
+  const Eigen::Vector3d axis = axis_icrf({.sun_icrf = kSun_icrf,
+                                          .earth_icrf = kEarth_icrf,
+                                          .sun_angle_rad = kSunAngle_rad,
+                                          .earth_angle_rad = kEarthAngle_rad,
+                                          .dihedral_rad = -kDihedral_rad});
+  EXPECT_LT(angle_between_rad(axis, kFalseAxis_icrf), 4.0 * kPrinted_rad);
+  const Eigen::Vector3d normal = kSun_icrf.cross(kEarth_icrf).normalized();
+  const Eigen::Vector3d mirrored = kAxis_icrf - 2.0 * normal.dot(kAxis_icrf) * normal;
+  EXPECT_LT(angle_between_rad(axis, mirrored), 4.0 * kPrinted_rad);
+}
+
+TEST(SpinGeometry, AnglesThatContradictEachOtherShowInTheLengthOfTheAxis) {
+  // Sun and Earth a right angle apart, both 60 deg from the axis: squared length
+  // 1/4 + 1/4 + (3/4 sin(lambda))^2, which is 1 for cos(lambda) = -1/3 only.
+  const auto length_at = [](double dihedral_rad) {
+    return axis_icrf({.sun_icrf = Eigen::Vector3d::UnitX(),
+                      .earth_icrf = Eigen::Vector3d::UnitY(),
+                      .sun_angle_rad = kPi / 3.0,
+                      .earth_angle_rad = kPi / 3.0,
+                      .dihedral_rad = dihedral_rad})
+        .norm();
+  };
+  EXPECT_NEAR(length_at(std::acos(-1.0 / 3.0)), 1.0, kRounding);
+  EXPECT_NEAR(length_at(kPi / 2.0), std::sqrt(1.0625), kRounding);
+  EXPECT_NEAR(length_at(0.0), std::sqrt(0.5), kRounding);
+}
+
+TEST(SpinGeometry, TheDiscOfAFarEarthIsItsRadiusOverItsRange) {
+  // asin(6418.137 / 42164.17) from an independent calculator.
+  EXPECT_NEAR(earth_disc_half_angle_rad(42164.17, 40.0).value(), std::asin(6418.137 / 42164.17),
+              kRounding);
+  EXPECT_NEAR(earth_disc_half_angle_rad(2.0 * 6378.137, 0.0).value(), kPi / 6.0, kRounding);
+}
+
+TEST(SpinGeometry, ASpacecraftWithinTheHorizonHasNoDisc) {
+  for (const double range_km : {6418.137, 6000.0, 0.0, -1.0, std::nan("")}) {
+    const auto disc = earth_disc_half_angle_rad(range_km, 40.0);
+    ASSERT_FALSE(disc) << range_km;
+    EXPECT_EQ(disc.error().code, ErrorCode::Unobservable);
+    EXPECT_NE(disc.error().message.find("6418.137 km"), std::string::npos) << disc.error().message;
+  }
+}
+
+TEST(SpinGeometry, TwoEqualChordsOfBeamsAboutTheEquatorMeanAnEarthOnTheEquator) {
+  const Chord north{.mount_angle_rad = 80.0 * kDegree_rad, .chord_rad = 0.3};
+  const Chord south{.mount_angle_rad = 100.0 * kDegree_rad, .chord_rad = 0.3};
+  EXPECT_NEAR(earth_angle_from_two_chords(north, south).value(), kPi / 2.0, kRounding);
+}
+
+TEST(SpinGeometry, WhichBeamIsCalledNorthDoesNotMatter) {
+  const Chord one{.mount_angle_rad = 85.0 * kDegree_rad, .chord_rad = 0.31};
+  const Chord other{.mount_angle_rad = 97.0 * kDegree_rad, .chord_rad = 0.22};
+  EXPECT_NEAR(earth_angle_from_two_chords(one, other).value(),
+              earth_angle_from_two_chords(other, one).value(), kRounding);
+}
+
+TEST(SpinGeometry, EqualMountsDoNotDetermineTheEarthAngle) {
+  const Chord chord{.mount_angle_rad = 85.0 * kDegree_rad, .chord_rad = 0.3};
+  const auto angle = earth_angle_from_two_chords(chord, chord);
+  ASSERT_FALSE(angle);
+  EXPECT_EQ(angle.error().code, ErrorCode::Unobservable);
+  EXPECT_NE(angle.error().message.find("85.0000 deg"), std::string::npos) << angle.error().message;
+}
+
+TEST(SpinGeometry, AChordAtItsWidestIsPredictedFromItsThreeSides) {
+  // Beam, Earth and axis with the Earth on the beam's cone: the half chord c satisfies
+  // sin(rho / 2) = sin(g) sin(c / 2), an isosceles triangle.
+  const double mount_rad = 70.0 * kDegree_rad;
+  const double disc_rad = 20.0 * kDegree_rad;
+  const double half_rad = 2.0 * std::asin(std::sin(0.5 * disc_rad) / std::sin(mount_rad));
+  EXPECT_NEAR(predict_chord_rad(mount_rad, mount_rad, disc_rad).value(), 2.0 * half_rad, kRounding);
+}
+
+TEST(SpinGeometry, ABeamThatMissesTheDiscHasNoChord) {
+  EXPECT_TRUE(predict_chord_rad(85.0 * kDegree_rad, 75.1 * kDegree_rad, 10.0 * kDegree_rad));
+  EXPECT_FALSE(predict_chord_rad(85.0 * kDegree_rad, 74.9 * kDegree_rad, 10.0 * kDegree_rad));
+}
+
+TEST(SpinGeometry, ABeamThatNeverLeavesTheDiscHasNoChord) {
+  EXPECT_FALSE(predict_chord_rad(5.0 * kDegree_rad, 2.0 * kDegree_rad, 10.0 * kDegree_rad));
+}
+
+OneChordInput seen_from(double mount_rad, double disc_rad, const PredictedAngles& angles,
+                        double sun_earth_rad) {
+  const double chord_rad = predict_chord_rad(mount_rad, angles.earth_angle_rad, disc_rad).value();
+  return {.chord = {.mount_angle_rad = mount_rad, .chord_rad = chord_rad},
+          .sun_angle_rad = angles.sun_angle_rad,
+          .dihedral_rad = angles.dihedral_rad,
+          .sun_earth_rad = sun_earth_rad,
+          .disc_rad = disc_rad};
+}
+
+TEST(SpinGeometry, BothRootsOfTheChordEquationGiveTheChordThatWasMeasured) {
+  const double mount_rad = 85.0 * kDegree_rad;
+  const double disc_rad = 25.0 * kDegree_rad;
+  const OneChordInput input =
+      seen_from(mount_rad, disc_rad,
+                {.sun_angle_rad = 1.2, .earth_angle_rad = 1.6, .dihedral_rad = 0.7}, 1.0);
+  const auto roots = earth_angle_roots(input).value();
+  ASSERT_EQ(roots.size(), 2U);
+  EXPECT_GT(std::abs(roots[0] - roots[1]), 1.0 * kDegree_rad);
+  for (const double root : roots) {
+    EXPECT_NEAR(predict_chord_rad(mount_rad, root, disc_rad).value(), input.chord.chord_rad,
+                100.0 * kRounding);
+  }
+}
+
+TEST(SpinGeometry, ARootOutsideTheSphereIsNoRoot) {
+  // The beam 5 deg from the axis, the disc's edge 8 deg from its centre: the lesser root is
+  // negative.
+  const double disc_rad = 8.0 * kDegree_rad;
+  const OneChordInput input = seen_from(
+      5.0 * kDegree_rad, disc_rad,
+      {.sun_angle_rad = 1.2, .earth_angle_rad = 8.0 * kDegree_rad, .dihedral_rad = 0.7}, 1.2);
+  const auto roots = earth_angle_roots(input).value();
+  ASSERT_EQ(roots.size(), 1U);
+  EXPECT_NEAR(roots[0], 8.0 * kDegree_rad, 100.0 * kRounding);
+}
+
+TEST(SpinGeometry, AChordWiderThanTheDiscIsRefusedWithItsMeasure) {
+  const OneChordInput input{
+      .chord = {.mount_angle_rad = 85.0 * kDegree_rad, .chord_rad = 41.0 * kDegree_rad},
+      .sun_angle_rad = 1.2,
+      .dihedral_rad = 0.7,
+      .sun_earth_rad = 1.0,
+      .disc_rad = 20.0 * kDegree_rad};
+  const auto roots = earth_angle_roots(input);
+  ASSERT_FALSE(roots);
+  EXPECT_EQ(roots.error().code, ErrorCode::Unobservable);
+  EXPECT_NE(roots.error().message.find("chord 41.0000 deg"), std::string::npos)
+      << roots.error().message;
+}
+
+TEST(SpinGeometry, DeterminantVanishesWhereBothEquationsAreTheSame) {
+  // Sun on the equator, a quarter turn from the Earth.
+  const OneChordInput input{.chord = {.mount_angle_rad = 85.0 * kDegree_rad, .chord_rad = 0.5},
+                            .sun_angle_rad = kPi / 2.0,
+                            .dihedral_rad = kPi / 2.0,
+                            .sun_earth_rad = kPi / 2.0,
+                            .disc_rad = 0.4};
+  EXPECT_NEAR(determinant(input), 0.0, kRounding);
+}
+
+TEST(SpinGeometry, DeterminantIsThatOfTheTwoLinearEquations) {
+  const OneChordInput input{.chord = {.mount_angle_rad = 1.3, .chord_rad = 0.5},
+                            .sun_angle_rad = 1.1,
+                            .dihedral_rad = 0.6,
+                            .sun_earth_rad = 0.9,
+                            .disc_rad = 0.4};
+  Eigen::Matrix2d equations;
+  equations << std::cos(1.3), std::sin(1.3) * std::cos(0.25),  //
+      std::cos(1.1), std::sin(1.1) * std::cos(0.6);
+  EXPECT_NEAR(determinant(input), equations.determinant(), kRounding);
+}
+
+/// A random place of Sun and Earth about a body that sees both, and its revolution as observed.
+struct Scene {
+  double rate_rad_s;
+  Eigen::Vector3d sun_icrf;
+  Eigen::Vector3d earth_icrf;
+  Eigen::Vector3d axis_icrf;
+  double disc_rad;
+  Revolution seen;
+  SpinConfig config;
+};
+
+Scene random_scene(std::mt19937_64& rng) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  const auto direction = [&]() -> Eigen::Vector3d {
+    const double x = normal(rng);
+    const double y = normal(rng);
+    return Eigen::Vector3d{x, y, normal(rng)}.normalized();
+  };
+  Scene scene{.rate_rad_s = 2.0 * kPi / 6.0,
+              .sun_icrf = direction(),
+              .earth_icrf = {},
+              .axis_icrf = direction(),
+              .disc_rad = (15.0 + 30.0 * uniform(rng)) * kDegree_rad,
+              .seen = {},
+              .config = testing::usual_config()};
+  const double earth_angle_rad = (80.0 + 20.0 * uniform(rng)) * kDegree_rad;
+  const Eigen::Vector3d across = scene.axis_icrf.cross(direction()).normalized();
+  scene.earth_icrf = Eigen::AngleAxisd{earth_angle_rad, across} * scene.axis_icrf;
+  const double range_km = 6418.137 / std::sin(scene.disc_rad);
+  scene.seen =
+      testing::revolution_seen({.axis_icrf = scene.axis_icrf,
+                                .rate_rad_s = scene.rate_rad_s,
+                                .first_turn_rad = 2.0 * kPi * uniform(rng),
+                                .config = scene.config},
+                               testing::at_rest(scene.sun_icrf, range_km * scene.earth_icrf),
+                               tai_from_ns(1'795'143'637'000'000'000));
+  return scene;
+}
+
+double between(const Scene& scene, PulseChannel from, PulseChannel to) {
+  return scene.rate_rad_s *
+         seconds_between(scene.seen.edge(from).value(), scene.seen.edge(to).value());
+}
+
+constexpr int kScenes = 200;
+// Two edges, each to half a nanosecond, at a turn in six seconds.
+constexpr double kNanosecond_rad = 2.0 * kPi / 6.0 * 1e-9;
+
+TEST(SpinGeometry, PredictedChordsAreThoseOfTheOracle) {
+  std::mt19937_64 rng{41};
+  using enum PulseChannel;
+  for (int trial = 0; trial < kScenes; ++trial) {
+    SCOPED_TRACE(trial);
+    const Scene scene = random_scene(rng);
+    const double earth_angle_rad = angle_between_rad(scene.axis_icrf, scene.earth_icrf);
+    const auto north_rad =
+        predict_chord_rad(scene.config.north->mount_angle_rad, earth_angle_rad, scene.disc_rad);
+    ASSERT_EQ(north_rad.has_value(), scene.seen.edge(NorthIn).has_value());
+    if (north_rad) {
+      ASSERT_NEAR(*north_rad, between(scene, NorthIn, NorthOut), kNanosecond_rad);
+    }
+  }
+}
+
+TEST(SpinGeometry, EarthAngleOfTwoChordsIsThatOfTheOracle) {
+  std::mt19937_64 rng{42};
+  using enum PulseChannel;
+  int compared = 0;
+  for (int trial = 0; trial < kScenes; ++trial) {
+    SCOPED_TRACE(trial);
+    const Scene scene = random_scene(rng);
+    if (!scene.seen.edge(NorthOut) || !scene.seen.edge(SouthOut)) {
+      continue;
+    }
+    const auto angle_rad =
+        earth_angle_from_two_chords({.mount_angle_rad = scene.config.north->mount_angle_rad,
+                                     .chord_rad = between(scene, NorthIn, NorthOut)},
+                                    {.mount_angle_rad = scene.config.south->mount_angle_rad,
+                                     .chord_rad = between(scene, SouthIn, SouthOut)});
+    // d(theta_e) / d(chord) <= sin(g) / 2 / |cos gN - cos gS| = 2.9, for each chord.
+    ASSERT_NEAR(angle_rad.value(), angle_between_rad(scene.axis_icrf, scene.earth_icrf),
+                2.0 * 2.9 * kNanosecond_rad);
+    ++compared;
+  }
+  EXPECT_GT(compared, kScenes / 2);
+}
+
+TEST(SpinGeometry, EarthAngleOfOneChordIsThatOfTheOracle) {
+  std::mt19937_64 rng{43};
+  using enum PulseChannel;
+  int linear = 0;
+  for (int trial = 0; trial < kScenes; ++trial) {
+    SCOPED_TRACE(trial);
+    const Scene scene = random_scene(rng);
+    if (!scene.seen.edge(NorthOut)) {
+      continue;
+    }
+    const PredictedAngles angles =
+        predict_angles(scene.axis_icrf, scene.sun_icrf, scene.earth_icrf);
+    const OneChordInput input{.chord = {.mount_angle_rad = scene.config.north->mount_angle_rad,
+                                        .chord_rad = between(scene, NorthIn, NorthOut)},
+                              .sun_angle_rad = angles.sun_angle_rad,
+                              .dihedral_rad = angles.dihedral_rad,
+                              .sun_earth_rad = angle_between_rad(scene.sun_icrf, scene.earth_icrf),
+                              .disc_rad = scene.disc_rad};
+    if (std::abs(determinant(input)) < 0.03) {
+      continue;
+    }
+    // The chord's error, at most halved, over the determinant.
+    ASSERT_NEAR(earth_angle_linear(input), angles.earth_angle_rad, kNanosecond_rad / 0.03);
+    ++linear;
+  }
+  EXPECT_GT(linear, kScenes / 2);
+}
+
+}  // namespace
+}  // namespace spindrift

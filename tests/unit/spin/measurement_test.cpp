@@ -1,0 +1,212 @@
+#include "pipelines/spin/measurement.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "pipelines/frames/celestial.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+using enum PulseChannel;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree_rad = kPi / 180.0;
+constexpr double kRate_rad_s = 2.0 * kPi / 1.5;
+// Two edges, each rounded to half a nanosecond.
+constexpr double kNanosecond_rad = kRate_rad_s * 1e-9;
+const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+
+/// A body about ICRF z, the Sun and the Earth at these angles from it; the Earth follows the Sun
+/// by `dihedral_rad`.
+struct Scene {
+  double sun_angle_rad = 80.0 * kDegree_rad;
+  double earth_angle_rad = 92.0 * kDegree_rad;
+  double dihedral_rad = 1.0;
+  double first_turn_rad = 0.3;
+  SpinConfig config = testing::usual_config();
+};
+
+Revolution seen(const Scene& scene) {
+  const auto at = [](double polar_rad, double azimuth_rad) -> Eigen::Vector3d {
+    return Eigen::AngleAxisd{azimuth_rad, Eigen::Vector3d::UnitZ()} *
+           (Eigen::AngleAxisd{polar_rad, Eigen::Vector3d::UnitY()} * Eigen::Vector3d::UnitZ());
+  };
+  return testing::revolution_seen(
+      {.axis_icrf = Eigen::Vector3d::UnitZ(),
+       .rate_rad_s = kRate_rad_s,
+       .first_turn_rad = scene.first_turn_rad,
+       .config = scene.config},
+      testing::at_rest(at(scene.sun_angle_rad, 0.4),
+                       16000.0 * at(scene.earth_angle_rad, 0.4 + scene.dihedral_rad)),
+      kStart);
+}
+
+TEST(SpinMeasurements, SunAngleIsThatOfTheOracle) {
+  for (double angle_deg = 46.0; angle_deg < 135.0; angle_deg += 1.0) {
+    SCOPED_TRACE(angle_deg);
+    const Scene scene{.sun_angle_rad = angle_deg * kDegree_rad};
+    const auto measured = measure(scene.config, seen(scene)).sun_angle;
+    ASSERT_TRUE(measured);
+    // d(theta_s) / d(lag) is 1 at most with a cant of 45 deg.
+    EXPECT_NEAR(measured->value_rad, scene.sun_angle_rad, kNanosecond_rad);
+  }
+}
+
+TEST(SpinMeasurements, SlitLagOfTheOracleIsTheOneOfTheHandbook) {
+  for (const double cant_deg : {15.0, 30.0, 45.0}) {
+    for (const double angle_deg : {60.0, 75.0, 90.0, 110.0}) {
+      Scene scene{.sun_angle_rad = angle_deg * kDegree_rad};
+      scene.config.sun_sensor.slit_cant_rad = cant_deg * kDegree_rad;
+      const Revolution revolution = seen(scene);
+      const double lag_rad = kRate_rad_s * seconds_between(revolution.edge(Sun1).value(),
+                                                           revolution.edge(Sun2).value()) -
+                             scene.config.sun_sensor.slit_separation_rad;
+      // cot(theta_s) = sin(psi_12 - psi0) / tan I.
+      EXPECT_NEAR(1.0 / std::tan(angle_deg * kDegree_rad),
+                  std::sin(lag_rad) / std::tan(cant_deg * kDegree_rad),
+                  kNanosecond_rad / std::tan(cant_deg * kDegree_rad));
+    }
+  }
+}
+
+TEST(SpinMeasurements, DihedralIsThatOfTheOracleInEveryDirection) {
+  for (double dihedral_rad = -3.1; dihedral_rad < 3.14; dihedral_rad += 0.1) {
+    SCOPED_TRACE(dihedral_rad);
+    const Scene scene{.dihedral_rad = dihedral_rad};
+    const RevolutionMeasurements measured = measure(scene.config, seen(scene));
+    for (const Side side : kSides) {
+      ASSERT_TRUE(measured.crossing(side));
+      ASSERT_TRUE(measured.crossing(side)->dihedral);
+      EXPECT_NEAR(measured.crossing(side)->dihedral->value_rad, dihedral_rad,
+                  2.0 * kNanosecond_rad);
+    }
+  }
+}
+
+TEST(SpinMeasurements, ChordIsTheTurnFromEdgeToEdge) {
+  const Scene scene;
+  const Revolution revolution = seen(scene);
+  const RevolutionMeasurements measured = measure(scene.config, revolution);
+  const double width_s = seconds_between(*revolution.edge(NorthIn), *revolution.edge(NorthOut));
+  EXPECT_DOUBLE_EQ(measured.crossing(Side::North)->chord->value_rad, kRate_rad_s * width_s);
+  EXPECT_LE(std::abs(seconds_between(shifted(*revolution.edge(NorthIn), 0.5 * width_s),
+                                     measured.crossing(Side::North)->t_mid)),
+            1e-9);
+}
+
+TEST(SpinMeasurements, WhatAnEdgeDoesNotGiveIsAbsent) {
+  const Scene scene;
+  const auto without = [&](PulseChannel channel) {
+    Revolution revolution = seen(scene);
+    revolution.edges.at(index_of(channel)).reset();
+    return measure(scene.config, revolution);
+  };
+  EXPECT_FALSE(without(Sun1).sun_angle);
+  EXPECT_FALSE(without(Sun1).t_sun1);
+  EXPECT_TRUE(without(Sun1).crossing(Side::North)->chord);
+  EXPECT_FALSE(without(Sun1).crossing(Side::North)->dihedral);
+  EXPECT_FALSE(without(Sun2).sun_angle);
+  EXPECT_TRUE(without(Sun2).crossing(Side::North)->dihedral);
+  EXPECT_FALSE(without(NorthIn).crossing(Side::North));
+  EXPECT_FALSE(without(NorthOut).crossing(Side::North));
+  EXPECT_TRUE(without(NorthOut).crossing(Side::South));
+  EXPECT_FALSE(without(SouthIn).crossing(Side::South));
+}
+
+TEST(SpinMeasurements, ASensorThatTheMissionDoesNotHaveMeasuresNothing) {
+  Scene scene;
+  const Revolution revolution = seen(scene);
+  scene.config.south.reset();
+  EXPECT_FALSE(measure(scene.config, revolution).crossing(Side::South));
+  EXPECT_TRUE(measure(scene.config, revolution).crossing(Side::North));
+}
+
+TEST(SpinMeasurements, ASlitLagOfAQuarterTurnHasNoMeaning) {
+  const SunSensor sensor = testing::usual_config().sun_sensor;
+  const auto with_lag = [&](double lag_rad) {
+    return sun_angle(sensor, (sensor.slit_separation_rad + lag_rad) / kRate_rad_s, kRate_rad_s,
+                     1e-4);
+  };
+  for (const double lag_deg : {-89.9, 0.0, 89.9, 360.0, -400.0}) {
+    EXPECT_TRUE(with_lag(lag_deg * kDegree_rad)) << lag_deg;
+  }
+  for (const double lag_deg : {-179.0, -90.1, 90.1, 180.0, 260.0}) {
+    EXPECT_FALSE(with_lag(lag_deg * kDegree_rad)) << lag_deg;
+  }
+  EXPECT_FALSE(sun_angle(sensor, std::nan(""), kRate_rad_s, 1e-4));
+}
+
+TEST(SpinMeasurements, AChordOfHalfATurnOrBackwardsHasNoMeaning) {
+  const Scene scene;
+  Revolution revolution = seen(scene);
+  const auto chord_of = [&](double width_rad) {
+    revolution.edges.at(index_of(NorthOut)) =
+        shifted(*revolution.edge(NorthIn), width_rad / kRate_rad_s);
+    return measure(scene.config, revolution).crossing(Side::North);
+  };
+  EXPECT_TRUE(chord_of(0.99 * kPi));
+  EXPECT_FALSE(chord_of(1.01 * kPi));
+  EXPECT_FALSE(chord_of(0.0));
+  EXPECT_FALSE(chord_of(-0.1));
+}
+
+TEST(SpinMeasurements, RemovingAQuantityLeavesTheOthers) {
+  const Scene scene;
+  using enum SpinQuantity;
+  constexpr std::array kAll = {SunAngle, NorthChord, SouthChord, NorthDihedral, SouthDihedral};
+  for (const SpinQuantity removed : kAll) {
+    RevolutionMeasurements measured = measure(scene.config, seen(scene));
+    remove(measured, removed);
+    for (const SpinQuantity quantity : kAll) {
+      EXPECT_EQ(value_of(measured, quantity).has_value(), quantity != removed)
+          << name_of(quantity) << " without " << name_of(removed);
+    }
+  }
+}
+
+TEST(SpinMeasurements, SigmaIsTheScatterThatTheNoiseMakes) {
+  constexpr int kDraws = 20000;
+  using enum SpinQuantity;
+  constexpr std::array kAll = {SunAngle, NorthChord, SouthChord, NorthDihedral, SouthDihedral};
+  Scene scene{.sun_angle_rad = 70.0 * kDegree_rad};
+  scene.config.sun_sensor.slit_cant_rad = 30.0 * kDegree_rad;
+  const Revolution exact = seen(scene);
+  const RevolutionMeasurements truth = measure(scene.config, exact);
+  std::mt19937_64 rng{71};
+  std::normal_distribution<double> normal;
+  std::array<double, kAll.size()> sums{};
+  std::array<double, kAll.size()> squares{};
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Revolution noisy = exact;
+    for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+      const double sigma_s =
+          channel < index_of(NorthIn) ? scene.config.noise.sun_s : scene.config.noise.infrared_s;
+      noisy.edges.at(channel) = shifted(noisy.edges.at(channel).value(), sigma_s * normal(rng));
+    }
+    const RevolutionMeasurements measured = measure(scene.config, noisy);
+    for (std::size_t i = 0; i < kAll.size(); ++i) {
+      const double error =
+          value_of(measured, kAll.at(i))->value_rad - value_of(truth, kAll.at(i))->value_rad;
+      const double normalised = error / value_of(truth, kAll.at(i))->sigma_rad;
+      sums.at(i) += normalised;
+      squares.at(i) += normalised * normalised;
+    }
+  }
+  // Four standard errors: of the mean 1 / sqrt(n), of the standard deviation 1 / sqrt(2 n). The
+  // curvature of theta_s over one sigma (6e-4 rad) is far below both.
+  for (std::size_t i = 0; i < kAll.size(); ++i) {
+    SCOPED_TRACE(name_of(kAll.at(i)));
+    EXPECT_NEAR(sums.at(i) / kDraws, 0.0, 4.0 / std::sqrt(kDraws));
+    EXPECT_NEAR(std::sqrt(squares.at(i) / kDraws), 1.0, 4.0 / std::sqrt(2.0 * kDraws));
+  }
+}
+
+}  // namespace
+}  // namespace spindrift

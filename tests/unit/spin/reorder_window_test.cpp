@@ -1,0 +1,117 @@
+#include "pipelines/spin/reorder_window.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+namespace spindrift {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using enum PulseChannel;
+using enum ReorderWindow::Verdict;
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+Pulse pulse_at(std::int64_t t_ns, PulseChannel channel = Sun1) {
+  return {.t = tai_from_ns(t_ns), .channel = channel};
+}
+
+TEST(ReorderWindow, HoldsAPulseForOneSecondOfTelemetryTime) {
+  ReorderWindow window;
+  EXPECT_EQ(window.add(pulse_at(0)), Held);
+  EXPECT_THAT(window.release(), IsEmpty());
+  EXPECT_EQ(window.add(pulse_at(kSecond_ns - 1)), Held);
+  EXPECT_THAT(window.release(), IsEmpty());
+  EXPECT_EQ(window.add(pulse_at(kSecond_ns)), Held);
+  EXPECT_THAT(window.release(), ElementsAre(pulse_at(0)));
+}
+
+TEST(ReorderWindow, ReleasesInOrderOfTimeThenChannel) {
+  ReorderWindow window;
+  window.add(pulse_at(5, SouthOut));
+  window.add(pulse_at(5, Sun1));
+  window.add(pulse_at(3, NorthIn));
+  window.add(pulse_at(4, Sun2));
+  EXPECT_THAT(window.release_all(), ElementsAre(pulse_at(3, NorthIn), pulse_at(4, Sun2),
+                                                pulse_at(5, Sun1), pulse_at(5, SouthOut)));
+  EXPECT_THAT(window.release_all(), IsEmpty());
+}
+
+TEST(ReorderWindow, KnowsADuplicateOfWhatItHolds) {
+  ReorderWindow window;
+  EXPECT_EQ(window.add(pulse_at(7)), Held);
+  EXPECT_EQ(window.add(pulse_at(7)), Duplicate);
+  EXPECT_EQ(window.add(pulse_at(7, Sun2)), Held);
+  EXPECT_THAT(window.release_all(), ElementsAre(pulse_at(7), pulse_at(7, Sun2)));
+}
+
+TEST(ReorderWindow, KnowsADuplicateOfWhatItReleasedWithinTenMinutes) {
+  ReorderWindow window;
+  for (std::int64_t second = 0; second <= 602; ++second) {
+    window.add(pulse_at(second * kSecond_ns));
+    window.release();
+  }
+  EXPECT_EQ(window.add(pulse_at(0)), Late);
+  EXPECT_EQ(window.add(pulse_at(1 * kSecond_ns)), Duplicate);
+  EXPECT_EQ(window.add(pulse_at(601 * kSecond_ns)), Duplicate);
+  EXPECT_EQ(window.add(pulse_at(300 * kSecond_ns + 1)), Late);
+}
+
+TEST(ReorderWindow, WhatPrecedesAReleasedPulseIsLate) {
+  ReorderWindow window;
+  window.add(pulse_at(10, Sun2));
+  window.add(pulse_at(10 + kSecond_ns));
+  EXPECT_THAT(window.release(), ElementsAre(pulse_at(10, Sun2)));
+  EXPECT_EQ(window.add(pulse_at(9)), Late);
+  EXPECT_EQ(window.add(pulse_at(10, Sun1)), Late);
+  EXPECT_EQ(window.add(pulse_at(10, NorthIn)), Held);
+}
+
+TEST(ReorderWindow, ALatePulseIsNeverReleased) {
+  ReorderWindow window;
+  window.add(pulse_at(2 * kSecond_ns));
+  window.add(pulse_at(4 * kSecond_ns));
+  window.release();
+  window.add(pulse_at(kSecond_ns));
+  EXPECT_THAT(window.release_all(), ElementsAre(pulse_at(4 * kSecond_ns)));
+}
+
+TEST(ReorderWindow, DisorderWithinOneSecondIsSortedWithoutLoss) {
+  std::mt19937_64 rng{31};
+  std::uniform_int_distribution<std::int64_t> gap_ns{0, kSecond_ns / 4};
+  std::uniform_int_distribution<std::int64_t> delay_ns{0, kSecond_ns - 1};
+  std::uniform_int_distribution<int> channel{0, static_cast<int>(kPulseChannels) - 1};
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<Pulse> sent;
+    std::int64_t t_ns = 0;
+    for (int i = 0; i < 300; ++i) {
+      t_ns += 1 + gap_ns(rng);
+      sent.push_back(pulse_at(t_ns, static_cast<PulseChannel>(channel(rng))));
+    }
+    std::vector<std::pair<std::int64_t, Pulse>> arrivals(sent.size());
+    std::transform(sent.begin(), sent.end(), arrivals.begin(), [&](const Pulse& pulse) {
+      return std::pair{tai_ns(pulse.t) + delay_ns(rng), pulse};
+    });
+    std::sort(arrivals.begin(), arrivals.end());
+
+    ReorderWindow window;
+    std::vector<Pulse> received;
+    const auto receive = [&](const std::vector<Pulse>& pulses) {
+      received.insert(received.end(), pulses.begin(), pulses.end());
+    };
+    for (const auto& [arrival_ns, pulse] : arrivals) {
+      ASSERT_EQ(window.add(pulse), Held) << "trial " << trial;
+      receive(window.release());
+    }
+    receive(window.release_all());
+    ASSERT_EQ(received, sent) << "trial " << trial;
+  }
+}
+
+}  // namespace
+}  // namespace spindrift
