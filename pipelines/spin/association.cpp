@@ -292,10 +292,9 @@ bool Associator::found_again(const Pulse& pulse) {
   if (strays.size() < kStraysToAgree) {
     return false;
   }
-  std::vector<double> phases;
-  for (const TaiTime t : strays) {
-    phases.push_back(fraction(phase_turns(t)));
-  }
+  std::vector<double> phases(strays.size());
+  std::transform(strays.begin(), strays.end(), phases.begin(),
+                 [this](TaiTime t) { return fraction(phase_turns(t)); });
   strays.pop_front();
   const double median = circular_median(phases);
   const bool agree = std::all_of(phases.begin(), phases.end(), [&](double phase) {

@@ -13,6 +13,7 @@ namespace spindrift {
 namespace {
 
 constexpr double kEarthRadius_km = 6378.137;
+constexpr double kPolarRadius_km = 6356.752314;  // WGS-84
 
 double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
 
@@ -35,6 +36,10 @@ Expected<double> earth_disc_half_angle_rad(double range_km, double co2_altitude_
                                    range_km, horizon_km)}};
   }
   return std::asin(horizon_km / range_km);
+}
+
+double oblateness_rad(double disc_rad) {
+  return (1.0 - kPolarRadius_km / kEarthRadius_km) * std::sin(disc_rad);
 }
 
 Expected<double> earth_angle_from_two_chords(const Chord& north, const Chord& south) {

@@ -22,6 +22,10 @@ struct Chord {
   double chord_rad;        ///< Phi
 };
 
+/// How far an oblate Earth's limb lies from that of the sphere, at most: the seat of what the
+/// spherical horizon leaves out. @param disc_rad rho.
+double oblateness_rad(double disc_rad);
+
 /// theta_e from both chords, which needs no rho.
 /// @return Unobservable when the two equations are the same (equal mounting angles).
 Expected<double> earth_angle_from_two_chords(const Chord& north, const Chord& south);

@@ -70,6 +70,17 @@ PulseUse use_of(const Revolution& revolution, PulseChannel channel,
   return use;
 }
 
+/// What the spherical horizon leaves out of an oblate Earth, as a covariance: taken as anywhere
+/// between none and the whole displacement of the limb, in any direction. Unlike the noise of the
+/// pulses it does not shrink with the number of fixes.
+Eigen::Matrix2d horizon_error_rad2(const SpinConfig& config, double disc_rad) {
+  if (config.horizon.model == HorizonModel::Sphere) {
+    return Eigen::Matrix2d::Zero();
+  }
+  const double limb_rad = oblateness_rad(disc_rad);
+  return Eigen::Matrix2d::Identity() * (limb_rad * limb_rad / 3.0 / 2.0);
+}
+
 Eigen::Vector3d median_axis(const std::vector<Eigen::Vector3d>& axes) {
   Eigen::Vector3d median;
   for (Eigen::Index i = 0; i < 3; ++i) {
@@ -89,8 +100,8 @@ std::vector<std::string> settings_without_effect(const SpinConfig& config) {
   std::vector<std::string> settings;
   if (config.horizon.model == HorizonModel::Ellipsoid) {
     settings.emplace_back(
-        "spin.horizon.model = \"ellipsoid\": the spherical horizon is used, which "
-        "may move the axis by a tenth of a degree");
+        "spin.horizon.model = \"ellipsoid\": the spherical horizon is used; sigma "
+        "includes what that leaves out");
   }
   if (config.screening.interference_s > 0.0) {
     settings.emplace_back("spin.screening.interference_s has no effect yet");
@@ -266,11 +277,16 @@ void SpinPass::announce_axis(const Candidate& candidate, const std::set<SpinQuan
   if (!found) {
     return;  // The measurements stand; this revolution alone gives no axis.
   }
-  out.products.emplace_back(*found);
+  const Eigen::Matrix2d horizon_rad2 = horizon_error_rad2(config_, candidate.sightlines->disc_rad);
+  SpinFix announced = *found;
+  announced.covariance_rad2 += horizon_rad2;
+  out.products.emplace_back(announced);
   if (found->accepted) {
     recent_axes_.add(found->axis_icrf);
     mean_axis_.add(*found);
-    out.products.emplace_back(mean_estimate(candidate));
+    SpinEstimate mean = mean_estimate(candidate);
+    mean.covariance_rad2 += horizon_rad2;
+    out.products.emplace_back(std::move(mean));
   }
 }
 
