@@ -15,6 +15,11 @@ namespace {
 // Within this angle of one line, Sun and Earth leave the axis free to turn about it.
 constexpr double kInLine_rad = 3.0 * std::numbers::pi / 180.0;
 
+// What measurements may contradict each other by: this many sigmas of their noise, and what the
+// model leaves out (oblateness 0.2 deg, height and brightness of the CO2 layer likewise).
+constexpr double kContradictionSigmas = 5.0;
+constexpr double kModel_rad = 0.5 * std::numbers::pi / 180.0;
+
 Unexpected unobservable(std::string message) {
   return Unexpected{{ErrorCode::Unobservable, std::move(message)}};
 }
@@ -107,12 +112,12 @@ Expected<AxisSolution> solve_axis(const SpinConfig& config, const RevolutionMeas
   }
 
   EarthAngles earth{.candidates_rad = {}, .resolution = Resolution::Geometry};
-  if (north && south) {
-    const auto earth_angle_rad = earth_angle_from_two_chords(*north, *south);
-    if (!earth_angle_rad) {
-      return Unexpected{earth_angle_rad.error()};
-    }
-    earth.candidates_rad = {*earth_angle_rad};
+  const auto from_both = north && south ? earth_angle_from_two_chords(*north, *south)
+                                        : Expected<double>{unobservable("one chord only")};
+  double disc_excess_rad = 0.0;
+  if (from_both) {
+    earth.candidates_rad = {*from_both};
+    disc_excess_rad = disc_seen_rad(*north, *from_both) - sightlines.disc_rad;
   } else {
     auto found =
         earth_angle_from_one_chord(config.geometry, {.chord = north ? *north : *south,
@@ -134,11 +139,12 @@ Expected<AxisSolution> solve_axis(const SpinConfig& config, const RevolutionMeas
                       .dihedral_rad = *dihedral_rad});
   };
   const Eigen::Vector3d axis = axis_for(earth.candidates_rad.front());
-  AxisSolution solution{.geometry_case = north && south ? 1 : (north ? 2 : 3),
+  AxisSolution solution{.geometry_case = from_both ? 1 : (north ? 2 : 3),
                         .axis_icrf = axis.normalized(),
                         .alternate_axis_icrf = {},
                         .resolution = earth.resolution,
-                        .norm = axis.norm()};
+                        .norm = axis.norm(),
+                        .contradiction = {axis.norm() - 1.0, disc_excess_rad}};
   if (earth.candidates_rad.size() > 1) {
     solution.alternate_axis_icrf = axis_for(earth.candidates_rad.back()).normalized();
   }
@@ -155,6 +161,7 @@ Expected<SpinFix> fix(const SpinConfig& config, const Revolution& revolution,
 
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(solution->axis_icrf);
   Eigen::Matrix2d covariance_rad2 = Eigen::Matrix2d::Zero();
+  Eigen::Array2d contradiction_variance = Eigen::Array2d::Zero();
   for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
     if (!revolution.edges.at(channel)) {
       continue;
@@ -175,7 +182,12 @@ Expected<SpinFix> fix(const SpinConfig& config, const Revolution& revolution,
         0.5 * basis.transpose() *
         (nearer(*later, solution->axis_icrf) - nearer(*earlier, solution->axis_icrf));
     covariance_rad2 += moved_rad * moved_rad.transpose();
+    contradiction_variance +=
+        (0.5 * (later->contradiction - earlier->contradiction)).array().square();
   }
+  const bool consistent = (solution->contradiction.array().abs() <=
+                           kContradictionSigmas * contradiction_variance.sqrt() + kModel_rad)
+                              .all();
 
   return SpinFix{.revolution = revolution.number,
                  .t = *measured.t_sun1,
@@ -185,7 +197,7 @@ Expected<SpinFix> fix(const SpinConfig& config, const Revolution& revolution,
                  .alternate_axis_icrf = solution->alternate_axis_icrf,
                  .resolution = solution->resolution,
                  .norm = solution->norm,
-                 .accepted = solution->resolution != Resolution::Ambiguous};
+                 .accepted = consistent && solution->resolution != Resolution::Ambiguous};
 }
 
 }  // namespace spindrift

@@ -13,6 +13,11 @@ namespace spindrift {
 namespace {
 
 constexpr double kEarthRadius_km = 6378.137;
+// Mounting angles whose cosines differ by less (0.6 deg near the equator) leave theta_e to the
+// noise.
+constexpr double kAlike = 0.01;
+// Beyond it no infrared sensor sees a disc; what is said to be there is in metres.
+constexpr double kFarthest_km = 1.0e6;
 constexpr double kPolarRadius_km = 6356.752314;  // WGS-84
 
 double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
@@ -30,10 +35,12 @@ double misfit(const OneChordInput& input, double earth_angle_rad) {
 
 Expected<double> earth_disc_half_angle_rad(double range_km, double co2_altitude_km) {
   const double horizon_km = kEarthRadius_km + co2_altitude_km;
-  if (!(range_km > horizon_km)) {
-    return Unexpected{{ErrorCode::Unobservable,
-                       fmt::format("range {:.3f} km must exceed the infrared horizon's {:.3f} km",
-                                   range_km, horizon_km)}};
+  if (!(range_km > horizon_km && range_km < kFarthest_km)) {
+    return Unexpected{
+        {ErrorCode::Unobservable,
+         fmt::format(
+             "range {:.3f} km must lie between the infrared horizon's {:.3f} km and {:.0f} km",
+             range_km, horizon_km, kFarthest_km)}};
   }
   return std::asin(horizon_km / range_km);
 }
@@ -46,7 +53,7 @@ Expected<double> earth_angle_from_two_chords(const Chord& north, const Chord& so
   const double sine = std::cos(north.mount_angle_rad) - std::cos(south.mount_angle_rad);
   const double cosine = std::sin(south.mount_angle_rad) * std::cos(0.5 * south.chord_rad) -
                         std::sin(north.mount_angle_rad) * std::cos(0.5 * north.chord_rad);
-  if (sine == 0.0) {
+  if (std::abs(sine) < kAlike) {
     return Unexpected{{ErrorCode::Unobservable,
                        fmt::format("both infrared beams are mounted at {:.4f} deg: their chords "
                                    "do not determine the earth angle",
@@ -54,6 +61,13 @@ Expected<double> earth_angle_from_two_chords(const Chord& north, const Chord& so
   }
   // theta_e lies in (0, pi): its sine is positive whichever beam stands nearer the axis.
   return std::atan2(std::abs(sine), std::copysign(1.0, sine) * cosine);
+}
+
+double disc_seen_rad(const Chord& chord, double earth_angle_rad) {
+  const double cosine =
+      std::cos(chord.mount_angle_rad) * std::cos(earth_angle_rad) +
+      std::sin(chord.mount_angle_rad) * std::sin(earth_angle_rad) * std::cos(0.5 * chord.chord_rad);
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
 double determinant(const OneChordInput& input) {

@@ -13,7 +13,7 @@
 namespace spindrift {
 
 /// rho = asin((R_earth + h) / r), the spherical Earth with R_earth = 6378.137 km.
-/// @return Unobservable when the spacecraft is not above that sphere.
+/// @return Unobservable when the spacecraft is not above that sphere, or beyond a million km.
 Expected<double> earth_disc_half_angle_rad(double range_km, double co2_altitude_km);
 
 /// A chord across the Earth's disc, and the mounting angle of the beam that drew it.
@@ -27,8 +27,11 @@ struct Chord {
 double oblateness_rad(double disc_rad);
 
 /// theta_e from both chords, which needs no rho.
-/// @return Unobservable when the two equations are the same (equal mounting angles).
+/// @return Unobservable when the two equations are nearly the same (mounting angles alike).
 Expected<double> earth_angle_from_two_chords(const Chord& north, const Chord& south);
+
+/// rho as one chord shows it from a known theta_e: the check that two chords leave over.
+double disc_seen_rad(const Chord& chord, double earth_angle_rad);
 
 /// The right-hand sides of the one-chord equations.
 struct OneChordInput {

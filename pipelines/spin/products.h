@@ -31,8 +31,10 @@ std::string_view name_of(SpinQuantity quantity);
 enum class Rejection {
   Unassociated,  ///< No revolution had a place for the edge.
   Late,          ///< Arrived after its time had been processed.
+  OutOfTime,     ///< Far ahead of all others, by a clock that nothing else agrees with.
   Unpaired,      ///< Its partner edge is missing: it gives no measurement.
   Geometry,      ///< The measurement has no meaning (chord of half a turn, slit lag out of range).
+  NoSensor,      ///< The mission file has no such sensor.
   NoOrbit,       ///< The orbit does not cover it: not testable.
   Period,        ///< Failed the spin-period test.
   SunAngle,      ///< Failed the 3-sigma test of that quantity; likewise the following.
@@ -79,8 +81,8 @@ struct SpinFix {
   Eigen::Matrix2d covariance_rad2;  ///< Tangent plane at the axis: east, north.
   std::optional<Eigen::Vector3d> alternate_axis_icrf;
   Resolution resolution;
-  double norm;  ///< |P| before normalising: 1 for measurements that agree.
-  bool accepted;
+  double norm;    ///< |P| before normalising: 1 for measurements that agree.
+  bool accepted;  ///< Neither AMBIGUOUS nor from measurements that contradict each other.
 };
 
 enum class SpinEstimator { Mean, Sequential, Batch };

@@ -47,13 +47,25 @@ PulseChannel partner_of(PulseChannel channel) {
   return kPartners.at(index_of(channel));
 }
 
+/// Why an edge went into no measurement at all.
+Rejection without_use(const SpinConfig& config, const Revolution& revolution,
+                      PulseChannel channel) {
+  for (const Side side : kSides) {
+    const bool of_side =
+        channel == kInChannels.at(index_of(side)) || channel == kOutChannels.at(index_of(side));
+    if (of_side && !sensor_of(config, side)) {
+      return Rejection::NoSensor;
+    }
+  }
+  return revolution.edge(partner_of(channel)) ? Rejection::Geometry : Rejection::Unpaired;
+}
+
 /// An edge is good when any measurement it went into is.
-PulseUse use_of(const Revolution& revolution, PulseChannel channel,
+PulseUse use_of(const SpinConfig& config, const Revolution& revolution, PulseChannel channel,
                 const std::vector<Verdict>& verdicts) {
   PulseUse use{.pulse = {.t = *revolution.edge(channel), .channel = channel},
                .revolution = revolution.number,
-               .rejected_by = revolution.edge(partner_of(channel)) ? Rejection::Geometry
-                                                                   : Rejection::Unpaired};
+               .rejected_by = without_use(config, revolution, channel)};
   bool first = true;
   for (const Verdict& verdict : verdicts) {
     if (!uses(verdict.quantity, channel)) {
@@ -132,8 +144,11 @@ SpinOutput SpinPass::push(const Pulse& pulse) {
       associate(reorder_.release(), out);
       break;
     case ReorderWindow::Verdict::Late:
-      out.products.emplace_back(
-          PulseUse{.pulse = pulse, .revolution = {}, .rejected_by = Rejection::Late});
+      leave_out(pulse, Rejection::Late, out);
+      say_once("pulses arrive after their time was processed: they are stored and left out", out);
+      break;
+    case ReorderWindow::Verdict::OutOfTime:
+      leave_out(pulse, Rejection::OutOfTime, out);
       break;
     case ReorderWindow::Verdict::Duplicate:
       break;  // The same edge once more: what becomes of it is said once.
@@ -143,12 +158,27 @@ SpinOutput SpinPass::push(const Pulse& pulse) {
 
 SpinOutput SpinPass::finish() {
   SpinOutput out;
-  associate(reorder_.release_all(), out);
+  const ReorderWindow::Rest rest = reorder_.release_all();
+  associate(rest.in_time, out);
   take(associator_.finish(), out);
   if (!started_) {
     settle_first(out);
   }
+  for (const Pulse& pulse : rest.out_of_time) {
+    leave_out(pulse, Rejection::OutOfTime, out);
+    say_once("pulses stamped far ahead of all others are left out: a sender's clock is wrong", out);
+  }
   return out;
+}
+
+void SpinPass::leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out) {
+  out.products.emplace_back(PulseUse{.pulse = pulse, .revolution = {}, .rejected_by = rejected_by});
+}
+
+void SpinPass::say_once(const std::string& notice, SpinOutput& out) {
+  if (said_.insert(notice).second) {
+    out.notices.push_back(notice);
+  }
 }
 
 void SpinPass::associate(const std::vector<Pulse>& pulses, SpinOutput& out) {
@@ -262,7 +292,8 @@ void SpinPass::settle(Candidate& candidate, SpinOutput& out) {
   }
   for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
     if (revolution.edges.at(channel)) {
-      out.products.emplace_back(use_of(revolution, static_cast<PulseChannel>(channel), verdicts));
+      out.products.emplace_back(
+          use_of(config_, revolution, static_cast<PulseChannel>(channel), verdicts));
     }
   }
   announce_axis(candidate, left_out, out);
@@ -275,7 +306,19 @@ void SpinPass::announce_axis(const Candidate& candidate, const std::set<SpinQuan
   }
   const auto found = fix(config_, candidate.revolution, left_out, *candidate.sightlines);
   if (!found) {
-    return;  // The measurements stand; this revolution alone gives no axis.
+    // The measurements stand; this revolution alone gives no axis.
+    if (!std::exchange(fix_missed_, true)) {
+      out.notices.push_back(fmt::format("revolution {} is the first that gives no fix: {}",
+                                        candidate.revolution.number, found.error().message));
+    }
+    return;
+  }
+  if (!found->accepted && found->resolution != Resolution::Ambiguous) {
+    say_once(
+        "measurements contradict each other, their fixes are not accepted: the length of the "
+        "axis or the size of the Earth's disc comes out wrong; check the mission's mounting "
+        "angles, azimuths and orbit",
+        out);
   }
   const Eigen::Matrix2d horizon_rad2 = horizon_error_rad2(config_, candidate.sightlines->disc_rad);
   SpinFix announced = *found;

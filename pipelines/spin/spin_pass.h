@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,8 @@ class SpinPass {
   void predict(Candidate& candidate, const Eigen::Vector3d& axis_icrf);
   std::optional<Sightlines> sightlines_of(const RevolutionMeasurements& measured, TaiTime t,
                                           SpinOutput& out);
+  static void leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out);
+  void say_once(const std::string& notice, SpinOutput& out);
   SpinEstimate mean_estimate(const Candidate& candidate) const;
 
   SpinConfig config_;
@@ -79,6 +82,8 @@ class SpinPass {
   AxisWindow recent_axes_;
   MeanAxis mean_axis_;
   bool orbit_missed_ = false;
+  bool fix_missed_ = false;
+  std::set<std::string> said_;
 };
 
 }  // namespace spindrift

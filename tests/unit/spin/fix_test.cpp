@@ -130,12 +130,38 @@ TEST(SpinFix, SunAndEarthInLineLeaveTheAxisOpen) {
   }
 }
 
-TEST(SpinFix, EqualMountsAreRefusedWithTheirAngle) {
+TEST(SpinFix, BeamsMountedAlikeAreOneBeam) {
   Scene scene;
-  scene.config.south->mount_angle_rad = scene.config.north->mount_angle_rad;
-  const auto fix = scene.fix();
-  ASSERT_FALSE(fix);
-  EXPECT_EQ(fix.error().code, ErrorCode::Unobservable);
+  for (const double apart_deg : {0.0, 0.3}) {
+    scene.config.south->mount_angle_rad =
+        scene.config.north->mount_angle_rad + apart_deg * kDegree_rad;
+    const SpinFix fix = scene.fix().value();
+    EXPECT_EQ(fix.geometry_case, 2);
+    EXPECT_TRUE(fix.accepted);
+    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+  }
+}
+
+TEST(SpinFix, AWrongAzimuthContradictsTheAngleBetweenSunAndEarth) {
+  const Scene scene;
+  SpinConfig wrong = scene.config;
+  wrong.north->azimuth_rad -= 80.0 * kDegree_rad;
+  wrong.south->azimuth_rad -= 80.0 * kDegree_rad;
+  const SpinFix fix = spindrift::fix(wrong, scene.seen(), {}, scene.sightlines()).value();
+  EXPECT_FALSE(fix.accepted);
+  EXPECT_GT(std::abs(fix.norm - 1.0), 0.1);
+}
+
+TEST(SpinFix, ChordsOfAnotherDiscContradictTheOrbit) {
+  const Scene scene;
+  for (const double range_factor : {0.8, 1.25}) {
+    Sightlines sightlines = scene.sightlines();
+    sightlines.disc_rad = std::asin(std::sin(sightlines.disc_rad) / range_factor);
+    const SpinFix fix = spindrift::fix(scene.config, scene.seen(), {}, sightlines).value();
+    EXPECT_FALSE(fix.accepted) << range_factor;
+    // Two chords need no disc: the axis itself is right, and still nothing to rely on.
+    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+  }
 }
 
 /// The Sun on the body's equator and the Earth, 87 deg from the axis, behind it by a dihedral
