@@ -20,6 +20,8 @@ CREATE TABLE run (
   software_version TEXT NOT NULL,
   config_toml      TEXT NOT NULL,
   config_sha256    TEXT NOT NULL,
+  orbit_sha256     TEXT,           -- of the orbit file; NULL: the mission names none
+  telemetry        TEXT NOT NULL,  -- file paths, one a line, or 'DDS domain N, partition P'
   started_utc      TEXT NOT NULL,
   finished_utc     TEXT  -- NULL: running, or ended without a word
 ) STRICT;
@@ -95,11 +97,12 @@ CREATE TABLE magnetometer_sample (
 -- What came in and what became of it, by run.
 
 CREATE TABLE rejected_input (
-  run_id TEXT NOT NULL REFERENCES run,
-  source TEXT NOT NULL,
-  line   INTEGER NOT NULL,  -- of the file, from 1; on the bus the sample's seq
-  reason TEXT NOT NULL,
-  PRIMARY KEY (run_id, source, line, reason)
+  run_id  TEXT NOT NULL REFERENCES run,
+  source  TEXT NOT NULL,     -- the file's path as it was given; on the bus the sample's source
+  session INTEGER NOT NULL,  -- 0 for a file
+  line    INTEGER NOT NULL,  -- of the file, from 1; on the bus the sample's seq
+  reason  TEXT NOT NULL,
+  PRIMARY KEY (run_id, source, session, line, reason)
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE source_count (

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <numeric>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -27,6 +28,37 @@ std::size_t row_count(std::span<const ArchiveBatch> batches) {
       [](std::size_t sum, const ArchiveBatch& batch) { return sum + spindrift::row_count(batch); });
 }
 
+Unexpected no_place(const std::filesystem::path& path, std::string_view reason) {
+  return Unexpected{
+      {ErrorCode::InvalidConfiguration, fmt::format("archive \"{}\": {}", path.string(), reason)}};
+}
+
+// One file has one lock, whichever link it is reached by.
+Expected<std::filesystem::path> resolved(const std::filesystem::path& path) {
+  if (path.empty()) {
+    return no_place(path, "must be the path of a file");
+  }
+  std::error_code unresolved;
+  auto real = std::filesystem::absolute(path, unresolved);
+  if (!unresolved) {
+    real = std::filesystem::weakly_canonical(real, unresolved);
+  }
+  if (unresolved) {
+    return Unexpected{{ErrorCode::Unavailable,
+                       fmt::format("archive {}: {}", path.string(), unresolved.message())}};
+  }
+  std::error_code unknown;  // What cannot be looked at is refused or cannot be locked.
+  if (!std::filesystem::is_directory(real.parent_path(), unknown)) {
+    return no_place(path, fmt::format("there is no directory {}", real.parent_path().string()));
+  }
+  const auto status = std::filesystem::status(real, unknown);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    return no_place(path, std::filesystem::is_directory(status) ? "is a directory, must be a file"
+                                                                : "is not a regular file");
+  }
+  return real;
+}
+
 }  // namespace
 
 /// What the writer thread works with. The lock is let go of last.
@@ -41,31 +73,28 @@ struct Archive::Store {
 
 Expected<std::unique_ptr<Archive>> Archive::open(const std::filesystem::path& path,
                                                  ArchiveOptions options) {
-  // One file has one lock, whichever link it is reached by.
-  std::error_code unresolved;
-  const std::filesystem::path real = std::filesystem::weakly_canonical(path, unresolved);
-  if (unresolved) {
-    return Unexpected{{ErrorCode::Unavailable,
-                       fmt::format("archive {}: {}", path.string(), unresolved.message())}};
+  const auto real = resolved(path);
+  if (!real) {
+    return Unexpected{real.error()};
   }
   // Before the lock, which would leave a file beside one that is not ours.
-  if (const auto ours = refuse_foreign_file(real); !ours) {
+  if (const auto ours = refuse_foreign_file(*real); !ours) {
     return Unexpected{ours.error()};
   }
-  auto lock = WriteLock::acquire(real);
+  auto lock = WriteLock::acquire(*real);
   if (!lock) {
     return Unexpected{lock.error()};
   }
-  auto database = open_for_writing(real);
+  auto database = open_for_writing(*real);
   if (!database) {
     return Unexpected{database.error()};
   }
   try {
     auto store = std::make_unique<Store>(std::move(*lock), std::move(*database));
     return std::unique_ptr<Archive>{
-        new Archive{real.string(), std::move(store), std::move(options)}};
+        new Archive{real->string(), std::move(store), std::move(options)}};
   } catch (const SQLite::Exception& exception) {
-    return Unexpected{archive_error(real.string(), exception)};
+    return Unexpected{archive_error(real->string(), exception)};
   }
 }
 

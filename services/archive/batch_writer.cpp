@@ -2,21 +2,16 @@
 
 #include <SQLiteCpp/Transaction.h>
 
-#include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <string_view>
 #include <variant>
 
-#include "pipelines/frames/celestial.h"
 #include "services/archive/connection.h"
+#include "services/units/degrees.h"
 
 namespace spindrift {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-constexpr double kRpmPerRad_s = 30.0 / std::numbers::pi;
 
 void bind(SQLite::Statement& statement, int index, std::int64_t value) {
   statement.bind(index, value);
@@ -54,18 +49,6 @@ std::optional<std::string_view> name_of(const std::optional<Rejection>& rejected
   return rejected_by ? std::optional{spindrift::name_of(*rejected_by)} : std::nullopt;
 }
 
-struct AxisColumns {
-  double ra_deg;
-  double dec_deg;
-};
-
-AxisColumns columns_of(const Eigen::Vector3d& axis_icrf) {
-  const RaDec place = ra_dec_of(axis_icrf);
-  const double ra_deg = place.ra_rad * kDegPerRad;
-  // The last double below 2 pi becomes 360 exactly.
-  return {.ra_deg = ra_deg == 360.0 ? 0.0 : ra_deg, .dec_deg = place.dec_rad * kDegPerRad};
-}
-
 struct CovarianceColumns {
   double sigma_deg;
   double east_east_deg2;
@@ -75,7 +58,7 @@ struct CovarianceColumns {
 
 CovarianceColumns columns_of(const Eigen::Matrix2d& covariance_rad2) {
   const Eigen::Matrix2d deg2 = covariance_rad2 * (kDegPerRad * kDegPerRad);
-  return {.sigma_deg = std::sqrt(deg2.trace()),
+  return {.sigma_deg = sigma_deg(covariance_rad2),
           .east_east_deg2 = deg2(0, 0),
           .east_north_deg2 = deg2(0, 1),
           .north_north_deg2 = deg2(1, 1)};
@@ -90,20 +73,21 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                   " ON CONFLICT DO UPDATE SET kind = excluded.kind"},
       run_{database,
            "INSERT INTO run (run_id, spacecraft_id, mode, software_version, config_toml,"
-           " config_sha256, started_utc) VALUES (?, ?, ?, ?, ?, ?, ?)"},
+           " config_sha256, orbit_sha256, telemetry, started_utc)"
+           " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)"},
       run_finished_{database, "UPDATE run SET finished_utc = ? WHERE run_id = ?"},
       pulse_{database,
              "INSERT INTO pulse (spacecraft_id, t_tai_ns, channel, source, session, seq)"
              " VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING"},
       rejected_input_{database,
-                      "INSERT INTO rejected_input (run_id, source, line, reason)"
-                      " VALUES (?, ?, ?, ?) ON CONFLICT DO NOTHING"},
+                      "INSERT INTO rejected_input (run_id, source, session, line, reason)"
+                      " VALUES (?, ?, ?, ?, ?) ON CONFLICT DO NOTHING"},
       source_count_{database,
                     "INSERT OR REPLACE INTO source_count (run_id, source, received, gaps,"
                     " duplicates, disordered) VALUES (?, ?, ?, ?, ?, ?)"},
       pulse_use_{database,
-                 "INSERT OR IGNORE INTO pulse_use (run_id, spacecraft_id, t_tai_ns, channel,"
-                 " revolution, accepted, rejected_by) VALUES (?, ?, ?, ?, ?, ?, ?)"},
+                 "INSERT INTO pulse_use (run_id, spacecraft_id, t_tai_ns, channel, revolution,"
+                 " accepted, rejected_by) VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING"},
       revolution_{database,
                   "INSERT OR REPLACE INTO revolution (run_id, revolution, t_tai_ns, period_s)"
                   " VALUES (?, ?, ?, ?)"},
@@ -159,7 +143,8 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
 void BatchWriter::insert(const ArchiveBatch& batch, const RunStart& start) {
   execute(spacecraft_, batch.spacecraft_id, start.spacecraft_kind);
   execute(run_, batch.run_id, batch.spacecraft_id, start.mode, start.software_version,
-          start.config_toml, start.config_sha256, start.started_utc);
+          start.config_toml, start.config_sha256, start.orbit_sha256, start.telemetry,
+          start.started_utc);
 }
 
 void BatchWriter::insert(const PulseSample& sample) {
@@ -169,7 +154,8 @@ void BatchWriter::insert(const PulseSample& sample) {
 }
 
 void BatchWriter::insert(const std::string& run_id, const RejectedInput& rejected) {
-  execute(rejected_input_, run_id, rejected.source, rejected.line, rejected.reason);
+  execute(rejected_input_, run_id, rejected.source, as_signed(rejected.session), rejected.line,
+          rejected.reason);
 }
 
 void BatchWriter::insert(const std::string& run_id, const SourceCount& count) {
@@ -198,12 +184,12 @@ void BatchWriter::insert(const ArchiveBatch& batch, const SpinMeasurement& measu
 }
 
 void BatchWriter::insert(const ArchiveBatch& batch, const SpinFix& fix) {
-  const auto [ra_deg, dec_deg] = columns_of(fix.axis_icrf);
+  const auto [ra_deg, dec_deg] = place_deg(fix.axis_icrf);
   const CovarianceColumns covariance = columns_of(fix.covariance_rad2);
   std::optional<double> alternate_ra_deg;
   std::optional<double> alternate_dec_deg;
   if (fix.alternate_axis_icrf) {
-    const AxisColumns alternate = columns_of(*fix.alternate_axis_icrf);
+    const PlaceDeg alternate = place_deg(*fix.alternate_axis_icrf);
     alternate_ra_deg = alternate.ra_deg;
     alternate_dec_deg = alternate.dec_deg;
   }
@@ -214,7 +200,7 @@ void BatchWriter::insert(const ArchiveBatch& batch, const SpinFix& fix) {
 }
 
 void BatchWriter::insert(const ArchiveBatch& batch, const SpinEstimate& estimate) {
-  const auto [ra_deg, dec_deg] = columns_of(estimate.axis_icrf);
+  const auto [ra_deg, dec_deg] = place_deg(estimate.axis_icrf);
   const CovarianceColumns covariance = columns_of(estimate.covariance_rad2);
   execute(spin_estimate_, batch.run_id, tai_ns(estimate.t), spindrift::name_of(estimate.estimator),
           ra_deg, dec_deg, covariance.sigma_deg, covariance.east_east_deg2,

@@ -55,14 +55,6 @@ Expected<std::string> header_of(const std::filesystem::path& path) {
   }
 }
 
-// The application id goes in while the journal is still a rollback journal: so it stands in the
-// file itself, and not only in the WAL, from the first page on.
-void claim_if_empty(SQLite::Database& database) {
-  if (database.execAndGet("PRAGMA application_id").getInt() != kArchiveApplicationId) {
-    database.exec(fmt::format("PRAGMA application_id = {}", kArchiveApplicationId));
-  }
-}
-
 }  // namespace
 
 Expected<void> refuse_foreign_file(const std::filesystem::path& path) {
@@ -107,8 +99,9 @@ Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path) {
   try {
     SQLite::Database database{path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
                               kBusyTimeout_ms};
-    claim_if_empty(database);
     distrust(database);
+    // While the journal is still a rollback journal: so the application id of a new archive stands
+    // in the file itself, and not only in the WAL.
     if (const auto migrated = migrate(database); !migrated) {
       return Unexpected{migrated.error()};
     }

@@ -20,8 +20,8 @@ Expected<void> refuse_foreign_file(const std::filesystem::path& path);
 
 /// The one connection that writes: made if absent, brought to this program's schema, WAL with a
 /// sync at every commit. Its caller holds the archive's WriteLock.
-/// @return InvalidConfiguration when the file is not an archive, which leaves it untouched, or a
-///         newer one; Unavailable when it cannot be opened.
+/// @return InvalidConfiguration when the file is not an archive, which leaves it untouched, a newer
+///         one or damaged; Unavailable when it cannot be opened.
 Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path);
 
 /// A connection that cannot write, for one thread.

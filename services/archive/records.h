@@ -22,6 +22,8 @@ struct RunStart {
   std::string software_version;
   std::string config_toml;
   std::string config_sha256;
+  std::optional<std::string> orbit_sha256;  ///< Of the mission's orbit file, if it names one.
+  std::string telemetry;    ///< File paths, one a line, or DDS domain and partition.
   std::string started_utc;  ///< ISO 8601, ending in Z.
 };
 

@@ -37,11 +37,21 @@ Expected<void> migrate(SQLite::Database& database) {
                      "the newer program",
                      database.getFilename(), version, archive_schema_version())}};
   }
+  const bool is_archive =
+      database.execAndGet("PRAGMA application_id").getInt() == kArchiveApplicationId;
+  if (is_archive && version < 1) {
+    return Unexpected{
+        {ErrorCode::InvalidConfiguration,
+         fmt::format("archive {} has schema version {}, which no archive has: it is damaged; "
+                     "restore a copy of it or use another file",
+                     database.getFilename(), version)}};
+  }
   const auto all = migrations();
   for (auto next = static_cast<std::size_t>(version); next < all.size(); ++next) {
     SQLite::Transaction transaction{database, SQLite::TransactionBehavior::IMMEDIATE};
     database.exec(all.at(next));
-    database.exec(fmt::format("PRAGMA user_version = {}", next + 1));
+    database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}",
+                              kArchiveApplicationId, next + 1));
     transaction.commit();
   }
   return {};

@@ -17,8 +17,10 @@ inline constexpr std::int32_t kArchiveApplicationId = 0x73706472;
 /// The version that this program writes: how many migrations it carries.
 int archive_schema_version();
 
-/// Applies the migrations that `database` lacks, each in a transaction of its own.
-/// @return InvalidConfiguration, with both versions, when the file is newer than this program.
+/// Applies the migrations that `database`, an archive or empty, lacks, each in a transaction of its
+/// own. The first one makes it an archive.
+/// @return InvalidConfiguration, with its version, when the archive is newer than this program or
+///         has a version that none can have.
 /// @throws SQLite::Exception
 Expected<void> migrate(SQLite::Database& database);
 

@@ -10,9 +10,10 @@ namespace spindrift {
 
 /// Kept and counted instead of the sample that it is not.
 struct RejectedInput {
-  std::string source;  ///< File name, or source on the bus.
-  std::int64_t line;   ///< Line of the file, from 1; on the bus the sample's seq.
-  std::string reason;  ///< Field, value and what is allowed.
+  std::string source;         ///< Path of the file as it was given, or source on the bus.
+  std::int64_t line;          ///< Line of the file, from 1; on the bus the sample's seq.
+  std::string reason;         ///< Field, value and what is allowed.
+  std::uint64_t session = 0;  ///< Of the source on the bus, which `line` counts in; 0 for a file.
 };
 
 }  // namespace spindrift

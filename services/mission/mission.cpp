@@ -84,10 +84,11 @@ Expected<Mission> load_mission(const std::filesystem::path& path) {
   return Mission{
       .spacecraft_id = std::get<std::string>(values.at("spacecraft.id")),
       .kind = kind,
-      .orbit = std::move(*orbit),
+      .orbit = std::move(orbit->orbit),
       .spin = kind == SpacecraftKind::Spin ? std::optional{spin_config(values)} : std::nullopt,
       .toml_text = std::move(*text),
-      .sha256 = std::move(*sha256)};
+      .sha256 = std::move(*sha256),
+      .orbit_sha256 = std::move(orbit->file_sha256)};
 }
 
 }  // namespace spindrift

@@ -22,10 +22,11 @@ std::string_view name_of(SpacecraftKind kind);
 struct Mission {
   std::string spacecraft_id;
   SpacecraftKind kind;
-  std::optional<Orbit> orbit;      ///< Always there for a spinner.
-  std::optional<SpinConfig> spin;  ///< There for a spinner, and only then.
-  std::string toml_text;           ///< The file as read.
-  std::string sha256;              ///< Of toml_text, hexadecimal.
+  std::optional<Orbit> orbit;               ///< Always there for a spinner.
+  std::optional<SpinConfig> spin;           ///< There for a spinner, and only then.
+  std::string toml_text;                    ///< The file as read.
+  std::string sha256;                       ///< Of toml_text, hexadecimal.
+  std::optional<std::string> orbit_sha256;  ///< Of the orbit file, if one is named.
 };
 
 /// Reads a mission file, and the orbit file that it names, by the rules of

@@ -17,8 +17,7 @@ namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
-Expected<std::optional<Orbit>> orbit_from_oem(const std::string& oem,
-                                              const std::filesystem::path& folder) {
+Expected<MissionOrbit> orbit_from_oem(const std::string& oem, const std::filesystem::path& folder) {
   const auto refused = [&](const std::string& reason) {
     return Unexpected{
         {ErrorCode::InvalidConfiguration, fmt::format("orbit.oem = \"{}\": {}", oem, reason)}};
@@ -31,10 +30,14 @@ Expected<std::optional<Orbit>> orbit_from_oem(const std::string& oem,
   if (!ephemeris) {
     return refused(ephemeris.error().message);
   }
-  return Orbit{std::move(*ephemeris)};
+  auto sha256 = sha256_hex(*text);
+  if (!sha256) {
+    return refused(sha256.error().message);
+  }
+  return MissionOrbit{.orbit = Orbit{std::move(*ephemeris)}, .file_sha256 = std::move(*sha256)};
 }
 
-Expected<std::optional<Orbit>> orbit_from_elements(const MissionValues& values) {
+Expected<MissionOrbit> orbit_from_elements(const MissionValues& values) {
   const auto number = [&](std::string_view key) {
     return std::get<double>(values.find(fmt::format("orbit.elements.{}", key))->second);
   };
@@ -50,13 +53,13 @@ Expected<std::optional<Orbit>> orbit_from_elements(const MissionValues& values) 
     return Unexpected{{ErrorCode::InvalidConfiguration,
                        fmt::format("[orbit.elements]: {}", orbit.error().message)}};
   }
-  return Orbit{*orbit};
+  return MissionOrbit{.orbit = Orbit{*orbit}, .file_sha256 = std::nullopt};
 }
 
 }  // namespace
 
-Expected<std::optional<Orbit>> load_orbit(const MissionValues& values,
-                                          const std::filesystem::path& folder) {
+Expected<MissionOrbit> load_orbit(const MissionValues& values,
+                                  const std::filesystem::path& folder) {
   if (const auto oem = values.find("orbit.oem"); oem != values.end()) {
     return orbit_from_oem(std::get<std::string>(oem->second), folder);
   }
@@ -66,7 +69,7 @@ Expected<std::optional<Orbit>> load_orbit(const MissionValues& values,
       "orbit.elements.mean_anomaly_deg"};
   const bool complete = std::all_of(kElements.begin(), kElements.end(),
                                     [&](std::string_view key) { return values.contains(key); });
-  return complete ? orbit_from_elements(values) : Expected<std::optional<Orbit>>{std::nullopt};
+  return complete ? orbit_from_elements(values) : MissionOrbit{};
 }
 
 }  // namespace spindrift

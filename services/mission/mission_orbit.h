@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
@@ -12,10 +13,14 @@
 
 namespace spindrift {
 
+struct MissionOrbit {
+  std::optional<Orbit> orbit;
+  std::optional<std::string> file_sha256;  ///< Where the orbit is from a file.
+};
+
 /// Reads the orbit file, if one is named (relative to `folder`), or takes the elements, if all of
 /// them are there. Empty when there is neither.
 /// @return InvalidConfiguration with the key, its value and the reason.
-Expected<std::optional<Orbit>> load_orbit(const MissionValues& values,
-                                          const std::filesystem::path& folder);
+Expected<MissionOrbit> load_orbit(const MissionValues& values, const std::filesystem::path& folder);
 
 }  // namespace spindrift

@@ -3,18 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 
-#include "pipelines/frames/celestial.h"
+#include "services/units/degrees.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double kDeg_rad = 180.0 / std::numbers::pi;
-constexpr double kRpm_rad_s = 60.0 / (2.0 * std::numbers::pi);
 constexpr double kNotAvailable = std::numeric_limits<double>::quiet_NaN();
 
 /// `field` is zeroed and keeps its last byte 0.
@@ -38,11 +34,6 @@ void put_text(std::span<char> field, std::string_view text) {
   std::copy_n(text.begin(), length, field.begin());
 }
 
-/// 1-sigma, both axes together: square root of the trace.
-double sigma_deg(const Eigen::Matrix2d& covariance_rad2) {
-  return std::sqrt(covariance_rad2.trace()) * kDeg_rad;
-}
-
 }  // namespace
 
 Expected<spindrift_Pulse> to_idl(const PulseSample& sample) {
@@ -58,38 +49,38 @@ Expected<spindrift_Pulse> to_idl(const PulseSample& sample) {
 }
 
 Expected<spindrift_SpinFix> to_idl(std::string_view spacecraft, const SpinFix& fix) {
-  const RaDec place = ra_dec_of(fix.axis_icrf);
+  const auto [ra_deg, dec_deg] = place_deg(fix.axis_icrf);
   spindrift_SpinFix out{.spacecraft = {},
                         .t_tai_ns = tai_ns(fix.t),
                         .revolution = fix.revolution,
                         .geometry_case = fix.geometry_case,
-                        .ra_deg = place.ra_rad * kDeg_rad,
-                        .dec_deg = place.dec_rad * kDeg_rad,
+                        .ra_deg = ra_deg,
+                        .dec_deg = dec_deg,
                         .sigma_deg = sigma_deg(fix.covariance_rad2),
                         .alternate_ra_deg = kNotAvailable,
                         .alternate_dec_deg = kNotAvailable,
                         .resolution = static_cast<spindrift_Resolution>(fix.resolution)};
   if (fix.alternate_axis_icrf) {
-    const RaDec alternate = ra_dec_of(*fix.alternate_axis_icrf);
-    out.alternate_ra_deg = alternate.ra_rad * kDeg_rad;
-    out.alternate_dec_deg = alternate.dec_rad * kDeg_rad;
+    const PlaceDeg alternate = place_deg(*fix.alternate_axis_icrf);
+    out.alternate_ra_deg = alternate.ra_deg;
+    out.alternate_dec_deg = alternate.dec_deg;
   }
   return put_name(out.spacecraft, spacecraft, "spacecraft").map([&out] { return out; });
 }
 
 Expected<spindrift_SpinEstimate> to_idl(std::string_view spacecraft, const SpinEstimate& estimate) {
-  const RaDec place = ra_dec_of(estimate.axis_icrf);
-  const Eigen::Matrix2d covariance_deg2 = estimate.covariance_rad2 * (kDeg_rad * kDeg_rad);
+  const auto [ra_deg, dec_deg] = place_deg(estimate.axis_icrf);
+  const Eigen::Matrix2d covariance_deg2 = estimate.covariance_rad2 * (kDegPerRad * kDegPerRad);
   spindrift_SpinEstimate out{
       .spacecraft = {},
       .estimator = {},
       .t_tai_ns = tai_ns(estimate.t),
-      .ra_deg = place.ra_rad * kDeg_rad,
-      .dec_deg = place.dec_rad * kDeg_rad,
+      .ra_deg = ra_deg,
+      .dec_deg = dec_deg,
       .sigma_deg = sigma_deg(estimate.covariance_rad2),
       .covariance_deg2 = {covariance_deg2(0, 0), covariance_deg2(0, 1), covariance_deg2(1, 1)},
-      .spin_rate_rpm = estimate.spin_rate_rad_s * kRpm_rad_s,
-      .sigma_rpm = estimate.spin_rate_sigma_rad_s * kRpm_rad_s,
+      .spin_rate_rpm = estimate.spin_rate_rad_s * kRpmPerRad_s,
+      .sigma_rpm = estimate.spin_rate_sigma_rad_s * kRpmPerRad_s,
       .status = {}};
   put_text(out.status, estimate.status);
   return put_name(out.spacecraft, spacecraft, "spacecraft")

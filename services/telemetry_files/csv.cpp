@@ -44,11 +44,19 @@ std::string quoted(std::string_view text) {
 }
 
 Expected<CsvLines> CsvLines::open(const std::filesystem::path& path) {
+  const auto unreadable = [&](std::string_view reason) {
+    return Unexpected{{ErrorCode::InvalidConfiguration,
+                       fmt::format("{}: cannot be read: {}", path.string(), reason)}};
+  };
+  // A device has no end, and to open a pipe may wait for ever.
+  std::error_code unknown;
+  const auto status = std::filesystem::status(path, unknown);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    return unreadable("not a regular file");
+  }
   std::ifstream file{path, std::ios::binary};
   if (!file) {
-    return Unexpected{
-        {ErrorCode::InvalidConfiguration, fmt::format("{}: cannot be read: {}", path.string(),
-                                                      std::generic_category().message(errno))}};
+    return unreadable(std::generic_category().message(errno));
   }
   return CsvLines{path, std::move(file)};
 }

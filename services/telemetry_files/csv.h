@@ -31,7 +31,9 @@ struct CsvLine {
 /// passed over; the last line needs no end.
 class CsvLines {
  public:
-  /// @return InvalidConfiguration with the path and the reason for what is not a readable file.
+  /// @return InvalidConfiguration with the path and the reason for what is not a regular file that
+  /// can
+  ///         be read.
   static Expected<CsvLines> open(const std::filesystem::path& path);
 
   /// False at the end of the file.

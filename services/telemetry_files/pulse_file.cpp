@@ -59,7 +59,7 @@ Expected<PulseFile> PulseFile::open(const std::filesystem::path& path, std::stri
                        fmt::format("{}: holds {} telemetry, must hold {}", path.string(),
                                    name_of(layout->kind), name_of(TelemetryKind::Pulses))}};
   }
-  return PulseFile{std::move(*lines), *layout, path.filename().string(), std::move(spacecraft)};
+  return PulseFile{std::move(*lines), *layout, path, std::move(spacecraft)};
 }
 
 Expected<std::optional<PulseRow>> PulseFile::next() {
@@ -74,7 +74,7 @@ Expected<std::optional<PulseRow>> PulseFile::next() {
   auto sample = sample_from(line);
   if (!sample) {
     return RejectedInput{
-        .source = name_, .line = line.number, .reason = std::move(sample.error().message)};
+        .source = path_.string(), .line = line.number, .reason = std::move(sample.error().message)};
   }
   return std::move(*sample);
 }
@@ -107,7 +107,8 @@ Expected<PulseSample> PulseFile::sample_from(const CsvLine& line) const {
     return Unexpected{channel.error()};
   }
   return PulseSample{.spacecraft = std::string{spacecraft},
-                     .origin = {.source = name_, .seq = static_cast<std::uint64_t>(line.number)},
+                     .origin = {.source = path_.filename().string(),
+                                .seq = static_cast<std::uint64_t>(line.number)},
                      .pulse = {.t = *t, .channel = *channel}};
 }
 

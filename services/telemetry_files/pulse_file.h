@@ -28,22 +28,24 @@ class PulseFile {
   /// @return InvalidConfiguration for what is not a readable pulse file.
   static Expected<PulseFile> open(const std::filesystem::path& path, std::string spacecraft);
 
-  /// Empty at the end of the file. The origin of a sample is the file's name, 0 and the line.
+  /// Empty at the end of the file. The origin of a sample is the file's name, 0 and the line; a
+  /// rejected row has the path as it was given.
   /// @return Unavailable when reading fails on the way.
   Expected<std::optional<PulseRow>> next();
 
  private:
-  PulseFile(CsvLines lines, TelemetryLayout layout, std::string name, std::string spacecraft)
+  PulseFile(CsvLines lines, TelemetryLayout layout, std::filesystem::path path,
+            std::string spacecraft)
       : lines_{std::move(lines)},
         layout_{layout},
-        name_{std::move(name)},
+        path_{std::move(path)},
         spacecraft_{std::move(spacecraft)} {}
 
   Expected<PulseSample> sample_from(const CsvLine& line) const;
 
   CsvLines lines_;
   TelemetryLayout layout_;
-  std::string name_;
+  std::filesystem::path path_;
   std::string spacecraft_;
 };
 

@@ -45,6 +45,8 @@ inline const RunStart kRunStart{.spacecraft_kind = "spin",
                                 .software_version = "0.1.0",
                                 .config_toml = "[spacecraft]\nid = \"SPINNER\"\n",
                                 .config_sha256 = "00ff",
+                                .orbit_sha256 = "0ff0",
+                                .telemetry = "a/pulses.csv\nb/pulses.csv",
                                 .started_utc = "2026-11-20T03:00:00Z"};
 
 inline ArchiveBatch batch_of(const std::string& run_id) {

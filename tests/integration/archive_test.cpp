@@ -18,6 +18,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
@@ -99,7 +100,7 @@ TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
       {"spacecraft", {"spacecraft_id", "name", "kind"}},
       {"run",
        {"run_id", "spacecraft_id", "mode", "software_version", "config_toml", "config_sha256",
-        "started_utc", "finished_utc"}},
+        "orbit_sha256", "telemetry", "started_utc", "finished_utc"}},
       {"pulse", {"spacecraft_id", "t_tai_ns", "channel"}},
       {"coded_frame",
        {"spacecraft_id", "t_tai_ns", "period_s", "sun2_s", "north_in_s", "north_out_s",
@@ -108,7 +109,7 @@ TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
       {"star_sample", {"spacecraft_id", "t_tai_ns", "qx", "qy", "qz", "qw"}},
       {"sun_sample", {"spacecraft_id", "t_tai_ns", "sx", "sy", "sz"}},
       {"magnetometer_sample", {"spacecraft_id", "t_tai_ns", "bx_nt", "by_nt", "bz_nt"}},
-      {"rejected_input", {"run_id", "source", "line", "reason"}},
+      {"rejected_input", {"run_id", "source", "session", "line", "reason"}},
       {"pulse_use",
        {"run_id", "spacecraft_id", "t_tai_ns", "channel", "revolution", "accepted", "rejected_by"}},
       {"revolution", {"run_id", "revolution", "t_tai_ns", "period_s"}},
@@ -164,6 +165,18 @@ TEST_F(ArchiveTest, RunIsKeptWithItsProvenance) {
                  " FROM run JOIN spacecraft USING (spacecraft_id)"),
             "run-1|SPINNER|spin|process|0.1.0|00ff|2026-11-20T03:00:00Z|2026-11-20T04:00:00Z");
   EXPECT_EQ(text("SELECT config_toml FROM run"), testing::kRunStart.config_toml);
+  EXPECT_EQ(text("SELECT orbit_sha256 FROM run"), testing::kRunStart.orbit_sha256);
+  EXPECT_EQ(text("SELECT telemetry FROM run"), testing::kRunStart.telemetry);
+}
+
+TEST_F(ArchiveTest, RunWithoutAnOrbitFileHasNoDigestOfOne) {
+  const auto archive = open();
+  ArchiveBatch batch = start_of("run-1");
+  batch.start->orbit_sha256 = std::nullopt;
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+
+  EXPECT_EQ(number("SELECT orbit_sha256 IS NULL FROM run"), 1);
 }
 
 TEST_F(ArchiveTest, PulseThatArrivesTwiceIsStoredOnceWithItsFirstOrigin) {
@@ -286,6 +299,45 @@ TEST_F(ArchiveTest, WhatBecameOfEveryEdgeIsStored) {
             "SPINNER 5 sun1 3 1 -; SPINNER 6 sun1 - 0 unassociated");
   EXPECT_EQ(text("SELECT rejected_by || ' ' || source || ' ' || seq FROM rejected_pulse"),
             "unassociated station 2");
+}
+
+TEST_F(ArchiveTest, EdgeThatBreaksARuleIsNotPassedOverAsIfItWereStored) {
+  ASSERT_TRUE(open()->close());
+  SQLite::Database{path().string(), SQLite::OPEN_READWRITE}.exec(
+      "ALTER TABLE pulse_use ADD COLUMN rule INTEGER CHECK (t_tai_ns <> 6)");
+  const auto archive = open();
+  const PulseUse good{.pulse = pulse_at(5).pulse, .revolution = 3, .rejected_by = std::nullopt};
+  const PulseUse bad{.pulse = pulse_at(6).pulse, .revolution = 3, .rejected_by = std::nullopt};
+  ArchiveBatch batch = start_of("run-1");
+  batch.products = {good, good};
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+  EXPECT_EQ(number("SELECT count(*) FROM pulse_use"), 1);
+
+  batch = batch_of("run-1");
+  batch.products = {bad};
+  ASSERT_TRUE(archive->submit(batch));
+  const auto flushed = archive->flush();
+  ASSERT_FALSE(flushed);
+  EXPECT_EQ(flushed.error().code, ErrorCode::InvalidInput);
+  EXPECT_THAT(flushed.error().message, HasSubstr("CHECK constraint failed"));
+}
+
+TEST_F(ArchiveTest, RejectedRowsOfOtherPathsAndSessionsAreOtherRows) {
+  const auto archive = open();
+  ArchiveBatch batch = start_of("run-1");
+  batch.rejected = {
+      {.source = "a/pulses.csv", .line = 2, .reason = "bad"},
+      {.source = "b/pulses.csv", .line = 2, .reason = "bad"},
+      {.source = "station", .line = 2, .reason = "bad", .session = 1},
+      {.source = "station", .line = 2, .reason = "bad", .session = 18446744073709551615U},
+      {.source = "station", .line = 2, .reason = "bad", .session = 1}};
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+
+  SQLite::Database database = reader();
+  EXPECT_THAT(column(database, "SELECT source || ' ' || session FROM rejected_input ORDER BY 1"),
+              ElementsAre("a/pulses.csv 0", "b/pulses.csv 0", "station -1", "station 1"));
 }
 
 TEST_F(ArchiveTest, RejectedInputAndSourceCountsAreStoredAndTheLatestCountStands) {
@@ -541,6 +593,24 @@ TEST_F(ArchiveTest, NewerSchemaIsRefusedWithBothVersions) {
               HasSubstr("writes version " + std::to_string(archive_schema_version())));
 }
 
+TEST_F(ArchiveTest, SchemaVersionThatNoArchiveHasIsRefused) {
+  ASSERT_TRUE(open()->close());
+  for (const std::string version : {"0", "-1", "-2147483648"}) {
+    SQLite::Database{path().string(), SQLite::OPEN_READWRITE}.exec("PRAGMA user_version = " +
+                                                                   version);
+    const auto archive = Archive::open(path(), {});
+    ASSERT_FALSE(archive);
+    EXPECT_EQ(archive.error().code, ErrorCode::InvalidConfiguration);
+    EXPECT_THAT(archive.error().message, HasSubstr("schema version " + version + ", which no"));
+  }
+}
+
+TEST_F(ArchiveTest, EmptyFileBecomesAnArchive) {
+  std::ofstream{path()}.close();
+  ASSERT_TRUE(open()->close());
+  EXPECT_EQ(number("PRAGMA application_id"), kArchiveApplicationId);
+}
+
 TEST_F(ArchiveTest, OlderSchemaIsBroughtForwardWithItsRows) {
   {
     SQLite::Database old{path().string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE};
@@ -555,15 +625,40 @@ TEST_F(ArchiveTest, OlderSchemaIsBroughtForwardWithItsRows) {
   EXPECT_EQ(number("SELECT count(*) FROM pass_answer"), 0);
 }
 
-TEST_F(ArchiveTest, FileThatCannotBeOpenedIsAnError) {
-  const auto nowhere = Archive::open(directory() / "absent" / "pass.db", {});
-  ASSERT_FALSE(nowhere);
-  EXPECT_EQ(nowhere.error().code, ErrorCode::Unavailable);
-  EXPECT_THAT(nowhere.error().message, HasSubstr("No such file or directory"));
+TEST_F(ArchiveTest, PathThatCannotBeThatOfAFileIsRefusedAndLeavesNoLock) {
+  const std::filesystem::path folder = directory() / "folder";
+  std::filesystem::create_directory(folder);
+  std::ofstream{directory() / "file"}.close();
+  const std::vector<std::pair<std::filesystem::path, std::string>> cases = {
+      {"", "archive \"\": must be the path of a file"},
+      {folder, "is a directory, must be a file"},
+      {"/dev/null", "is not a regular file"},
+      {directory() / "absent" / "pass.db", "there is no directory " + directory().string()},
+      {directory() / "file" / "pass.db", "there is no directory " + directory().string()},
+      {directory() / "absent/", "there is no directory " + directory().string()}};
+  for (const auto& [bad, message] : cases) {
+    const auto archive = Archive::open(bad, {});
+    ASSERT_FALSE(archive) << bad;
+    EXPECT_EQ(archive.error().code, ErrorCode::InvalidConfiguration) << bad;
+    EXPECT_THAT(archive.error().message, HasSubstr(message));
+    EXPECT_FALSE(std::filesystem::exists(bad.string() + ".lock"));
+  }
+  EXPECT_EQ(files_in(directory()), 2U);
+  EXPECT_EQ(files_in(folder), 0U);
+}
 
-  const auto a_directory = Archive::open(directory(), {});
-  ASSERT_FALSE(a_directory);
-  EXPECT_THAT(a_directory.error().message, HasSubstr("unable to open database file"));
+TEST_F(ArchiveTest, RelativePathIsThatOfTheSameFile) {
+  const auto archive = open();
+  const auto again = Archive::open(std::filesystem::relative(path()), {});
+  ASSERT_FALSE(again);
+  EXPECT_THAT(again.error().message, HasSubstr("is being written by"));
+}
+
+TEST_F(ArchiveTest, FolderThatTakesNoFilesIsAnError) {
+  const auto archive = Archive::open("/proc/pass.db", {});
+  ASSERT_FALSE(archive);
+  EXPECT_EQ(archive.error().code, ErrorCode::Unavailable);
+  EXPECT_THAT(archive.error().message, HasSubstr("cannot lock /proc/pass.db.lock"));
 }
 
 TEST_F(ArchiveTest, ReaderSeesWhatIsCommittedAndCannotWrite) {

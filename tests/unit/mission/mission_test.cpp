@@ -194,6 +194,7 @@ TEST(Mission, TakesItsOrbitFromElements) {
   const auto mission = load(kElements);
   ASSERT_TRUE(mission) << mission.error().message;
   ASSERT_TRUE(mission->orbit);
+  EXPECT_FALSE(mission->orbit_sha256);
   const auto state = mission->orbit->at(tai_from_ns(1795143637000000000));
   ASSERT_TRUE(state);
   EXPECT_NEAR(state->position_icrf_km.norm(), 7000.0, 7000.0 * 0.001);
@@ -212,6 +213,9 @@ TEST(Mission, FindsItsOrbitBesideIt) {
   const auto mission = load_mission(path);
   ASSERT_TRUE(mission) << mission.error().message;
   EXPECT_TRUE(mission->orbit);
+  // By sha256sum.
+  EXPECT_EQ(mission->orbit_sha256,
+            "fa12bab2701921c14d404592742de10c1b9252419573b8ee588436c30390c9c1");
 }
 
 TEST(Mission, ReportsTenMistakesAsTenProblems) {

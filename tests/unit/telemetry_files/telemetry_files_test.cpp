@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <filesystem>
@@ -121,6 +122,15 @@ TEST(TelemetryFiles, ThatCannotBeReadAreNamedAllAtOnce) {
                            HasSubstr(nothing.string() + ": cannot be read: No such file"),
                            HasSubstr(bare.string() + ": there is no *.csv in this directory")));
   EXPECT_THAT(error, ::testing::Not(HasSubstr(good.string())));
+}
+
+TEST(TelemetryFiles, ThatAreNoRegularFilesAreRefusedInsteadOfReadForEver) {
+  const TemporaryFolder folder;
+  const auto pipe = folder.path() / "pipe.csv";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(error_of({pipe, "/dev/zero"}), pipe.string() +
+                                               ": cannot be read: not a regular file\n" +
+                                               "/dev/zero: cannot be read: not a regular file");
 }
 
 }  // namespace

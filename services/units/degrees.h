@@ -1,0 +1,36 @@
+/// @file
+/// Radians of the pipelines in the units of people: degrees and turns per minute.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <numbers>
+
+#include "pipelines/frames/celestial.h"
+
+namespace spindrift {
+
+inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+inline constexpr double kRpmPerRad_s = 30.0 / std::numbers::pi;
+
+/// Right ascension in [0, 360), declination in [-90, 90].
+struct PlaceDeg {
+  double ra_deg;
+  double dec_deg;
+};
+
+/// `direction_icrf` needs no unit length.
+inline PlaceDeg place_deg(const Eigen::Vector3d& direction_icrf) {
+  const RaDec place = ra_dec_of(direction_icrf);
+  const double ra_deg = place.ra_rad * kDegPerRad;
+  // The last double below 2 pi becomes 360 exactly.
+  return {.ra_deg = ra_deg == 360.0 ? 0.0 : ra_deg, .dec_deg = place.dec_rad * kDegPerRad};
+}
+
+/// 1-sigma, both axes together: square root of the trace.
+inline double sigma_deg(const Eigen::Matrix2d& covariance_rad2) {
+  return std::sqrt(covariance_rad2.trace()) * kDegPerRad;
+}
+
+}  // namespace spindrift
