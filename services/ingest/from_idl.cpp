@@ -71,7 +71,8 @@ Expected<PulseSample> from_idl(const spindrift_Pulse& pulse) {
 RejectedInput rejected_from_idl(const spindrift_Pulse& pulse, std::string reason) {
   return {.source = printable(pulse.source),
           .line = static_cast<std::int64_t>(pulse.seq),
-          .reason = std::move(reason)};
+          .reason = std::move(reason),
+          .session = pulse.session};
 }
 
 }  // namespace spindrift

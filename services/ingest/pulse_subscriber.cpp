@@ -86,7 +86,10 @@ Expected<PulseBatch> PulseSubscriber::take_batch() {
   const std::lock_guard lock{mutex_};
   return reader_
       .take([this, &batch](const spindrift_Pulse& pulse) {
-        tracker_.record(origin_from_idl(pulse));
+        const Origin origin = origin_from_idl(pulse);
+        tracker_.record(origin, pulse.spacecraft);
+        batch.counts.insert_or_assign(tracker_.entry_of(origin.source).first,
+                                      tracker_.entry_of(origin.source).second);
         if (auto sample = from_idl(pulse)) {
           batch.pulses.push_back(std::move(*sample));
         } else {

@@ -5,15 +5,7 @@
 
 namespace spindrift {
 
-SequenceCounts& SequenceCounts::operator+=(const SequenceCounts& other) {
-  received += other.received;
-  missing += other.missing;
-  duplicates += other.duplicates;
-  disordered += other.disordered;
-  return *this;
-}
-
-Arrival SequenceTracker::record(const Origin& origin) {
+Arrival SequenceTracker::record(const Origin& origin, const std::string& spacecraft) {
   SequenceCounts& counts = counts_of(origin.source);
   Session& session = session_of(origin);
   session.last_active = ++clock_;
@@ -21,6 +13,8 @@ Arrival SequenceTracker::record(const Origin& origin) {
   const Arrival arrival = insert(session, origin.seq, counts);
   if (arrival == Arrival::Duplicate) {
     ++counts.duplicates;
+  } else if (is_overtaken(session, spacecraft, origin.seq)) {
+    ++counts.disordered;
   }
   return arrival;
 }
@@ -41,7 +35,6 @@ Arrival SequenceTracker::insert(Session& session, std::uint64_t seq, SequenceCou
   if (above != runs.begin() && seq <= std::prev(above)->second) {
     return Arrival::Duplicate;
   }
-  ++counts.disordered;
   if (seq < session.floor) {
     return Arrival::New;
   }
@@ -73,6 +66,18 @@ void SequenceTracker::join_neighbours(Session& session,
   }
 }
 
+bool SequenceTracker::is_overtaken(Session& session, const std::string& spacecraft,
+                                   std::uint64_t seq) {
+  auto& highest = session.highest;
+  const bool room = highest.size() < kMaxSpacecraft || highest.contains(spacecraft);
+  const auto [place, is_first] = highest.try_emplace(room ? spacecraft : std::string{}, seq);
+  if (!is_first && seq < place->second) {
+    return true;
+  }
+  place->second = seq;
+  return false;
+}
+
 SequenceTracker::Session& SequenceTracker::session_of(const Origin& origin) {
   const std::pair key{origin.source, origin.session};
   if (const auto known = sessions_.find(key); known != sessions_.end()) {
@@ -84,6 +89,12 @@ SequenceTracker::Session& SequenceTracker::session_of(const Origin& origin) {
         [](const auto& a, const auto& b) { return a.second.last_active < b.second.last_active; }));
   }
   return sessions_[key];
+}
+
+const std::pair<const std::string, SequenceCounts>& SequenceTracker::entry_of(
+    const std::string& source) const {
+  const auto own = by_source_.find(source);
+  return own == by_source_.end() ? *by_source_.find(kOtherSources) : *own;
 }
 
 SequenceCounts& SequenceTracker::counts_of(const std::string& source) {

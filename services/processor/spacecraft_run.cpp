@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <cstdint>
 #include <iterator>
+#include <map>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "services/clock/wall_clock.h"
 #include "services/processor/version.h"
@@ -19,14 +22,29 @@ std::string new_run_id(const std::string& started_utc) {
   return fmt::format("{}-{:08x}{:08x}", started_utc, random(), random());
 }
 
+std::vector<SourceCount> source_counts(const std::map<std::string, SequenceCounts>& by_source) {
+  std::vector<SourceCount> counts;
+  counts.reserve(by_source.size());
+  for (const auto& [source, count] : by_source) {
+    counts.push_back({.source = source,
+                      .received = static_cast<std::int64_t>(count.received),
+                      .gaps = static_cast<std::int64_t>(count.missing),
+                      .duplicates = static_cast<std::int64_t>(count.duplicates),
+                      .disordered = static_cast<std::int64_t>(count.disordered)});
+  }
+  return counts;
+}
+
 }  // namespace
 
-SpacecraftRun::SpacecraftRun(const Mission& mission, const std::string& mode)
+SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& source)
     : start_{.spacecraft_kind = std::string{name_of(mission.kind)},
-             .mode = mode,
+             .mode = source.mode,
              .software_version = kSoftwareVersion,
              .config_toml = mission.toml_text,
              .config_sha256 = mission.sha256,
+             .orbit_sha256 = mission.orbit_sha256,
+             .telemetry = source.telemetry,
              .started_utc = utc_now()},
       pass_{*mission.spin, *mission.orbit} {
   summary_.run_id = new_run_id(start_.started_utc);
@@ -58,13 +76,13 @@ ArchiveBatch SpacecraftRun::take(PulseBatch samples) {
   }
   taken.pulses = std::move(samples.pulses);
   taken.rejected = std::move(samples.rejected);
+  taken.source_counts = source_counts(samples.counts);
   return taken;
 }
 
-ArchiveBatch SpacecraftRun::finish(std::vector<SourceCount> source_counts) {
+ArchiveBatch SpacecraftRun::finish() {
   ArchiveBatch last = batch();
   keep(pass_.finish(), last);
-  last.source_counts = std::move(source_counts);
   last.finished_utc = utc_now();
   return last;
 }

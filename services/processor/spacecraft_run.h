@@ -3,9 +3,7 @@
 
 #pragma once
 
-#include <span>
 #include <string>
-#include <vector>
 
 #include "pipelines/spin/spin_pass.h"
 #include "services/archive/records.h"
@@ -15,21 +13,26 @@
 
 namespace spindrift {
 
+/// Where the samples of a run come from, kept with it.
+struct TelemetrySource {
+  std::string mode;       ///< live, process or replay.
+  std::string telemetry;  ///< File paths, one a line, or DDS domain and partition.
+};
+
 /// Every batch holds the samples and what came of them, so that no result is stored, and hence
 /// none announced, before the samples that it rests on.
 class SpacecraftRun {
  public:
   /// @param mission Of a spinner.
-  /// @param mode    live, process or replay.
-  SpacecraftRun(const Mission& mission, const std::string& mode);
+  SpacecraftRun(const Mission& mission, const TelemetrySource& source);
 
   /// The run itself, before its first sample.
   ArchiveBatch begin();
 
   ArchiveBatch take(PulseBatch samples);
 
-  /// The pass has ended: what was still held, the counts of the senders, the end of the run.
-  ArchiveBatch finish(std::vector<SourceCount> source_counts);
+  /// The pass has ended: what was still held, and the end of the run.
+  ArchiveBatch finish();
 
   const RunSummary& summary() const { return summary_; }
 

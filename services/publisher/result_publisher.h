@@ -20,7 +20,8 @@ class ResultPublisher {
   /// `participant` outlives it. @return Unavailable when Cyclone refuses.
   static Expected<ResultPublisher> create(const bus::Participant& participant);
 
-  /// On spindrift/spin_fix, which cannot say that a fix was screened out: accepted ones only.
+  /// On spindrift/spin_fix, where its resolution tells an ambiguous fix, and nothing one that was
+  /// left out for another reason: that is not for publishing (see announcements.h).
   /// @return InvalidInput for a name that does not fit (to_idl.h), Unavailable when the bus
   /// refuses.
   Expected<void> publish(std::string_view spacecraft, const SpinFix& fix) const;

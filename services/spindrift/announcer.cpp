@@ -2,44 +2,59 @@
 
 #include <spdlog/spdlog.h>
 
+#include <variant>
+
+#include "services/spindrift/summary_text.h"
+
 namespace spindrift {
 namespace {
 
-constexpr std::size_t kQueued = 65536;
+constexpr std::chrono::seconds kBetweenEstimatesInLog{10};
 
 }  // namespace
 
 Announcer::Announcer(const ResultPublisher& publisher)
-    : publisher_{publisher}, queue_{kQueued}, thread_{[this] { run(); }} {}
+    : publisher_{publisher}, thread_{[this] { run(); }} {}
 
 Announcer::~Announcer() {
-  queue_.close();
+  waiting_.close();
   thread_.join();
 }
 
 void Announcer::committed(std::span<const ArchiveBatch> batches) {
   for (const ArchiveBatch& batch : batches) {
-    for (const SpinProduct& product : batch.products) {
-      if (const auto* fix = std::get_if<SpinFix>(&product)) {
-        queue_.push({.spacecraft = batch.spacecraft_id, .product = *fix});
-      } else if (const auto* estimate = std::get_if<SpinEstimate>(&product)) {
-        queue_.push({.spacecraft = batch.spacecraft_id, .product = *estimate});
-      }
-    }
+    waiting_.add(batch.spacecraft_id, batch.products);
   }
 }
 
 void Announcer::run() {
-  for (auto results = queue_.take_all(); !results.empty(); results = queue_.take_all()) {
-    for (const Result& result : results) {
+  for (auto results = waiting_.take_all(); !results.empty(); results = waiting_.take_all()) {
+    std::map<std::string, SpinEstimate> latest;
+    for (const Announcement& result : results) {
       const auto published = std::visit(
           [&](const auto& product) { return publisher_.publish(result.spacecraft, product); },
           result.product);
       if (!published) {
         spdlog::error("not published: {}", published.error().message);
       }
+      if (const auto* estimate = std::get_if<SpinEstimate>(&result.product)) {
+        latest.insert_or_assign(result.spacecraft, *estimate);
+      }
+    }
+    for (const auto& [spacecraft, estimate] : latest) {
+      say(spacecraft, estimate);
     }
   }
+}
+
+void Announcer::say(const std::string& spacecraft, const SpinEstimate& estimate) {
+  const auto now = std::chrono::steady_clock::now();
+  const auto said = said_.find(spacecraft);
+  if (said != said_.end() && now - said->second < kBetweenEstimatesInLog) {
+    return;
+  }
+  said_.insert_or_assign(spacecraft, now);
+  spdlog::info("{}: {}", spacecraft, to_text(estimate));
 }
 
 }  // namespace spindrift

@@ -1,17 +1,19 @@
 /// @file
-/// Announces results once they are stored, on a thread of its own.
+/// Announces results once they are stored, on a thread of its own: on the bus, and the latest
+/// estimate every now and then in the log.
 
 #pragma once
 
+#include <chrono>
+#include <map>
 #include <span>
 #include <string>
 #include <thread>
-#include <variant>
 
 #include "pipelines/spin/products.h"
 #include "services/archive/records.h"
+#include "services/publisher/announcements.h"
 #include "services/publisher/result_publisher.h"
-#include "services/queue/bounded_queue.h"
 
 namespace spindrift {
 
@@ -25,20 +27,17 @@ class Announcer {
   Announcer(Announcer&&) = delete;
   Announcer& operator=(Announcer&&) = delete;
 
-  /// Of what the archive has just committed; waits while it cannot follow.
+  /// Of what the archive has just committed; never waits.
   void committed(std::span<const ArchiveBatch> batches);
 
  private:
-  struct Result {
-    std::string spacecraft;
-    std::variant<SpinFix, SpinEstimate> product;
-  };
-
   void run();
+  void say(const std::string& spacecraft, const SpinEstimate& estimate);
 
   const ResultPublisher& publisher_;
-  BoundedQueue<Result> queue_;
-  std::thread thread_;  // Last: it uses the others.
+  Announcements waiting_;
+  std::map<std::string, std::chrono::steady_clock::time_point> said_;  ///< When, by spacecraft.
+  std::thread thread_;                                                 // Last: it uses the others.
 };
 
 }  // namespace spindrift

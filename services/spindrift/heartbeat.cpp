@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <condition_variable>
@@ -34,18 +35,6 @@ SequenceCounts total(const PulseSubscriberStatus& status) {
 }
 
 }  // namespace
-
-std::vector<SourceCount> source_counts(const PulseSubscriberStatus& status) {
-  std::vector<SourceCount> counts;
-  for (const auto& [source, count] : status.by_source) {
-    counts.push_back({.source = source,
-                      .received = static_cast<std::int64_t>(count.received),
-                      .gaps = static_cast<std::int64_t>(count.missing),
-                      .duplicates = static_cast<std::int64_t>(count.duplicates),
-                      .disordered = static_cast<std::int64_t>(count.disordered)});
-  }
-  return counts;
-}
 
 Heartbeat::Heartbeat(const Watched& watched, std::function<void()> on_failure)
     : watched_{watched},
@@ -79,26 +68,42 @@ void Heartbeat::beat() {
       say_once(reader);
     }
   }
-  const SequenceCounts counts = total(*status);
-  if (counts.missing > gaps_) {
-    spdlog::error("{} samples are missing: gaps in seq", counts.missing);
+  note_losses(*status);
+  publish_health(*status);
+  if (!status->taking && !status->failure.empty() && !std::exchange(failed_, true)) {
+    spdlog::critical("not taking samples: {}", status->failure);
+    on_failure_();
   }
-  gaps_ = counts.missing;
-  if (status->reader.lost > lost_) {
-    spdlog::error("Cyclone reports {} lost samples", status->reader.lost);
-  }
-  lost_ = status->reader.lost;
+}
 
+void Heartbeat::note_losses(const PulseSubscriberStatus& status) {
+  auto gaps = gap_watch_.beat(status.by_source);
+  const bool more = std::any_of(gaps.begin(), gaps.end(), [this](const auto& gap) {
+    const auto told = gaps_.find(gap.first);
+    return told == gaps_.end() || gap.second > told->second;
+  });
+  if (more) {
+    spdlog::error("samples are missing, by gaps in seq: {}", to_text(gaps));
+  }
+  gaps_ = std::move(gaps);
+  if (status.reader.lost > lost_) {
+    spdlog::error("Cyclone reports {} lost samples", status.reader.lost);
+  }
+  lost_ = status.reader.lost;
+}
+
+void Heartbeat::publish_health(const PulseSubscriberStatus& status) {
+  const SequenceCounts counts = total(status);
   const ArchiveStatistics archive = watched_.archive.statistics();
   std::string health = "ok";
-  if (!status->taking && !status->failure.empty()) {
-    health = "not taking samples: " + status->failure;
+  if (!status.taking && !status.failure.empty()) {
+    health = "not taking samples: " + status.failure;
   } else if (archive.failure) {
     health = "not storing: " + archive.failure->message;
-  } else if (!status->reader.incompatible_writers.empty()) {
-    health = status->reader.incompatible_writers.front();
-  } else if (counts.missing > 0) {
-    health = fmt::format("{} samples missing", counts.missing);
+  } else if (!status.reader.incompatible_writers.empty()) {
+    health = status.reader.incompatible_writers.front();
+  } else if (!gaps_.empty()) {
+    health = "samples missing: " + to_text(gaps_);
   }
   const auto published = watched_.publisher.publish(
       Health{.service = service_,
@@ -112,10 +117,6 @@ void Heartbeat::beat() {
              .status = health});
   if (!published) {
     say_once(published.error().message);
-  }
-  if (!status->taking && !status->failure.empty() && !std::exchange(failed_, true)) {
-    spdlog::critical("not taking samples: {}", status->failure);
-    on_failure_();
   }
 }
 

@@ -3,20 +3,19 @@
 
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "services/archive/archive.h"
+#include "services/ingest/gap_watch.h"
 #include "services/ingest/pulse_subscriber.h"
 #include "services/publisher/result_publisher.h"
 
 namespace spindrift {
-
-/// What came in from each sender so far.
-std::vector<SourceCount> source_counts(const PulseSubscriberStatus& status);
 
 class Heartbeat {
  public:
@@ -39,13 +38,16 @@ class Heartbeat {
  private:
   void run(const std::stop_token& stop);
   void beat();
+  void note_losses(const PulseSubscriberStatus& status);
+  void publish_health(const PulseSubscriberStatus& status);
   void say_once(const std::string& problem);
 
   Watched watched_;
   std::function<void()> on_failure_;
   std::string service_;
   std::set<std::string> said_;
-  std::uint64_t gaps_ = 0;
+  GapWatch gap_watch_;
+  std::map<std::string, std::uint64_t> gaps_;  ///< Lasting ones, as last told.
   std::uint32_t lost_ = 0;
   bool failed_ = false;
   std::jthread thread_;  // Last: it uses the others.

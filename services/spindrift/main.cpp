@@ -6,12 +6,19 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 #include "services/processor/version.h"
 #include "services/spindrift/process.h"
@@ -26,6 +33,10 @@ using spindrift::Expected;
 constexpr int kFailed = 1;
 constexpr int kBadInput = 2;
 
+// Of --speed, times real time.
+constexpr double kSlowest = 0.001;
+constexpr double kFastest = 1e6;
+
 /// What the command line asks for.
 struct Request {
   spindrift::ProcessOptions process;
@@ -34,11 +45,28 @@ struct Request {
   std::function<Expected<void>()> run;
 };
 
+/// A partition is one by name: a pattern would let a rehearsal reach live subscribers.
+std::string check_partition(const std::string& name) {
+  return name.empty() || name.find_first_of("*?[") != std::string::npos
+             ? fmt::format("'{}': must be a name, not empty and without * ? [", name)
+             : std::string{};
+}
+
+/// Written so that NaN fails.
+void check_speed(double speed) {
+  if (!(speed == 0.0 || (speed >= kSlowest && speed <= kFastest))) {
+    throw CLI::ValidationError{
+        "--speed", fmt::format("{}: must be 0, or {} to {}", speed, kSlowest, kFastest)};
+  }
+}
+
 void add_bus_options(CLI::App& command, std::uint32_t& domain, std::string& partition) {
   command.add_option("--domain", domain, "DDS domain")
       ->check(CLI::Range(0U, 230U))
       ->capture_default_str();
-  command.add_option("--partition", partition, "DDS partition")->capture_default_str();
+  command.add_option("--partition", partition, "DDS partition")
+      ->check(check_partition)
+      ->capture_default_str();
 }
 
 void add_process(CLI::App& app, Request& request) {
@@ -70,14 +98,28 @@ void add_replay(CLI::App& app, Request& request) {
   command.add_option("--telemetry", options.telemetry, "CSV files, or directories of them")
       ->required();
   command.add_option("--speed", options.speed, "Times real time; 0: as fast as it is taken")
-      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   add_bus_options(command, options.domain, options.partition);
   command.add_flag("--json", options.json, "Print one JSON object");
-  command.callback([&] { request.run = [&] { return replay(request.replay); }; });
+  command.callback([&] {
+    check_speed(options.speed);
+    request.run = [&] { return replay(request.replay); };
+  });
+}
+
+/// Message for people on standard error; with --json, which even a bad command line may hold, an
+/// object on standard output as well.
+void tell_failure(const std::string& message, std::span<char* const> arguments) {
+  fmt::print(stderr, "spindrift: {}\n", message);
+  const auto is_json = [](const char* argument) { return std::string_view{argument} == "--json"; };
+  if (std::any_of(arguments.begin(), arguments.end(), is_json)) {
+    fmt::print("{}\n", nlohmann::json{{"error", message}}.dump(
+                           -1, ' ', false, nlohmann::json::error_handler_t::replace));
+  }
 }
 
 int run(int argc, char** argv) {
+  const std::span<char* const> arguments{argv, static_cast<std::size_t>(argc)};
   Request request;
   CLI::App app{"spindrift: the attitude of satellites from their telemetry"};
   app.set_version_flag("--version", std::string{"spindrift "} + spindrift::kSoftwareVersion);
@@ -87,26 +129,46 @@ int run(int argc, char** argv) {
   add_replay(app, request);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? EXIT_SUCCESS : kBadInput;
+    tell_failure(fmt::format("{}\nRun with --help for more information.", error.what()), arguments);
+    return kBadInput;
   }
 
   const auto done = request.run();
   if (done) {
     return EXIT_SUCCESS;
   }
-  fmt::print(stderr, "spindrift: {}\n", done.error().message);
+  tell_failure(done.error().message, arguments);
   return done.error().code == ErrorCode::InvalidConfiguration ? kBadInput : kFailed;
+}
+
+int run_safely(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& exception) {
+    tell_failure(exception.what(), {argv, static_cast<std::size_t>(argc)});
+    return kFailed;
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
+    // A full disk shall be an error of the write, not the end of the process.
+    std::signal(SIGXFSZ, SIG_IGN);
     // Standard output is for results, standard error for people.
     spdlog::set_default_logger(spdlog::stderr_color_mt("spindrift"));
     spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %^%l%$ %v", spdlog::pattern_time_type::utc);
-    return run(argc, argv);
+    const int status = run_safely(argc, argv);
+    if (std::fflush(stdout) != 0) {
+      fmt::print(stderr, "spindrift: standard output: {}\n",
+                 std::generic_category().message(errno));
+      return status == EXIT_SUCCESS ? kFailed : status;
+    }
+    return status;
   } catch (const std::exception& exception) {
     std::fputs("spindrift: ", stderr);
     std::fputs(exception.what(), stderr);

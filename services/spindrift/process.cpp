@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <string>
 #include <utility>
 
 #include "services/archive/archive.h"
@@ -21,6 +22,14 @@ namespace {
 
 // Pulses a batch: large enough that a commit costs nothing, small enough to stay in the cache.
 constexpr std::size_t kBatch = 4096;
+
+std::string one_a_line(const std::vector<std::filesystem::path>& paths) {
+  std::string lines;
+  for (const std::filesystem::path& path : paths) {
+    lines += (lines.empty() ? "" : "\n") + path.string();
+  }
+  return lines;
+}
 
 Expected<void> run(Processor& processor, PulseTelemetry telemetry, Archive& archive) {
   if (auto begun = submit_all(archive, processor.begin()); !begun) {
@@ -42,7 +51,7 @@ Expected<void> run(Processor& processor, PulseTelemetry telemetry, Archive& arch
       return stored;
     }
   }
-  return submit_all(archive, processor.finish({}));
+  return submit_all(archive, processor.finish());
 }
 
 }  // namespace
@@ -52,7 +61,8 @@ Expected<void> process(const ProcessOptions& options) {
   if (!mission) {
     return Unexpected{mission.error()};
   }
-  auto processor = Processor::make({*mission}, "process");
+  auto processor =
+      Processor::make({*mission}, {.mode = "process", .telemetry = one_a_line(options.telemetry)});
   if (!processor) {
     return Unexpected{processor.error()};
   }
@@ -76,7 +86,8 @@ Expected<void> process(const ProcessOptions& options) {
   if (auto outcome = outcome_of(done, (*archive)->close()); !outcome) {
     return outcome;
   }
-  fmt::print("{}", report(processor->summaries(), options.db, options.json));
+  fmt::print("{}", report(processor->summaries(), processor->other_spacecraft(), options.db,
+                          options.json));
   return {};
 }
 

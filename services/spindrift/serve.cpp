@@ -5,7 +5,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <stop_token>
 #include <thread>
 #include <utility>
@@ -111,8 +110,7 @@ Expected<void> run(const bus::Participant& participant, const ResultPublisher& p
   } else if (worked && !status->failure.empty()) {
     worked = Unexpected{{ErrorCode::Unavailable, status->failure}};
   }
-  const auto finished = submit_all(
-      archive, processor.finish(status ? source_counts(*status) : std::vector<SourceCount>{}));
+  const auto finished = submit_all(archive, processor.finish());
   return worked ? finished : worked;
 }
 
@@ -123,12 +121,13 @@ Expected<void> serve(const ServeOptions& options) {
   if (!missions) {
     return Unexpected{missions.error()};
   }
-  auto processor = Processor::make(*missions, options.partition == "replay" ? "replay" : "live");
+  auto processor = Processor::make(
+      *missions,
+      {.mode = options.partition == "replay" ? "replay" : "live",
+       .telemetry = fmt::format("DDS domain {}, partition {}", options.domain, options.partition)});
   if (!processor) {
     return Unexpected{processor.error()};
   }
-  // A full disk shall be an error of the write, not the end of the process.
-  std::signal(SIGXFSZ, SIG_IGN);
   StopSignal stop_signal;
 
   const auto participant =
@@ -163,7 +162,8 @@ Expected<void> serve(const ServeOptions& options) {
   if (auto outcome = outcome_of(done, (*archive)->close()); !outcome) {
     return outcome;
   }
-  fmt::print("{}", report(processor->summaries(), options.db, options.json));
+  fmt::print("{}", report(processor->summaries(), processor->other_spacecraft(), options.db,
+                          options.json));
   return {};
 }
 

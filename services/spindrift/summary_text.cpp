@@ -2,18 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
-#include "pipelines/frames/celestial.h"
 #include "pipelines/time/utc.h"
+#include "services/units/degrees.h"
 
 namespace spindrift {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-constexpr double kRpmPerRad_s = 30.0 / std::numbers::pi;
 
 /// An estimate in the units of people.
 struct Readable {
@@ -26,10 +21,10 @@ struct Readable {
 };
 
 Readable readable(const SpinEstimate& estimate) {
-  const RaDec place = ra_dec_of(estimate.axis_icrf);
-  return {.ra_deg = place.ra_rad * kDegPerRad,
-          .dec_deg = place.dec_rad * kDegPerRad,
-          .sigma_deg = std::sqrt(estimate.covariance_rad2.trace()) * kDegPerRad,
+  const auto [ra_deg, dec_deg] = place_deg(estimate.axis_icrf);
+  return {.ra_deg = ra_deg,
+          .dec_deg = dec_deg,
+          .sigma_deg = sigma_deg(estimate.covariance_rad2),
           .rpm = estimate.spin_rate_rad_s * kRpmPerRad_s,
           .sigma_rpm = estimate.spin_rate_sigma_rad_s * kRpmPerRad_s,
           .utc = format_utc(estimate.t)};
@@ -88,10 +83,19 @@ nlohmann::json to_json(const RunSummary& summary) {
   return json;
 }
 
-std::string report(const std::vector<RunSummary>& summaries, const std::filesystem::path& db,
-                   bool json) {
+std::string to_text(const SpinEstimate& estimate) {
+  const Readable shown = readable(estimate);
+  return fmt::format("axis RA {:.4f} Dec {:.4f} deg, sigma {:.4f} deg, {:.6f} rpm, {}",
+                     shown.ra_deg, shown.dec_deg, shown.sigma_deg, shown.rpm, estimate.status);
+}
+
+std::string report(const std::vector<RunSummary>& summaries,
+                   const std::map<std::string, std::int64_t>& other_spacecraft,
+                   const std::filesystem::path& db, bool json) {
   if (json) {
-    nlohmann::json object{{"db", db.string()}, {"runs", nlohmann::json::array()}};
+    nlohmann::json object{{"db", db.string()},
+                          {"runs", nlohmann::json::array()},
+                          {"other_spacecraft", other_spacecraft}};
     for (const RunSummary& summary : summaries) {
       object["runs"].push_back(to_json(summary));
     }
@@ -100,6 +104,9 @@ std::string report(const std::vector<RunSummary>& summaries, const std::filesyst
   std::string text;
   for (const RunSummary& summary : summaries) {
     text += to_text(summary);
+  }
+  for (const auto& [spacecraft, samples] : other_spacecraft) {
+    text += fmt::format("{}  no mission here: {} edges not stored\n", spacecraft, samples);
   }
   return text + fmt::format("archive: {}\n", db.string());
 }

@@ -30,7 +30,10 @@ inline std::string text_of(const std::filesystem::path& path) {
 class Program {
  public:
   /// @param largest_file_kib Beyond which no file of it may grow, as on a full disk; 0: any.
-  explicit Program(std::vector<std::string> arguments, int largest_file_kib = 0) {
+  /// @param out Where its standard output goes; empty: to a file that `out()` gives.
+  explicit Program(std::vector<std::string> arguments, int largest_file_kib = 0,
+                   const std::string& out = "")
+      : out_path_{out.empty() ? (folder_.path() / "out").string() : out} {
     arguments.insert(arguments.begin(), SPINDRIFT_PROGRAM);
     if (largest_file_kib > 0) {
       const std::string limit = "ulimit -f " + std::to_string(largest_file_kib);
@@ -45,7 +48,7 @@ class Program {
     posix_spawn_file_actions_init(&actions);
     const int flags = O_WRONLY | O_CREAT | O_TRUNC;
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out_path().c_str(), flags, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out_path_.c_str(), flags, 0600);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log_path().c_str(), flags, 0600);
     if (posix_spawn(&pid_, argv.front(), &actions, nullptr, argv.data(), environ) != 0) {
       pid_ = 0;
@@ -84,14 +87,14 @@ class Program {
     return false;
   }
 
-  std::string out() const { return text_of(out_path()); }
+  std::string out() const { return text_of(out_path_); }
   std::string log() const { return text_of(log_path()); }
 
  private:
-  std::string out_path() const { return (folder_.path() / "out").string(); }
   std::string log_path() const { return (folder_.path() / "log").string(); }
 
   TemporaryFolder folder_;
+  std::string out_path_;
   pid_t pid_ = 0;
 };
 

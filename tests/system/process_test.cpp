@@ -138,6 +138,22 @@ TEST(Process, KeepsTheProvenanceOfTheRun) {
             text_of(kPasses / "nominal" / "mission.toml") + "|");
 }
 
+TEST(Process, SaysWhenTheDiskIsFullAndEndsWithOne) {
+  const TemporaryFolder folder;
+  Program program{arguments("gms5", folder.path() / "out.db"), 600};
+  EXPECT_EQ(program.exit_status(), 1);
+  EXPECT_THAT(program.log(), HasSubstr("rows that were accepted are not in archive"));
+}
+
+TEST(Process, KeepsWhereTheTelemetryCameFrom) {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "out.db";
+  Program program{arguments("nominal", db)};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  EXPECT_EQ(rows_of(db, "SELECT telemetry FROM run").at(0), (kPasses / "nominal").string() + "|");
+  EXPECT_EQ(number_of(db, "SELECT length(orbit_sha256) FROM run"), 64);
+}
+
 TEST(Process, AddsARunWithoutStoringAnEdgeTwice) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "out.db";
@@ -262,12 +278,15 @@ TEST(Process, RefusesTelemetryWithAnUnknownHeader) {
   EXPECT_THAT(program.log(), HasSubstr("notes.csv:1"));
 }
 
-TEST(Process, RejectsTheEdgesOfAnotherSpacecraft) {
+TEST(Process, CountsAndLeavesTheEdgesOfAnotherSpacecraft) {
   const PassCopy pass{"nominal"};
   pass.folder.write("other.csv", "t_tai_ns,channel,spacecraft\n1795143637568806257,sun1,OTHER\n");
   Program program{pass.arguments_here()};
   ASSERT_EQ(program.exit_status(), 0) << program.log();
-  EXPECT_THAT(rows_of(pass.db, "SELECT reason FROM rejected_input").at(0), HasSubstr("OTHER"));
+  EXPECT_EQ(nlohmann::json::parse(program.out())["other_spacecraft"],
+            (nlohmann::json{{"OTHER", 1}}));
+  EXPECT_THAT(program.log(), HasSubstr("'OTHER'"));
+  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM rejected_input"), 0);
   EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3600);
 }
 
@@ -277,12 +296,47 @@ TEST(CommandLine, IsRefusedWithTwoWhenBad) {
            {"process"},
            {"levitate"},
            {"replay", "--mission", "m", "--telemetry", "t", "--speed", "-1"},
+           {"replay", "--mission", "m", "--telemetry", "t", "--speed", "nan"},
+           {"replay", "--mission", "m", "--telemetry", "t", "--speed", "inf"},
+           {"replay", "--mission", "m", "--telemetry", "t", "--speed", "1e-9"},
+           {"replay", "--mission", "m", "--telemetry", "t", "--speed", "1000001"},
+           {"replay", "--mission", "m", "--telemetry", "t", "--partition", ""},
+           {"replay", "--mission", "m", "--telemetry", "t", "--partition", "li*"},
+           {"serve", "--mission", "m", "--db", "d", "--partition", "liv?"},
+           {"serve", "--mission", "m", "--db", "d", "--partition", "[l]ive"},
            {"serve", "--mission", "m", "--db", "d", "--domain", "999"}}) {
+    SCOPED_TRACE(bad.empty() ? "" : bad.back());
     Program program{bad};
     EXPECT_EQ(program.exit_status(), 2);
-    EXPECT_NE(program.log(), "");
+    // Of the command line itself, before any file is looked for.
+    EXPECT_THAT(program.log(), HasSubstr("--help"));
     EXPECT_EQ(program.out(), "");
   }
+}
+
+TEST(CommandLine, AnswersAFailureWithOneObjectWhenAskedForJson) {
+  for (const std::vector<std::string>& bad :
+       std::vector<std::vector<std::string>>{{"process", "--json"},
+                                             {"process", "--mission", "/no/mission.toml",
+                                              "--telemetry", "t", "--db", "d", "--json"}}) {
+    Program program{bad};
+    EXPECT_EQ(program.exit_status(), 2);
+    const std::string error = nlohmann::json::parse(program.out()).at("error");
+    EXPECT_NE(error, "");
+    EXPECT_THAT(program.log(), HasSubstr(error));
+  }
+}
+
+TEST(CommandLine, RefusesAnArchiveWithoutAName) {
+  Program program{arguments("nominal", "")};
+  EXPECT_EQ(program.exit_status(), 2) << program.log();
+}
+
+TEST(CommandLine, FailsWhenItsAnswerCannotBeWritten) {
+  const TemporaryFolder folder;
+  Program program{arguments("north-only", folder.path() / "out.db"), 0, "/dev/full"};
+  EXPECT_EQ(program.exit_status(), 1);
+  EXPECT_THAT(program.log(), HasSubstr("standard output"));
 }
 
 TEST(CommandLine, TellsItsVersionAndHelp) {

@@ -25,9 +25,8 @@ const std::filesystem::path kPasses = std::filesystem::path{SPINDRIFT_TEST_DATA}
 /// A service of its own for one test.
 class Service {
  public:
-  explicit Service(const std::string& pass, const std::string& partition = "",
-                   int largest_file_kib = 0)
-      : bus_{bus_of_its_own()}, pass_{pass} {
+  explicit Service(std::string pass, const std::string& partition = "", int largest_file_kib = 0)
+      : bus_{bus_of_its_own()}, pass_{std::move(pass)} {
     if (!partition.empty()) {
       bus_.partition = partition;
     }
@@ -119,6 +118,7 @@ TEST(Serve, PublishesItsResultsForThoseWhoComeLater) {
 
   EXPECT_STREQ(estimate.back().spacecraft, "SPINNER");
   EXPECT_STREQ(estimate.back().estimator, "mean");
+  EXPECT_THAT(service.program().log(), HasSubstr("SPINNER: axis RA "));
   // Announced is what is stored.
   EXPECT_EQ(real_of(service.db(), "SELECT ra_deg FROM spin_estimate WHERE t_tai_ns = " +
                                       std::to_string(estimate.back().t_tai_ns)),
@@ -146,7 +146,6 @@ TEST(Serve, StoresWhatCannotBeTrueWithItsReason) {
   ASSERT_TRUE(front_end.wait_for_subscriber(30s));
   const std::stop_token never;
   const Pulse pulse{.t = tai_from_ns(1795143637568806257), .channel = PulseChannel::Sun1};
-  ASSERT_TRUE(front_end.publish("NOBODY", pulse, never));
   ASSERT_TRUE(
       front_end.publish("SPINNER", {.t = tai_from_ns(-1), .channel = pulse.channel}, never));
   ASSERT_TRUE(front_end.publish("SPINNER", pulse, never));
@@ -155,10 +154,37 @@ TEST(Serve, StoresWhatCannotBeTrueWithItsReason) {
 
   const auto rows =
       rows_of(service.db(), "SELECT source, line, reason FROM rejected_input ORDER BY 2");
-  ASSERT_EQ(rows.size(), 2U);
-  EXPECT_THAT(rows[0], ::testing::AllOf(HasSubstr("front-end|0|"), HasSubstr("NOBODY")));
-  EXPECT_THAT(rows[1], HasSubstr("front-end|1|"));
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_THAT(rows[0], HasSubstr("front-end|0|"));
   EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM pulse"), 1);
+}
+
+TEST(Serve, LeavesTheSpacecraftOfOthersAlone) {
+  Service service{"nominal"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  const auto participant = bus::Participant::create(service.bus()).value();
+  auto front_end = PulsePublisher::create(participant, "front-end").value();
+  ASSERT_TRUE(front_end.wait_for_subscriber(30s));
+  constexpr std::int64_t kPairs = 1000;
+  for (std::int64_t i = 0; i < kPairs; ++i) {
+    const Pulse pulse{.t = tai_from_ns(kTestTime_tai_ns + i * 1'000'000'000),
+                      .channel = PulseChannel::Sun1};
+    ASSERT_TRUE(front_end.publish("SPINNER", pulse, std::stop_token{}));
+    ASSERT_TRUE(front_end.publish("OTHER", pulse, std::stop_token{}));
+  }
+  ASSERT_TRUE(front_end.wait_for_acknowledgments(30s));
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+
+  EXPECT_EQ(nlohmann::json::parse(service.program().out())["other_spacecraft"],
+            (nlohmann::json{{"OTHER", kPairs}}));
+  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM pulse"), kPairs);
+  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM rejected_input"), 0);
+  EXPECT_EQ(rows_of(service.db(),
+                    "SELECT source, received, gaps, duplicates, disordered FROM source_count"),
+            std::vector<std::string>{"front-end|2000|0|0|0|"});
+  const std::string log = service.program().log();
+  EXPECT_EQ(log.find("'OTHER'"), log.rfind("'OTHER'"));
+  EXPECT_THAT(log, HasSubstr("'OTHER'"));
 }
 
 TEST(Serve, FinishesItsRunWhenStopped) {
@@ -175,7 +201,9 @@ TEST(Serve, CallsItsRunAReplayInThatPartition) {
   Service service{"nominal", "replay"};
   ASSERT_TRUE(service.ready()) << service.program().log();
   ASSERT_EQ(service.stop(), 0) << service.program().log();
-  EXPECT_EQ(rows_of(service.db(), "SELECT mode FROM run"), std::vector<std::string>{"replay|"});
+  EXPECT_EQ(rows_of(service.db(), "SELECT mode, telemetry FROM run"),
+            std::vector<std::string>{"replay|DDS domain " + std::to_string(service.bus().domain) +
+                                     ", partition replay|"});
 }
 
 TEST(Serve, RefusesASecondWriterAndNamesTheHolder) {
@@ -204,6 +232,9 @@ TEST(Serve, LeavesAWholeArchiveWhenKilled) {
 
   EXPECT_EQ(rows_of(service.db(), "PRAGMA integrity_check"), std::vector<std::string>{"ok|"});
   EXPECT_EQ(rows_of(service.db(), "PRAGMA foreign_key_check"), std::vector<std::string>{});
+  // The edges of these sources are counted in the transaction that stores them.
+  EXPECT_EQ(number_of(service.db(), "SELECT received FROM source_count"),
+            number_of(service.db(), "SELECT count(*) FROM pulse"));
   // No result without the edges that it rests on.
   EXPECT_EQ(number_of(service.db(),
                       "SELECT count(*) FROM pulse_use LEFT JOIN pulse USING"
@@ -246,6 +277,39 @@ TEST(Serve, RefusesTwoMissionsOfOneSpacecraft) {
       {"serve", "--mission", mission, mission, "--db", (folder.path() / "out.db").string()}};
   EXPECT_EQ(program.exit_status(), 2);
   EXPECT_THAT(program.log(), HasSubstr("SPINNER"));
+}
+
+TEST(Serve, CountsASourceOnceForAllItsMissions) {
+  const TemporaryFolder folder;
+  std::string other = text_of(kPasses / "nominal" / "mission.toml");
+  other.replace(other.find("SPINNER"), 7, "SECOND");
+  folder.write("mission.toml", other);
+  std::filesystem::copy(kPasses / "nominal" / "orbit.oem", folder.path() / "orbit.oem");
+  const std::string first = (kPasses / "nominal" / "mission.toml").string();
+  const std::string second = (folder.path() / "mission.toml").string();
+  const std::filesystem::path db = folder.path() / "out.db";
+  const bus::BusConfig bus = bus_of_its_own();
+  const std::vector<std::string> on_bus{"--domain", std::to_string(bus.domain), "--partition",
+                                        bus.partition};
+  std::vector<std::string> serve{"serve", "--mission", first, second, "--db", db.string()};
+  serve.insert(serve.end(), on_bus.begin(), on_bus.end());
+  Program service{serve};
+  ASSERT_TRUE(service.says("ready")) << service.log();
+  for (const std::string& mission : {first, second}) {
+    std::vector<std::string> replay{
+        "replay",  "--mission", mission, "--telemetry", (kPasses / "nominal").string(),
+        "--speed", "0"};
+    replay.insert(replay.end(), on_bus.begin(), on_bus.end());
+    ASSERT_EQ(Program{replay}.exit_status(), 0);
+  }
+  service.signal(SIGTERM);
+  ASSERT_EQ(service.exit_status(), 0) << service.log();
+
+  EXPECT_EQ(number_of(db, "SELECT count(*) FROM pulse"), 7200);
+  EXPECT_EQ(rows_of(db,
+                    "SELECT spacecraft_id, source, received, gaps, disordered"
+                    " FROM source_count JOIN run USING (run_id)"),
+            std::vector<std::string>{"SPINNER|replay|7200|0|0|"});
 }
 
 TEST(Replay, GivesUpWhenNobodySubscribes) {

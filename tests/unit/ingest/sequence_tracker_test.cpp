@@ -11,13 +11,15 @@
 namespace spindrift {
 namespace {
 
+const std::string kSpacecraft = "SPINNER";
+
 Origin origin(std::uint64_t seq, std::uint64_t session = 1, std::string source = "front-end") {
   return {.source = std::move(source), .session = session, .seq = seq};
 }
 
 SequenceCounts counts_after(SequenceTracker& tracker, const std::vector<std::uint64_t>& seqs) {
   for (const std::uint64_t seq : seqs) {
-    tracker.record(origin(seq));
+    tracker.record(origin(seq), kSpacecraft);
   }
   return tracker.by_source().at("front-end");
 }
@@ -39,10 +41,10 @@ TEST(SequenceTracker, FillsTheGapWithALateArrival) {
 
 TEST(SequenceTracker, CountsADuplicateOnceMoreEachTime) {
   SequenceTracker tracker;
-  EXPECT_EQ(tracker.record(origin(0)), Arrival::New);
-  EXPECT_EQ(tracker.record(origin(0)), Arrival::Duplicate);
-  EXPECT_EQ(tracker.record(origin(2)), Arrival::New);
-  EXPECT_EQ(tracker.record(origin(0)), Arrival::Duplicate);
+  EXPECT_EQ(tracker.record(origin(0), kSpacecraft), Arrival::New);
+  EXPECT_EQ(tracker.record(origin(0), kSpacecraft), Arrival::Duplicate);
+  EXPECT_EQ(tracker.record(origin(2), kSpacecraft), Arrival::New);
+  EXPECT_EQ(tracker.record(origin(0), kSpacecraft), Arrival::Duplicate);
   EXPECT_EQ(tracker.by_source().at("front-end"),
             (SequenceCounts{.received = 4, .missing = 1, .duplicates = 2}));
 }
@@ -56,7 +58,7 @@ TEST(SequenceTracker, TakesNoGapAtARestartOfTheSource) {
   SequenceTracker tracker;
   for (const std::uint64_t session : {11U, 12U, 13U}) {
     for (std::uint64_t seq = 0; seq < 10; ++seq) {
-      EXPECT_EQ(tracker.record(origin(seq, session)), Arrival::New);
+      EXPECT_EQ(tracker.record(origin(seq, session), kSpacecraft), Arrival::New);
     }
   }
   EXPECT_EQ(tracker.by_source().at("front-end"), (SequenceCounts{.received = 30}));
@@ -64,9 +66,9 @@ TEST(SequenceTracker, TakesNoGapAtARestartOfTheSource) {
 
 TEST(SequenceTracker, KeepsSourcesOfTheSameSessionNumberApart) {
   SequenceTracker tracker;
-  EXPECT_EQ(tracker.record(origin(0, 1, "north")), Arrival::New);
-  EXPECT_EQ(tracker.record(origin(0, 1, "south")), Arrival::New);
-  EXPECT_EQ(tracker.record(origin(2, 1, "south")), Arrival::New);
+  EXPECT_EQ(tracker.record(origin(0, 1, "north"), kSpacecraft), Arrival::New);
+  EXPECT_EQ(tracker.record(origin(0, 1, "south"), kSpacecraft), Arrival::New);
+  EXPECT_EQ(tracker.record(origin(2, 1, "south"), kSpacecraft), Arrival::New);
   EXPECT_EQ(tracker.by_source().at("north"), (SequenceCounts{.received = 1}));
   EXPECT_EQ(tracker.by_source().at("south"), (SequenceCounts{.received = 2, .missing = 1}));
 }
@@ -76,6 +78,35 @@ TEST(SequenceTracker, HoldsTheLastSeqThereIs) {
   constexpr std::uint64_t kLast = ~std::uint64_t{0};
   EXPECT_EQ(counts_after(tracker, {kLast, kLast - 2, kLast, kLast - 1}),
             (SequenceCounts{.received = 4, .duplicates = 1, .disordered = 2}));
+}
+
+TEST(SequenceTracker, FindsNoDisorderInTwoSpacecraftHandedOverOneAfterTheOther) {
+  SequenceTracker tracker;
+  for (const std::uint64_t first : {0U, 1U}) {
+    for (std::uint64_t seq = first; seq < 3600; seq += 2) {
+      EXPECT_EQ(tracker.record(origin(seq), first == 0 ? "NORTH" : "SOUTH"), Arrival::New);
+    }
+  }
+  EXPECT_EQ(tracker.by_source().at("front-end"), (SequenceCounts{.received = 3600}));
+}
+
+TEST(SequenceTracker, FindsDisorderWithinEachSpacecraft) {
+  SequenceTracker tracker;
+  tracker.record(origin(0), "NORTH");
+  tracker.record(origin(4), "NORTH");
+  tracker.record(origin(1), "SOUTH");
+  tracker.record(origin(3), "SOUTH");
+  tracker.record(origin(2), "NORTH");
+  EXPECT_EQ(tracker.by_source().at("front-end"), (SequenceCounts{.received = 5, .disordered = 1}));
+}
+
+TEST(SequenceTracker, TakesTooManySpacecraftForOne) {
+  SequenceTracker tracker;
+  for (std::uint64_t seq = 0; seq < SequenceTracker::kMaxSpacecraft + 10; ++seq) {
+    tracker.record(origin(1000 + seq), "spacecraft " + std::to_string(seq));
+  }
+  tracker.record(origin(1), "one more");
+  EXPECT_EQ(tracker.by_source().at("front-end").disordered, 1U);
 }
 
 /// The same by definition: a set of all that arrived.
@@ -104,7 +135,7 @@ TEST(SequenceTracker, AgreesWithTheDefinitionOnAnyStream) {
     std::uniform_int_distribution<std::uint64_t> jump{0, 1 + random() % 40};
     for (std::uint64_t i = 0; i < 500; ++i) {
       const std::uint64_t seq = start + i + jump(random);
-      ASSERT_EQ(tracker.record(origin(seq)), definition.record(seq));
+      ASSERT_EQ(tracker.record(origin(seq), kSpacecraft), definition.record(seq));
       ASSERT_EQ(tracker.by_source().at("front-end"), definition.counts);
     }
   }
@@ -114,10 +145,10 @@ TEST(SequenceTracker, GivesUpTheLowestOfTooManyGapsAndStillCountsThem) {
   SequenceTracker tracker;
   const std::uint64_t count = SequenceTracker::kMaxRuns + 100;
   for (std::uint64_t i = 0; i < count; ++i) {
-    tracker.record(origin(2 * i));
+    tracker.record(origin(2 * i), kSpacecraft);
   }
-  EXPECT_EQ(tracker.record(origin(0)), Arrival::New);
-  EXPECT_EQ(tracker.record(origin(2 * (count - 1))), Arrival::Duplicate);
+  EXPECT_EQ(tracker.record(origin(0), kSpacecraft), Arrival::New);
+  EXPECT_EQ(tracker.record(origin(2 * (count - 1)), kSpacecraft), Arrival::Duplicate);
   EXPECT_EQ(tracker.by_source().at("front-end"),
             (SequenceCounts{
                 .received = count + 2, .missing = count - 1, .duplicates = 1, .disordered = 1}));
@@ -126,18 +157,18 @@ TEST(SequenceTracker, GivesUpTheLowestOfTooManyGapsAndStillCountsThem) {
 TEST(SequenceTracker, ForgetsTheSessionSilentForLongest) {
   SequenceTracker tracker;
   for (std::uint64_t session = 0; session < SequenceTracker::kMaxSessions; ++session) {
-    tracker.record(origin(0, session));
+    tracker.record(origin(0, session), kSpacecraft);
   }
-  tracker.record(origin(1, 0));
-  tracker.record(origin(0, SequenceTracker::kMaxSessions));
-  EXPECT_EQ(tracker.record(origin(1, 0)), Arrival::Duplicate);
-  EXPECT_EQ(tracker.record(origin(0, 1)), Arrival::New);
+  tracker.record(origin(1, 0), kSpacecraft);
+  tracker.record(origin(0, SequenceTracker::kMaxSessions), kSpacecraft);
+  EXPECT_EQ(tracker.record(origin(1, 0), kSpacecraft), Arrival::Duplicate);
+  EXPECT_EQ(tracker.record(origin(0, 1), kSpacecraft), Arrival::New);
 }
 
 TEST(SequenceTracker, CountsTooManySourcesTogether) {
   SequenceTracker tracker;
   for (std::size_t i = 0; i < SequenceTracker::kMaxSources + 10; ++i) {
-    tracker.record(origin(0, 1, "source " + std::to_string(i)));
+    tracker.record(origin(0, 1, "source " + std::to_string(i)), kSpacecraft);
   }
   EXPECT_EQ(tracker.by_source().size(), SequenceTracker::kMaxSources + 1);
   EXPECT_EQ(tracker.by_source().at(SequenceTracker::kOtherSources),

@@ -1,0 +1,64 @@
+#include "services/publisher/announcements.h"
+
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace spindrift {
+namespace {
+
+std::optional<Announcement> announcement_of(const std::string& spacecraft,
+                                            const SpinProduct& product) {
+  if (const auto* estimate = std::get_if<SpinEstimate>(&product)) {
+    return Announcement{.spacecraft = spacecraft, .product = *estimate};
+  }
+  if (const auto* fix = std::get_if<SpinFix>(&product);
+      fix != nullptr && (fix->accepted || fix->resolution == Resolution::Ambiguous)) {
+    return Announcement{.spacecraft = spacecraft, .product = *fix};
+  }
+  return std::nullopt;
+}
+
+void keep_latest_of_each(std::vector<Announcement>& announcements) {
+  std::map<std::pair<std::string, std::size_t>, Announcement> latest;
+  for (const Announcement& announcement : announcements) {
+    latest.insert_or_assign({announcement.spacecraft, announcement.product.index()}, announcement);
+  }
+  announcements.clear();
+  for (const auto& [key, announcement] : latest) {
+    announcements.push_back(announcement);
+  }
+}
+
+}  // namespace
+
+void Announcements::add(const std::string& spacecraft, std::span<const SpinProduct> products) {
+  {
+    const std::lock_guard lock{mutex_};
+    for (const SpinProduct& product : products) {
+      if (auto announcement = announcement_of(spacecraft, product)) {
+        waiting_.push_back(std::move(*announcement));
+      }
+    }
+    if (waiting_.size() > kMaxWaiting) {
+      keep_latest_of_each(waiting_);
+    }
+  }
+  changed_.notify_one();
+}
+
+std::vector<Announcement> Announcements::take_all() {
+  std::unique_lock lock{mutex_};
+  changed_.wait(lock, [this] { return closed_ || !waiting_.empty(); });
+  return std::exchange(waiting_, {});
+}
+
+void Announcements::close() {
+  {
+    const std::lock_guard lock{mutex_};
+    closed_ = true;
+  }
+  changed_.notify_one();
+}
+
+}  // namespace spindrift

@@ -1,0 +1,82 @@
+#include "services/publisher/announcements.h"
+
+#include <gtest/gtest.h>
+
+namespace spindrift {
+namespace {
+
+SpinProduct fix(std::int64_t revolution, bool accepted, Resolution resolution) {
+  return SpinFix{.revolution = revolution,
+                 .t = {},
+                 .geometry_case = 3,
+                 .axis_icrf = Eigen::Vector3d::UnitZ(),
+                 .covariance_rad2 = Eigen::Matrix2d::Identity(),
+                 .alternate_axis_icrf = std::nullopt,
+                 .resolution = resolution,
+                 .norm = 1.0,
+                 .accepted = accepted};
+}
+
+SpinProduct estimate(const std::string& status) {
+  return SpinEstimate{.t = {},
+                      .estimator = SpinEstimator::Mean,
+                      .axis_icrf = Eigen::Vector3d::UnitZ(),
+                      .covariance_rad2 = Eigen::Matrix2d::Identity(),
+                      .spin_rate_rad_s = 1.0,
+                      .spin_rate_sigma_rad_s = 0.1,
+                      .status = status};
+}
+
+/// Spacecraft, and revolution of a fix or status of an estimate.
+std::vector<std::string> shown(const std::vector<Announcement>& announcements) {
+  std::vector<std::string> texts;
+  for (const Announcement& announcement : announcements) {
+    const auto* fix = std::get_if<SpinFix>(&announcement.product);
+    texts.push_back(announcement.spacecraft + " " +
+                    (fix != nullptr ? std::to_string(fix->revolution)
+                                    : std::get<SpinEstimate>(announcement.product).status));
+  }
+  return texts;
+}
+
+TEST(Announcements, LeavesOutAFixThatIsNeitherAcceptedNorAmbiguous) {
+  Announcements waiting;
+  waiting.add("SPINNER",
+              std::vector{fix(1, true, Resolution::Geometry), fix(2, false, Resolution::Geometry),
+                          fix(3, false, Resolution::Ambiguous), estimate("four")});
+  EXPECT_EQ(shown(waiting.take_all()),
+            (std::vector<std::string>{"SPINNER 1", "SPINNER 3", "SPINNER four"}));
+}
+
+TEST(Announcements, KeepsAllAsLongAsTheyAreFew) {
+  Announcements waiting;
+  for (std::size_t i = 0; i < Announcements::kMaxWaiting; ++i) {
+    waiting.add("SPINNER", std::vector{estimate(std::to_string(i))});
+  }
+  EXPECT_EQ(waiting.take_all().size(), Announcements::kMaxWaiting);
+}
+
+TEST(Announcements, KeepsTheLatestOfEachSpacecraftAndKindWhenTheyPileUp) {
+  Announcements waiting;
+  waiting.add("QUIET", std::vector{estimate("only")});
+  for (std::size_t i = 0; i < Announcements::kMaxWaiting; ++i) {
+    waiting.add("SPINNER", std::vector{fix(static_cast<std::int64_t>(i), true, Resolution::Prior),
+                                       estimate("after " + std::to_string(i))});
+  }
+  const auto texts = shown(waiting.take_all());
+  EXPECT_LE(texts.size(), Announcements::kMaxWaiting);
+  EXPECT_EQ(texts.front(), "QUIET only");
+  EXPECT_EQ(texts.at(texts.size() - 2), "SPINNER 255");
+  EXPECT_EQ(texts.back(), "SPINNER after 255");
+}
+
+TEST(Announcements, GivesWhatWaitsAndThenNothingOnceClosed) {
+  Announcements waiting;
+  waiting.add("SPINNER", std::vector{estimate("last")});
+  waiting.close();
+  EXPECT_EQ(shown(waiting.take_all()), std::vector<std::string>{"SPINNER last"});
+  EXPECT_TRUE(waiting.take_all().empty());
+}
+
+}  // namespace
+}  // namespace spindrift
