@@ -5,6 +5,12 @@
 #include "services/ingest/from_idl.h"
 
 namespace spindrift {
+namespace {
+
+// So many does Reader::take give at a time while there are more.
+constexpr std::int32_t kTakenAtOnce = 256;
+
+}  // namespace
 
 Expected<std::unique_ptr<PulseSubscriber>> PulseSubscriber::start(
     const bus::Participant& participant, BoundedQueue<PulseBatch>& queue) {
@@ -67,18 +73,41 @@ Expected<void> PulseSubscriber::take_until_stopped() {
       return Unexpected{more.error()};
     }
     if (!*more) {
-      return {};
+      return take_what_is_left();
     }
-    auto batch = take_batch();
-    if (!batch) {
-      return Unexpected{batch.error()};
-    }
-    const bool empty = batch->pulses.empty() && batch->rejected.empty();
-    if (!empty && !queue_.push(std::move(*batch))) {
-      return Unexpected{
-          Error{ErrorCode::Unavailable, "the queue of pulses was closed while they arrive"}};
+    if (const auto handed = hand_over_batch(); !handed) {
+      return Unexpected{handed.error()};
     }
   }
+}
+
+// What the reader holds is acknowledged: its writers take it for stored. No more than that, or a
+// fast writer would keep a stopping service going.
+Expected<void> PulseSubscriber::take_what_is_left() {
+  for (std::int32_t batch = 0; batch <= bus::kTelemetryReaderSamples / kTakenAtOnce; ++batch) {
+    const auto handed = hand_over_batch();
+    if (!handed) {
+      return Unexpected{handed.error()};
+    }
+    if (!*handed) {
+      break;
+    }
+  }
+  return {};
+}
+
+// False: there was nothing to take.
+Expected<bool> PulseSubscriber::hand_over_batch() {
+  auto batch = take_batch();
+  if (!batch) {
+    return Unexpected{batch.error()};
+  }
+  const bool empty = batch->pulses.empty() && batch->rejected.empty();
+  if (!empty && !queue_.push(std::move(*batch))) {
+    return Unexpected{
+        Error{ErrorCode::Unavailable, "the queue of pulses was closed while they arrive"}};
+  }
+  return !empty;
 }
 
 Expected<PulseBatch> PulseSubscriber::take_batch() {

@@ -51,6 +51,8 @@ class PulseSubscriber {
 
   void run();
   Expected<void> take_until_stopped();
+  Expected<void> take_what_is_left();
+  Expected<bool> hand_over_batch();
   Expected<PulseBatch> take_batch();
 
   bus::Reader<spindrift_Pulse> reader_;

@@ -288,6 +288,32 @@ TEST(PulseSubscriber, StopsWhilePulsesArriveAndKeepsWhatItTook) {
   EXPECT_EQ(station.status().failure, "");
 }
 
+TEST(PulseSubscriber, HandsOverWhatIsAcknowledgedWhenStopped) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  BoundedQueue<PulseBatch> queue{1};
+  const auto subscriber = PulseSubscriber::start(participant, queue).value();
+  // The queue is full at once, and the rest waits in the reader, acknowledged.
+  constexpr std::uint64_t kSent = 3000;
+  const auto writer = pulse_writer(participant);
+  for (std::uint64_t seq = 0; seq < kSent; ++seq) {
+    ASSERT_TRUE(writer.write(idl_pulse(seq), std::stop_token{}));
+  }
+  ASSERT_TRUE(writer.wait_for_acknowledgments(std::chrono::seconds{30}));
+
+  std::size_t arrived = 0;
+  std::thread consumer{[&] {
+    for (auto batches = queue.take_all(); !batches.empty(); batches = queue.take_all()) {
+      for (const PulseBatch& batch : batches) {
+        arrived += batch.pulses.size();
+      }
+    }
+  }};
+  subscriber->stop();
+  queue.close();
+  consumer.join();
+  EXPECT_EQ(arrived, kSent);
+}
+
 TEST(PulseSubscriber, SaysSoWhenItsQueueIsClosedTooEarly) {
   const auto participant = Participant::create(bus_of_its_own()).value();
   BoundedQueue<PulseBatch> queue{4};

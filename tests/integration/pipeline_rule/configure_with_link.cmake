@@ -9,7 +9,7 @@ file(APPEND ${copy}/pipelines/${PIPELINE}/CMakeLists.txt
   "target_link_libraries(spindrift_${PIPELINE} ${SCOPE} ${LINK})\n")
 
 execute_process(
-  COMMAND ${CMAKE_COMMAND} -S ${copy} -B ${WORK_DIR}/build -D BUILD_TESTING=OFF
+  COMMAND ${CMAKE_COMMAND} -G ${GENERATOR} -S ${copy} -B ${WORK_DIR}/build -D BUILD_TESTING=OFF
   RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
 string(REGEX REPLACE "[ \n]+" " " output "${output}")
 file(REMOVE_RECURSE ${WORK_DIR})
