@@ -27,11 +27,17 @@ namespace spindrift {
 struct Revolution {
   std::int64_t number;
   std::array<std::optional<TaiTime>, kPulseChannels> edges;
+  /// Why an edge that is there is not to be used: it lies where those of its channel do not.
+  std::array<std::optional<Rejection>, kPulseChannels> edge_rejections = {};
   std::optional<PeriodCandidate> period_candidate;  ///< The interval that ends at its sun1.
   SpinPeriod period;                                ///< In force when the revolution closed.
 
   const std::optional<TaiTime>& edge(PulseChannel channel) const {
     return edges.at(index_of(channel));
+  }
+  /// The edge, if it is there and nothing speaks against it.
+  std::optional<TaiTime> good_edge(PulseChannel channel) const {
+    return edge_rejections.at(index_of(channel)) ? std::nullopt : edge(channel);
   }
 };
 

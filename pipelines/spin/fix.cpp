@@ -189,12 +189,16 @@ Expected<SpinFix> fix(const SpinConfig& config, const Revolution& revolution,
                            kContradictionSigmas * contradiction_variance.sqrt() + kModel_rad)
                               .all();
 
+  std::vector<Eigen::Vector3d> alternates;
+  if (solution->alternate_axis_icrf) {
+    alternates.push_back(*solution->alternate_axis_icrf);
+  }
   return SpinFix{.revolution = revolution.number,
                  .t = *measured.t_sun1,
                  .geometry_case = solution->geometry_case,
                  .axis_icrf = solution->axis_icrf,
                  .covariance_rad2 = covariance_rad2,
-                 .alternate_axis_icrf = solution->alternate_axis_icrf,
+                 .alternate_axes_icrf = std::move(alternates),
                  .resolution = solution->resolution,
                  .norm = solution->norm,
                  .accepted = consistent && solution->resolution != Resolution::Ambiguous};

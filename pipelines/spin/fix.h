@@ -12,15 +12,9 @@
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/measurement.h"
 #include "pipelines/spin/products.h"
+#include "pipelines/spin/sightlines.h"
 
 namespace spindrift {
-
-/// Where Sun and Earth stood for one revolution.
-struct Sightlines {
-  Eigen::Vector3d sun_icrf;    ///< Unit, apparent, at sun1.
-  Eigen::Vector3d earth_icrf;  ///< Unit, to the Earth's centre, at mid-chord.
-  double disc_rad;             ///< rho, half-angle of the Earth's disc.
-};
 
 struct AxisSolution {
   int geometry_case;

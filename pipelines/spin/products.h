@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "pipelines/spin/pulse.h"
 #include "pipelines/time/tai_time.h"
@@ -32,12 +33,14 @@ enum class Rejection {
   Unassociated,  ///< No revolution had a place for the edge.
   Late,          ///< Arrived after its time had been processed.
   OutOfTime,     ///< Far ahead of all others, by a clock that nothing else agrees with.
-  Unpaired,      ///< Its partner edge is missing: it gives no measurement.
-  Geometry,      ///< The measurement has no meaning (chord of half a turn, slit lag out of range).
-  NoSensor,      ///< The mission file has no such sensor.
-  NoOrbit,       ///< The orbit does not cover it: not testable.
-  Period,        ///< Failed the spin-period test.
-  SunAngle,      ///< Failed the 3-sigma test of that quantity; likewise the following.
+  Interference,  ///< An edge of another channel is so near that both are spoilt.
+  Phase,     ///< Not where the edges of its channel lie; of a measurement: rests on such an edge.
+  Unpaired,  ///< Its partner edge is missing: it gives no measurement.
+  Geometry,  ///< The measurement has no meaning (chord of half a turn, slit lag out of range).
+  NoSensor,  ///< The mission file has no such sensor.
+  NoOrbit,   ///< The orbit does not cover it: not testable.
+  Period,    ///< Failed the spin-period test.
+  SunAngle,  ///< Failed the 3-sigma test of that quantity; likewise the following.
   NorthChord,
   SouthChord,
   NorthDihedral,
@@ -78,8 +81,8 @@ struct SpinFix {
   TaiTime t;  ///< Its sun1 edge.
   int geometry_case;
   Eigen::Vector3d axis_icrf;
-  Eigen::Matrix2d covariance_rad2;  ///< Tangent plane at the axis: east, north.
-  std::optional<Eigen::Vector3d> alternate_axis_icrf;
+  Eigen::Matrix2d covariance_rad2;                   ///< Tangent plane at the axis: east, north.
+  std::vector<Eigen::Vector3d> alternate_axes_icrf;  ///< The other candidates, best first; unit.
   Resolution resolution;
   double norm;    ///< |P| before normalising: 1 for measurements that agree.
   bool accepted;  ///< Neither AMBIGUOUS nor from measurements that contradict each other.

@@ -156,6 +156,19 @@ SpinOutput SpinPass::push(const Pulse& pulse) {
   return out;
 }
 
+SpinOutput SpinPass::push(const CodedFrame& frame) {
+  SpinOutput out = push(Pulse{.t = frame.t, .channel = PulseChannel::Sun1});
+  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+    if (const auto& delay_s = frame.delay_s.at(channel)) {
+      SpinOutput more = push(
+          Pulse{.t = shifted(frame.t, *delay_s), .channel = static_cast<PulseChannel>(channel)});
+      std::move(more.products.begin(), more.products.end(), std::back_inserter(out.products));
+      std::move(more.notices.begin(), more.notices.end(), std::back_inserter(out.notices));
+    }
+  }
+  return out;
+}
+
 SpinOutput SpinPass::finish() {
   SpinOutput out;
   const ReorderWindow::Rest rest = reorder_.release_all();

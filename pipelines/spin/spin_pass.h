@@ -19,6 +19,7 @@
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/spin/association.h"
+#include "pipelines/spin/coded_frame.h"
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/fix.h"
 #include "pipelines/spin/mean_axis.h"
@@ -44,6 +45,9 @@ class SpinPass {
   SpinPass(const SpinConfig& config, Orbit orbit);
 
   SpinOutput push(const Pulse& pulse);
+
+  /// The same edges, timed on board.
+  SpinOutput push(const CodedFrame& frame);
 
   /// The pass has ended: settles all that is still held.
   SpinOutput finish();

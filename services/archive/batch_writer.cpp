@@ -188,8 +188,8 @@ void BatchWriter::insert(const ArchiveBatch& batch, const SpinFix& fix) {
   const CovarianceColumns covariance = columns_of(fix.covariance_rad2);
   std::optional<double> alternate_ra_deg;
   std::optional<double> alternate_dec_deg;
-  if (fix.alternate_axis_icrf) {
-    const PlaceDeg alternate = place_deg(*fix.alternate_axis_icrf);
+  if (!fix.alternate_axes_icrf.empty()) {
+    const PlaceDeg alternate = place_deg(fix.alternate_axes_icrf.front());
     alternate_ra_deg = alternate.ra_deg;
     alternate_dec_deg = alternate.dec_deg;
   }

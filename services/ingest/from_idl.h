@@ -9,7 +9,7 @@
 #include <string>
 
 #include "pipelines/core/expected.h"
-#include "services/ingest/pulse_batch.h"
+#include "services/ingest/sample_batch.h"
 
 namespace spindrift {
 

@@ -13,7 +13,7 @@ constexpr std::int32_t kTakenAtOnce = 256;
 }  // namespace
 
 Expected<std::unique_ptr<PulseSubscriber>> PulseSubscriber::start(
-    const bus::Participant& participant, BoundedQueue<PulseBatch>& queue) {
+    const bus::Participant& participant, BoundedQueue<SampleBatch>& queue) {
   auto waitset = bus::WaitSet::create(participant);
   if (!waitset) {
     return Unexpected{waitset.error()};
@@ -31,7 +31,7 @@ Expected<std::unique_ptr<PulseSubscriber>> PulseSubscriber::start(
 }
 
 PulseSubscriber::PulseSubscriber(bus::Reader<spindrift_Pulse> reader, bus::WaitSet waitset,
-                                 BoundedQueue<PulseBatch>& queue)
+                                 BoundedQueue<SampleBatch>& queue)
     : reader_{std::move(reader)}, waitset_{std::move(waitset)}, queue_{queue}, thread_{[this] {
         run();
       }} {}
@@ -110,8 +110,8 @@ Expected<bool> PulseSubscriber::hand_over_batch() {
   return !empty;
 }
 
-Expected<PulseBatch> PulseSubscriber::take_batch() {
-  PulseBatch batch;
+Expected<SampleBatch> PulseSubscriber::take_batch() {
+  SampleBatch batch;
   const std::lock_guard lock{mutex_};
   return reader_
       .take([this, &batch](const spindrift_Pulse& pulse) {

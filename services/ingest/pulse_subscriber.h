@@ -11,7 +11,7 @@
 
 #include "services/bus/reader.h"
 #include "services/bus/wait_set.h"
-#include "services/ingest/pulse_batch.h"
+#include "services/ingest/sample_batch.h"
 #include "services/ingest/sequence_tracker.h"
 #include "services/queue/bounded_queue.h"
 
@@ -30,7 +30,7 @@ class PulseSubscriber {
  public:
   /// `participant` and `queue` outlive it. @return Unavailable when Cyclone refuses.
   static Expected<std::unique_ptr<PulseSubscriber>> start(const bus::Participant& participant,
-                                                          BoundedQueue<PulseBatch>& queue);
+                                                          BoundedQueue<SampleBatch>& queue);
 
   ~PulseSubscriber();
   PulseSubscriber(const PulseSubscriber&) = delete;
@@ -47,17 +47,17 @@ class PulseSubscriber {
 
  private:
   PulseSubscriber(bus::Reader<spindrift_Pulse> reader, bus::WaitSet waitset,
-                  BoundedQueue<PulseBatch>& queue);
+                  BoundedQueue<SampleBatch>& queue);
 
   void run();
   Expected<void> take_until_stopped();
   Expected<void> take_what_is_left();
   Expected<bool> hand_over_batch();
-  Expected<PulseBatch> take_batch();
+  Expected<SampleBatch> take_batch();
 
   bus::Reader<spindrift_Pulse> reader_;
   bus::WaitSet waitset_;
-  BoundedQueue<PulseBatch>& queue_;
+  BoundedQueue<SampleBatch>& queue_;
 
   mutable std::mutex mutex_;  // Guards the three below.
   SequenceTracker tracker_;

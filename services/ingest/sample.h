@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "pipelines/spin/coded_frame.h"
 #include "pipelines/spin/pulse.h"
 
 namespace spindrift {
@@ -22,6 +23,12 @@ struct PulseSample {
   std::string spacecraft;
   Origin origin;
   Pulse pulse;
+};
+
+struct CodedSample {
+  std::string spacecraft;
+  Origin origin;
+  CodedFrame frame;
 };
 
 }  // namespace spindrift

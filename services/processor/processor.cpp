@@ -18,7 +18,7 @@ Unexpected refused(std::string message) {
 constexpr std::size_t kMaxOthers = 256;
 constexpr const char* kOthers = "(others)";
 
-bool is_empty(const PulseBatch& batch) {
+bool is_empty(const SampleBatch& batch) {
   return batch.pulses.empty() && batch.rejected.empty() && batch.counts.empty();
 }
 
@@ -50,8 +50,8 @@ std::vector<ArchiveBatch> Processor::begin() {
   return batches;
 }
 
-std::vector<ArchiveBatch> Processor::take(PulseBatch samples) {
-  std::vector<PulseBatch> by_run(runs_.size());
+std::vector<ArchiveBatch> Processor::take(SampleBatch samples) {
+  std::vector<SampleBatch> by_run(runs_.size());
   by_run.front().rejected = std::move(samples.rejected);
   by_run.front().counts = std::move(samples.counts);
   for (PulseSample& sample : samples.pulses) {

@@ -12,7 +12,7 @@
 
 #include "pipelines/core/expected.h"
 #include "services/archive/records.h"
-#include "services/ingest/pulse_batch.h"
+#include "services/ingest/sample_batch.h"
 #include "services/mission/mission.h"
 #include "services/processor/spacecraft_run.h"
 
@@ -29,7 +29,7 @@ class Processor {
   /// What belongs to no spacecraft, rejected inputs and the counts of the sources, is stored under
   /// the first run only, so that sums over runs hold. A sample of a spacecraft without a mission
   /// here is another service's: it is counted and not stored.
-  std::vector<ArchiveBatch> take(PulseBatch samples);
+  std::vector<ArchiveBatch> take(SampleBatch samples);
 
   std::vector<ArchiveBatch> finish();
 

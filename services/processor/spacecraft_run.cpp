@@ -67,12 +67,15 @@ ArchiveBatch SpacecraftRun::begin() {
   return first;
 }
 
-ArchiveBatch SpacecraftRun::take(PulseBatch samples) {
+ArchiveBatch SpacecraftRun::take(SampleBatch samples) {
   ArchiveBatch taken = batch();
   summary_.edges_received += static_cast<std::int64_t>(samples.pulses.size());
   summary_.input_rejected += static_cast<std::int64_t>(samples.rejected.size());
   for (const PulseSample& sample : samples.pulses) {
     keep(pass_.push(sample.pulse), taken);
+  }
+  for (const CodedSample& sample : samples.coded) {
+    keep(pass_.push(sample.frame), taken);
   }
   taken.pulses = std::move(samples.pulses);
   taken.rejected = std::move(samples.rejected);

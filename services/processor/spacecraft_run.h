@@ -7,7 +7,7 @@
 
 #include "pipelines/spin/spin_pass.h"
 #include "services/archive/records.h"
-#include "services/ingest/pulse_batch.h"
+#include "services/ingest/sample_batch.h"
 #include "services/mission/mission.h"
 #include "services/processor/run_summary.h"
 
@@ -29,7 +29,7 @@ class SpacecraftRun {
   /// The run itself, before its first sample.
   ArchiveBatch begin();
 
-  ArchiveBatch take(PulseBatch samples);
+  ArchiveBatch take(SampleBatch samples);
 
   /// The pass has ended: what was still held, and the end of the run.
   ArchiveBatch finish();

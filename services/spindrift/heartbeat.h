@@ -22,7 +22,7 @@ class Heartbeat {
   /// All of them outlive it.
   struct Watched {
     const PulseSubscriber& subscriber;
-    const BoundedQueue<PulseBatch>& queue;
+    const BoundedQueue<SampleBatch>& queue;
     const Archive& archive;
     const ResultPublisher& publisher;
   };

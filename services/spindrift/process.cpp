@@ -43,7 +43,7 @@ Expected<void> run(Processor& processor, PulseTelemetry telemetry, Archive& arch
   auto& samples = telemetry.samples;
   for (std::size_t from = 0; from < samples.size(); from += kBatch) {
     const std::size_t to = std::min(from + kBatch, samples.size());
-    PulseBatch batch;
+    SampleBatch batch;
     batch.pulses.assign(
         std::make_move_iterator(samples.begin() + static_cast<std::ptrdiff_t>(from)),
         std::make_move_iterator(samples.begin() + static_cast<std::ptrdiff_t>(to)));

@@ -47,9 +47,9 @@ Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::
 }
 
 /// Works on what is taken until the queue is closed and empty, or the archive refuses.
-Expected<void> work(BoundedQueue<PulseBatch>& queue, Processor& processor, Archive& archive) {
+Expected<void> work(BoundedQueue<SampleBatch>& queue, Processor& processor, Archive& archive) {
   for (auto batches = queue.take_all(); !batches.empty(); batches = queue.take_all()) {
-    for (PulseBatch& batch : batches) {
+    for (SampleBatch& batch : batches) {
       if (auto stored = submit_all(archive, processor.take(std::move(batch))); !stored) {
         queue.close();  // Nobody empties it any more: the taking thread must not wait for room.
         return stored;
@@ -62,7 +62,7 @@ Expected<void> work(BoundedQueue<PulseBatch>& queue, Processor& processor, Archi
 /// While writing fails, submitting waits. A service that is told to stop does not wait for ever: it
 /// makes the last attempt now.
 void give_up_when_stuck(const std::stop_token& done, const std::atomic<bool>& stopping,
-                        BoundedQueue<PulseBatch>& queue, Archive& archive) {
+                        BoundedQueue<SampleBatch>& queue, Archive& archive) {
   while (!done.stop_requested()) {
     if (stopping && archive.statistics().failure) {
       queue.close();
@@ -77,7 +77,7 @@ void give_up_when_stuck(const std::stop_token& done, const std::atomic<bool>& st
 /// From "ready" until a signal, or a failure, and everything taken is with the archive.
 Expected<void> run(const bus::Participant& participant, const ResultPublisher& publisher,
                    Processor& processor, Archive& archive, StopSignal& stop_signal) {
-  BoundedQueue<PulseBatch> queue{kTakenBatches};
+  BoundedQueue<SampleBatch> queue{kTakenBatches};
   auto started = PulseSubscriber::start(participant, queue);
   if (!started) {
     return Unexpected{started.error()};

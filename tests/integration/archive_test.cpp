@@ -79,7 +79,7 @@ SpinFix fix_at(double ra_deg, double dec_deg) {
       .covariance_rad2 =
           Eigen::Vector2d{east_sigma_rad * east_sigma_rad, north_sigma_rad * north_sigma_rad}
               .asDiagonal(),
-      .alternate_axis_icrf = std::nullopt,
+      .alternate_axes_icrf = {},
       .resolution = Resolution::Geometry,
       .norm = 1.0,
       .accepted = true};
@@ -230,7 +230,7 @@ TEST_F(ArchiveTest, SpinFixIsStoredInDegreesWithItsCovariance) {
 TEST_F(ArchiveTest, AmbiguousFixKeepsBothCandidates) {
   const auto archive = open();
   SpinFix fix = fix_at(100.0, -55.0);
-  fix.alternate_axis_icrf = fix_at(310.0, 20.0).axis_icrf;
+  fix.alternate_axes_icrf = {fix_at(310.0, 20.0).axis_icrf};
   fix.resolution = Resolution::Ambiguous;
   ArchiveBatch batch = start_of("run-1");
   batch.products = {fix};

@@ -57,7 +57,7 @@ class Station {
   }
 
   /// Everything that arrived, once the subscriber has stopped.
-  PulseBatch finish() {
+  SampleBatch finish() {
     release();
     subscriber_->stop();
     queue_.close();
@@ -71,7 +71,7 @@ class Station {
   void consume() {
     gate_.wait();
     for (auto batches = queue_.take_all(); !batches.empty(); batches = queue_.take_all()) {
-      for (PulseBatch& batch : batches) {
+      for (SampleBatch& batch : batches) {
         std::move(batch.pulses.begin(), batch.pulses.end(), std::back_inserter(arrived_.pulses));
         std::move(batch.rejected.begin(), batch.rejected.end(),
                   std::back_inserter(arrived_.rejected));
@@ -80,9 +80,9 @@ class Station {
   }
 
   Participant participant_;
-  BoundedQueue<PulseBatch> queue_;
+  BoundedQueue<SampleBatch> queue_;
   std::unique_ptr<PulseSubscriber> subscriber_;
-  PulseBatch arrived_;
+  SampleBatch arrived_;
   std::latch gate_{1};
   std::thread consumer_;
 };
@@ -175,7 +175,7 @@ TEST(PulseSubscriber, QueuesWhatAPublisherSends) {
   const Pulse pulse{.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::NorthOut};
   ASSERT_TRUE(publisher.publish("SPINNER", pulse, {}));
   ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received == 1; }));
-  const PulseBatch arrived = station.finish();
+  const SampleBatch arrived = station.finish();
   ASSERT_EQ(arrived.pulses.size(), 1U);
   EXPECT_EQ(arrived.pulses[0].spacecraft, "SPINNER");
   EXPECT_EQ(arrived.pulses[0].origin.source, "antenna");
@@ -195,7 +195,7 @@ TEST(PulseSubscriber, LosesNothingToASlowConsumer) {
   ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == kCount; }));
   EXPECT_EQ(writer.exit_status(), 0);
   EXPECT_EQ(station.counts_of("front-end"), (SequenceCounts{.received = kCount}));
-  const PulseBatch arrived = station.finish();
+  const SampleBatch arrived = station.finish();
   EXPECT_EQ(seqs_of(arrived.pulses), first_seqs(kCount));
 }
 
@@ -209,7 +209,7 @@ TEST(PulseSubscriber, PassesOnWhatCannotBeTrueAsRejected) {
   ASSERT_TRUE(writer.write(idl_pulse(2)));
   ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 3; }));
   EXPECT_EQ(station.counts_of("front-end").missing, 0U);
-  const PulseBatch arrived = station.finish();
+  const SampleBatch arrived = station.finish();
   EXPECT_EQ(arrived.pulses.size(), 2U);
   ASSERT_EQ(arrived.rejected.size(), 1U);
   EXPECT_EQ(arrived.rejected[0].source, "front-end");
@@ -282,7 +282,7 @@ TEST(PulseSubscriber, StopsWhilePulsesArriveAndKeepsWhatItTook) {
     }
   }};
   ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received > 1000; }));
-  const PulseBatch arrived = station.finish();
+  const SampleBatch arrived = station.finish();
   EXPECT_EQ(arrived.pulses.size(), station.counts_of("antenna").received);
   EXPECT_FALSE(station.status().taking);
   EXPECT_EQ(station.status().failure, "");
@@ -290,7 +290,7 @@ TEST(PulseSubscriber, StopsWhilePulsesArriveAndKeepsWhatItTook) {
 
 TEST(PulseSubscriber, HandsOverWhatIsAcknowledgedWhenStopped) {
   const auto participant = Participant::create(bus_of_its_own()).value();
-  BoundedQueue<PulseBatch> queue{1};
+  BoundedQueue<SampleBatch> queue{1};
   const auto subscriber = PulseSubscriber::start(participant, queue).value();
   // The queue is full at once, and the rest waits in the reader, acknowledged.
   constexpr std::uint64_t kSent = 3000;
@@ -303,7 +303,7 @@ TEST(PulseSubscriber, HandsOverWhatIsAcknowledgedWhenStopped) {
   std::size_t arrived = 0;
   std::thread consumer{[&] {
     for (auto batches = queue.take_all(); !batches.empty(); batches = queue.take_all()) {
-      for (const PulseBatch& batch : batches) {
+      for (const SampleBatch& batch : batches) {
         arrived += batch.pulses.size();
       }
     }
@@ -316,7 +316,7 @@ TEST(PulseSubscriber, HandsOverWhatIsAcknowledgedWhenStopped) {
 
 TEST(PulseSubscriber, SaysSoWhenItsQueueIsClosedTooEarly) {
   const auto participant = Participant::create(bus_of_its_own()).value();
-  BoundedQueue<PulseBatch> queue{4};
+  BoundedQueue<SampleBatch> queue{4};
   const auto subscriber = PulseSubscriber::start(participant, queue).value();
   queue.close();
   ASSERT_TRUE(pulse_writer(participant).write(idl_pulse(0)));

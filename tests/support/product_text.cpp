@@ -3,6 +3,7 @@
 #include <iterator>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "pipelines/spin/products.h"
 
@@ -26,6 +27,12 @@ class Line {
   }
   Line& operator<<(SpinQuantity quantity) { return *this << name_of(quantity); }
   Line& operator<<(Rejection rejection) { return *this << name_of(rejection); }
+  Line& operator<<(const std::vector<Eigen::Vector3d>& vectors) {
+    for (const Eigen::Vector3d& vector : vectors) {
+      *this << vector;
+    }
+    return *this;
+  }
   Line& operator<<(Resolution resolution) { return *this << name_of(resolution); }
   template <class Value>
   Line& operator<<(const std::optional<Value>& value) {
@@ -60,7 +67,7 @@ Line line_of(const SpinMeasurement& measurement) {
 Line line_of(const SpinFix& fix) {
   Line line;
   line << "fix" << fix.revolution << fix.t << fix.geometry_case << fix.axis_icrf
-       << fix.covariance_rad2 << fix.alternate_axis_icrf << fix.resolution << fix.norm
+       << fix.covariance_rad2 << fix.alternate_axes_icrf << fix.resolution << fix.norm
        << fix.accepted;
   return line;
 }

@@ -1,5 +1,5 @@
 /// @file
-/// What goes from the thread that takes pulses to the one that works on them.
+/// What goes from the thread that takes samples to the one that works on them.
 
 #pragma once
 
@@ -13,10 +13,11 @@
 
 namespace spindrift {
 
-/// In order of arrival; both together are everything that arrived.
-struct PulseBatch {
-  std::vector<PulseSample> pulses;
-  std::vector<RejectedInput> rejected;
+/// Each kind in order of arrival; all together are everything that arrived.
+struct SampleBatch {
+  std::vector<PulseSample> pulses = {};
+  std::vector<CodedSample> coded = {};
+  std::vector<RejectedInput> rejected = {};
   /// Of the sources in it, from the start up to and including this batch. Empty for a file.
   std::map<std::string, SequenceCounts> counts = {};
 };

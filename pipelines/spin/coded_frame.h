@@ -1,0 +1,22 @@
+/// @file
+/// Coded telemetry: what a spin-stabilised satellite times itself, one frame a revolution.
+
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "pipelines/spin/pulse.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// The six leading edges as intervals measured on board. Empty: not received.
+struct CodedFrame {
+  TaiTime t;                       ///< Of its sun1 edge.
+  std::optional<double> period_s;  ///< T12, between this sun1 and its neighbour.
+  /// Behind sun1, modulo the period, by channel; that of sun1 itself is empty.
+  std::array<std::optional<double>, kPulseChannels> delay_s;
+};
+
+}  // namespace spindrift
