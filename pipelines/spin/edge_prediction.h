@@ -1,0 +1,39 @@
+/// @file
+/// When in its turn the body gives an edge: the model that estimators fit to edge times.
+///
+/// The frame `spin` stands still: third axis on the spin axis, the others anywhere across it. The
+/// body turns right-handed about the third; its phase is the azimuth of slit 1 in that frame.
+/// With s the Sun in it, and theta_s its angle from the axis:
+///
+///     sun1         phase = azimuth of s
+///     sun2         phase = azimuth of s + psi0 + asin(tan I cot theta_s)
+///     north, south phase = azimuth where the beam crosses the limb (horizon.h) + a
+
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "pipelines/spin/config.h"
+#include "pipelines/spin/pulse.h"
+#include "pipelines/spin/sky.h"
+
+namespace spindrift {
+
+struct PredictedEdge {
+  double phase_rad;  ///< (-pi, pi]
+  /// Change of the phase, rad/rad, when the frame turns by a small vector about its own axes: the
+  /// first two are tilts of the spin axis, the third is -1.
+  Eigen::Vector3d phase_per_rotation;
+};
+
+/// @param edge Its time says where the Earth then stands.
+/// @return Empty when there is no such edge: the sensor does not exist, the slit cannot see so far
+///         from its equator, or the beam misses the Earth, or one of these is all but so.
+std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& sky,
+                                          const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge);
+
+/// One standard deviation of the time of an edge, s.
+double edge_sigma_s(const PulseNoise& noise, PulseChannel channel);
+
+}  // namespace spindrift

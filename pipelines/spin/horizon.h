@@ -1,0 +1,51 @@
+/// @file
+/// Where a pencil beam crosses the Earth's infrared limb, spherical or ellipsoidal.
+///
+/// The beam from the spacecraft at r along d touches the horizon where (spin.md, "Horizon")
+///
+///     F = (r.M d)^2 - (d.M d)(r.M r - 1) = 0,    M = 1/a^2 + (1/b^2 - 1/a^2) n n^T
+///
+/// with the semi-axes a (equator) and b (along the pole n); a sphere has a = b. F = d.Q d is a
+/// quadratic form, so that turning the beam by the small vector e changes F by 2 e.(d x Q d): one
+/// product gives the derivative by the beam's azimuth and by the tilts of the spin axis.
+///
+/// Directions in the frame `spin`: any frame whose third axis is the spin axis.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "pipelines/spin/config.h"
+
+namespace spindrift {
+
+/// Semi-axes of the infrared horizon.
+struct HorizonAxes {
+  double equatorial_km;
+  double polar_km;
+};
+
+/// The sphere of spin.md, or the WGS-84 ellipsoid, raised by the altitude of the CO2.
+HorizonAxes horizon_axes(const Horizon& horizon);
+
+enum class Crossing { In, Out };
+
+struct LimbCrossing {
+  double azimuth_rad;  ///< Of the beam, (-pi, pi].
+  /// Its change when the frame turns by a small vector about its own axes; the third is -1.
+  Eigen::Vector3d azimuth_per_rotation;
+};
+
+/// The Earth as the frame `spin` sees it.
+struct EarthView {
+  Eigen::Vector3d spacecraft_spin_km;  ///< From the Earth's centre.
+  Eigen::Vector3d pole_spin;           ///< Unit.
+};
+
+/// @param mount_angle_rad gamma, of the beam from the spin axis.
+/// @return Empty when the beam misses the Earth, never leaves it, or only grazes the limb.
+std::optional<LimbCrossing> limb_crossing(const HorizonAxes& axes, const EarthView& earth,
+                                          double mount_angle_rad, Crossing crossing);
+
+}  // namespace spindrift

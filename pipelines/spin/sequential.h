@@ -1,0 +1,62 @@
+/// @file
+/// The estimator `sequential`: axis and rate after every revolution, from all its good edges.
+///
+/// A fix starts it. Where the fix is AMBIGUOUS one filter starts at each of its candidates; all see
+/// the same edges, the likeliest is published, and the others are dropped when a later fix settles
+/// the matter or the edges themselves do. A filter that finds most edges where it does not expect
+/// them, or whose fixes name another axis, starts again, and says so.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipelines/spin/association.h"
+#include "pipelines/spin/config.h"
+#include "pipelines/spin/products.h"
+#include "pipelines/spin/sky.h"
+#include "pipelines/spin/spin_filter.h"
+
+namespace spindrift {
+
+class SequentialEstimator {
+ public:
+  explicit SequentialEstimator(const SpinConfig& config) : config_{config} {}
+
+  /// @param revolution Not earlier than the one before; only its good edges are used.
+  /// @param settled The fixes that were settled since the revolution before, in any order.
+  /// @return The estimate at the revolution's start; empty until the first fix.
+  std::optional<SpinEstimate> update(const Revolution& revolution, const Sky& sky,
+                                     std::span<const SpinFix> settled);
+
+ private:
+  /// One candidate for the axis and what speaks for it.
+  struct Hypothesis {
+    SpinFilter filter;
+    double log_likelihood = 0.0;
+    double squared_innovation = 1.0;  ///< Running mean of the normalised ones, 1 when all is well.
+    EdgeTally tally = {};             ///< Of the last revolution.
+  };
+
+  void start(const SpinFix& fix, const Revolution& revolution, const Sky& sky);
+  bool restart_is_due(std::span<const SpinFix> settled);
+  void take_side(const SpinFix& fix);
+  void work_in(const Revolution& revolution, const Sky& sky);
+  void drop_the_beaten();
+  std::string status() const;
+
+  SpinConfig config_;
+  std::vector<Hypothesis> hypotheses_;  ///< The likeliest first; empty before the first fix.
+  std::int64_t revolutions_ = 0;        ///< Since the start; likewise the following.
+  std::int64_t gated_ = 0;
+  double gated_share_ = 0.0;    ///< Of the recent edges.
+  int contradicted_ = 0;        ///< Fixes against the axis, less those for it.
+  std::string_view restarted_;  ///< Why; empty: never.
+};
+
+}  // namespace spindrift

@@ -1,0 +1,31 @@
+/// @file
+/// What stands about the spacecraft during one revolution.
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/ephemeris/orbit_state.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// Good for a minute about `t`: the Sun stands still (its 1 deg a day is 0.0007 deg a minute).
+struct Sky {
+  TaiTime t;
+  OrbitState spacecraft;            ///< At `t`.
+  Eigen::Vector3d sun_icrf;         ///< Unit, apparent.
+  Eigen::Vector3d earth_pole_icrf;  ///< Unit.
+};
+
+/// Earth's centre -> spacecraft at a time near that of the sky: falling freely, to second order.
+inline Eigen::Vector3d spacecraft_icrf_km(const Sky& sky, TaiTime t) {
+  const double dt_s = seconds_between(sky.t, t);
+  const Eigen::Vector3d& position_km = sky.spacecraft.position_icrf_km;
+  const double range_km = position_km.norm();
+  const double fall_per_km = 0.5 * kEarthMu_km3_s2 * dt_s * dt_s / (range_km * range_km * range_km);
+  return (1.0 - fall_per_km) * position_km + dt_s * sky.spacecraft.velocity_icrf_km_s;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,157 @@
+#include "pipelines/spin/spin_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/edge_prediction.h"
+
+namespace spindrift {
+namespace {
+
+enum Component : Eigen::Index { kTiltX, kTiltY, kPhase, kRate };
+
+// Torques on a satellite turn its axis by up to a tenth of a degree a day; this random walk makes
+// 0.02 deg of it, and 3e-6 deg a second, which no pulse can tell from rest.
+constexpr double kAxisWander_rad_sqrt_s = 1e-6;
+// Follows a rate that changes by up to 4e-6 rad/s^2. A rate that is constant is known better than
+// the filter says; the axis hardly depends on it.
+constexpr double kRateWander_rad_s_sqrt_s = 1e-6;
+// Four in a hundred thousand good edges lie farther out.
+constexpr double kGateSigmas = 4.1;
+// One edge in a thousand is spurious and anywhere on the circle.
+constexpr double kSpuriousShare = 1e-3;
+// The first phase comes from an edge that the axis may rest on too: known so badly, it is free.
+constexpr double kFirstPhase_rad = 0.1;
+// The first rate comes from the period: ten of its sigmas leave the filter a hundredth of its
+// weight. Its own sigma says nothing of a drift.
+constexpr double kFirstRateSigmas = 10.0;
+constexpr double kFirstRateShare = 1e-4;
+
+double square(double x) { return x * x; }
+
+double log_normal_density(double squared_innovation, double variance) {
+  return -0.5 * (squared_innovation + std::log(2.0 * std::numbers::pi * variance));
+}
+
+/// Tilts of the frame into displacements of the axis in the tangent plane.
+Eigen::Matrix2d tangent_from_tilts(const Eigen::Quaterniond& q_icrf_spin) {
+  const Eigen::Matrix3d R_icrf_spin = q_icrf_spin.toRotationMatrix();
+  Eigen::Matrix<double, 3, 2> moved_icrf;
+  moved_icrf << -R_icrf_spin.col(1), R_icrf_spin.col(0);
+  return tangent_basis(R_icrf_spin.col(2)).transpose() * moved_icrf;
+}
+
+}  // namespace
+
+GoodEdges::GoodEdges(const Revolution& revolution) {
+  for (std::size_t i = 0; i < kPulseChannels; ++i) {
+    const auto channel = static_cast<PulseChannel>(i);
+    if (const auto t = revolution.good_edge(channel)) {
+      edges_.at(count_++) = {.t = *t, .channel = channel};
+    }
+  }
+}
+
+std::optional<SpinFilter> SpinFilter::about(const Eigen::Vector3d& axis_icrf,
+                                            const Eigen::Matrix2d& covariance_rad2,
+                                            const SpinConfig& config, const Revolution& revolution,
+                                            const Sky& sky) {
+  const auto q_icrf_spin = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis_icrf);
+  const Eigen::Matrix3d R_spin_icrf = q_icrf_spin.conjugate().toRotationMatrix();
+  const double rate_rad_s = 2.0 * std::numbers::pi / revolution.period.period_s;
+  const GoodEdges edges{revolution};
+  for (const Pulse& edge : edges.span()) {
+    const auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
+    if (!predicted) {
+      continue;
+    }
+    SpinFilter filter{edge.t, q_icrf_spin, predicted->phase_rad, rate_rad_s};
+    // Rotations and reflections: the inverse is the transpose.
+    const Eigen::Matrix2d turned = tangent_from_tilts(q_icrf_spin);
+    filter.covariance_.topLeftCorner<2, 2>() = turned.transpose() * covariance_rad2 * turned;
+    filter.covariance_(kPhase, kPhase) = square(kFirstPhase_rad);
+    filter.covariance_(kRate, kRate) = square(
+        rate_rad_s * (kFirstRateSigmas * revolution.period.sigma_s / revolution.period.period_s +
+                      kFirstRateShare));
+    return filter;
+  }
+  return std::nullopt;
+}
+
+void SpinFilter::predict(TaiTime t) {
+  const double dt_s = seconds_between(t_, t);
+  if (!(dt_s > 0.0)) {
+    return;
+  }
+  phase_rad_ = wrapped_rad(phase_rad_ + rate_rad_s_ * dt_s);
+  covariance_.row(kPhase) += dt_s * covariance_.row(kRate);
+  covariance_.col(kPhase) += dt_s * covariance_.col(kRate);
+  const double axis_rad2 = square(kAxisWander_rad_sqrt_s) * dt_s;
+  const double rate_rad2_s2 = square(kRateWander_rad_s_sqrt_s) * dt_s;
+  covariance_(kTiltX, kTiltX) += axis_rad2;
+  covariance_(kTiltY, kTiltY) += axis_rad2;
+  covariance_(kPhase, kPhase) += rate_rad2_s2 * dt_s * dt_s / 3.0;
+  covariance_(kPhase, kRate) += rate_rad2_s2 * dt_s / 2.0;
+  covariance_(kRate, kPhase) += rate_rad2_s2 * dt_s / 2.0;
+  covariance_(kRate, kRate) += rate_rad2_s2;
+  t_ = t;
+}
+
+/// All edges are linearised where the revolution began: then their order has no weight, and sun
+/// edges, the sharper, come first to the gate.
+EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky,
+                             std::span<const Pulse> edges) {
+  const Eigen::Matrix3d R_spin_icrf = q_icrf_spin_.conjugate().toRotationMatrix();
+  const double log_spurious = std::log(kSpuriousShare / (2.0 * std::numbers::pi));
+  EdgeTally tally;
+  Eigen::Vector4d error = Eigen::Vector4d::Zero();
+  for (const Pulse& edge : edges) {
+    const auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
+    double squared_innovation = square(kGateSigmas);
+    if (predicted) {
+      const double dt_s = seconds_between(t_, edge.t);
+      const Eigen::Vector4d slope{predicted->phase_per_rotation.x(),
+                                  predicted->phase_per_rotation.y(), -1.0, -dt_s};
+      const Eigen::Vector4d gain_unscaled = covariance_ * slope;
+      const double variance =
+          slope.dot(gain_unscaled) + square(rate_rad_s_ * edge_sigma_s(config.noise, edge.channel));
+      const double innovation =
+          wrapped_rad(phase_rad_ + rate_rad_s_ * dt_s - predicted->phase_rad - slope.dot(error));
+      squared_innovation = square(innovation) / variance;
+      if (squared_innovation < square(kGateSigmas)) {
+        error += gain_unscaled * (innovation / variance);
+        covariance_ -= gain_unscaled * gain_unscaled.transpose() / variance;
+        tally.log_likelihood += log_normal_density(squared_innovation, variance);
+        tally.squared_innovations += squared_innovation;
+        ++tally.accepted;
+        continue;
+      }
+    }
+    tally.log_likelihood += log_spurious;
+    ++tally.gated;
+  }
+  correct(error);
+  return tally;
+}
+
+void SpinFilter::correct(const Eigen::Vector4d& error) {
+  const Eigen::Vector3d tilt_rad{error[kTiltX], error[kTiltY], 0.0};
+  const double angle_rad = tilt_rad.norm();
+  if (angle_rad > 0.0) {
+    q_icrf_spin_ = (q_icrf_spin_ * Eigen::AngleAxisd{angle_rad, tilt_rad / angle_rad}).normalized();
+  }
+  phase_rad_ = wrapped_rad(phase_rad_ + error[kPhase]);
+  rate_rad_s_ += error[kRate];
+}
+
+Eigen::Matrix2d SpinFilter::axis_covariance_rad2() const {
+  const Eigen::Matrix2d turned = tangent_from_tilts(q_icrf_spin_);
+  return turned * covariance_.topLeftCorner<2, 2>() * turned.transpose();
+}
+
+double SpinFilter::rate_sigma_rad_s() const { return std::sqrt(covariance_(kRate, kRate)); }
+double SpinFilter::phase_sigma_rad() const { return std::sqrt(covariance_(kPhase, kPhase)); }
+
+}  // namespace spindrift

@@ -1,0 +1,88 @@
+/// @file
+/// Kalman filter on the sphere: spin axis, phase and rate from single edge times.
+///
+/// The state is a frame `spin` (edge_prediction.h) whose third axis is the spin axis, the phase of
+/// the body in it at the reference time, and the spin rate. Its error is small and has no
+/// singularity anywhere: tilts of the axis about the frame's first and second axes, phase, rate.
+/// Each edge is one scalar measurement with its own noise,
+///
+///     phase + rate (t - t_ref) - predicted phase = 0 +/- rate sigma_t        (round the circle)
+///
+/// so any subset of the channels will do. Assumes a body in uniform rotation about a fixed axis,
+/// but for a slow random walk of both.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
+#include <span>
+
+#include "pipelines/spin/association.h"
+#include "pipelines/spin/config.h"
+#include "pipelines/spin/pulse.h"
+#include "pipelines/spin/sky.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// What became of the edges of one revolution.
+struct EdgeTally {
+  int accepted = 0;
+  int gated = 0;  ///< Too far from where they were predicted, or predicted not to be.
+  /// Natural logarithm of the edges' probability density, 1/rad each, gated ones as spurious.
+  double log_likelihood = 0.0;
+  double squared_innovations = 0.0;  ///< Normalised, of the accepted ones.
+};
+
+class SpinFilter {
+ public:
+  /// A filter about a known axis, its phase and rate from one revolution: so widely that the
+  /// revolution's edges, which the axis may rest on, do not count twice.
+  /// @param covariance_rad2 Of the axis, in the tangent plane: east, north.
+  /// @return Empty when none of the revolution's edges can tell the phase.
+  static std::optional<SpinFilter> about(const Eigen::Vector3d& axis_icrf,
+                                         const Eigen::Matrix2d& covariance_rad2,
+                                         const SpinConfig& config, const Revolution& revolution,
+                                         const Sky& sky);
+
+  /// Moves the reference time on; never back.
+  void predict(TaiTime t);
+
+  /// Works in the edges of about one revolution near the reference time.
+  EdgeTally update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges);
+
+  TaiTime t() const { return t_; }
+  Eigen::Vector3d axis_icrf() const { return q_icrf_spin_ * Eigen::Vector3d::UnitZ(); }
+  /// Tangent plane at the axis: east, north.
+  Eigen::Matrix2d axis_covariance_rad2() const;
+  double rate_rad_s() const { return rate_rad_s_; }
+  double rate_sigma_rad_s() const;
+  double phase_sigma_rad() const;
+
+ private:
+  SpinFilter(TaiTime t, const Eigen::Quaterniond& q_icrf_spin, double phase_rad, double rate_rad_s)
+      : t_{t}, q_icrf_spin_{q_icrf_spin}, phase_rad_{phase_rad}, rate_rad_s_{rate_rad_s} {}
+
+  void correct(const Eigen::Vector4d& error);
+
+  TaiTime t_;
+  Eigen::Quaterniond q_icrf_spin_;
+  double phase_rad_;  ///< Of slit 1 at `t_`.
+  double rate_rad_s_;
+  /// Of the error: tilt about the frame's first and second axes, phase, rate.
+  Eigen::Matrix4d covariance_ = Eigen::Matrix4d::Zero();
+};
+
+/// The good edges of a revolution.
+class GoodEdges {
+ public:
+  explicit GoodEdges(const Revolution& revolution);
+  std::span<const Pulse> span() const { return {edges_.data(), count_}; }
+
+ private:
+  std::array<Pulse, kPulseChannels> edges_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,213 @@
+/// The predicted edges against the spinning body, which searches for them and knows no formula.
+
+#include "pipelines/spin/horizon.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/edge_prediction.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree_rad = kPi / 180.0;
+const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+
+Eigen::Vector3d random_direction(std::mt19937_64& rng) {
+  std::normal_distribution<double> normal;
+  return Eigen::Vector3d{normal(rng), normal(rng), normal(rng)}.normalized();
+}
+
+/// A body that sees the Earth from some height, and what it should be told of the sky.
+struct Scene {
+  testing::SpinningBody body;
+  testing::Surroundings around;
+  Eigen::Vector3d sun_icrf;
+  Eigen::Vector3d earth_icrf_km;
+
+  Sky sky(TaiTime t) const {
+    return {.t = t,
+            .spacecraft = {.position_icrf_km = -earth_icrf_km,
+                           .velocity_icrf_km_s = Eigen::Vector3d::Zero()},
+            .sun_icrf = sun_icrf,
+            .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
+  }
+};
+
+Scene random_scene(HorizonModel model, std::mt19937_64& rng) {
+  std::uniform_real_distribution<double> uniform;
+  const Eigen::Vector3d earth_icrf = random_direction(rng);
+  const Eigen::Vector3d across =
+      Eigen::AngleAxisd{2.0 * kPi * uniform(rng), earth_icrf} * earth_icrf.unitOrthogonal();
+  const double tilt_rad = (uniform(rng) - 0.5) * 20.0 * kDegree_rad;
+  SpinConfig config = testing::usual_config();
+  config.horizon.model = model;
+  Scene scene{.body = {.axis_icrf = Eigen::AngleAxisd{tilt_rad, across.cross(earth_icrf)} * across,
+                       .rate_rad_s = 2.0 * kPi,
+                       .first_turn_rad = 2.0 * kPi * uniform(rng),
+                       .config = config},
+              .around = {},
+              .sun_icrf = random_direction(rng),
+              .earth_icrf_km = earth_icrf * (7000.0 + 35000.0 * uniform(rng))};
+  scene.around = testing::at_rest(scene.sun_icrf, scene.earth_icrf_km);
+  scene.around.horizon_km = model == HorizonModel::Sphere ? testing::spherical_horizon_km(40.0)
+                                                          : testing::ellipsoidal_horizon_km(40.0);
+  return scene;
+}
+
+/// The frame `spin` of the oracle: its body before the first turn.
+Eigen::Matrix3d spin_frame(const testing::SpinningBody& body) {
+  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), body.axis_icrf)
+      .conjugate()
+      .toRotationMatrix();
+}
+
+class Horizons : public ::testing::TestWithParam<HorizonModel> {};
+
+TEST_P(Horizons, EveryEdgeComesAtThePhasePredicted) {
+  std::mt19937_64 rng{7};
+  std::array<int, kPulseChannels> seen{};
+  int unpredicted = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Scene scene = random_scene(GetParam(), rng);
+    for (const testing::Edge& edge : testing::edges_between(scene.body, scene.around, 0.0, 1.0)) {
+      const TaiTime t = shifted(kStart, edge.t_s);
+      const auto predicted = predict_edge(scene.body.config, scene.sky(t), spin_frame(scene.body),
+                                          {.t = t, .channel = edge.channel});
+      if (!predicted) {
+        ++unpredicted;  // All but grazing: the next test says how much so.
+        continue;
+      }
+      const double phase_rad = scene.body.first_turn_rad + scene.body.rate_rad_s * edge.t_s;
+      // The oracle is good to 1e-12 s; a grazing beam magnifies that by up to 30 (kSteepest) and
+      // the rounding of a flat crossing likewise.
+      ASSERT_NEAR(wrapped_rad(phase_rad - predicted->phase_rad), 0.0, 3e-9)
+          << "trial " << trial << ' ' << name_of(edge.channel);
+      ++seen.at(index_of(edge.channel));
+    }
+  }
+  for (const int count : seen) {
+    EXPECT_GT(count, 100);
+  }
+  EXPECT_LT(unpredicted, 60);
+}
+
+TEST_P(Horizons, DerivativesAreThoseOfThePrediction) {
+  // Central differences of 1e-6 rad: truncation 1e-12 f'''/6, rounding 1e-15 / 1e-6. Near grazing
+  // (slopes up to 30) the third derivative grows as the fifth power of the slope.
+  constexpr double kStep_rad = 1e-6;
+  std::mt19937_64 rng{8};
+  int compared = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Scene scene = random_scene(GetParam(), rng);
+    // Off the solution: the frame is another one.
+    const Eigen::Matrix3d off =
+        (Eigen::AngleAxisd{0.02, random_direction(rng)} * spin_frame(scene.body)).matrix();
+    for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+      const Pulse edge{.t = kStart, .channel = static_cast<PulseChannel>(channel)};
+      const auto phase = [&](const Eigen::Vector3d& turned_rad) {
+        const double angle_rad = turned_rad.norm();
+        const Eigen::AngleAxisd turn{angle_rad, turned_rad / angle_rad};
+        return predict_edge(scene.body.config, scene.sky(kStart),
+                            turn.toRotationMatrix().transpose() * off, edge);
+      };
+      const auto predicted = predict_edge(scene.body.config, scene.sky(kStart), off, edge);
+      if (!predicted || predicted->phase_per_rotation.norm() > 10.0) {
+        continue;
+      }
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        const auto later = phase(kStep_rad * Eigen::Vector3d::Unit(i));
+        const auto earlier = phase(-kStep_rad * Eigen::Vector3d::Unit(i));
+        ASSERT_TRUE(later && earlier);
+        const double slope = wrapped_rad(later->phase_rad - earlier->phase_rad) / (2.0 * kStep_rad);
+        ASSERT_NEAR(predicted->phase_per_rotation[i], slope, 1e-6)
+            << "trial " << trial << ' ' << name_of(edge.channel) << " about axis " << i;
+        ++compared;
+      }
+      ASSERT_NEAR(predicted->phase_per_rotation.z(), -1.0, 1e-12);
+    }
+  }
+  EXPECT_GT(compared, 3000);
+}
+
+TEST_P(Horizons, TheBeamThatMissesHasNoCrossing) {
+  // From 42 164 km the disc is 8.8 deg wide: a beam at 85 deg, the Earth at 60 deg from the axis.
+  const HorizonAxes axes = horizon_axes({.model = GetParam(), .co2_altitude_km = 40.0});
+  const auto crossing = [&](double earth_angle_deg) {
+    const double angle_rad = earth_angle_deg * kDegree_rad;
+    return limb_crossing(axes,
+                         {.spacecraft_spin_km = -42164.0 * Eigen::Vector3d{std::sin(angle_rad), 0.0,
+                                                                           std::cos(angle_rad)},
+                          .pole_spin = Eigen::Vector3d::UnitY()},
+                         85.0 * kDegree_rad, Crossing::In);
+  };
+  EXPECT_FALSE(crossing(60.0));
+  EXPECT_TRUE(crossing(80.0));
+  EXPECT_TRUE(crossing(92.0));
+  EXPECT_FALSE(crossing(93.9));
+}
+
+TEST_P(Horizons, NothingIsSeenFromInsideNorFromNowhere) {
+  const HorizonAxes axes = horizon_axes({.model = GetParam(), .co2_altitude_km = 40.0});
+  for (const double range_km : {0.0, 6400.0, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_FALSE(limb_crossing(
+        axes, {.spacecraft_spin_km = {range_km, 0.0, 0.0}, .pole_spin = Eigen::Vector3d::UnitZ()},
+        1.5, Crossing::In));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EdgePrediction, Horizons,
+                         ::testing::Values(HorizonModel::Sphere, HorizonModel::Ellipsoid),
+                         [](const auto& model) {
+                           return model.param == HorizonModel::Sphere ? "Sphere" : "Ellipsoid";
+                         });
+
+TEST(Horizon, GrazingTheFlattenedPoleIsAMiss) {
+  // Polar view: the beam passes 10 km above the ellipsoid's pole and 11 km inside the sphere.
+  const HorizonAxes ellipsoid =
+      horizon_axes({.model = HorizonModel::Ellipsoid, .co2_altitude_km = 40.0});
+  const HorizonAxes sphere = horizon_axes({.model = HorizonModel::Sphere, .co2_altitude_km = 40.0});
+  const double range_km = 42164.0;
+  const double miss_km = ellipsoid.polar_km + 10.0;
+  const EarthView earth{.spacecraft_spin_km = {-range_km, 0.0, 0.0},
+                        .pole_spin = Eigen::Vector3d::UnitZ()};
+  const double mount_rad = 0.5 * kPi - std::asin(miss_km / range_km);
+  EXPECT_FALSE(limb_crossing(ellipsoid, earth, mount_rad, Crossing::In));
+  EXPECT_TRUE(limb_crossing(sphere, earth, mount_rad, Crossing::In));
+}
+
+TEST(EdgePrediction, WithoutTheSensorThereIsNoEdge) {
+  SpinConfig config = testing::usual_config();
+  config.south.reset();
+  const Sky sky{.t = kStart,
+                .spacecraft = {.position_icrf_km = {20000.0, 0.0, 0.0},
+                               .velocity_icrf_km_s = Eigen::Vector3d::Zero()},
+                .sun_icrf = Eigen::Vector3d::UnitY(),
+                .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
+  const Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
+  EXPECT_TRUE(predict_edge(config, sky, frame, {.t = kStart, .channel = PulseChannel::NorthIn}));
+  EXPECT_FALSE(predict_edge(config, sky, frame, {.t = kStart, .channel = PulseChannel::SouthIn}));
+}
+
+TEST(EdgePrediction, TheSunOnTheAxisGivesNoEdge) {
+  const Sky sky{.t = kStart,
+                .spacecraft = {.position_icrf_km = {20000.0, 0.0, 0.0},
+                               .velocity_icrf_km_s = Eigen::Vector3d::Zero()},
+                .sun_icrf = Eigen::Vector3d::UnitZ(),
+                .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
+  for (const PulseChannel slit : {PulseChannel::Sun1, PulseChannel::Sun2}) {
+    EXPECT_FALSE(predict_edge(testing::usual_config(), sky, Eigen::Matrix3d::Identity(),
+                              {.t = kStart, .channel = slit}));
+  }
+}
+
+}  // namespace
+}  // namespace spindrift
