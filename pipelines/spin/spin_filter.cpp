@@ -21,7 +21,11 @@ constexpr double kRateWander_rad_s_sqrt_s = 1e-6;
 // Four in a hundred thousand good edges lie farther out.
 constexpr double kGateSigmas = 4.1;
 // One edge in a thousand is spurious and anywhere on the circle.
-constexpr double kSpuriousShare = 1e-3;
+const double kLogSpurious = std::log(1e-3 / (2.0 * std::numbers::pi));
+// A correction of the axis beyond this (0.06 deg) is linearised anew where it ends, up to so many
+// times: what two linearisations disagree on would count as knowledge of what no edge measures.
+constexpr double kFarFromLinear_rad = 1e-3;
+constexpr int kMostPasses = 4;
 // The first phase comes from an edge that the axis may rest on too: known so badly, it is free.
 constexpr double kFirstPhase_rad = 0.1;
 // The first rate comes from the period: ten of its sigmas leave the filter a hundredth of its
@@ -99,41 +103,65 @@ void SpinFilter::predict(TaiTime t) {
   t_ = t;
 }
 
-/// All edges are linearised where the revolution began: then their order has no weight, and sun
-/// edges, the sharper, come first to the gate.
 EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky,
                              std::span<const Pulse> edges) {
-  const Eigen::Matrix3d R_spin_icrf = q_icrf_spin_.conjugate().toRotationMatrix();
-  const double log_spurious = std::log(kSpuriousShare / (2.0 * std::numbers::pi));
+  const SpinFilter prior = *this;
   EdgeTally tally;
-  Eigen::Vector4d error = Eigen::Vector4d::Zero();
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const Eigen::Vector4d moved = update_linearised_here(prior, config, sky, edges, tally);
+    if (moved.head<2>().norm() < kFarFromLinear_rad) {
+      break;
+    }
+  }
+  return tally;
+}
+
+/// All edges are linearised at the present state: then their order has no weight, and sun edges,
+/// the sharper, come first to the gate.
+Eigen::Vector4d SpinFilter::update_linearised_here(const SpinFilter& prior,
+                                                   const SpinConfig& config, const Sky& sky,
+                                                   std::span<const Pulse> edges, EdgeTally& tally) {
+  const Eigen::Matrix3d R_spin_icrf = q_icrf_spin_.conjugate().toRotationMatrix();
+  tally = {};
+  covariance_ = prior.covariance_;
+  Eigen::Vector4d error = error_of(prior);
   for (const Pulse& edge : edges) {
     const auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
-    double squared_innovation = square(kGateSigmas);
-    if (predicted) {
-      const double dt_s = seconds_between(t_, edge.t);
-      const Eigen::Vector4d slope{predicted->phase_per_rotation.x(),
-                                  predicted->phase_per_rotation.y(), -1.0, -dt_s};
-      const Eigen::Vector4d gain_unscaled = covariance_ * slope;
-      const double variance =
-          slope.dot(gain_unscaled) + square(rate_rad_s_ * edge_sigma_s(config.noise, edge.channel));
-      const double innovation =
-          wrapped_rad(phase_rad_ + rate_rad_s_ * dt_s - predicted->phase_rad - slope.dot(error));
-      squared_innovation = square(innovation) / variance;
-      if (squared_innovation < square(kGateSigmas)) {
-        error += gain_unscaled * (innovation / variance);
-        covariance_ -= gain_unscaled * gain_unscaled.transpose() / variance;
-        tally.log_likelihood += log_normal_density(squared_innovation, variance);
-        tally.squared_innovations += squared_innovation;
-        ++tally.accepted;
-        continue;
-      }
+    if (!predicted) {
+      tally.log_likelihood += kLogSpurious;
+      ++tally.gated;
+      continue;
     }
-    tally.log_likelihood += log_spurious;
-    ++tally.gated;
+    const double dt_s = seconds_between(t_, edge.t);
+    const Eigen::Vector4d slope{predicted->phase_per_rotation.x(),
+                                predicted->phase_per_rotation.y(), -1.0, -dt_s};
+    const Eigen::Vector4d gain_unscaled = covariance_ * slope;
+    const double variance =
+        slope.dot(gain_unscaled) + square(rate_rad_s_ * edge_sigma_s(config.noise, edge.channel));
+    const double innovation =
+        wrapped_rad(phase_rad_ + rate_rad_s_ * dt_s - predicted->phase_rad - slope.dot(error));
+    const double squared_innovation = square(innovation) / variance;
+    if (squared_innovation > square(kGateSigmas)) {
+      tally.log_likelihood += kLogSpurious;
+      ++tally.gated;
+      continue;
+    }
+    error += gain_unscaled * (innovation / variance);
+    covariance_ -= gain_unscaled * gain_unscaled.transpose() / variance;
+    tally.log_likelihood += log_normal_density(squared_innovation, variance);
+    tally.squared_innovations += squared_innovation;
+    ++tally.accepted;
   }
   correct(error);
-  return tally;
+  return error;
+}
+
+/// Of this state, were `truth` true.
+Eigen::Vector4d SpinFilter::error_of(const SpinFilter& truth) const {
+  const Eigen::AngleAxisd turn{q_icrf_spin_.conjugate() * truth.q_icrf_spin_};
+  const Eigen::Vector3d turn_rad = turn.angle() * turn.axis();
+  return {turn_rad.x(), turn_rad.y(), wrapped_rad(truth.phase_rad_ - phase_rad_),
+          truth.rate_rad_s_ - rate_rad_s_};
 }
 
 void SpinFilter::correct(const Eigen::Vector4d& error) {

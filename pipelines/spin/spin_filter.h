@@ -15,6 +15,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 
@@ -64,6 +66,10 @@ class SpinFilter {
   SpinFilter(TaiTime t, const Eigen::Quaterniond& q_icrf_spin, double phase_rad, double rate_rad_s)
       : t_{t}, q_icrf_spin_{q_icrf_spin}, phase_rad_{phase_rad}, rate_rad_s_{rate_rad_s} {}
 
+  Eigen::Vector4d update_linearised_here(const SpinFilter& prior, const SpinConfig& config,
+                                         const Sky& sky, std::span<const Pulse> edges,
+                                         EdgeTally& tally);
+  Eigen::Vector4d error_of(const SpinFilter& truth) const;
   void correct(const Eigen::Vector4d& error);
 
   TaiTime t_;
