@@ -15,9 +15,10 @@ enum Component : Eigen::Index { kTiltX, kTiltY, kPhase, kRate };
 // Torques on a satellite turn its axis by up to a tenth of a degree a day; this random walk makes
 // 0.02 deg of it, and 3e-6 deg a second, which no pulse can tell from rest.
 constexpr double kAxisWander_rad_sqrt_s = 1e-6;
-// Follows a rate that changes by up to 4e-6 rad/s^2. A rate that is constant is known better than
-// the filter says; the axis hardly depends on it.
-constexpr double kRateWander_rad_s_sqrt_s = 1e-6;
+// Follows a rate that changes by 1e-6 rad/s^2 (0.8 rpm a day) within its sigma, by ten times that
+// within the gate. A rate that is constant is known better than the filter says; the axis hardly
+// depends on it.
+constexpr double kRateWander_rad_s_sqrt_s = 3e-6;
 // Four in a hundred thousand good edges lie farther out.
 constexpr double kGateSigmas = 4.1;
 // One edge in a thousand is spurious and anywhere on the circle.
