@@ -95,7 +95,8 @@ void Associator::try_to_start(bool at_end, Association& out) {
   sun1_known_ = reference_ == PulseChannel::Sun1;
   period_window_ = SpinPeriodWindow{config_.screening, noise_of(config_.noise, start->reference)};
   phases_.set_period(clock_->period_s());
-  phases_.define(reference_, 0, start->phase_turns);
+  phases_.set_reference(reference_);
+  phases_.define(reference_, 0, defined_phase_turns(config_, reference_));
   learn_phases();
   for (const Pulse& pulse : std::exchange(waiting_, {})) {
     place(pulse, out);
@@ -299,8 +300,7 @@ void Associator::judge_others(Revolution& revolution) {
       continue;
     }
     const double count = clock_->phase_turns(*edge);
-    if (!phases_.follow(channel, revolution.number, count - turn, clock_sigma_turns,
-                        reference_wander()) &&
+    if (!phases_.follow(channel, revolution.number, count - turn, clock_sigma_turns) &&
         !phases_.stray(channel, count)) {
       revolution.edge_rejections.at(index_of(channel)) = Rejection::Phase;
     }
@@ -357,6 +357,8 @@ void Associator::count_silence(const Revolution& revolution) {
   };
   if (is_fit(Sun1)) {
     change_reference(Sun1, revolution.number);
+  } else if (!sees_the_sun(reference_) && is_fit(Sun2)) {
+    change_reference(Sun2, revolution.number);
   } else if (turns_without_reference_ >= kSilentReference) {
     const auto* const fit = std::find_if(kChannels.begin(), kChannels.end(), is_fit);
     if (fit != kChannels.end()) {
@@ -366,20 +368,24 @@ void Associator::count_silence(const Revolution& revolution) {
 }
 
 void Associator::change_reference(PulseChannel channel, std::int64_t turn) {
+  const auto turn_d = static_cast<double>(turn);
   // From here on the old one is followed again.
-  phases_.define(reference_, turn, phases_.at(reference_, static_cast<double>(turn)));
+  phases_.define(reference_, turn, phases_.at(reference_, turn_d));
   reference_ = channel;
+  phases_.set_reference(channel);
   turns_without_reference_ = 0;
   recent_reference_.clear();
   interval_start_.reset();
   period_window_ = SpinPeriodWindow{config_.screening, noise_of(config_.noise, channel)};
-  if (channel == PulseChannel::Sun1) {
-    sun1_known_ = true;
-    const double phase_turns = phases_.at(channel, static_cast<double>(turn));
+  const bool is_sun1 = channel == PulseChannel::Sun1;
+  if (is_sun1 || (channel == PulseChannel::Sun2 && !sun1_known_)) {
+    // The Sun stands still: phase and drift of its edge are the clock's errors.
+    const double late_turns = phases_.at(channel, turn_d) - defined_phase_turns(config_, channel);
     const double drift = phases_.drift(channel);
-    clock_->shift(turn, phase_turns, drift);
-    phases_.shift(turn, phase_turns, drift);
+    clock_->shift(turn, late_turns, drift);
+    phases_.shift(turn, late_turns, drift);
   }
+  sun1_known_ = sun1_known_ || is_sun1;
 }
 
 TaiTime Associator::t_start_of(const Revolution& revolution) const {

@@ -29,18 +29,6 @@ constexpr double kLongestNote_s = 60.0;
 // One sigma of a rate that lies anywhere between those of a low orbit in either sense.
 constexpr double kEarthRate_rad_s = 1.2e-3 / std::numbers::sqrt3;
 
-/// An infrared channel half way round, so that the others lie within half a turn of it.
-double defined_phase_turns(const SpinConfig& config, PulseChannel channel) {
-  switch (channel) {
-    case Sun1:
-      return 0.0;
-    case Sun2:
-      return config.sun_sensor.slit_separation_rad / (2.0 * std::numbers::pi);
-    default:
-      return 0.5;
-  }
-}
-
 std::vector<TaiTime> times_of(std::span<const Pulse> pulses, PulseChannel channel) {
   std::vector<TaiTime> times;
   for (const Pulse& pulse : pulses) {
@@ -67,6 +55,17 @@ SpinClock counted_from(SpinClock::Setting setting, const std::vector<TaiTime>& e
 
 }  // namespace
 
+double defined_phase_turns(const SpinConfig& config, PulseChannel channel) {
+  switch (channel) {
+    case Sun1:
+      return 0.0;
+    case Sun2:
+      return config.sun_sensor.slit_separation_rad / (2.0 * std::numbers::pi);
+    default:
+      return 0.5;
+  }
+}
+
 double apparent_motion_s(PulseChannel channel, double period_s) {
   return sees_the_sun(channel) ? 0.0
                                : kEarthRate_rad_s * period_s * period_s / (2.0 * std::numbers::pi);
@@ -89,7 +88,6 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
         comb->scatter_s * std::sqrt(12.0 / count) / std::max(1.0, comb->turns);
     return ClockStart{
         .reference = channel,
-        .phase_turns = phase_turns,
         .clock = counted_from({.t = later_by_s(comb->t, -phase_turns * comb->period_s),
                                .turn = 0,
                                .period_s = comb->period_s,
@@ -130,7 +128,6 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
   const auto first = std::find_if(sane.begin(), sane.end(), agrees);
   const double sigma_s = std::numbers::sqrt2 * config.noise.sun_s;
   return ClockStart{.reference = Sun1,
-                    .phase_turns = 0.0,
                     .clock = SpinClock{{.t = first->t_sun1,
                                         .turn = 0,
                                         .period_s = period_s,

@@ -13,9 +13,12 @@
 
 namespace spindrift {
 
+/// The phase of the edges of a channel that sets the clock where there is no sun1: sun2 at the slit
+/// separation, an infrared one half way round, so that the others lie within half a turn of it.
+double defined_phase_turns(const SpinConfig& config, PulseChannel channel);
+
 struct ClockStart {
   PulseChannel reference;  ///< The channel that sets the clock.
-  double phase_turns;      ///< Of its edges, by definition.
   SpinClock clock;         ///< Phase 0 belongs to the first of its edges.
   SpinPeriod period;
 };

@@ -45,9 +45,14 @@ double ExpectedPhases::noise_turns(PulseChannel channel) const {
 }
 
 double ExpectedPhases::most_drift(PulseChannel channel) const {
-  return sees_the_sun(channel)
+  return sees_the_sun(channel) && sees_the_sun(reference_)
              ? kSunDrift
              : kMostEarthRates * kEarthRate_rad_s * period_s_ / (2.0 * std::numbers::pi);
+}
+
+double ExpectedPhases::wander(PulseChannel channel) const {
+  return std::max(earth_wander_turns(channel, period_s_),
+                  earth_wander_turns(reference_, period_s_));
 }
 
 void ExpectedPhases::define(PulseChannel channel, std::int64_t turn, double phase_turns) {
@@ -70,27 +75,27 @@ void ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts)
     const double turn = std::round(count - place);
     return PhasePoint{.turn = turn, .phase = count - turn};
   });
-  const double wander = earth_wander_turns(channel, period_s_);
   const auto line = fit_phase_line(points, noise_turns(channel), most_drift(channel));
-  const PhasePoint first = line->agreeing.front();
   const auto edges = static_cast<double>(line->agreeing.size());
-  const double change_sigma = std::hypot(
-      line->scatter * std::sqrt(12.0) / (edges * std::sqrt(edges)), wander * std::sqrt(edges));
-  of(channel).phase =
-      DriftFilter{{.turn = static_cast<std::int64_t>(first.turn),
-                   .value = line->at(first.turn),
-                   .value_sigma = 2.0 * line->scatter / std::sqrt(edges),
-                   .change = line->drift,
-                   .change_sigma = std::min(change_sigma, most_drift(channel) / kMostEarthRates),
-                   .scale = line->scatter / noise_turns(channel)}};
+  // A few edges say less of the drift than what is possible does.
+  const double possible = most_drift(channel) / kMostEarthRates;
+  const double seen = std::hypot(line->scatter * std::sqrt(12.0) / (edges * std::sqrt(edges)),
+                                 wander(channel) * std::sqrt(edges));
+  const double change = line->drift * possible * possible / (possible * possible + seen * seen);
+  const double first = line->agreeing.front().turn;
+  of(channel).phase = DriftFilter{{.turn = static_cast<std::int64_t>(first),
+                                   .value = line->phase + change * (first - line->turn),
+                                   .value_sigma = 2.0 * line->scatter / std::sqrt(edges),
+                                   .change = change,
+                                   .change_sigma = possible * seen / std::hypot(possible, seen),
+                                   .scale = line->scatter / noise_turns(channel)}};
 }
 
 bool ExpectedPhases::follow(PulseChannel channel, std::int64_t turn, double phase_turns,
-                            double clock_sigma_turns, double reference_wander) {
+                            double clock_sigma_turns) {
   Channel& own = of(channel);
-  const DriftNoise noise{
-      .measured = std::hypot(noise_turns(channel), clock_sigma_turns),
-      .wander = std::hypot(earth_wander_turns(channel, period_s_), reference_wander)};
+  const DriftNoise noise{.measured = std::hypot(noise_turns(channel), clock_sigma_turns),
+                         .wander = wander(channel)};
   const bool accepted = own.phase->follow(
       turn, phase_turns, noise, {.sigma = config_.screening.sigma, .most = gate_turns(channel)});
   if (accepted) {

@@ -41,6 +41,9 @@ class ExpectedPhases {
   /// The spin period in force: noise is stated in seconds.
   void set_period(double period_s) { period_s_ = period_s; }
 
+  /// The channel that sets the clock: what moves it seems to move the others.
+  void set_reference(PulseChannel channel) { reference_ = channel; }
+
   /// Places a channel by definition.
   void define(PulseChannel channel, std::int64_t turn, double phase_turns);
   bool knows(PulseChannel channel) const { return of(channel).phase.has_value(); }
@@ -52,10 +55,9 @@ class ExpectedPhases {
   /// @param counts Phases of edges, with the turns counted by the spin clock; at least one.
   void learn(PulseChannel channel, std::span<const double> counts);
 
-  /// @param reference_wander Of the channel that the clock is set by, per turn.
   /// @return Whether an edge of a known channel lies where it should; if so it is followed.
-  bool follow(PulseChannel channel, std::int64_t turn, double phase_turns, double clock_sigma_turns,
-              double reference_wander);
+  bool follow(PulseChannel channel, std::int64_t turn, double phase_turns,
+              double clock_sigma_turns);
 
   /// An edge that is not where it should be. @return Whether it and those before it agree on
   /// another place, which is then expected.
@@ -85,9 +87,11 @@ class ExpectedPhases {
   double unwrapped(PulseChannel channel, double phase_turns, double turn) const;
   double noise_turns(PulseChannel channel) const;
   double most_drift(PulseChannel channel) const;
+  double wander(PulseChannel channel) const;
 
   SpinConfig config_;
   double period_s_ = 1.0;
+  PulseChannel reference_ = PulseChannel::Sun1;
   std::array<Channel, kPulseChannels> channels_;
 };
 
