@@ -5,106 +5,51 @@
 #include <numbers>
 #include <utility>
 
+#include "pipelines/spin/period_search.h"
+#include "pipelines/spin/time_span.h"
+
 namespace spindrift {
 namespace {
 
-// Intervals of sun1 that must be seen before the period is believed: enough for a median that a
-// lost and a spurious edge do not move.
-constexpr std::size_t kStartIntervals = 9;
-constexpr std::size_t kFewestIntervals = 2;
 // Without a clock no more than this is kept: noise alone must not fill the memory.
 constexpr std::size_t kMostWaiting = 1024;
-// Intervals this close to the median are one turn; a lost edge makes 2, a spurious one parts.
-constexpr double kSameInterval = 0.02;
+constexpr std::size_t kMostNotes = 16;
+// The window's period is believed from so many candidates on, until then that of the start.
+constexpr std::size_t kStartIntervals = 9;
 // After this many turns of refused intervals it is the edge that they start from that is doubtful.
 constexpr std::int64_t kMostTurnsRefused = 5;
-// How far from its expected phase an edge may lie, turns. The Sun stands still, a chord changes as
-// the beam nears the limb.
-constexpr double kSunGate_turns = 0.1;
-constexpr double kOtherGate_turns = 0.2;
 // A revolution stays open at least this long, so that a channel seen for the first time finds it.
 constexpr double kOpen_turns = 0.75;
-// A chord hovering about sun1 keeps its revolution until it has drifted this far past.
-constexpr double kHover_turns = 0.25;
-// Intervals within so many sigmas of each other are the same, beyond twice that another period.
-constexpr double kStepSigmas = 6.0;
-// So many edges in a row that miss their place and agree on another one move it there.
-constexpr std::size_t kStraysToAgree = 5;
-// Weight of a new edge in the expected phase of its channel.
-constexpr double kFollow = 0.1;
+constexpr double kChordGate_turns = 0.2;
+// However long the silence, an edge must lie nearer than this to a turn to be counted with it.
+constexpr double kMostReach_turns = 0.4;
+// Of so many edges of the reference so many are wrong when it is time to ask whether the clock is.
+constexpr std::size_t kRecentReference = 9;
+constexpr std::ptrdiff_t kDoubtful = 4;
+constexpr std::size_t kFewestAfterStep = 6;
+// So many revolutions without a good edge of the reference, and another channel takes over.
+constexpr int kSilentReference = 10;
+// From so many good edges in a row on a channel is fit to set the clock.
+constexpr int kFitReference = 3;
 
 constexpr std::array<PulseChannel, kPulseChannels> kChannels = {
     PulseChannel::Sun1,     PulseChannel::Sun2,    PulseChannel::NorthIn,
     PulseChannel::NorthOut, PulseChannel::SouthIn, PulseChannel::SouthOut};
 
-double fraction(double turns) { return turns - std::floor(turns); }
-
-/// Of the time between two sun edges, from the stated pulse noise.
-double interval_sigma_s(const SpinConfig& config) {
-  return std::numbers::sqrt2 * config.noise.sun_s;
-}
-
-double gate_turns(PulseChannel channel) {
-  return channel == PulseChannel::Sun1 ? kSunGate_turns : kOtherGate_turns;
-}
-
 PulseUse unassociated(const Pulse& pulse) {
   return {.pulse = pulse, .revolution = {}, .rejected_by = Rejection::Unassociated};
-}
-
-/// The phase with the smallest summed distance to the others, round the circle.
-double circular_median(const std::vector<double>& phases_turns) {
-  const auto spread = [&](double centre) {
-    double sum = 0.0;
-    for (const double phase : phases_turns) {
-      sum += std::abs(std::remainder(phase - centre, 1.0));
-    }
-    return sum;
-  };
-  return *std::min_element(phases_turns.begin(), phases_turns.end(),
-                           [&](double a, double b) { return spread(a) < spread(b); });
-}
-
-/// The interval that most of a run of edges agree on.
-struct SteadyInterval {
-  double mean_s;
-  double agreeing;    ///< How many intervals do.
-  std::size_t first;  ///< The edge where the first of them begins.
-};
-
-/// @param tolerance_s How far from their median agreeing intervals may lie, as a function of it.
-template <class Times, class Tolerance>
-std::optional<SteadyInterval> steady_interval(const Times& edges, const Tolerance& tolerance_s) {
-  std::vector<double> intervals_s;
-  for (std::size_t i = 1; i < edges.size(); ++i) {
-    intervals_s.push_back(seconds_between(edges[i - 1], edges[i]));
-  }
-  std::vector<double> sorted_s = intervals_s;
-  const auto middle = sorted_s.begin() + static_cast<std::ptrdiff_t>(sorted_s.size() / 2);
-  std::nth_element(sorted_s.begin(), middle, sorted_s.end());
-
-  double sum_s = 0.0;
-  std::size_t agreeing = 0;
-  std::size_t first = 0;
-  for (std::size_t i = intervals_s.size(); i-- > 0;) {
-    if (std::abs(intervals_s[i] - *middle) <= tolerance_s(*middle)) {
-      sum_s += intervals_s[i];
-      ++agreeing;
-      first = i;
-    }
-  }
-  if (*middle <= 0.0 || 2 * agreeing <= intervals_s.size()) {
-    return std::nullopt;
-  }
-  const auto count = static_cast<double>(agreeing);
-  return SteadyInterval{.mean_s = sum_s / count, .agreeing = count, .first = first};
 }
 
 }  // namespace
 
 Associator::Associator(const SpinConfig& config)
-    : config_{config}, period_window_{config.screening, config.noise.sun_s} {
-  expected_turns_.at(index_of(PulseChannel::Sun1)) = 0.0;
+    : config_{config}, phases_{config}, period_window_{config.screening, config.noise.sun_s} {}
+
+void Associator::note_period(TaiTime t_sun1, double period_s) {
+  notes_.push_back({.t_sun1 = t_sun1, .period_s = period_s});
+  if (notes_.size() > kMostNotes) {
+    notes_.pop_front();
+  }
 }
 
 Association Associator::push(const Pulse& pulse) {
@@ -114,9 +59,8 @@ Association Associator::push(const Pulse& pulse) {
     return out;
   }
   waiting_.push_back(pulse);
-  if (pulse.channel == PulseChannel::Sun1 && start_clock(kStartIntervals)) {
-    out = place_waiting();
-  } else if (waiting_.size() > kMostWaiting) {
+  try_to_start(false, out);
+  if (!clock_ && waiting_.size() > kMostWaiting) {
     out.left_over.push_back(unassociated(waiting_.front()));
     waiting_.erase(waiting_.begin());
   }
@@ -125,189 +69,178 @@ Association Associator::push(const Pulse& pulse) {
 
 Association Associator::finish() {
   Association out;
-  if (!clock_ && start_clock(kFewestIntervals)) {
-    out = place_waiting();
+  if (!clock_) {
+    try_to_start(true, out);
   }
   for (const Pulse& pulse : std::exchange(waiting_, {})) {
     out.left_over.push_back(unassociated(pulse));
   }
   while (!open_.empty()) {
-    close(open_.front());
-    out.closed.push_back(open_.front());
-    open_.pop_front();
+    close_front(out);
   }
   return out;
 }
 
-bool Associator::start_clock(std::size_t fewest_intervals) {
-  std::vector<TaiTime> sun1;
-  for (const Pulse& pulse : waiting_) {
-    if (pulse.channel == PulseChannel::Sun1) {
-      sun1.push_back(pulse.t);
-    }
+void Associator::try_to_start(bool at_end, Association& out) {
+  auto start = start_clock(config_, std::vector<PeriodNote>{notes_.begin(), notes_.end()}, at_end);
+  if (!start) {
+    start = start_clock(config_, waiting_, at_end);
   }
-  if (sun1.size() < fewest_intervals + 1) {
-    return false;
-  }
-  const auto turn = steady_interval(sun1, [](double median_s) { return kSameInterval * median_s; });
-  if (turn) {
-    clock_ = Clock{.t_sun1 = sun1[turn->first],
-                   .revolution = 0,
-                   .period = {.period_s = turn->mean_s,
-                              .sigma_s = interval_sigma_s(config_) / turn->agreeing}};
-  }
-  return turn.has_value();
-}
-
-/// After a step in the spin rate the last sun1 edges agree with one another and not with the clock:
-/// a new one starts at `sun1`, its count not behind the old one's.
-void Associator::restart_clock_after_step(const Pulse& sun1) {
-  recent_sun1_.push_back(sun1.t);
-  if (recent_sun1_.size() <= kStartIntervals) {
+  if (!start) {
     return;
   }
-  const double tolerance_s = kStepSigmas * interval_sigma_s(config_);
-  const auto turn = steady_interval(recent_sun1_, [&](double) { return tolerance_s; });
-  recent_sun1_.pop_front();
-  if (!turn) {
-    return;
-  }
-  // Several turns of the clock are lost edges, not a step.
-  const double turns = std::max(1.0, std::round(turn->mean_s / clock_->period.period_s));
-  if (std::abs(turn->mean_s - turns * clock_->period.period_s) <= 2.0 * tolerance_s) {
-    return;
-  }
-  auto number = std::max(static_cast<std::int64_t>(std::round(phase_turns(sun1.t))), first_open_);
-  if (!open_.empty() && open_.back().edge(PulseChannel::Sun1)) {
-    number = std::max(number, open_.back().number + 1);
-  }
-  clock_ = Clock{
-      .t_sun1 = sun1.t,
-      .revolution = number,
-      .period = {.period_s = turn->mean_s, .sigma_s = interval_sigma_s(config_) / turn->agreeing}};
-  period_window_ = SpinPeriodWindow{config_.screening, config_.noise.sun_s};
-  strays_ = {};
-}
-
-void Associator::learn_phases() {
-  for (const PulseChannel channel : kChannels) {
-    std::vector<double> phases;
-    for (const Pulse& pulse : waiting_) {
-      if (pulse.channel == channel && channel != PulseChannel::Sun1) {
-        phases.push_back(fraction(phase_turns(pulse.t)));
-      }
-    }
-    if (!phases.empty()) {
-      expected_turns_.at(index_of(channel)) = unwrapped(channel, circular_median(phases));
-    }
-  }
-}
-
-Association Associator::place_waiting() {
-  Association out;
+  clock_ = start->clock;
+  period_ = start->period;
+  reference_ = start->reference;
+  sun1_known_ = reference_ == PulseChannel::Sun1;
+  period_window_ = SpinPeriodWindow{config_.screening, noise_of(config_.noise, start->reference)};
+  phases_.set_period(clock_->period_s());
+  phases_.set_reference(reference_);
+  phases_.define(reference_, 0, defined_phase_turns(config_, reference_));
   learn_phases();
   for (const Pulse& pulse : std::exchange(waiting_, {})) {
     place(pulse, out);
   }
-  return out;
 }
 
-double Associator::phase_turns(TaiTime t) const {
-  return static_cast<double>(clock_->revolution) +
-         seconds_between(clock_->t_sun1, t) / clock_->period.period_s;
-}
-
-/// The phase of a channel first seen, on the turn where its expected phase shall live: sun2 about
-/// the slit separation, an in-edge in [0, 1), an out-edge within the turn behind its in-edge.
-double Associator::unwrapped(PulseChannel channel, double phase_turns) const {
-  const auto behind = [&](PulseChannel in) {
-    const std::optional<double>& start = expected_turns_.at(index_of(in));
-    return start ? *start + fraction(phase_turns - *start) : fraction(phase_turns);
-  };
-  const auto ahead = [&](PulseChannel out) {
-    const std::optional<double>& end = expected_turns_.at(index_of(out));
-    return end ? *end - fraction(*end - phase_turns) : fraction(phase_turns);
-  };
-  switch (channel) {
-    case PulseChannel::Sun1:
-      return 0.0;
-    case PulseChannel::Sun2: {
-      const double centre = config_.sun_sensor.slit_separation_rad / (2.0 * std::numbers::pi);
-      return centre + std::remainder(phase_turns - centre, 1.0);
+void Associator::learn_phases() {
+  for (const PulseChannel channel : kChannels) {
+    std::vector<double> counts;
+    for (const Pulse& pulse : waiting_) {
+      if (pulse.channel == channel && channel != reference_) {
+        counts.push_back(clock_->phase_turns(pulse.t));
+      }
     }
-    case PulseChannel::NorthIn:
-      return ahead(PulseChannel::NorthOut);
-    case PulseChannel::SouthIn:
-      return ahead(PulseChannel::SouthOut);
-    case PulseChannel::NorthOut:
-      return behind(PulseChannel::NorthIn);
-    case PulseChannel::SouthOut:
-      return behind(PulseChannel::SouthIn);
+    if (!counts.empty()) {
+      phases_.learn(channel, counts);
+    }
   }
-  return fraction(phase_turns);
+}
+
+/// After a step in the spin rate the last edges of the reference agree with one another and not
+/// with the clock: it is set by them, its count not behind the old one's.
+void Associator::restart_after_step(const Pulse& pulse) {
+  const double phase = clock_->phase_turns(pulse.t);
+  const double expected = phases_.at(reference_, phase);
+  const double turn = std::round(phase - expected);
+  const double noise_s = noise_of(config_.noise, reference_);
+  const bool good = clock_->accepts(
+      static_cast<std::int64_t>(turn), zero_of(pulse.t, turn), noise_s, reference_wander(),
+      {.sigma = config_.screening.sigma, .most = gate_turns(reference_)});
+  recent_reference_.push_back({.t = pulse.t, .good = good});
+  if (recent_reference_.size() > kRecentReference) {
+    recent_reference_.pop_front();
+  }
+  const auto wrong = std::count_if(recent_reference_.begin(), recent_reference_.end(),
+                                   [](const ReferenceEdge& edge) { return !edge.good; });
+  if (good || wrong < kDoubtful) {
+    return;
+  }
+  std::vector<TaiTime> edges(recent_reference_.size());
+  std::transform(recent_reference_.begin(), recent_reference_.end(), edges.begin(),
+                 [](const ReferenceEdge& edge) { return edge.t; });
+  const auto comb = find_comb(edges, noise_s, kFewestAfterStep);
+  if (!comb) {
+    return;
+  }
+  const auto behind_comb = [&](TaiTime t) {
+    const double turns = elapsed_s(comb->t, t) / comb->period_s;
+    return turns - std::round(turns);
+  };
+  // Most of the edges that the clock thinks good lie on the comb: it is the clock's own.
+  const double limit = std::max(0.005, 6.0 * comb->scatter_s / comb->period_s);
+  std::size_t agreeing = 0;
+  for (const ReferenceEdge& edge : recent_reference_) {
+    agreeing += edge.good && std::abs(behind_comb(edge.t)) <= limit ? 1U : 0U;
+  }
+  if (4 * agreeing >= 3 * comb->edges || std::abs(behind_comb(pulse.t)) > limit) {
+    return;
+  }
+  auto number = std::max(static_cast<std::int64_t>(turn), first_open_);
+  if (!open_.empty() && open_.back().edge(reference_)) {
+    number = std::max(number, open_.back().number + 1);
+  }
+  const double since = std::round(elapsed_s(comb->t, pulse.t) / comb->period_s);
+  const auto count = static_cast<double>(comb->edges);
+  clock_ = SpinClock{
+      {.t = later_by_s(comb->t, (since - expected) * comb->period_s),
+       .turn = number,
+       .period_s = comb->period_s,
+       .period_sigma_s = comb->scatter_s * std::sqrt(12.0 / count) / std::max(1.0, comb->turns),
+       .sigma_s = 2.0 * comb->scatter_s / std::sqrt(count),
+       .scale = comb->scatter_s / noise_s}};
+  period_ = {
+      .period_s = comb->period_s,
+      .sigma_s = std::hypot(std::numbers::sqrt2 * comb->scatter_s / std::max(1.0, comb->turns),
+                            apparent_motion_s(reference_, comb->period_s))};
+  period_window_ = SpinPeriodWindow{config_.screening, noise_s};
+  interval_start_.reset();
+  recent_reference_.clear();
+  phases_.set_period(comb->period_s);
+  phases_.forget_strays();
+}
+
+/// Where phase `turn` is, judged by an edge of the reference.
+TaiTime Associator::zero_of(TaiTime t, double turn) const {
+  return later_by_s(t, -phases_.at(reference_, turn) * clock_->period_s());
+}
+
+double Associator::reference_wander() const {
+  return sees_the_sun(reference_) ? 0.0 : earth_wander_turns(reference_, clock_->period_s());
+}
+
+/// How far from its expectation an edge is still counted with a turn: further when a silence has
+/// left the clock uncertain.
+double Associator::reach_turns(PulseChannel channel, double phase_turns) const {
+  const double sigma_turns = clock_->sigma_s(phase_turns, reference_wander()) / clock_->period_s();
+  return std::clamp(config_.screening.sigma * sigma_turns, gate_turns(channel), kMostReach_turns);
 }
 
 void Associator::place(const Pulse& pulse, Association& out) {
-  if (pulse.channel == PulseChannel::Sun1) {
-    restart_clock_after_step(pulse);
+  if (pulse.channel == reference_) {
+    restart_after_step(pulse);
   }
-  const double phase = phase_turns(pulse.t);
-  std::optional<double>& expected = expected_turns_.at(index_of(pulse.channel));
-  if (!expected) {
-    expected = unwrapped(pulse.channel, phase);
+  const double phase = clock_->phase_turns(pulse.t);
+  if (!phases_.knows(pulse.channel)) {
+    phases_.learn(pulse.channel, std::array{phase});
   }
   close_before(phase, out);
-
-  double turns = std::round(phase - *expected);
-  double off_turns = std::abs(phase - *expected - turns);
-  if (off_turns <= gate_turns(pulse.channel)) {
-    strays_.at(index_of(pulse.channel)).clear();
-  } else if (pulse.channel != PulseChannel::Sun1 && found_again(pulse)) {
-    turns = std::round(phase_turns(pulse.t) - *expected);
-    off_turns = 0.0;
-  }
-  Revolution* const revolution = off_turns <= gate_turns(pulse.channel)
-                                     ? open_revolution(static_cast<std::int64_t>(turns))
-                                     : nullptr;
-  if (revolution == nullptr) {
-    out.left_over.push_back(unassociated(pulse));
-    return;
-  }
-  // Of two edges of one channel, the nearer to where it is expected stays.
-  std::optional<TaiTime>& edge = revolution->edges.at(index_of(pulse.channel));
-  if (!edge) {
-    edge = pulse.t;
-  } else if (off_turns < std::abs(phase_turns(*edge) - *expected - turns)) {
-    out.left_over.push_back(unassociated({.t = *edge, .channel = pulse.channel}));
-    edge = pulse.t;
+  if (Revolution* const revolution = revolution_of(pulse)) {
+    put(*revolution, pulse, out);
   } else {
     out.left_over.push_back(unassociated(pulse));
   }
 }
 
-/// Adds to the strays of the channel; true when they agree on a new place, which is then expected.
-bool Associator::found_again(const Pulse& pulse) {
-  std::deque<TaiTime>& strays = strays_.at(index_of(pulse.channel));
-  strays.push_back(pulse.t);
-  if (strays.size() < kStraysToAgree) {
-    return false;
-  }
-  std::vector<double> phases(strays.size());
-  std::transform(strays.begin(), strays.end(), phases.begin(),
-                 [this](TaiTime t) { return fraction(phase_turns(t)); });
-  strays.pop_front();
-  const double median = circular_median(phases);
-  const bool agree = std::all_of(phases.begin(), phases.end(), [&](double phase) {
-    return std::abs(std::remainder(phase - median, 1.0)) <= kOtherGate_turns;
-  });
-  if (agree) {
-    expected_turns_.at(index_of(pulse.channel)) = unwrapped(pulse.channel, median);
-    strays.clear();
-  }
-  return agree;
+/// Empty where the edge is too far from any turn, or its revolution is closed already.
+Revolution* Associator::revolution_of(const Pulse& pulse) {
+  const double phase = clock_->phase_turns(pulse.t);
+  const auto count = [&] { return phase - phases_.at(pulse.channel, phase); };
+  const auto is_near = [&] {
+    return std::abs(count() - std::round(count())) <= reach_turns(pulse.channel, phase);
+  };
+  const bool near = is_near() || (pulse.channel != reference_ &&
+                                  phases_.stray(pulse.channel, phase) && is_near());
+  return near ? open_revolution(static_cast<std::int64_t>(std::round(count()))) : nullptr;
 }
 
-/// Empty when that revolution is closed already, or precedes the first sun1.
+/// Of two edges of one channel, the nearer to where it is expected stays.
+void Associator::put(Revolution& revolution, const Pulse& pulse, Association& out) {
+  const auto turn = static_cast<double>(revolution.number);
+  const double expected = turn + phases_.at(pulse.channel, turn);
+  const auto off = [&](TaiTime t) { return std::abs(clock_->phase_turns(t) - expected); };
+  std::optional<TaiTime>& edge = revolution.edges.at(index_of(pulse.channel));
+  if (edge && off(*edge) <= off(pulse.t)) {
+    out.left_over.push_back(unassociated(pulse));
+    return;
+  }
+  if (edge) {
+    out.left_over.push_back(unassociated({.t = *edge, .channel = pulse.channel}));
+  }
+  edge = pulse.t;
+}
+
+/// Empty when that revolution is closed already, or precedes the first.
 Revolution* Associator::open_revolution(std::int64_t number) {
   if (number < first_open_) {
     return nullptr;
@@ -322,58 +255,146 @@ Revolution* Associator::open_revolution(std::int64_t number) {
 }
 
 void Associator::close_before(double phase_turns, Association& out) {
-  double last_turns = kOpen_turns;
-  for (const std::optional<double>& expected : expected_turns_) {
-    last_turns = std::max(last_turns, expected.value_or(0.0));
-  }
-  const double reach_turns = last_turns + kOtherGate_turns;
-  while (!open_.empty() && phase_turns > static_cast<double>(open_.front().number) + reach_turns) {
-    close(open_.front());
-    out.closed.push_back(open_.front());
-    open_.pop_front();
+  const double reach = std::max(kOpen_turns, phases_.latest(phase_turns)) + kChordGate_turns;
+  while (!open_.empty() && phase_turns > static_cast<double>(open_.front().number) + reach) {
+    close_front(out);
   }
 }
 
-void Associator::close(Revolution& revolution) {
+void Associator::close_front(Association& out) {
+  Revolution& revolution = open_.front();
   first_open_ = revolution.number + 1;
-  follow(revolution);
-  const std::optional<TaiTime>& sun1 = revolution.edge(PulseChannel::Sun1);
-  if (sun1 && revolution.number > clock_->revolution) {
-    revolution.period_candidate =
-        period_window_.add(clock_->t_sun1, *sun1, revolution.number - clock_->revolution);
-    if (period_window_.size() >= kStartIntervals && period_window_.period()) {
-      clock_->period = *period_window_.period();
-    }
-    if (revolution.period_candidate->accepted ||
-        revolution.number - clock_->revolution >= kMostTurnsRefused) {
-      clock_->t_sun1 = *sun1;
-      clock_->revolution = revolution.number;
-    }
-  }
-  revolution.period = clock_->period;
+  judge_reference(revolution);
+  judge_others(revolution);
+  judge_period(revolution);
+  revolution.period = period_;
+  revolution.t_start = t_start_of(revolution);
+  count_silence(revolution);
+  phases_.keep_chords_near();
+  out.closed.push_back(revolution);
+  open_.pop_front();
 }
 
-void Associator::follow(const Revolution& revolution) {
+void Associator::judge_reference(Revolution& revolution) {
+  const std::optional<TaiTime>& edge = revolution.edge(reference_);
+  if (!edge) {
+    return;
+  }
+  const auto turn = static_cast<double>(revolution.number);
+  const bool good =
+      clock_->follow(revolution.number, zero_of(*edge, turn), noise_of(config_.noise, reference_),
+                     reference_wander(),
+                     {.sigma = config_.screening.sigma, .most = reach_turns(reference_, turn)});
+  phases_.set_period(clock_->period_s());
+  if (!good) {
+    revolution.edge_rejections.at(index_of(reference_)) = Rejection::Phase;
+  }
+}
+
+void Associator::judge_others(Revolution& revolution) {
+  const auto turn = static_cast<double>(revolution.number);
+  const double clock_sigma_turns = clock_->sigma_s(turn, reference_wander()) / clock_->period_s();
   for (const PulseChannel channel : kChannels) {
     const std::optional<TaiTime>& edge = revolution.edge(channel);
-    std::optional<double>& expected = expected_turns_.at(index_of(channel));
-    if (edge && channel != PulseChannel::Sun1) {
-      const double seen = phase_turns(*edge) - static_cast<double>(revolution.number);
-      *expected += kFollow * (seen - *expected);
+    if (!edge || channel == reference_) {
+      continue;
+    }
+    const double count = clock_->phase_turns(*edge);
+    if (!phases_.follow(channel, revolution.number, count - turn, clock_sigma_turns) &&
+        !phases_.stray(channel, count)) {
+      revolution.edge_rejections.at(index_of(channel)) = Rejection::Phase;
     }
   }
+}
+
+void Associator::judge_period(Revolution& revolution) {
+  const std::optional<TaiTime>& edge = revolution.edge(reference_);
+  if (!edge) {
+    return;
+  }
+  const bool good = revolution.good_edge(reference_).has_value();
+  if (!interval_start_) {
+    revolution.period_candidate = noted_candidate(revolution);
+    if (good) {
+      interval_start_ = {.t = *edge, .revolution = revolution.number};
+    }
+    return;
+  }
+  const std::int64_t turns = revolution.number - interval_start_->revolution;
+  PeriodCandidate candidate = good ? period_window_.add(interval_start_->t, *edge, turns)
+                                   : period_window_.refused(interval_start_->t, *edge, turns);
+  candidate.sigma_s =
+      std::hypot(candidate.sigma_s, apparent_motion_s(reference_, candidate.period_s));
+  revolution.period_candidate = candidate;
+  if (period_window_.size() >= kStartIntervals && period_window_.period()) {
+    period_ = *period_window_.period();
+    period_.sigma_s = std::hypot(period_.sigma_s, apparent_motion_s(reference_, period_.period_s));
+  }
+  if (candidate.accepted || (good && turns >= kMostTurnsRefused)) {
+    interval_start_ = {.t = *edge, .revolution = revolution.number};
+  }
+}
+
+/// What the spacecraft said, where no interval ends at this revolution's sun1.
+std::optional<PeriodCandidate> Associator::noted_candidate(const Revolution& revolution) {
+  const std::optional<TaiTime>& sun1 = revolution.edge(PulseChannel::Sun1);
+  const auto note = std::find_if(notes_.begin(), notes_.end(),
+                                 [&](const PeriodNote& n) { return sun1 && n.t_sun1 == *sun1; });
+  if (note == notes_.end() || !(note->period_s > 0.0)) {
+    return std::nullopt;
+  }
+  return period_window_.add(note->period_s);
+}
+
+/// Hands the clock over: to sun1 as soon as it is fit, to another channel when the reference has
+/// been silent for long.
+void Associator::count_silence(const Revolution& revolution) {
   using enum PulseChannel;
-  for (const auto& [in, out] : {std::pair{NorthIn, NorthOut}, std::pair{SouthIn, SouthOut}}) {
-    std::optional<double>& in_turns = expected_turns_.at(index_of(in));
-    std::optional<double>& out_turns = expected_turns_.at(index_of(out));
-    const double first = in_turns.value_or(out_turns.value_or(0.0));
-    const double shift = first > 1.0 + kHover_turns ? -1.0 : (first < -kHover_turns ? 1.0 : 0.0);
-    for (std::optional<double>* turns : {&in_turns, &out_turns}) {
-      if (*turns) {
-        **turns += shift;
-      }
+  turns_without_reference_ = revolution.good_edge(reference_) ? 0 : turns_without_reference_ + 1;
+  const auto is_fit = [&](PulseChannel channel) {
+    return channel != reference_ && revolution.good_edge(channel) &&
+           phases_.in_a_row(channel) >= kFitReference;
+  };
+  if (is_fit(Sun1)) {
+    change_reference(Sun1, revolution.number);
+  } else if (!sees_the_sun(reference_) && is_fit(Sun2)) {
+    change_reference(Sun2, revolution.number);
+  } else if (turns_without_reference_ >= kSilentReference) {
+    const auto* const fit = std::find_if(kChannels.begin(), kChannels.end(), is_fit);
+    if (fit != kChannels.end()) {
+      change_reference(*fit, revolution.number);
     }
   }
+}
+
+void Associator::change_reference(PulseChannel channel, std::int64_t turn) {
+  const auto turn_d = static_cast<double>(turn);
+  // From here on the old one is followed again.
+  phases_.define(reference_, turn, phases_.at(reference_, turn_d));
+  reference_ = channel;
+  phases_.set_reference(channel);
+  turns_without_reference_ = 0;
+  recent_reference_.clear();
+  interval_start_.reset();
+  period_window_ = SpinPeriodWindow{config_.screening, noise_of(config_.noise, channel)};
+  const bool is_sun1 = channel == PulseChannel::Sun1;
+  if (is_sun1 || (channel == PulseChannel::Sun2 && !sun1_known_)) {
+    // The Sun stands still: phase and drift of its edge are the clock's errors.
+    const double late_turns = phases_.at(channel, turn_d) - defined_phase_turns(config_, channel);
+    const double drift = phases_.drift(channel);
+    clock_->shift(turn, late_turns, drift);
+    phases_.shift(turn, late_turns, drift);
+  }
+  sun1_known_ = sun1_known_ || is_sun1;
+}
+
+TaiTime Associator::t_start_of(const Revolution& revolution) const {
+  const PulseChannel channel = sun1_known_ ? PulseChannel::Sun1 : reference_;
+  if (const auto edge = revolution.good_edge(channel)) {
+    return *edge;
+  }
+  const auto turn = static_cast<double>(revolution.number);
+  return clock_->t_of(turn + (sun1_known_ ? 0.0 : phases_.at(reference_, turn)));
 }
 
 }  // namespace spindrift

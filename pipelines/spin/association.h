@@ -1,11 +1,14 @@
 /// @file
-/// Which edge belongs to which revolution: by spin phase, never by the order of arrival.
+/// Which edge belongs to which revolution, and which edge is to be believed: by spin phase, never
+/// by the order of arrival.
 ///
-/// A clock counts spin phase in turns from the sun1 edges. Each other channel is expected at its
-/// own phase, learnt from the edges themselves and followed as the Earth moves; an edge belongs to
-/// the revolution whose expected phase it is nearest to. So a chord that straddles the next sun1,
-/// or hovers about it, stays with one revolution. When the edges of a channel agree on another
-/// place (the Earth moved during a silence, the spin rate stepped), they are believed.
+/// A clock counts spin phase in turns from the sun1 edges; where sun1 is silent, from those of
+/// another channel. Each channel is expected at its own phase, learnt from the edges themselves and
+/// followed as the Earth moves; an edge belongs to the revolution whose expected phase it is
+/// nearest to. So a chord that straddles the next sun1, or hovers about it, stays with one
+/// revolution. An edge further from its expectation than the screening's sigmas is kept with its
+/// revolution and rejected. When the edges of a channel agree on another place (the Earth moved
+/// during a silence, the spin rate stepped), they are believed.
 
 #pragma once
 
@@ -16,9 +19,12 @@
 #include <optional>
 #include <vector>
 
+#include "pipelines/spin/clock_start.h"
 #include "pipelines/spin/config.h"
+#include "pipelines/spin/expected_phases.h"
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/pulse.h"
+#include "pipelines/spin/spin_clock.h"
 #include "pipelines/spin/spin_period.h"
 
 namespace spindrift {
@@ -29,8 +35,13 @@ struct Revolution {
   std::array<std::optional<TaiTime>, kPulseChannels> edges;
   /// Why an edge that is there is not to be used: it lies where those of its channel do not.
   std::array<std::optional<Rejection>, kPulseChannels> edge_rejections = {};
-  std::optional<PeriodCandidate> period_candidate;  ///< The interval that ends at its sun1.
-  SpinPeriod period;                                ///< In force when the revolution closed.
+  /// The interval that ends at its sun1, or what the spacecraft said of it; without sun1 at all,
+  /// the interval that ends at the edge that the clock is set by.
+  std::optional<PeriodCandidate> period_candidate;
+  SpinPeriod period;  ///< In force when the revolution closed.
+  /// Its sun1 edge if good, else where that is expected; of a pass without sun1 likewise the edge
+  /// that the clock is set by.
+  TaiTime t_start = {};
 
   const std::optional<TaiTime>& edge(PulseChannel channel) const {
     return edges.at(index_of(channel));
@@ -53,39 +64,61 @@ class Associator {
   /// @param pulse Not earlier than the one before.
   Association push(const Pulse& pulse);
 
+  /// What the spacecraft itself says of its period (coded telemetry), before the edges of that
+  /// frame: a pass of a few frames needs no more to start the clock, and the value is tested as the
+  /// revolution's candidate where no interval ends at its sun1.
+  void note_period(TaiTime t_sun1, double period_s);
+
   /// The pass has ended: closes what is open.
   Association finish();
 
  private:
-  /// Spin phase is counted from here.
-  struct Clock {
-    TaiTime t_sun1;  ///< The last sun1 edge whose interval passed the period test.
+  /// An edge of the channel that sets the clock.
+  struct ReferenceEdge {
+    TaiTime t;
+    bool good;
+  };
+  struct IntervalStart {
+    TaiTime t;
     std::int64_t revolution;
-    SpinPeriod period;
   };
 
-  bool start_clock(std::size_t fewest_intervals);
-  void restart_clock_after_step(const Pulse& sun1);
+  void try_to_start(bool at_end, Association& out);
   void learn_phases();
-  Association place_waiting();
+  void restart_after_step(const Pulse& pulse);
   void place(const Pulse& pulse, Association& out);
-  void close_before(double phase_turns, Association& out);
-  void close(Revolution& revolution);
+  void put(Revolution& revolution, const Pulse& pulse, Association& out);
+  Revolution* revolution_of(const Pulse& pulse);
   Revolution* open_revolution(std::int64_t number);
-  double phase_turns(TaiTime t) const;
-  double unwrapped(PulseChannel channel, double phase_turns) const;
-  bool found_again(const Pulse& pulse);
-  void follow(const Revolution& revolution);
+  void close_before(double phase_turns, Association& out);
+  void close_front(Association& out);
+  void judge_reference(Revolution& revolution);
+  void judge_others(Revolution& revolution);
+  void judge_period(Revolution& revolution);
+  std::optional<PeriodCandidate> noted_candidate(const Revolution& revolution);
+  void count_silence(const Revolution& revolution);
+  void change_reference(PulseChannel channel, std::int64_t turn);
+  TaiTime t_start_of(const Revolution& revolution) const;
+
+  TaiTime zero_of(TaiTime t, double turn) const;
+  double reference_wander() const;
+  double reach_turns(PulseChannel channel, double phase_turns) const;
 
   SpinConfig config_;
+  std::vector<Pulse> waiting_;    ///< Until the period is known.
+  std::deque<PeriodNote> notes_;  ///< Not yet used.
+
+  std::optional<SpinClock> clock_;
+  PulseChannel reference_ = PulseChannel::Sun1;  ///< The channel that sets the clock.
+  bool sun1_known_ = false;                      ///< Phase 0 is where sun1 is.
+  int turns_without_reference_ = 0;
+  std::deque<ReferenceEdge> recent_reference_;
+  ExpectedPhases phases_;
+
+  SpinPeriod period_{};
   SpinPeriodWindow period_window_;
-  std::vector<Pulse> waiting_;  ///< Until the period is known.
-  std::optional<Clock> clock_;
-  /// Where each channel's edge is expected, in turns behind sun1; empty until first seen.
-  std::array<std::optional<double>, kPulseChannels> expected_turns_;
-  /// Edges of each channel that were not where it is expected, since the last one that was.
-  std::array<std::deque<TaiTime>, kPulseChannels> strays_;
-  std::deque<TaiTime> recent_sun1_;
+  std::optional<IntervalStart> interval_start_;
+
   std::deque<Revolution> open_;  ///< In order of number; only those with an edge.
   std::int64_t first_open_ = 0;  ///< Revolutions before this one are closed.
 };

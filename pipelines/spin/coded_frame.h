@@ -4,7 +4,9 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <optional>
+#include <vector>
 
 #include "pipelines/spin/pulse.h"
 #include "pipelines/time/tai_time.h"
@@ -17,6 +19,12 @@ struct CodedFrame {
   std::optional<double> period_s;  ///< T12, between this sun1 and its neighbour.
   /// Behind sun1, modulo the period, by channel; that of sun1 itself is empty.
   std::array<std::optional<double>, kPulseChannels> delay_s;
+
+  friend auto operator<=>(const CodedFrame&, const CodedFrame&) = default;
 };
+
+/// Its edges in order of time: sun1, and the others within the period behind it. Without a period,
+/// or with one that is none, the delays are taken as they are.
+std::vector<Pulse> edges_of(const CodedFrame& frame);
 
 }  // namespace spindrift

@@ -3,21 +3,38 @@
 #include <algorithm>
 #include <utility>
 
-namespace spindrift {
+#include "pipelines/spin/time_span.h"
 
-ReorderWindow::Verdict ReorderWindow::add(const Pulse& pulse) {
-  if (!released_.empty() && pulse <= released_.back()) {
-    const bool known = std::binary_search(released_.begin(), released_.end(), pulse);
+namespace spindrift {
+namespace {
+
+constexpr std::chrono::nanoseconds kPulseHorizon{std::chrono::seconds{1}};
+constexpr double kFrameHorizon_turns = 2.5;
+constexpr double kSlowestTurn_s = 12.0;
+
+}  // namespace
+
+std::chrono::nanoseconds reorder_horizon(const Pulse& /*pulse*/) { return kPulseHorizon; }
+
+std::chrono::nanoseconds reorder_horizon(const CodedFrame& frame) {
+  const double turn_s = std::clamp(frame.period_s.value_or(kSlowestTurn_s), 0.0, kSlowestTurn_s);
+  return std::chrono::nanoseconds{static_cast<std::int64_t>(kFrameHorizon_turns * turn_s * 1e9)};
+}
+
+template <class Sample>
+typename BasicReorderWindow<Sample>::Verdict BasicReorderWindow<Sample>::add(const Sample& sample) {
+  if (!released_.empty() && sample <= released_.back()) {
+    const bool known = std::binary_search(released_.begin(), released_.end(), sample);
     return known ? Verdict::Duplicate : Verdict::Late;
   }
-  if (!is_far_ahead(pulse)) {
+  if (!is_far_ahead(sample)) {
     far_in_a_row_ = 0;
-    return held_.insert(pulse).second ? Verdict::Held : Verdict::Duplicate;
+    return held_.insert(sample).second ? Verdict::Held : Verdict::Duplicate;
   }
   if (far_ahead_.size() >= kMostFarAhead) {
     return Verdict::OutOfTime;
   }
-  if (!far_ahead_.insert(pulse).second) {
+  if (!far_ahead_.insert(sample).second) {
     return Verdict::Duplicate;
   }
   if (++far_in_a_row_ >= kBelieved) {
@@ -26,30 +43,35 @@ ReorderWindow::Verdict ReorderWindow::add(const Pulse& pulse) {
   return Verdict::Held;
 }
 
-bool ReorderWindow::is_far_ahead(const Pulse& pulse) const {
+template <class Sample>
+bool BasicReorderWindow<Sample>::is_far_ahead(const Sample& sample) const {
   if (!released_.empty()) {
     const TaiTime newest = held_.empty() ? released_.back().t : held_.rbegin()->t;
-    return pulse.t - newest > kFarAhead;
+    return span_between(newest, sample.t) > kFarAhead;
   }
-  return !held_.empty() && pulse.t - held_.rbegin()->t > kFarAhead;
+  return !held_.empty() && span_between(held_.rbegin()->t, sample.t) > kFarAhead;
 }
 
 /// Time has jumped: what was held before is due.
-void ReorderWindow::believe() {
-  for (const Pulse& pulse : std::exchange(held_, std::exchange(far_ahead_, {}))) {
-    due_.push_back(pulse);
-    remember(pulse);
+template <class Sample>
+void BasicReorderWindow<Sample>::believe() {
+  for (const Sample& sample : std::exchange(held_, std::exchange(far_ahead_, {}))) {
+    due_.push_back(sample);
+    remember(sample);
   }
   far_in_a_row_ = 0;
 }
 
-std::vector<Pulse> ReorderWindow::release() {
-  std::vector<Pulse> due = std::exchange(due_, {});
+template <class Sample>
+std::vector<Sample> BasicReorderWindow<Sample>::release() {
+  std::vector<Sample> due = std::exchange(due_, {});
   while (!held_.empty()) {
-    const Pulse first = *held_.begin();
-    const auto younger = held_.lower_bound({.t = first.t + kReorder, .channel = {}});
-    // A pulse of a bad clock that was there first does not count either.
-    if (younger == held_.end() || younger->t - first.t > kFarAhead) {
+    const Sample first = *held_.begin();
+    Sample due_by{};
+    due_by.t = later_by(first.t, reorder_horizon(first));
+    const auto younger = held_.lower_bound(due_by);
+    // A sample of a bad clock that was there first does not count either.
+    if (younger == held_.end() || span_between(first.t, younger->t) > kFarAhead) {
       break;
     }
     due.push_back(first);
@@ -59,38 +81,43 @@ std::vector<Pulse> ReorderWindow::release() {
   return due;
 }
 
-ReorderWindow::Rest ReorderWindow::release_all() {
+template <class Sample>
+typename BasicReorderWindow<Sample>::Rest BasicReorderWindow<Sample>::release_all() {
   Rest rest{.in_time = std::exchange(due_, {}), .out_of_time = {}};
   held_.merge(far_ahead_);
-  std::vector<Pulse> pulses{held_.begin(), held_.end()};
+  std::vector<Sample> samples{held_.begin(), held_.end()};
   held_.clear();
   far_ahead_.clear();
-  auto end = pulses.end();
-  for (auto pulse = pulses.begin(); pulse != pulses.end(); ++pulse) {
-    const bool is_first = pulse == pulses.begin();
+  auto end = samples.end();
+  for (auto sample = samples.begin(); sample != samples.end(); ++sample) {
+    const bool is_first = sample == samples.begin();
     if (is_first && released_.empty()) {
       continue;
     }
-    const TaiTime before = is_first ? released_.back().t : std::prev(pulse)->t;
-    if (pulse->t - before > kFarAhead &&
-        pulses.end() - pulse < static_cast<std::ptrdiff_t>(kBelieved)) {
-      end = pulse;
+    const TaiTime before = is_first ? released_.back().t : std::prev(sample)->t;
+    if (span_between(before, sample->t) > kFarAhead &&
+        samples.end() - sample < static_cast<std::ptrdiff_t>(kBelieved)) {
+      end = sample;
       break;
     }
   }
-  rest.in_time.insert(rest.in_time.end(), pulses.begin(), end);
-  rest.out_of_time.assign(end, pulses.end());
-  for (auto pulse = pulses.begin(); pulse != end; ++pulse) {
-    remember(*pulse);
+  rest.in_time.insert(rest.in_time.end(), samples.begin(), end);
+  rest.out_of_time.assign(end, samples.end());
+  for (auto sample = samples.begin(); sample != end; ++sample) {
+    remember(*sample);
   }
   return rest;
 }
 
-void ReorderWindow::remember(const Pulse& pulse) {
-  released_.push_back(pulse);
-  while (pulse.t - released_.front().t > kRemembered) {
+template <class Sample>
+void BasicReorderWindow<Sample>::remember(const Sample& sample) {
+  released_.push_back(sample);
+  while (span_between(released_.front().t, sample.t) > kRemembered) {
     released_.pop_front();
   }
 }
+
+template class BasicReorderWindow<Pulse>;
+template class BasicReorderWindow<CodedFrame>;
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// Telemetry time orders the pulses, whatever order they arrive in.
+/// Telemetry time orders the samples, whatever order they arrive in.
 
 #pragma once
 
@@ -9,24 +9,32 @@
 #include <set>
 #include <vector>
 
+#include "pipelines/spin/coded_frame.h"
 #include "pipelines/spin/pulse.h"
 
 namespace spindrift {
 
-/// Holds pulses until nothing earlier is to be expected: until one arrives that is `kReorder` of
-/// telemetry time younger.
+/// How much of telemetry time is waited for what precedes a sample: a second for a pulse, and two
+/// and a half turns for a frame, which is sent once a turn; of the slowest body where it does not
+/// say how long those are.
+std::chrono::nanoseconds reorder_horizon(const Pulse& pulse);
+std::chrono::nanoseconds reorder_horizon(const CodedFrame& frame);
+
+/// Holds samples until nothing earlier is to be expected: until one arrives that is the sample's
+/// horizon of telemetry time younger.
 ///
-/// A pulse far ahead of the others moves nothing by itself, since a sender with a bad clock would
-/// make all true pulses late. When several in a row say so, time has really jumped: the pass goes
+/// A sample far ahead of the others moves nothing by itself, since a sender with a bad clock would
+/// make all true ones late. When several in a row say so, time has really jumped: the pass goes
 /// on after a silence.
-class ReorderWindow {
+/// @tparam Sample Totally ordered, first by its time `t`.
+template <class Sample>
+class BasicReorderWindow {
  public:
-  static constexpr std::chrono::nanoseconds kReorder{std::chrono::seconds{1}};
   /// Further than this ahead of all that came before is far.
   static constexpr std::chrono::nanoseconds kFarAhead{std::chrono::minutes{1}};
   /// So many far ones, with none between that is not, are believed.
   static constexpr std::size_t kBelieved = 8;
-  /// How long a released pulse is known again: longer than any pulse waits to be settled.
+  /// How long a released sample is known again: longer than any waits to be settled.
   static constexpr std::chrono::nanoseconds kRemembered{std::chrono::minutes{10}};
 
   /// No more than this are kept waiting to be believed.
@@ -34,30 +42,36 @@ class ReorderWindow {
 
   enum class Verdict { Held, Duplicate, Late, OutOfTime };
 
-  /// Takes a pulse in. Duplicate: it is held, or was released within kRemembered. Late: what comes
+  /// Takes a sample in. Duplicate: it is held, or was released within kRemembered. Late: what comes
   /// after it has been released already. OutOfTime: far ahead, as too many before it.
-  Verdict add(const Pulse& pulse);
+  Verdict add(const Sample& sample);
 
-  /// Pulses whose turn has come, in order of time and channel.
-  std::vector<Pulse> release();
+  /// Samples whose turn has come, in order of time and channel.
+  std::vector<Sample> release();
 
   struct Rest {
-    std::vector<Pulse> in_time;      ///< In order of time and channel.
-    std::vector<Pulse> out_of_time;  ///< Far ahead, and too few to be believed.
+    std::vector<Sample> in_time;      ///< In order of time and channel.
+    std::vector<Sample> out_of_time;  ///< Far ahead, and too few to be believed.
   };
   /// All that are held: the pass has ended.
   Rest release_all();
 
  private:
-  bool is_far_ahead(const Pulse& pulse) const;
+  bool is_far_ahead(const Sample& sample) const;
   void believe();
-  void remember(const Pulse& pulse);
+  void remember(const Sample& sample);
 
-  std::set<Pulse> held_;
-  std::set<Pulse> far_ahead_;
+  std::set<Sample> held_;
+  std::set<Sample> far_ahead_;
   std::size_t far_in_a_row_ = 0;
-  std::vector<Pulse> due_;      ///< Before a jump that was believed.
-  std::deque<Pulse> released_;  ///< In order; those remembered, at least the last one.
+  std::vector<Sample> due_;      ///< Before a jump that was believed.
+  std::deque<Sample> released_;  ///< In order; those remembered, at least the last one.
 };
+
+extern template class BasicReorderWindow<Pulse>;
+extern template class BasicReorderWindow<CodedFrame>;
+
+using ReorderWindow = BasicReorderWindow<Pulse>;
+using FrameReorderWindow = BasicReorderWindow<CodedFrame>;
 
 }  // namespace spindrift

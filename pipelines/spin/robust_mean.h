@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace spindrift {
 
@@ -31,5 +32,25 @@ struct RobustMean {
 /// is itself uncertain by a quarter, and the floor is `rule.sigma` stated sigmas.
 /// @param values At least one, finite.
 RobustMean robust_mean(std::span<const double> values, const ClipRule& rule);
+
+/// The same of the last `length` values of a sequence, kept in order of size: a value more costs a
+/// few passes over the window, without sorting and without allocation.
+class SlidingRobustMean {
+ public:
+  /// @param length At least one.
+  explicit SlidingRobustMean(std::size_t length);
+
+  /// @param value Finite.
+  void add(double value);
+  /// Of at least one value.
+  RobustMean mean(const ClipRule& rule) const;
+  std::size_t size() const { return sorted_.size(); }
+
+ private:
+  std::vector<double> ring_;  ///< In the order they came, the oldest at next_ once it is full.
+  std::size_t length_;
+  std::size_t next_ = 0;
+  std::vector<double> sorted_;
+};
 
 }  // namespace spindrift

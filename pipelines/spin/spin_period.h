@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "pipelines/spin/config.h"
+#include "pipelines/spin/robust_mean.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -36,6 +37,10 @@ class SpinPeriodWindow {
 
   /// Tests the interval `from` -> `to`, `turns` > 0 revolutions long, and adds it.
   PeriodCandidate add(TaiTime from, TaiTime to, std::int64_t turns);
+  /// The same for one turn timed elsewhere.
+  PeriodCandidate add(double period_s) { return add(period_s, 1.0); }
+  /// An interval that ends at an edge known to be wrong: it is not added.
+  PeriodCandidate refused(TaiTime from, TaiTime to, std::int64_t turns) const;
 
   /// Sum of the intervals accepted over the sum of their turns. They follow one another from edge
   /// to edge, so that the noise of the edges between cancels: what was accepted is not judged
@@ -50,9 +55,12 @@ class SpinPeriodWindow {
     bool accepted;
   };
 
+  PeriodCandidate add(double period_s, double turns);
+
   SpinScreening screening_;
   double edge_sigma_s_;
   std::deque<Entry> entries_;
+  SlidingRobustMean periods_s_;
   std::optional<SpinPeriod> period_;
 };
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -181,6 +182,20 @@ TEST(ReorderWindow, DisorderWithinOneSecondIsSortedWithoutLoss) {
     receive(window.release_all().in_time);
     ASSERT_EQ(received, sent) << "trial " << trial;
   }
+}
+
+TEST(ReorderWindow, TheEndsOfTimeDoNotOverflow) {
+  constexpr std::int64_t kLeast_ns = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kMost_ns = std::numeric_limits<std::int64_t>::max();
+  ReorderWindow window;
+  std::size_t out = 0;
+  for (std::int64_t i = 0; i < 20; ++i) {
+    window.add(pulse_at(kLeast_ns + i));
+    window.add(pulse_at(kMost_ns - i));
+    out += window.release().size();
+  }
+  const ReorderWindow::Rest rest = window.release_all();
+  EXPECT_EQ(out + rest.in_time.size() + rest.out_of_time.size(), 40U);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace spindrift {
@@ -133,6 +134,25 @@ TEST(RobustMean, ClipsTheShareOfAGaussianThatLiesBeyondThreeSigma) {
   EXPECT_NEAR(mean.sigma, 0.984846, kSigmaError);
   EXPECT_NEAR(1.0 - static_cast<double>(mean.kept) / 1e5, 0.003131, kClippedError);
   EXPECT_NEAR(mean.mean, 0.0, 4.0 / std::sqrt(1e5));
+}
+
+TEST(SlidingRobustMean, IsTheRobustMeanOfTheLastValues) {
+  std::mt19937_64 rng{15};
+  std::normal_distribution<double> normal;
+  SlidingRobustMean sliding{20};
+  std::vector<double> all;
+  for (int i = 0; i < 500; ++i) {
+    // Outliers and equal values, both on a grid.
+    all.push_back(std::round(10.0 * normal(rng)) / 10.0 + (i % 9 == 0 ? 30.0 : 0.0));
+    sliding.add(all.back());
+    const std::size_t length = std::min<std::size_t>(all.size(), 20);
+    ASSERT_EQ(sliding.size(), length);
+    const RobustMean expected = robust_mean(std::span<const double>{all}.last(length), kThreeSigma);
+    const RobustMean mean = sliding.mean(kThreeSigma);
+    ASSERT_EQ(mean.mean, expected.mean);
+    ASSERT_EQ(mean.limit, expected.limit);
+    ASSERT_EQ(mean.kept, expected.kept);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,140 @@
+#include "pipelines/spin/clock_start.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "pipelines/spin/expected_phases.h"
+#include "pipelines/spin/period_search.h"
+#include "pipelines/spin/time_span.h"
+
+namespace spindrift {
+namespace {
+
+using enum PulseChannel;
+
+constexpr std::array<PulseChannel, kPulseChannels> kByPreference = {Sun1,     Sun2,    NorthIn,
+                                                                    NorthOut, SouthIn, SouthOut};
+// Edges on the comb before it is believed.
+constexpr std::size_t kFewestSun1 = 7;
+constexpr std::size_t kFewestOthers = 20;
+constexpr std::size_t kFewestAtEnd = 3;
+constexpr std::size_t kNotesToAgree = 3;
+constexpr double kSamePeriod = 0.01;
+// Slower or faster than this is no spin period.
+constexpr double kShortestNote_s = 0.1;
+constexpr double kLongestNote_s = 60.0;
+// One sigma of a rate that lies anywhere between those of a low orbit in either sense.
+constexpr double kEarthRate_rad_s = 1.2e-3 / std::numbers::sqrt3;
+
+std::vector<TaiTime> times_of(std::span<const Pulse> pulses, PulseChannel channel) {
+  std::vector<TaiTime> times;
+  for (const Pulse& pulse : pulses) {
+    if (pulse.channel == channel) {
+      times.push_back(pulse.t);
+    }
+  }
+  return times;
+}
+
+/// The setting with its turns counted so that the first edge near the comb is on turn 0.
+SpinClock counted_from(SpinClock::Setting setting, const std::vector<TaiTime>& edges,
+                       PulseChannel channel, double phase_turns) {
+  const SpinClock clock{setting};
+  for (const TaiTime t : edges) {
+    const double count = clock.phase_turns(t) - phase_turns;
+    if (std::abs(count - std::round(count)) <= gate_turns(channel)) {
+      setting.turn = -static_cast<std::int64_t>(std::round(count));
+      break;
+    }
+  }
+  return SpinClock{setting};
+}
+
+}  // namespace
+
+double defined_phase_turns(const SpinConfig& config, PulseChannel channel) {
+  switch (channel) {
+    case Sun1:
+      return 0.0;
+    case Sun2:
+      return config.sun_sensor.slit_separation_rad / (2.0 * std::numbers::pi);
+    default:
+      return 0.5;
+  }
+}
+
+double apparent_motion_s(PulseChannel channel, double period_s) {
+  return sees_the_sun(channel) ? 0.0
+                               : kEarthRate_rad_s * period_s * period_s / (2.0 * std::numbers::pi);
+}
+
+std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const Pulse> waiting,
+                                      bool at_end) {
+  for (const PulseChannel channel : kByPreference) {
+    const std::vector<TaiTime> edges = times_of(waiting, channel);
+    const double noise_s = noise_of(config.noise, channel);
+    const std::size_t fewest =
+        at_end ? kFewestAtEnd : (channel == Sun1 ? kFewestSun1 : kFewestOthers);
+    const auto comb = find_comb(edges, noise_s, fewest);
+    if (!comb) {
+      continue;
+    }
+    const double phase_turns = defined_phase_turns(config, channel);
+    const auto count = static_cast<double>(comb->edges);
+    const double period_sigma_s =
+        comb->scatter_s * std::sqrt(12.0 / count) / std::max(1.0, comb->turns);
+    return ClockStart{
+        .reference = channel,
+        .clock = counted_from({.t = later_by_s(comb->t, -phase_turns * comb->period_s),
+                               .turn = 0,
+                               .period_s = comb->period_s,
+                               .period_sigma_s = period_sigma_s,
+                               .sigma_s = 2.0 * comb->scatter_s / std::sqrt(count),
+                               .scale = comb->scatter_s / noise_s},
+                              edges, channel, phase_turns),
+        .period = {.period_s = comb->period_s,
+                   .sigma_s = std::hypot(
+                       std::numbers::sqrt2 * comb->scatter_s / std::max(1.0, comb->turns),
+                       apparent_motion_s(channel, comb->period_s))}};
+  }
+  return std::nullopt;
+}
+
+std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const PeriodNote> notes,
+                                      bool at_end) {
+  std::vector<PeriodNote> sane;
+  std::copy_if(notes.begin(), notes.end(), std::back_inserter(sane), [](const PeriodNote& note) {
+    return note.period_s > kShortestNote_s && note.period_s < kLongestNote_s;
+  });
+  if (sane.size() < (at_end ? 1 : kNotesToAgree)) {
+    return std::nullopt;
+  }
+  std::vector<PeriodNote> sorted = sane;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(
+      sorted.begin(), middle, sorted.end(),
+      [](const PeriodNote& a, const PeriodNote& b) { return a.period_s < b.period_s; });
+  const double period_s = middle->period_s;
+  const auto agrees = [&](const PeriodNote& note) {
+    return std::abs(note.period_s - period_s) <= kSamePeriod * period_s;
+  };
+  const auto agreeing = std::count_if(sane.begin(), sane.end(), agrees);
+  if (!at_end && agreeing < static_cast<std::ptrdiff_t>(kNotesToAgree)) {
+    return std::nullopt;
+  }
+  const auto first = std::find_if(sane.begin(), sane.end(), agrees);
+  const double sigma_s = std::numbers::sqrt2 * config.noise.sun_s;
+  return ClockStart{.reference = Sun1,
+                    .clock = SpinClock{{.t = first->t_sun1,
+                                        .turn = 0,
+                                        .period_s = period_s,
+                                        .period_sigma_s = sigma_s,
+                                        .sigma_s = config.noise.sun_s}},
+                    .period = {.period_s = period_s,
+                               .sigma_s = sigma_s / std::sqrt(static_cast<double>(agreeing))}};
+}
+
+}  // namespace spindrift

@@ -1,0 +1,219 @@
+#include "pipelines/spin/expected_phases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "pipelines/spin/phase_line.h"
+
+namespace spindrift {
+namespace {
+
+using enum PulseChannel;
+
+// The Earth's apparent motion: from the lowest orbits it turns by 1.2e-3 rad/s, and about an axis
+// far from the orbit's pole faster.
+constexpr double kEarthRate_rad_s = 1.2e-3;
+constexpr double kEarthWander_rad_s2 = 2e-6;
+constexpr double kMostEarthRates = 3.0;
+// The Sun's phase shifts when the axis moves.
+constexpr double kSunDrift = 1e-4;
+constexpr double kSunWander = 1e-6;
+// A chord hovering about sun1 keeps its revolution until it has drifted this far past.
+constexpr double kHover_turns = 0.25;
+// Learnt from no more than this.
+constexpr std::size_t kMostLearnt = 32;
+// So many edges in a row that miss their place and agree on another one move it there; fewer where
+// hardly more were at the old one.
+constexpr int kStraysToAgree = 5;
+constexpr std::size_t kMostStrays = 9;
+
+double fraction(double turns) { return turns - std::floor(turns); }
+
+}  // namespace
+
+double earth_wander_turns(PulseChannel channel, double period_s) {
+  return sees_the_sun(channel)
+             ? kSunWander
+             : kEarthWander_rad_s2 * period_s * period_s / (2.0 * std::numbers::pi);
+}
+
+double ExpectedPhases::noise_turns(PulseChannel channel) const {
+  return noise_of(config_.noise, channel) / period_s_;
+}
+
+double ExpectedPhases::most_drift(PulseChannel channel) const {
+  return sees_the_sun(channel) && sees_the_sun(reference_)
+             ? kSunDrift
+             : kMostEarthRates * kEarthRate_rad_s * period_s_ / (2.0 * std::numbers::pi);
+}
+
+double ExpectedPhases::wander(PulseChannel channel) const {
+  return std::max(earth_wander_turns(channel, period_s_),
+                  earth_wander_turns(reference_, period_s_));
+}
+
+void ExpectedPhases::define(PulseChannel channel, std::int64_t turn, double phase_turns) {
+  of(channel).phase = DriftFilter{{.turn = turn,
+                                   .value = phase_turns,
+                                   .value_sigma = noise_turns(channel),
+                                   .change = 0.0,
+                                   .change_sigma = most_drift(channel) / kMostEarthRates}};
+  of(channel).in_a_row = 0;
+}
+
+void ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts) {
+  counts = counts.last(std::min(counts.size(), kMostLearnt));
+  std::vector<double> phases(counts.size());
+  std::transform(counts.begin(), counts.end(), phases.begin(), fraction);
+  const double median = circular_median(phases);
+  const double place = unwrapped(channel, median, counts.back());
+  std::vector<PhasePoint> points(counts.size());
+  std::transform(counts.begin(), counts.end(), points.begin(), [&](double count) {
+    const double turn = std::round(count - place);
+    return PhasePoint{.turn = turn, .phase = count - turn};
+  });
+  const auto line = fit_phase_line(points, noise_turns(channel), most_drift(channel));
+  const auto edges = static_cast<double>(line->agreeing.size());
+  // A few edges say less of the drift than what is possible does.
+  const double possible = most_drift(channel) / kMostEarthRates;
+  const double seen = std::hypot(line->scatter * std::sqrt(12.0) / (edges * std::sqrt(edges)),
+                                 wander(channel) * std::sqrt(edges));
+  const double change = line->drift * possible * possible / (possible * possible + seen * seen);
+  const double first = line->agreeing.front().turn;
+  of(channel).phase = DriftFilter{{.turn = static_cast<std::int64_t>(first),
+                                   .value = line->phase + change * (first - line->turn),
+                                   .value_sigma = 2.0 * line->scatter / std::sqrt(edges),
+                                   .change = change,
+                                   .change_sigma = possible * seen / std::hypot(possible, seen),
+                                   .scale = line->scatter / noise_turns(channel)}};
+}
+
+bool ExpectedPhases::follow(PulseChannel channel, std::int64_t turn, double phase_turns,
+                            double clock_sigma_turns) {
+  Channel& own = of(channel);
+  const DriftNoise noise{.measured = std::hypot(noise_turns(channel), clock_sigma_turns),
+                         .wander = wander(channel)};
+  const bool accepted = own.phase->follow(
+      turn, phase_turns, noise, {.sigma = config_.screening.sigma, .most = gate_turns(channel)});
+  if (accepted) {
+    own.strays.clear();
+    ++own.accepted;
+    ++own.in_a_row;
+  } else {
+    own.in_a_row = 0;
+  }
+  return accepted;
+}
+
+bool ExpectedPhases::stray(PulseChannel channel, double count) {
+  Channel& own = of(channel);
+  own.in_a_row = 0;
+  own.strays.insert(std::upper_bound(own.strays.begin(), own.strays.end(), count), count);
+  if (own.strays.size() > kMostStrays) {
+    own.strays.pop_front();
+  }
+  const int needed = std::clamp(own.accepted, 2, kStraysToAgree);
+  if (own.strays.size() < static_cast<std::size_t>(needed)) {
+    return false;
+  }
+  std::vector<PhasePoint> points;
+  for (const double other : own.strays) {
+    const double turn = std::round(other - count);
+    points.push_back({.turn = turn, .phase = other - count - turn});
+  }
+  const double noise = own.phase->scale() * noise_turns(channel);
+  const auto line = fit_phase_line(points, noise, most_drift(channel));
+  const bool agree = line->scatter <= config_.screening.sigma * noise &&
+                     line->agreeing.size() >= static_cast<std::size_t>(needed) &&
+                     line->agreeing.back().phase == points.back().phase;
+  if (agree) {
+    std::vector<double> counts(line->agreeing.size());
+    std::transform(line->agreeing.begin(), line->agreeing.end(), counts.begin(),
+                   [&](const PhasePoint& point) { return count + point.turn + point.phase; });
+    own.strays.clear();
+    learn(channel, counts);
+    own.accepted = own.in_a_row = needed;
+  }
+  return agree;
+}
+
+void ExpectedPhases::shift(std::int64_t turn, double phase_turns, double drift) {
+  for (Channel& channel : channels_) {
+    if (channel.phase) {
+      channel.phase->shift(static_cast<double>(turn), -phase_turns, -drift);
+    }
+  }
+  forget_strays();
+}
+
+void ExpectedPhases::forget_strays() {
+  for (Channel& channel : channels_) {
+    channel.strays.clear();
+  }
+}
+
+double ExpectedPhases::latest(double turn) const {
+  double latest = 0.0;
+  for (const Channel& channel : channels_) {
+    if (channel.phase) {
+      latest = std::max(latest, channel.phase->at(turn));
+    }
+  }
+  return latest;
+}
+
+/// The phase of a channel first seen, on the turn where its expected phase shall live: the Sun's
+/// about where the slits are, an in-edge in [0, 1), an out-edge within the turn behind its in-edge.
+double ExpectedPhases::unwrapped(PulseChannel channel, double phase_turns, double turn) const {
+  const auto behind = [&](PulseChannel in) {
+    const double start = knows(in) ? at(in, turn) : 0.0;
+    return start + fraction(phase_turns - start);
+  };
+  const auto ahead = [&](PulseChannel out) {
+    if (!knows(out)) {
+      return fraction(phase_turns);
+    }
+    const double end = at(out, turn);
+    return end - fraction(end - phase_turns);
+  };
+  switch (channel) {
+    case Sun1:
+      return std::remainder(phase_turns, 1.0);
+    case Sun2: {
+      const double centre = config_.sun_sensor.slit_separation_rad / (2.0 * std::numbers::pi);
+      return centre + std::remainder(phase_turns - centre, 1.0);
+    }
+    case NorthIn:
+      return ahead(NorthOut);
+    case SouthIn:
+      return ahead(SouthOut);
+    case NorthOut:
+      return behind(NorthIn);
+    case SouthOut:
+      return behind(SouthIn);
+  }
+  return fraction(phase_turns);
+}
+
+void ExpectedPhases::keep_chords_near() {
+  for (const auto& [in, out] : {std::pair{NorthIn, NorthOut}, std::pair{SouthIn, SouthOut}}) {
+    std::optional<DriftFilter>& in_phase = of(in).phase;
+    std::optional<DriftFilter>& out_phase = of(out).phase;
+    const std::optional<DriftFilter>& first = in_phase ? in_phase : out_phase;
+    if (!first) {
+      continue;
+    }
+    const double phase = first->value();
+    const double move = phase > 1.0 + kHover_turns ? -1.0 : (phase < -kHover_turns ? 1.0 : 0.0);
+    for (std::optional<DriftFilter>* channel : {&in_phase, &out_phase}) {
+      if (*channel && move != 0.0) {
+        (*channel)->shift(0.0, move, 0.0);
+      }
+    }
+  }
+}
+
+}  // namespace spindrift

@@ -1,0 +1,98 @@
+/// @file
+/// Where each channel's edge is expected behind sun1, learnt from the edges themselves and followed
+/// as the Earth moves.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+
+#include "pipelines/spin/config.h"
+#include "pipelines/spin/drift_filter.h"
+#include "pipelines/spin/pulse.h"
+
+namespace spindrift {
+
+constexpr bool sees_the_sun(PulseChannel channel) {
+  return channel == PulseChannel::Sun1 || channel == PulseChannel::Sun2;
+}
+/// Standard deviation of the time of one edge.
+constexpr double noise_of(const PulseNoise& noise, PulseChannel channel) {
+  return sees_the_sun(channel) ? noise.sun_s : noise.infrared_s;
+}
+/// How far from its expectation an edge may lie to be counted with a turn. The Sun stands still, a
+/// chord changes as the beam nears the limb.
+constexpr double gate_turns(PulseChannel channel) {
+  return channel == PulseChannel::Sun1 ? 0.1 : 0.2;
+}
+/// By how much the drift of a channel's phase wanders in a turn: the Earth of a low orbit turns
+/// its apparent motion by as much as n^2.
+double earth_wander_turns(PulseChannel channel, double period_s);
+
+/// One tracker for each channel. Phases are in turns behind phase 0 of the spin clock.
+class ExpectedPhases {
+ public:
+  explicit ExpectedPhases(const SpinConfig& config) : config_{config} {}
+
+  /// The spin period in force: noise is stated in seconds.
+  void set_period(double period_s) { period_s_ = period_s; }
+
+  /// The channel that sets the clock: what moves it seems to move the others.
+  void set_reference(PulseChannel channel) { reference_ = channel; }
+
+  /// Places a channel by definition.
+  void define(PulseChannel channel, std::int64_t turn, double phase_turns);
+  bool knows(PulseChannel channel) const { return of(channel).phase.has_value(); }
+  /// Of a channel that is known.
+  double at(PulseChannel channel, double turn) const { return of(channel).phase->at(turn); }
+  double drift(PulseChannel channel) const { return of(channel).phase->change(); }
+
+  /// Learns a channel from what most of its edges agree on.
+  /// @param counts Phases of edges, with the turns counted by the spin clock; at least one.
+  void learn(PulseChannel channel, std::span<const double> counts);
+
+  /// @return Whether an edge of a known channel lies where it should; if so it is followed.
+  bool follow(PulseChannel channel, std::int64_t turn, double phase_turns,
+              double clock_sigma_turns);
+
+  /// An edge that is not where it should be. @return Whether it and those before it agree on
+  /// another place, which is then expected.
+  bool stray(PulseChannel channel, double count);
+
+  /// How many edges in a row were where they should be.
+  int in_a_row(PulseChannel channel) const { return of(channel).in_a_row; }
+
+  /// Puts the clock's phase 0 later by so much.
+  void shift(std::int64_t turn, double phase_turns, double drift);
+  /// A chord that has drifted round belongs to the next turn.
+  void keep_chords_near();
+  void forget_strays();
+
+  /// The latest phase that any channel is expected at on that turn.
+  double latest(double turn) const;
+
+ private:
+  struct Channel {
+    std::optional<DriftFilter> phase;
+    std::deque<double> strays;  ///< Since the last edge that was where it should be.
+    int accepted = 0;
+    int in_a_row = 0;
+  };
+  const Channel& of(PulseChannel channel) const { return channels_.at(index_of(channel)); }
+  Channel& of(PulseChannel channel) { return channels_.at(index_of(channel)); }
+  double unwrapped(PulseChannel channel, double phase_turns, double turn) const;
+  double noise_turns(PulseChannel channel) const;
+  double most_drift(PulseChannel channel) const;
+  double wander(PulseChannel channel) const;
+
+  SpinConfig config_;
+  double period_s_ = 1.0;
+  PulseChannel reference_ = PulseChannel::Sun1;
+  std::array<Channel, kPulseChannels> channels_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,40 @@
+/// @file
+/// Edges of different channels that meet on an analog link spoil each other.
+
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <vector>
+
+#include "pipelines/spin/pulse.h"
+
+namespace spindrift {
+
+/// Holds each edge until none can come that is closer to it than the window.
+class InterferenceWindow {
+ public:
+  /// @param interference_s Edges of different channels closer than this spoil each other; 0: none.
+  explicit InterferenceWindow(double interference_s);
+
+  struct Sorted {
+    std::vector<Pulse> clean;   ///< In order of time.
+    std::vector<Pulse> spoilt;  ///< Likewise.
+  };
+  /// @param pulse Not earlier than the one before.
+  Sorted push(const Pulse& pulse);
+  /// The pass has ended.
+  Sorted finish();
+
+ private:
+  struct Held {
+    Pulse pulse;
+    bool spoilt;
+  };
+  void give_front(Sorted& out);
+
+  std::chrono::nanoseconds window_;
+  std::deque<Held> held_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,35 @@
+/// @file
+/// The spin period from the edges of one channel when nothing is known beforehand.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// A comb of equally spaced instants that most edges lie on.
+struct Comb {
+  TaiTime t;          ///< One of them, near the first edge that lies on it.
+  double period_s;    ///< Their spacing.
+  double scatter_s;   ///< Standard deviation of the edges about it, at least the stated one.
+  std::size_t edges;  ///< How many edges lie on it.
+  double turns;       ///< That they span.
+};
+
+/// Tries the intervals between neighbouring edges as the period, counts for each how many edges
+/// fall on its comb, and takes the longest period that explains nearly as many as any: half of it
+/// explains as many, twice of it half.
+///
+/// @param edges In order of time; the last thirty-two are looked at.
+/// @param noise_s Standard deviation of an edge that is stated.
+/// @param fewest Fewer edges on the comb are no evidence.
+/// @return Empty where less than two thirds of the edges, or of the turns, fit any period from 4 to
+/// 240 rpm.
+std::optional<Comb> find_comb(std::span<const TaiTime> edges, double noise_s, std::size_t fewest);
+
+}  // namespace spindrift

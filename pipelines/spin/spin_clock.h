@@ -1,0 +1,52 @@
+/// @file
+/// Counts spin phase in turns, by the edges of the channel that it is set by.
+
+#pragma once
+
+#include <cstdint>
+
+#include "pipelines/spin/drift_filter.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// Phase n is where the sun1 edge of turn n is expected (or whatever stands in for it). The period
+/// may wander by a few parts in a million a turn.
+class SpinClock {
+ public:
+  struct Setting {
+    TaiTime t;  ///< Of phase `turn`.
+    std::int64_t turn;
+    double period_s;
+    double period_sigma_s;
+    double sigma_s;      ///< Of t.
+    double scale = 1.0;  ///< See DriftState.
+  };
+  explicit SpinClock(const Setting& setting);
+
+  double phase_turns(TaiTime t) const;
+  TaiTime t_of(double phase_turns) const;
+  double period_s() const { return t_s_.change(); }
+  double scale() const { return t_s_.scale(); }
+  double sigma_s(double phase_turns, double earth_turns) const;
+
+  /// @param t Where an edge says that phase `turn` is.
+  /// @param noise_s Standard deviation of that.
+  /// @param earth_turns Wander per turn of the phase of the channel that t comes from.
+  bool accepts(std::int64_t turn, TaiTime t, double noise_s, double earth_turns,
+               const DriftGate& gate_turns) const;
+  bool follow(std::int64_t turn, TaiTime t, double noise_s, double earth_turns,
+              const DriftGate& gate_turns);
+
+  /// Puts phase `turn` by `phase_turns` later and lengthens the period by `drift` of itself.
+  void shift(std::int64_t turn, double phase_turns, double drift);
+
+ private:
+  DriftNoise noise(double noise_s, double earth_turns) const;
+
+  TaiTime epoch_;
+  double epoch_turn_;
+  DriftFilter t_s_;  ///< Behind epoch_, of every turn.
+};
+
+}  // namespace spindrift

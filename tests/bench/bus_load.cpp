@@ -1,0 +1,107 @@
+/// @file
+/// How fast a running `spindrift serve` takes pulses from the bus into committed rows.
+///
+///     bus_load PULSES.csv SPACECRAFT_ID ARCHIVE.db RATE [DOMAIN]
+///
+/// RATE in edges/s; 0: as fast as they are taken. Prints edges, rows that are there in the end, and
+/// edges/s from the first write to the commit of the last row.
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "services/bus/participant.h"
+#include "services/publisher/pulse_publisher.h"
+#include "tests/bench/load_support.h"
+
+namespace spindrift {
+namespace {
+
+using bench::or_exit;
+using std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kPoll{5};
+constexpr std::chrono::minutes kPatience{5};
+
+/// A query of one number.
+class Query {
+ public:
+  Query(const std::string& archive, const std::string& sql) {
+    if (sqlite3_open_v2(archive.c_str(), &database_, SQLITE_OPEN_READONLY, nullptr) != SQLITE_OK ||
+        sqlite3_prepare_v2(database_, sql.c_str(), -1, &statement_, nullptr) != SQLITE_OK) {
+      fmt::print(stderr, "bus_load: {}\n", sqlite3_errmsg(database_));
+      std::exit(1);
+    }
+  }
+  ~Query() {
+    sqlite3_finalize(statement_);
+    sqlite3_close(database_);
+  }
+  Query(const Query&) = delete;
+  Query& operator=(const Query&) = delete;
+
+  std::int64_t value() {
+    sqlite3_step(statement_);
+    const std::int64_t value = sqlite3_column_int64(statement_, 0);
+    sqlite3_reset(statement_);
+    return value;
+  }
+
+ private:
+  sqlite3* database_ = nullptr;
+  sqlite3_stmt* statement_ = nullptr;
+};
+
+void publish(PulsePublisher& publisher, const std::vector<Pulse>& pulses,
+             const std::string& spacecraft, double rate) {
+  const auto start = steady_clock::now();
+  for (std::size_t i = 0; i < pulses.size(); ++i) {
+    if (rate > 0.0) {
+      std::this_thread::sleep_until(
+          start + std::chrono::duration_cast<steady_clock::duration>(
+                      std::chrono::duration<double>{static_cast<double>(i) / rate}));
+    }
+    or_exit(publisher.publish(spacecraft, pulses[i], std::stop_token{}));
+  }
+}
+
+void run(const std::string& file, const std::string& spacecraft, const std::string& archive,
+         double rate, std::uint32_t domain) {
+  const std::vector<Pulse> pulses = bench::read_pulses(file);
+  const auto participant = or_exit(bus::Participant::create({.domain = domain}));
+  auto publisher = or_exit(PulsePublisher::create(participant, "load"));
+  or_exit(publisher.wait_for_subscriber(std::chrono::seconds{30}));
+
+  Query last{archive, "SELECT max(t_tai_ns) FROM pulse WHERE spacecraft_id = '" + spacecraft + "'"};
+  const auto start = steady_clock::now();
+  publish(publisher, pulses, spacecraft, rate);
+  while (last.value() < tai_ns(pulses.back().t) && steady_clock::now() - start < kPatience) {
+    std::this_thread::sleep_for(kPoll);
+  }
+  const std::chrono::duration<double> taken = steady_clock::now() - start;
+  const std::int64_t rows =
+      Query{archive, "SELECT count(*) FROM pulse WHERE spacecraft_id = '" + spacecraft + "'"}
+          .value();
+  fmt::print("{} {} {:.0f}\n", pulses.size(), rows,
+             static_cast<double>(pulses.size()) / taken.count());
+}
+
+}  // namespace
+}  // namespace spindrift
+
+int main(int argc, char** argv) {
+  const std::span<char*> arguments{argv, static_cast<std::size_t>(argc)};
+  if (arguments.size() < 5) {
+    fmt::print(stderr, "usage: bus_load PULSES.csv SPACECRAFT_ID ARCHIVE.db RATE [DOMAIN]\n");
+    return 2;
+  }
+  spindrift::run(arguments[1], arguments[2], arguments[3], std::stod(arguments[4]),
+                 arguments.size() > 5 ? static_cast<std::uint32_t>(std::stoul(arguments[5])) : 0);
+  return 0;
+}

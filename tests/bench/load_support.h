@@ -1,0 +1,42 @@
+/// @file
+/// What the programs that put a running service under load share.
+
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "services/telemetry_files/telemetry_stream.h"
+
+namespace spindrift::bench {
+
+template <class T>
+T or_exit(Expected<T> value) {
+  if (!value) {
+    fmt::print(stderr, "{}\n", value.error().message);
+    std::exit(1);
+  }
+  if constexpr (!std::is_void_v<T>) {
+    return std::move(*value);
+  }
+}
+
+/// The pulses of a file in order of time.
+inline std::vector<Pulse> read_pulses(const std::string& path) {
+  TelemetryStream stream = or_exit(TelemetryStream::open({path}, "LOAD"));
+  std::vector<Pulse> pulses;
+  for (SampleBatch batch = or_exit(stream.next()); !batch.pulses.empty();
+       batch = or_exit(stream.next())) {
+    for (const PulseSample& sample : batch.pulses) {
+      pulses.push_back(sample.pulse);
+    }
+  }
+  return pulses;
+}
+
+}  // namespace spindrift::bench

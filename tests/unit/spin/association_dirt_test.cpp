@@ -1,0 +1,428 @@
+/// Association of passes as they are: lost, doubled and spoilt edges, sensors that die, silences,
+/// the Earth in motion.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/spin/association.h"
+#include "tests/support/recorded_pass.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+using enum PulseChannel;
+
+const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+
+void append(Association& all, const Association& some) {
+  all.closed.insert(all.closed.end(), some.closed.begin(), some.closed.end());
+  all.left_over.insert(all.left_over.end(), some.left_over.begin(), some.left_over.end());
+}
+
+Association associate(const SpinConfig& config, std::vector<Pulse> pulses) {
+  std::sort(pulses.begin(), pulses.end());
+  Associator associator{config};
+  Association all;
+  for (const Pulse& pulse : pulses) {
+    append(all, associator.push(pulse));
+  }
+  append(all, associator.finish());
+  return all;
+}
+
+Association associate(const std::vector<Pulse>& pulses) {
+  return associate(testing::usual_config(), pulses);
+}
+
+/// The edges that nothing speaks against, each with the number of its revolution.
+std::map<Pulse, std::int64_t> good_edges(const Association& association) {
+  std::map<Pulse, std::int64_t> good;
+  for (const Revolution& revolution : association.closed) {
+    for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+      if (const auto edge = revolution.good_edge(static_cast<PulseChannel>(channel))) {
+        good[{.t = *edge, .channel = static_cast<PulseChannel>(channel)}] = revolution.number;
+      }
+    }
+  }
+  return good;
+}
+
+std::set<Pulse> bad_edges_of(const std::string& pass) {
+  std::ifstream file{SPINDRIFT_TEST_DATA "/spin/" + pass + "/truth.json"};
+  std::set<Pulse> bad;
+  const auto truth = nlohmann::json::parse(file);
+  for (const auto& edge : truth.at("bad_edges")) {
+    bad.insert({.t = tai_from_ns(edge.at(0).get<std::int64_t>()),
+                .channel = pulse_channel_from(edge.at(1).get<std::string>()).value()});
+  }
+  return bad;
+}
+
+TEST(AssociationDirt, RejectsTheBadEdgesOfADirtyPassAndKeepsTheGood) {
+  const testing::RecordedPass pass = testing::recorded_pass("dirty");
+  const std::set<Pulse> bad = bad_edges_of("dirty");
+  const Association all = associate(pass.config, pass.pulses);
+  const auto good = good_edges(all);
+  std::size_t bad_rejected = 0;
+  std::size_t good_rejected = 0;
+  for (const Pulse& pulse : pass.pulses) {
+    const bool rejected = !good.contains(pulse);
+    bad_rejected += rejected && bad.contains(pulse) ? 1U : 0U;
+    good_rejected += rejected && !bad.contains(pulse) ? 1U : 0U;
+  }
+  const auto bad_d = static_cast<double>(bad.size());
+  const auto good_d = static_cast<double>(pass.pulses.size() - bad.size());
+  ASSERT_EQ(bad.size(), 333U);
+  EXPECT_GE(static_cast<double>(bad_rejected), 0.97 * bad_d);
+  EXPECT_LE(static_cast<double>(good_rejected), 0.01 * good_d);
+}
+
+/// What happens to the edges of a pass.
+struct Dirt {
+  double lost = 0.0;
+  double spurious = 0.0;  ///< Edges a turn and channel, anywhere.
+  double spoilt = 0.0;    ///< Off by a hundredth to a fifth of a turn.
+};
+
+/// The phases of the channels behind sun1, in turns.
+using Phases = std::array<double, kPulseChannels>;
+constexpr Phases kOrdinary = {0.0, 0.11, 0.40, 0.52, 0.41, 0.55};
+
+struct Train {
+  double period_s = 1.0;
+  int turns = 100;
+  Phases phases_turns = kOrdinary;
+  double earth_drift = 0.0;   ///< Of the infrared phases, turns a turn.
+  double period_drift = 0.0;  ///< Of the period, of itself a turn.
+  Dirt dirt = {};
+};
+
+struct Pass {
+  std::vector<Pulse> pulses;
+  std::map<Pulse, int> turns;  ///< Of the edges that are as they were made.
+};
+
+Pass made(const Train& train, std::mt19937_64& rng) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  const PulseNoise noise = testing::usual_config().noise;
+  Pass pass;
+  double sun1_s = 0.0;
+  double period_s = train.period_s;
+  for (int turn = 0; turn < train.turns; ++turn) {
+    for (std::size_t i = 0; i < kPulseChannels; ++i) {
+      const auto channel = static_cast<PulseChannel>(i);
+      const double drift = sees_the_sun(channel) ? 0.0 : train.earth_drift * turn;
+      const double t_s = sun1_s + (train.phases_turns.at(i) + drift) * period_s;
+      Pulse edge{.t = shifted(kStart, t_s + noise_of(noise, channel) * normal(rng)),
+                 .channel = channel};
+      if (uniform(rng) < train.dirt.spurious) {
+        pass.pulses.push_back(
+            {.t = shifted(kStart, sun1_s + uniform(rng) * period_s), .channel = channel});
+      }
+      if (uniform(rng) < train.dirt.lost) {
+        continue;
+      }
+      if (uniform(rng) < train.dirt.spoilt) {
+        const double off = (0.01 + 0.19 * uniform(rng)) * (uniform(rng) < 0.5 ? -1.0 : 1.0);
+        edge.t = shifted(edge.t, off * period_s);
+      } else {
+        pass.turns[edge] = turn;
+      }
+      pass.pulses.push_back(edge);
+    }
+    sun1_s += period_s;
+    period_s *= 1.0 + train.period_drift;
+  }
+  return pass;
+}
+
+template <class Condition>
+Pass without(const Pass& pass, const Condition& lost) {
+  Pass rest = pass;
+  std::erase_if(rest.pulses, lost);
+  return rest;
+}
+
+double seconds_in(const Pulse& pulse) { return seconds_between(kStart, pulse.t); }
+
+/// How many of the good edges lie on another turn than was counted from the first one, and how many
+/// were rejected.
+struct Mistakes {
+  int misplaced = 0;
+  int rejected = 0;
+  int good = 0;
+};
+
+Mistakes mistakes(const Pass& pass, const Association& all) {
+  const auto found = good_edges(all);
+  Mistakes made_here;
+  std::optional<std::int64_t> offset;
+  for (const Pulse& pulse : pass.pulses) {
+    const auto turn = pass.turns.find(pulse);
+    if (turn == pass.turns.end()) {
+      continue;
+    }
+    ++made_here.good;
+    const auto place = found.find(pulse);
+    if (place == found.end()) {
+      ++made_here.rejected;
+      continue;
+    }
+    const std::int64_t here = turn->second - place->second;
+    made_here.misplaced += here != offset.value_or(here) ? 1 : 0;
+    offset = offset.value_or(here);
+  }
+  return made_here;
+}
+
+TEST(AssociationDirt, FindsThePeriodUnderHeavyDirt) {
+  std::mt19937_64 rng{301};
+  for (const double rpm : {5.0, 11.0, 33.3, 60.0, 100.0, 147.0, 200.0}) {
+    for (int trial = 0; trial < 30; ++trial) {
+      SCOPED_TRACE(::testing::Message() << rpm << " rpm, trial " << trial);
+      const Pass pass = made({.period_s = 60.0 / rpm,
+                              .turns = 60,
+                              .dirt = {.lost = 0.2, .spurious = 0.1, .spoilt = 0.1}},
+                             rng);
+      const Association all = associate(pass.pulses);
+      ASSERT_FALSE(all.closed.empty());
+      ASSERT_NEAR(all.closed.front().period.period_s * rpm / 60.0, 1.0, 1e-3);
+      ASSERT_NEAR(all.closed.back().period.period_s * rpm / 60.0, 1.0, 1e-3);
+      const Mistakes counted = mistakes(pass, all);
+      ASSERT_EQ(counted.misplaced, 0);
+      // The first turns, where counting begins at a sun1 that is there, and 1 %.
+      ASSERT_LE(counted.rejected, 0.06 * counted.good);
+    }
+  }
+}
+
+TEST(AssociationDirt, JudgesTheFirstEdgesAsWellAsLaterOnes) {
+  std::mt19937_64 rng{302};
+  int bad = 0;
+  int bad_accepted = 0;
+  int good = 0;
+  int good_rejected = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const Pass pass =
+        made({.turns = 12, .dirt = {.lost = 0.03, .spurious = 0.0, .spoilt = 0.08}}, rng);
+    const auto found = good_edges(associate(pass.pulses));
+    for (const Pulse& pulse : pass.pulses) {
+      const bool is_good = pass.turns.contains(pulse);
+      const bool accepted = found.contains(pulse);
+      (is_good ? good : bad) += 1;
+      bad_accepted += !is_good && accepted ? 1 : 0;
+      good_rejected += is_good && !accepted ? 1 : 0;
+    }
+  }
+  EXPECT_LE(bad_accepted, 0.03 * bad);
+  // The edges before the first sun1 that is there cannot be counted: 8 % of the first turns.
+  EXPECT_LE(good_rejected, 0.02 * good);
+}
+
+TEST(AssociationDirt, AGoodEdgeBehindASpoiltOneTakesItsPlace) {
+  std::mt19937_64 rng{303};
+  Pass pass = made({.turns = 50}, rng);
+  std::vector<Pulse> echoes;
+  for (const auto& [pulse, turn] : pass.turns) {
+    if (turn % 5 == 2) {
+      echoes.push_back(
+          {.t = shifted(pulse.t, turn % 2 == 0 ? -0.008 : 0.008), .channel = pulse.channel});
+    }
+  }
+  pass.pulses.insert(pass.pulses.end(), echoes.begin(), echoes.end());
+  const Association all = associate(pass.pulses);
+  EXPECT_EQ(all.left_over.size(), echoes.size());
+  for (const PulseUse& use : all.left_over) {
+    EXPECT_FALSE(pass.turns.contains(use.pulse));
+    EXPECT_EQ(use.rejected_by, Rejection::Unassociated);
+  }
+}
+
+TEST(AssociationDirt, ASpoiltSun1IsRejectedAloneAndKeptWithItsRevolution) {
+  std::mt19937_64 rng{304};
+  const Pass pass = made({.turns = 60}, rng);
+  std::vector<Pulse> pulses = pass.pulses;
+  TaiTime spoilt_t;
+  for (Pulse& pulse : pulses) {
+    if (pulse.channel == Sun1 && pass.turns.at(pulse) == 40) {
+      pulse.t = spoilt_t = shifted(pulse.t, 0.005);
+    }
+  }
+  const Association all = associate(pulses);
+  ASSERT_EQ(all.closed.size(), 60U);
+  const Revolution& spoilt = all.closed.at(40);
+  EXPECT_EQ(spoilt.edge(Sun1), spoilt_t);
+  EXPECT_EQ(spoilt.edge_rejections.at(index_of(Sun1)), Rejection::Phase);
+  ASSERT_TRUE(spoilt.period_candidate);
+  EXPECT_FALSE(spoilt.period_candidate->accepted);
+  // Where the clock expects it: within five sigmas of the edge.
+  EXPECT_NEAR(seconds_between(kStart, spoilt.t_start), 40.0, 5e-4);
+  for (const std::size_t next : {39U, 41U}) {
+    EXPECT_TRUE(all.closed.at(next).good_edge(Sun1));
+    EXPECT_TRUE(all.closed.at(next).period_candidate->accepted);
+    EXPECT_EQ(all.closed.at(next).t_start, *all.closed.at(next).edge(Sun1));
+  }
+}
+
+TEST(AssociationDirt, FollowsTheEarthFromALowOrbitAtAnyRate) {
+  const Orbit orbit{KeplerOrbit::make({.epoch = kStart,
+                                       .semi_major_axis_km = 6878.0,
+                                       .eccentricity = 0.001,
+                                       .inclination_rad = 0.9,
+                                       .raan_rad = 0.5,
+                                       .argument_of_perigee_rad = 3.0,
+                                       .mean_anomaly_rad = 0.35})
+                        .value()};
+  const auto position_km = [&](double t_s) {
+    return Eigen::Vector3d{orbit.at(shifted(kStart, t_s)).value().position_icrf_km};
+  };
+  testing::Surroundings around = testing::at_rest({1.0, 0.2, 0.1}, {});
+  around.earth_icrf_km = [&](double t_s) -> Eigen::Vector3d { return -position_km(t_s); };
+  std::mt19937_64 rng{305};
+  for (const double rpm : {5.0, 20.0, 60.0, 200.0}) {
+    SCOPED_TRACE(rpm);
+    const testing::SpinningBody body{
+        .axis_icrf = position_km(0.0).cross(position_km(600.0)).normalized(),
+        .rate_rad_s = rpm * 2.0 * std::numbers::pi / 60.0,
+        .first_turn_rad = 1.0,
+        .config = testing::usual_config()};
+    const std::vector<Pulse> pulses =
+        testing::pulses_from(testing::edges_between(body, around, 0.0, 60.0 / rpm * 150.0), kStart,
+                             body.config.noise, rng);
+    const auto good = good_edges(associate(pulses));
+    // 3 sigma, 0.27 %, of 900, and the turn that begins before the first sun1.
+    EXPECT_GE(good.size() + 20, pulses.size());
+  }
+}
+
+TEST(AssociationDirt, RunsOnAnotherChannelWhereSun1IsDead) {
+  std::mt19937_64 rng{306};
+  for (const double rpm : {5.0, 60.0, 200.0}) {
+    for (const bool sun2_too : {false, true}) {
+      SCOPED_TRACE(::testing::Message() << rpm << " rpm, sun2 dead " << sun2_too);
+      const double earth_drift = 5e-4 / (rpm * 2.0 * std::numbers::pi / 60.0);
+      const Pass pass = without(
+          made({.period_s = 60.0 / rpm,
+                .turns = 150,
+                .earth_drift = earth_drift,
+                .dirt = {.lost = 0.05, .spurious = 0.03, .spoilt = 0.05}},
+               rng),
+          [&](const Pulse& p) { return p.channel == Sun1 || (sun2_too && p.channel == Sun2); });
+      const Association all = associate(pass.pulses);
+      const Mistakes counted = mistakes(pass, all);
+      EXPECT_EQ(counted.misplaced, 0);
+      EXPECT_LE(counted.rejected, 0.03 * counted.good);
+      for (const Revolution& revolution : all.closed) {
+        ASSERT_FALSE(revolution.edge(Sun1));
+        ASSERT_NEAR(revolution.period.period_s, 60.0 / rpm, 4.0 * revolution.period.sigma_s);
+      }
+      EXPECT_LT(all.closed.back().period.sigma_s * rpm / 60.0, sun2_too ? 2e-3 : 1e-4);
+      for (const Revolution& revolution : all.closed) {
+        if (const auto sun2 = revolution.good_edge(Sun2); sun2 && revolution.number > 30) {
+          ASSERT_EQ(revolution.t_start, *sun2);
+        }
+      }
+    }
+  }
+}
+
+TEST(AssociationDirt, ChangesOverToASun1ThatAppearsAndBackWhenItDies) {
+  std::mt19937_64 rng{307};
+  for (const bool sun2_too : {false, true}) {
+    SCOPED_TRACE(sun2_too);
+    const Pass pass =
+        without(made({.turns = 400, .earth_drift = 5e-5, .dirt = {.lost = 0.03}}, rng),
+                [&](const Pulse& p) {
+                  const bool dead = seconds_in(p) < 99.5 || seconds_in(p) > 249.5;
+                  return dead && (p.channel == Sun1 || (sun2_too && p.channel == Sun2));
+                });
+    const Association all = associate(pass.pulses);
+    const Mistakes counted = mistakes(pass, all);
+    // Behind which sun1 a chord is counted is not known before there is one.
+    EXPECT_LE(counted.rejected, 0.01 * counted.good);
+    int sun1_edges = 0;
+    for (std::size_t i = 1; i < all.closed.size(); ++i) {
+      ASSERT_EQ(all.closed[i].number, all.closed[i - 1].number + 1);
+      sun1_edges += all.closed[i].good_edge(Sun1) ? 1 : 0;
+    }
+    EXPECT_GE(sun1_edges, 0.95 * 150);
+    ASSERT_NEAR(all.closed.back().period.period_s, 1.0, 4.0 * all.closed.back().period.sigma_s);
+    // Sun1 is gone for 150 turns: t_start is where it would be, but for the Earth's motion.
+    EXPECT_NEAR(seconds_between(kStart, all.closed.back().t_start), 399.0, 0.01);
+  }
+}
+
+TEST(AssociationDirt, CountsRightThroughSilencesOfTenMinutes) {
+  std::mt19937_64 rng{308};
+  for (const double rpm : {5.0, 60.0, 200.0}) {
+    for (const int before : {15, 100}) {
+      for (const double drift : {0.0, -1e-7, 1e-7}) {
+        for (int trial = 0; trial < 10; ++trial) {
+          SCOPED_TRACE(::testing::Message() << rpm << " rpm, " << before << " turns before, drift "
+                                            << drift << ", trial " << trial);
+          const double period_s = 60.0 / rpm;
+          const int silent = static_cast<int>(600.0 / period_s);
+          const double from_s = (before - 0.1) * period_s;
+          const Pass pass =
+              without(made({.period_s = period_s,
+                            .turns = before + silent + 60,
+                            .period_drift = drift,
+                            .dirt = {.lost = 0.02, .spoilt = 0.02}},
+                           rng),
+                      [&](const Pulse& p) {
+                        return seconds_in(p) > from_s && seconds_in(p) < from_s + silent * period_s;
+                      });
+          const Mistakes counted = mistakes(pass, associate(pass.pulses));
+          ASSERT_EQ(counted.misplaced, 0);
+          ASSERT_LE(counted.rejected, 0.1 * counted.good);
+        }
+      }
+    }
+  }
+}
+
+TEST(AssociationDirt, NoTimeIsTooAbsurd) {
+  constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  std::mt19937_64 rng{309};
+  const Pass pass = made({.turns = 40}, rng);
+  for (const bool clock_runs : {false, true}) {
+    std::vector<Pulse> pulses = clock_runs ? pass.pulses : std::vector<Pulse>{};
+    for (std::size_t i = 0; i < 200; ++i) {
+      const auto channel = static_cast<PulseChannel>(i % kPulseChannels);
+      const auto step = static_cast<std::int64_t>(i);
+      pulses.push_back({.t = tai_from_ns(kLeast + step * 1'000'000'000), .channel = channel});
+      pulses.push_back({.t = tai_from_ns(kMost - step * 700'000'000), .channel = channel});
+      pulses.push_back({.t = tai_from_ns(0), .channel = channel});
+      pulses.push_back({.t = tai_from_ns(step * 40'000'000'000'000'000), .channel = channel});
+    }
+    const Association all = associate(pulses);
+    std::size_t out = all.left_over.size();
+    for (const Revolution& revolution : all.closed) {
+      out +=
+          static_cast<std::size_t>(std::count_if(revolution.edges.begin(), revolution.edges.end(),
+                                                 [](const auto& edge) { return !!edge; }));
+      ASSERT_TRUE(std::isfinite(revolution.period.period_s) && revolution.period.period_s > 0.0);
+    }
+    EXPECT_EQ(out, pulses.size());
+  }
+}
+
+}  // namespace
+}  // namespace spindrift

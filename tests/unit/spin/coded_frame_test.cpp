@@ -1,0 +1,189 @@
+#include "pipelines/spin/coded_frame.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipelines/spin/association.h"
+#include "pipelines/spin/reorder_window.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::ElementsAre;
+using enum PulseChannel;
+
+const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+
+CodedFrame frame_at(double t_s) {
+  return {.t = shifted(kStart, t_s),
+          .period_s = 1.0,
+          .delay_s = {std::nullopt, 0.1, 0.4, 0.5, 0.45, 0.6}};
+}
+
+Pulse edge_at(double t_s, PulseChannel channel) {
+  return {.t = shifted(kStart, t_s), .channel = channel};
+}
+
+/// The rows of tests/data/spin/coded.
+std::vector<CodedFrame> recorded_frames() {
+  std::ifstream file{SPINDRIFT_TEST_DATA "/spin/coded/coded.csv"};
+  std::string line;
+  std::getline(file, line);
+  std::vector<CodedFrame> frames;
+  while (std::getline(file, line)) {
+    std::istringstream row{line};
+    std::string field;
+    std::getline(row, field, ',');
+    CodedFrame frame{.t = tai_from_ns(std::stoll(field)), .period_s = {}, .delay_s = {}};
+    std::getline(row, field, ',');
+    frame.period_s = std::stod(field);
+    for (std::size_t channel = 1; channel < kPulseChannels; ++channel) {
+      if (std::getline(row, field, ',') && !field.empty() && field != "\r") {
+        frame.delay_s.at(channel) = std::stod(field);
+      }
+    }
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+Association associate(const std::vector<CodedFrame>& frames) {
+  Associator associator{testing::usual_config()};
+  Association all;
+  const auto collect = [&](const Association& some) {
+    all.closed.insert(all.closed.end(), some.closed.begin(), some.closed.end());
+    all.left_over.insert(all.left_over.end(), some.left_over.begin(), some.left_over.end());
+  };
+  for (const CodedFrame& frame : frames) {
+    if (frame.period_s) {
+      associator.note_period(frame.t, *frame.period_s);
+    }
+    for (const Pulse& pulse : edges_of(frame)) {
+      collect(associator.push(pulse));
+    }
+  }
+  collect(associator.finish());
+  return all;
+}
+
+TEST(CodedFrame, ItsEdgesComeInOrderOfTime) {
+  CodedFrame frame = frame_at(0.0);
+  frame.delay_s.at(index_of(NorthIn)) = -0.3;   // 0.7, modulo the period.
+  frame.delay_s.at(index_of(SouthOut)) = 2.05;  // 0.05.
+  frame.delay_s.at(index_of(SouthIn)) = std::nullopt;
+  EXPECT_THAT(edges_of(frame),
+              ElementsAre(edge_at(0.0, Sun1), edge_at(0.05, SouthOut), edge_at(0.1, Sun2),
+                          edge_at(0.5, NorthOut), edge_at(0.7, NorthIn)));
+}
+
+TEST(CodedFrame, WithoutAPeriodTheDelaysAreTakenAsTheyAre) {
+  for (const std::optional<double> period_s : {std::optional<double>{}, std::optional{0.0}}) {
+    const CodedFrame frame{
+        .t = kStart, .period_s = period_s, .delay_s = {std::nullopt, -0.2, {}, {}, {}, {}}};
+    EXPECT_THAT(edges_of(frame), ElementsAre(edge_at(-0.2, Sun2), edge_at(0.0, Sun1)));
+  }
+}
+
+TEST(CodedFrame, OneAloneIsARevolutionWithItsPeriod) {
+  const Association all = associate({frame_at(0.0)});
+  EXPECT_TRUE(all.left_over.empty());
+  ASSERT_EQ(all.closed.size(), 1U);
+  const Revolution& revolution = all.closed.front();
+  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+    EXPECT_TRUE(revolution.good_edge(static_cast<PulseChannel>(channel)));
+  }
+  EXPECT_EQ(revolution.t_start, kStart);
+  EXPECT_DOUBLE_EQ(revolution.period.period_s, 1.0);
+  ASSERT_TRUE(revolution.period_candidate);
+  EXPECT_TRUE(revolution.period_candidate->accepted);
+  EXPECT_DOUBLE_EQ(revolution.period_candidate->period_s, 1.0);
+}
+
+TEST(CodedFrame, OneWithoutAPeriodIsLeftOver) {
+  CodedFrame frame = frame_at(0.0);
+  frame.period_s.reset();
+  const Association all = associate({frame});
+  EXPECT_TRUE(all.closed.empty());
+  EXPECT_EQ(all.left_over.size(), 6U);
+}
+
+TEST(CodedFrame, FramesWithoutAPeriodAreTimedByTheirSun1) {
+  std::vector<CodedFrame> frames;
+  for (int turn = 0; turn < 30; ++turn) {
+    frames.push_back(frame_at(turn));
+    frames.back().period_s.reset();
+  }
+  const Association all = associate(frames);
+  EXPECT_EQ(all.closed.size(), 30U);
+  EXPECT_TRUE(all.left_over.empty());
+}
+
+TEST(CodedFrame, AWrongPeriodOfTheFirstFrameIsOutvoted) {
+  std::vector<CodedFrame> frames;
+  for (int turn = 0; turn < 30; ++turn) {
+    frames.push_back(frame_at(turn));
+  }
+  frames.front().period_s = 0.013;
+  const Association all = associate(frames);
+  EXPECT_GE(all.closed.size(), 29U);
+  EXPECT_NEAR(all.closed.back().period.period_s, 1.0, 1e-6);
+}
+
+TEST(CodedFrame, ARecordedPassIsWhole) {
+  const std::vector<CodedFrame> frames = recorded_frames();
+  ASSERT_EQ(frames.size(), 300U);
+  const Association all = associate(frames);
+  ASSERT_EQ(all.closed.size(), frames.size());
+  EXPECT_TRUE(all.left_over.empty());
+  std::size_t rejected = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    ASSERT_EQ(all.closed[i].number, static_cast<std::int64_t>(i));
+    ASSERT_EQ(all.closed[i].edge(Sun1), frames[i].t);
+    for (const auto& rejection : all.closed[i].edge_rejections) {
+      rejected += rejection ? 1U : 0U;
+    }
+  }
+  EXPECT_LE(rejected, 18U);  // 1 % of 1800: at three sigma 0.27 % are expected.
+}
+
+TEST(FrameReorderWindow, SortsFramesTwoTurnsOutOfOrder) {
+  FrameReorderWindow window;
+  std::vector<CodedFrame> sent;
+  for (int turn = 0; turn < 20; ++turn) {
+    sent.push_back(frame_at(turn));
+  }
+  std::vector<CodedFrame> arriving = sent;
+  std::swap(arriving[4], arriving[5]);
+  std::rotate(arriving.begin() + 10, arriving.begin() + 11, arriving.begin() + 13);
+  std::vector<CodedFrame> received;
+  for (const CodedFrame& frame : arriving) {
+    ASSERT_EQ(window.add(frame), FrameReorderWindow::Verdict::Held);
+    for (const CodedFrame& due : window.release()) {
+      received.push_back(due);
+    }
+  }
+  EXPECT_EQ(received.size(), 17U);  // Two and a half turns wait.
+  for (const CodedFrame& rest : window.release_all().in_time) {
+    received.push_back(rest);
+  }
+  EXPECT_EQ(received, sent);
+  EXPECT_EQ(window.add(sent[7]), FrameReorderWindow::Verdict::Duplicate);
+}
+
+TEST(FrameReorderWindow, WaitsTwoAndAHalfTurnsOfTheSlowestBodyWithoutAPeriod) {
+  CodedFrame frame = frame_at(0.0);
+  EXPECT_EQ(reorder_horizon(frame), std::chrono::milliseconds{2500});
+  frame.period_s.reset();
+  EXPECT_EQ(reorder_horizon(frame), std::chrono::seconds{30});
+}
+
+}  // namespace
+}  // namespace spindrift

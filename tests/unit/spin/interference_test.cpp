@@ -1,0 +1,71 @@
+#include "pipelines/spin/interference.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace spindrift {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using enum PulseChannel;
+
+constexpr double kWindow_s = 1e-3;
+constexpr std::int64_t kMicrosecond_ns = 1000;
+
+Pulse pulse_at(std::int64_t t_us, PulseChannel channel) {
+  return {.t = tai_from_ns(t_us * kMicrosecond_ns), .channel = channel};
+}
+
+InterferenceWindow::Sorted sorted(double window_s, const std::vector<Pulse>& pulses) {
+  InterferenceWindow window{window_s};
+  InterferenceWindow::Sorted all;
+  const auto collect = [&](const InterferenceWindow::Sorted& some) {
+    all.clean.insert(all.clean.end(), some.clean.begin(), some.clean.end());
+    all.spoilt.insert(all.spoilt.end(), some.spoilt.begin(), some.spoilt.end());
+  };
+  for (const Pulse& pulse : pulses) {
+    collect(window.push(pulse));
+  }
+  collect(window.finish());
+  return all;
+}
+
+TEST(Interference, EdgesOfDifferentChannelsCloserThanTheWindowSpoilEachOther) {
+  const auto [clean, spoilt] = sorted(kWindow_s, {pulse_at(0, Sun1), pulse_at(5000, NorthIn),
+                                                  pulse_at(5999, SouthIn), pulse_at(9000, Sun2)});
+  EXPECT_THAT(clean, ElementsAre(pulse_at(0, Sun1), pulse_at(9000, Sun2)));
+  EXPECT_THAT(spoilt, ElementsAre(pulse_at(5000, NorthIn), pulse_at(5999, SouthIn)));
+}
+
+TEST(Interference, TheWindowItselfIsNotCloser) {
+  EXPECT_THAT(sorted(kWindow_s, {pulse_at(0, Sun1), pulse_at(1000, Sun2)}).spoilt, IsEmpty());
+}
+
+TEST(Interference, EdgesOfOneChannelDoNotSpoilEachOther) {
+  EXPECT_THAT(sorted(kWindow_s, {pulse_at(0, Sun1), pulse_at(100, Sun1)}).spoilt, IsEmpty());
+}
+
+TEST(Interference, AChainIsSpoiltAsAWhole) {
+  const std::vector<Pulse> chain{pulse_at(0, NorthIn), pulse_at(800, SouthIn),
+                                 pulse_at(1600, NorthIn), pulse_at(2400, Sun1)};
+  EXPECT_EQ(sorted(kWindow_s, chain).spoilt, chain);
+}
+
+TEST(Interference, AnEdgeOfTheSameChannelBetweenThemHidesNothing) {
+  const std::vector<Pulse> edges{pulse_at(0, NorthIn), pulse_at(300, SouthIn),
+                                 pulse_at(600, SouthIn)};
+  EXPECT_EQ(sorted(kWindow_s, edges).spoilt, edges);
+}
+
+TEST(Interference, WithoutAWindowEverythingPassesAtOnce) {
+  InterferenceWindow window{0.0};
+  EXPECT_THAT(window.push(pulse_at(0, Sun1)).clean, ElementsAre(pulse_at(0, Sun1)));
+  EXPECT_THAT(window.push(pulse_at(0, Sun2)).clean, ElementsAre(pulse_at(0, Sun2)));
+  EXPECT_THAT(window.finish().clean, IsEmpty());
+}
+
+}  // namespace
+}  // namespace spindrift
