@@ -6,8 +6,8 @@
 #include <latch>
 
 #include "services/ingest/from_idl.h"
-#include "services/ingest/pulse_subscriber.h"
-#include "services/publisher/pulse_publisher.h"
+#include "services/ingest/telemetry_subscriber.h"
+#include "services/publisher/telemetry_publisher.h"
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"
 
@@ -29,7 +29,7 @@ class Station {
                    Consumer consumer = Consumer::Works)
       : participant_{Participant::create(config).value()},
         queue_{capacity},
-        subscriber_{PulseSubscriber::start(participant_, queue_).value()},
+        subscriber_{TelemetrySubscriber::start(participant_, queue_).value()},
         consumer_{[this] { consume(); }} {
     if (consumer == Consumer::Works) {
       release();
@@ -48,7 +48,7 @@ class Station {
   }
 
   Participant& participant() { return participant_; }
-  PulseSubscriberStatus status() const { return subscriber_->status().value(); }
+  TelemetrySubscriberStatus status() const { return subscriber_->status().value(); }
 
   SequenceCounts counts_of(const std::string& source) const {
     const auto by_source = status().by_source;
@@ -81,7 +81,7 @@ class Station {
 
   Participant participant_;
   BoundedQueue<SampleBatch> queue_;
-  std::unique_ptr<PulseSubscriber> subscriber_;
+  std::unique_ptr<TelemetrySubscriber> subscriber_;
   SampleBatch arrived_;
   std::latch gate_{1};
   std::thread consumer_;
@@ -168,7 +168,7 @@ TEST(FromIdl, TakesTheFirstAndLastTimeOfTelemetry) {
   }
 }
 
-TEST(PulseSubscriber, QueuesWhatAPublisherSends) {
+TEST(TelemetrySubscriber, QueuesWhatAPublisherSends) {
   Station station{bus_of_its_own()};
   auto publisher = PulsePublisher::create(station.participant(), "antenna").value();
   const auto session = publisher.next().session;
@@ -184,7 +184,7 @@ TEST(PulseSubscriber, QueuesWhatAPublisherSends) {
   EXPECT_EQ(arrived.pulses[0].pulse, pulse);
 }
 
-TEST(PulseSubscriber, LosesNothingToASlowConsumer) {
+TEST(TelemetrySubscriber, LosesNothingToASlowConsumer) {
   constexpr std::size_t kCount = 20'000;
   const auto config = bus_of_its_own();
   Station station{config, 2, Consumer::IsHeld};
@@ -199,7 +199,7 @@ TEST(PulseSubscriber, LosesNothingToASlowConsumer) {
   EXPECT_EQ(seqs_of(arrived.pulses), first_seqs(kCount));
 }
 
-TEST(PulseSubscriber, PassesOnWhatCannotBeTrueAsRejected) {
+TEST(TelemetrySubscriber, PassesOnWhatCannotBeTrueAsRejected) {
   Station station{bus_of_its_own()};
   const auto writer = pulse_writer(station.participant());
   spindrift_Pulse impossible = idl_pulse(1);
@@ -217,7 +217,7 @@ TEST(PulseSubscriber, PassesOnWhatCannotBeTrueAsRejected) {
   EXPECT_THAT(arrived.rejected[0].reason, HasSubstr("t_tai_ns = -1"));
 }
 
-TEST(PulseSubscriber, CountsGapsDuplicatesAndDisorderAndPassesAllOn) {
+TEST(TelemetrySubscriber, CountsGapsDuplicatesAndDisorderAndPassesAllOn) {
   Station station{bus_of_its_own()};
   const auto writer = pulse_writer(station.participant());
   for (const std::uint64_t seq : {0U, 4U, 1U, 1U}) {
@@ -240,7 +240,7 @@ Expected<void> run_source(const Participant& participant, int count) {
   return sent.and_then([&publisher] { return publisher.wait_for_acknowledgments(30s); });
 }
 
-TEST(PulseSubscriber, CountsNoGapWhenASourceRestarts) {
+TEST(TelemetrySubscriber, CountsNoGapWhenASourceRestarts) {
   Station station{bus_of_its_own()};
   ASSERT_TRUE(run_source(station.participant(), 5));
   ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received == 5; }));
@@ -249,7 +249,7 @@ TEST(PulseSubscriber, CountsNoGapWhenASourceRestarts) {
   EXPECT_EQ(station.counts_of("antenna"), (SequenceCounts{.received = 15}));
 }
 
-TEST(PulseSubscriber, CatchesUpOnWhatWasSentBeforeItStarted) {
+TEST(TelemetrySubscriber, CatchesUpOnWhatWasSentBeforeItStarted) {
   const auto config = bus_of_its_own();
   const auto participant = Participant::create(config).value();
   const auto writer = pulse_writer(participant);
@@ -261,7 +261,7 @@ TEST(PulseSubscriber, CatchesUpOnWhatWasSentBeforeItStarted) {
       [&] { return station.counts_of("front-end") == SequenceCounts{.received = 1000}; }));
 }
 
-TEST(PulseSubscriber, NamesAnIncompatibleWriterWhileItIsThere) {
+TEST(TelemetrySubscriber, NamesAnIncompatibleWriterWhileItIsThere) {
   const auto config = bus_of_its_own();
   Station station{config};
   EXPECT_THAT(station.status().reader.incompatible_writers, ElementsAre());
@@ -271,7 +271,7 @@ TEST(PulseSubscriber, NamesAnIncompatibleWriterWhileItIsThere) {
               ElementsAre(HasSubstr("pid " + std::to_string(writer.pid()))));
 }
 
-TEST(PulseSubscriber, StopsWhilePulsesArriveAndKeepsWhatItTook) {
+TEST(TelemetrySubscriber, StopsWhilePulsesArriveAndKeepsWhatItTook) {
   Station station{bus_of_its_own(), 2};
   std::jthread front_end{[&station](const std::stop_token& stop) {
     auto publisher = PulsePublisher::create(station.participant(), "antenna").value();
@@ -288,10 +288,10 @@ TEST(PulseSubscriber, StopsWhilePulsesArriveAndKeepsWhatItTook) {
   EXPECT_EQ(station.status().failure, "");
 }
 
-TEST(PulseSubscriber, HandsOverWhatIsAcknowledgedWhenStopped) {
+TEST(TelemetrySubscriber, HandsOverWhatIsAcknowledgedWhenStopped) {
   const auto participant = Participant::create(bus_of_its_own()).value();
   BoundedQueue<SampleBatch> queue{1};
-  const auto subscriber = PulseSubscriber::start(participant, queue).value();
+  const auto subscriber = TelemetrySubscriber::start(participant, queue).value();
   // The queue is full at once, and the rest waits in the reader, acknowledged.
   constexpr std::uint64_t kSent = 3000;
   const auto writer = pulse_writer(participant);
@@ -314,10 +314,10 @@ TEST(PulseSubscriber, HandsOverWhatIsAcknowledgedWhenStopped) {
   EXPECT_EQ(arrived, kSent);
 }
 
-TEST(PulseSubscriber, SaysSoWhenItsQueueIsClosedTooEarly) {
+TEST(TelemetrySubscriber, SaysSoWhenItsQueueIsClosedTooEarly) {
   const auto participant = Participant::create(bus_of_its_own()).value();
   BoundedQueue<SampleBatch> queue{4};
-  const auto subscriber = PulseSubscriber::start(participant, queue).value();
+  const auto subscriber = TelemetrySubscriber::start(participant, queue).value();
   queue.close();
   ASSERT_TRUE(pulse_writer(participant).write(idl_pulse(0)));
   ASSERT_TRUE(eventually([&] { return !subscriber->status().value().taking; }));

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "pipelines/frames/celestial.h"
-#include "services/publisher/pulse_publisher.h"
+#include "services/publisher/telemetry_publisher.h"
 #include "services/publisher/result_publisher.h"
 #include "services/publisher/to_idl.h"
 #include "tests/support/bus_fixture.h"

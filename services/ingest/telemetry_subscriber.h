@@ -1,5 +1,5 @@
 /// @file
-/// Pulses from the bus into a queue, on a thread that does nothing else.
+/// Telemetry from the bus into a queue, on a thread that does nothing else.
 
 #pragma once
 
@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <tuple>
 
 #include "services/bus/reader.h"
 #include "services/bus/wait_set.h"
@@ -17,45 +18,50 @@
 
 namespace spindrift {
 
-struct PulseSubscriberStatus {
+struct TelemetrySubscriberStatus {
   std::map<std::string, SequenceCounts> by_source;
-  bus::ReaderStatus reader;
+  bus::ReaderStatus reader;  ///< Of all topics together.
   bool taking;  ///< False: the thread ended, stopped or failed (see `failure`).
   std::string failure;
 };
 
-/// Takes from spindrift/pulse for as long as it lives. When the queue is full it waits, the reader
+/// Takes from spindrift/pulse and spindrift/coded_frame for as long as it lives. When the queue is full it waits, the reader
 /// fills up, and the writers feel the pressure: nothing is dropped.
-class PulseSubscriber {
+class TelemetrySubscriber {
  public:
   /// `participant` and `queue` outlive it. @return Unavailable when Cyclone refuses.
-  static Expected<std::unique_ptr<PulseSubscriber>> start(const bus::Participant& participant,
+  static Expected<std::unique_ptr<TelemetrySubscriber>> start(const bus::Participant& participant,
                                                           BoundedQueue<SampleBatch>& queue);
 
-  ~PulseSubscriber();
-  PulseSubscriber(const PulseSubscriber&) = delete;
-  PulseSubscriber& operator=(const PulseSubscriber&) = delete;
-  PulseSubscriber(PulseSubscriber&&) = delete;
-  PulseSubscriber& operator=(PulseSubscriber&&) = delete;
+  ~TelemetrySubscriber();
+  TelemetrySubscriber(const TelemetrySubscriber&) = delete;
+  TelemetrySubscriber& operator=(const TelemetrySubscriber&) = delete;
+  TelemetrySubscriber(TelemetrySubscriber&&) = delete;
+  TelemetrySubscriber& operator=(TelemetrySubscriber&&) = delete;
 
   /// Ends taking: what was taken is in the queue when this returns. Until then somebody must go on
   /// emptying the queue; close it afterwards. Once is enough, from the thread that owns this.
   void stop();
 
   /// From any thread. @return Unavailable when Cyclone refuses.
-  Expected<PulseSubscriberStatus> status() const;
+  Expected<TelemetrySubscriberStatus> status() const;
 
  private:
-  PulseSubscriber(bus::Reader<spindrift_Pulse> reader, bus::WaitSet waitset,
-                  BoundedQueue<SampleBatch>& queue);
+  /// One for each topic; what is done with a sample follows from its type (from_idl).
+  using Readers = std::tuple<bus::Reader<spindrift_Pulse>, bus::Reader<spindrift_CodedFrame>>;
+
+  TelemetrySubscriber(Readers readers, bus::WaitSet waitset, BoundedQueue<SampleBatch>& queue);
 
   void run();
   Expected<void> take_until_stopped();
   Expected<void> take_what_is_left();
+  Expected<bool> hand_over_batches();
+  template <std::size_t topic>
   Expected<bool> hand_over_batch();
+  template <std::size_t topic>
   Expected<SampleBatch> take_batch();
 
-  bus::Reader<spindrift_Pulse> reader_;
+  Readers readers_;
   bus::WaitSet waitset_;
   BoundedQueue<SampleBatch>& queue_;
 
