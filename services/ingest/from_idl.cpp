@@ -81,14 +81,14 @@ Expected<PulseSample> from_idl(const spindrift_Pulse& pulse) {
 }
 
 Expected<CodedSample> from_idl(const spindrift_CodedFrame& frame) {
-  CodedSample sample{.spacecraft = frame.spacecraft,
-                     .origin = origin_from_idl(frame),
-                     .frame = {.t = tai_from_ns(frame.t_tai_ns),
-                               .period_s = received(frame.period_s),
-                               .delay_s = {std::nullopt, received(frame.sun2_s),
-                                           received(frame.north_in_s), received(frame.north_out_s),
-                                           received(frame.south_in_s),
-                                           received(frame.south_out_s)}}};
+  CodedSample sample{
+      .spacecraft = frame.spacecraft,
+      .origin = origin_from_idl(frame),
+      .frame = {.t = tai_from_ns(frame.t_tai_ns),
+                .period_s = received(frame.period_s),
+                .delay_s = {std::nullopt, received(frame.sun2_s), received(frame.north_in_s),
+                            received(frame.north_out_s), received(frame.south_in_s),
+                            received(frame.south_out_s)}}};
   auto reason = why_common_fields_impossible(frame);
   if (reason.empty()) {
     reason = why_impossible(sample.frame);

@@ -36,8 +36,7 @@ std::map<std::string, SequenceCounts> SequenceTracker::take_changed() {
 }
 
 SequenceTracker::Place SequenceTracker::place_of(const Origin& origin,
-                                                 const std::string& spacecraft,
-                                                 std::size_t topic) {
+                                                 const std::string& spacecraft, std::size_t topic) {
   Session& session = session_of(origin, topic);
   return {.source = origin.source,
           .session_number = origin.session,

@@ -85,9 +85,9 @@ Expected<TelemetrySubscriberStatus> TelemetrySubscriber::status() const {
   }
   const std::lock_guard lock{mutex_};
   return TelemetrySubscriberStatus{.by_source = tracker_.by_source(),
-                               .reader = std::move(*reader),
-                               .taking = taking_,
-                               .failure = failure_};
+                                   .reader = std::move(*reader),
+                                   .taking = taking_,
+                                   .failure = failure_};
 }
 
 void TelemetrySubscriber::run() {

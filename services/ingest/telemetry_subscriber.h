@@ -21,17 +21,17 @@ namespace spindrift {
 struct TelemetrySubscriberStatus {
   std::map<std::string, SequenceCounts> by_source;
   bus::ReaderStatus reader;  ///< Of all topics together.
-  bool taking;  ///< False: the thread ended, stopped or failed (see `failure`).
+  bool taking;               ///< False: the thread ended, stopped or failed (see `failure`).
   std::string failure;
 };
 
-/// Takes from spindrift/pulse and spindrift/coded_frame for as long as it lives. When the queue is full it waits, the reader
-/// fills up, and the writers feel the pressure: nothing is dropped.
+/// Takes from spindrift/pulse and spindrift/coded_frame for as long as it lives. When the queue is
+/// full it waits, the reader fills up, and the writers feel the pressure: nothing is dropped.
 class TelemetrySubscriber {
  public:
   /// `participant` and `queue` outlive it. @return Unavailable when Cyclone refuses.
   static Expected<std::unique_ptr<TelemetrySubscriber>> start(const bus::Participant& participant,
-                                                          BoundedQueue<SampleBatch>& queue);
+                                                              BoundedQueue<SampleBatch>& queue);
 
   ~TelemetrySubscriber();
   TelemetrySubscriber(const TelemetrySubscriber&) = delete;

@@ -26,9 +26,8 @@ std::uint64_t random_session() {
 }
 
 template <class Value, class Sample, class OnBus>
-Expected<TelemetryPublisher<Value, Sample, OnBus>>
-TelemetryPublisher<Value, Sample, OnBus>::create(const bus::Participant& participant,
-                                                 std::string source, std::uint64_t session) {
+Expected<TelemetryPublisher<Value, Sample, OnBus>> TelemetryPublisher<Value, Sample, OnBus>::create(
+    const bus::Participant& participant, std::string source, std::uint64_t session) {
   return bus::Writer<OnBus>::create(participant, topic_of<OnBus>(), bus::telemetry_writer_qos())
       .map([&](bus::Writer<OnBus>&& writer) {
         return TelemetryPublisher{std::move(writer),

@@ -55,8 +55,7 @@ Expected<void> process(const ProcessOptions& options) {
   if (!processor) {
     return Unexpected{processor.error()};
   }
-  auto telemetry =
-      TelemetryInput::open(options.telemetry, mission->spacecraft_id, options.strict);
+  auto telemetry = TelemetryInput::open(options.telemetry, mission->spacecraft_id, options.strict);
   if (!telemetry) {
     return Unexpected{telemetry.error()};
   }

@@ -73,9 +73,8 @@ Expected<TelemetryRow<Value>> TelemetryRows<Value>::row_from(const CsvLine& line
     return refused(fmt::format("row {}: has {} columns, must have {} as the header",
                                quoted(line.text), fields.count(), layout_.columns));
   }
-  TelemetryRow<Value> row{.value = {},
-                          .line = static_cast<std::uint64_t>(line.number) & kLineBits,
-                          .spacecraft = 0};
+  TelemetryRow<Value> row{
+      .value = {}, .line = static_cast<std::uint64_t>(line.number) & kLineBits, .spacecraft = 0};
   if (layout_.spacecraft_column) {
     const auto spacecraft = spacecraft_from(fields.remove(*layout_.spacecraft_column));
     if (!spacecraft) {
@@ -92,8 +91,7 @@ Expected<std::uint16_t> TelemetryRows<Value>::spacecraft_from(std::string_view f
     return last_spacecraft_;
   }
   if (!is_spacecraft_id(field)) {
-    return refused(
-        fmt::format("spacecraft = {}: must be {}", quoted(field), kSpacecraftIdAllowed));
+    return refused(fmt::format("spacecraft = {}: must be {}", quoted(field), kSpacecraftIdAllowed));
   }
   const auto known = spacecraft_places_.find(std::string{field});
   if (known != spacecraft_places_.end()) {

@@ -171,11 +171,10 @@ Expected<bool> TelemetryStream::find_heads(SampleBatch& batch) {
 }
 
 std::uint64_t TelemetryStream::bytes_read() const {
-  return std::accumulate(files_.begin(), files_.end(), std::uint64_t{0},
-                         [](std::uint64_t sum, const File& file) {
-                           return sum + std::visit([](const auto& rows) { return rows.bytes_read(); },
-                                                   file);
-                         });
+  return std::accumulate(
+      files_.begin(), files_.end(), std::uint64_t{0}, [](std::uint64_t sum, const File& file) {
+        return sum + std::visit([](const auto& rows) { return rows.bytes_read(); }, file);
+      });
 }
 
 }  // namespace spindrift

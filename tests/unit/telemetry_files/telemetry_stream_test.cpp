@@ -1,4 +1,4 @@
-#include "services/telemetry_files/pulse_file.h"
+#include "services/telemetry_files/telemetry_stream.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <optional>
 #include <random>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,16 +22,45 @@ using ::testing::HasSubstr;
 
 constexpr std::int64_t kT0_tai_ns = 1795143637568806257;
 
-PulseTelemetry read(const std::vector<std::filesystem::path>& paths) {
+/// Everything that a stream gives, in its order; no batch is larger than it may be.
+struct Telemetry {
+  std::vector<PulseSample> samples;
+  std::vector<CodedSample> coded;
+  std::vector<RejectedInput> rejected;
+  std::vector<TaiTime> times;  ///< Of samples of both kinds.
+};
+
+Telemetry read(const std::vector<std::filesystem::path>& paths,
+               std::size_t buffer_bytes = TelemetryStream::kBufferBytes) {
   const auto files = scan_telemetry(paths);
   EXPECT_TRUE(files) << files.error().message;
-  auto pulses = read_pulses(*files, "SPINNER");
-  EXPECT_TRUE(pulses) << pulses.error().message;
-  return *std::move(pulses);
+  auto stream = TelemetryStream::open(*files, "SPINNER", buffer_bytes);
+  EXPECT_TRUE(stream) << stream.error().message;
+  Telemetry all;
+  while (true) {
+    const auto batch = stream->next();
+    EXPECT_TRUE(batch) << batch.error().message;
+    EXPECT_TRUE(batch->pulses.empty() || batch->coded.empty());
+    EXPECT_LE(batch->pulses.size() + batch->coded.size(), TelemetryStream::kBatch);
+    EXPECT_LE(batch->rejected.size(), TelemetryStream::kBatch);
+    if (batch->pulses.empty() && batch->coded.empty() && batch->rejected.empty()) {
+      EXPECT_EQ(stream->bytes_read(), stream->bytes_total());
+      return all;
+    }
+    for (const PulseSample& sample : batch->pulses) {
+      all.samples.push_back(sample);
+      all.times.push_back(sample.pulse.t);
+    }
+    for (const CodedSample& sample : batch->coded) {
+      all.coded.push_back(sample);
+      all.times.push_back(sample.frame.t);
+    }
+    all.rejected.insert(all.rejected.end(), batch->rejected.begin(), batch->rejected.end());
+  }
 }
 
 /// A pulse file with this row between two good ones.
-PulseTelemetry read_row(std::string_view row) {
+Telemetry read_row(std::string_view row) {
   const TemporaryFolder folder;
   std::string text = "t_tai_ns,channel\n1795143637568806257,sun1\n";
   text.append(row).append("\n1795143637648746313,sun2\n");
@@ -194,30 +225,30 @@ TEST(PulseFile, RejectsALastRowCutInHalf) {
 TEST(PulseFile, OfAnotherKindIsRefused) {
   const TemporaryFolder folder;
   const auto path = folder.write("star.csv", "t_tai_ns,qx,qy,qz,qw\n");
-  const auto file = PulseFile::open(path, "SPINNER");
+  const auto file = TelemetryRows<Pulse>::open(path, "SPINNER");
   ASSERT_FALSE(file);
   EXPECT_EQ(file.error().code, ErrorCode::InvalidConfiguration);
   EXPECT_EQ(file.error().message, path.string() + ": holds star telemetry, must hold pulses");
 }
 
-TEST(PulseFile, ThatHasGoneIsAnError) {
+TEST(TelemetryStream, OfAFileThatHasGoneIsAnError) {
   const TemporaryFolder folder;
   const std::vector<TelemetryFile> files = {
       {.path = folder.path() / "gone.csv", .kind = TelemetryKind::Pulses}};
-  const auto pulses = read_pulses(files, "SPINNER");
+  const auto pulses = TelemetryStream::open(files, "SPINNER");
   ASSERT_FALSE(pulses);
   EXPECT_THAT(pulses.error().message, HasSubstr("gone.csv: cannot be read: No such file"));
 }
 
-TEST(PulseFile, ThatFailsWhileReadingIsAnError) {
+TEST(TelemetryStream, OfAFileThatFailsWhileReadingIsAnError) {
   // A regular file that opens; nothing is mapped at address 0, where reading begins.
-  const auto file = PulseFile::open("/proc/self/mem", "SPINNER");
+  const auto file = TelemetryRows<Pulse>::open("/proc/self/mem", "SPINNER");
   ASSERT_FALSE(file);
   EXPECT_EQ(file.error().code, ErrorCode::Unavailable);
   EXPECT_THAT(file.error().message, HasSubstr("/proc/self/mem: reading failed"));
 }
 
-TEST(ReadPulses, PassesOtherKindsOver) {
+TEST(TelemetryStream, PassesOtherKindsOver) {
   const TemporaryFolder folder;
   folder.write("pulses.csv", "t_tai_ns,channel\n1795143637568806257,sun1\n");
   folder.write("star.csv", "t_tai_ns,qx,qy,qz,qw\nrubbish\n");
@@ -226,7 +257,7 @@ TEST(ReadPulses, PassesOtherKindsOver) {
   EXPECT_TRUE(pulses.rejected.empty());
 }
 
-TEST(ReadPulses, SortsByTimeThenChannelAndKeepsDuplicates) {
+TEST(TelemetryStream, SortsByTimeThenChannelAndKeepsDuplicates) {
   const TemporaryFolder folder;
   const auto a = folder.write("a.csv",
                               "t_tai_ns,channel\n"
@@ -247,7 +278,7 @@ TEST(ReadPulses, SortsByTimeThenChannelAndKeepsDuplicates) {
                                            "1 sun2 a.csv", "2 sun1 a.csv"));
 }
 
-TEST(ReadPulses, GivesTheSamePulsesWhateverTheOrderOfTheRowsAndFiles) {
+TEST(TelemetryStream, GivesTheSamePulsesWhateverTheOrderOfTheRowsAndFiles) {
   const std::filesystem::path nominal =
       std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin" / "nominal" / "pulses.csv";
   const auto expected = read({nominal});
@@ -278,7 +309,7 @@ TEST(ReadPulses, GivesTheSamePulsesWhateverTheOrderOfTheRowsAndFiles) {
   }
 }
 
-TEST(ReadPulses, AccountsForEveryRowOfRandomBytes) {
+TEST(TelemetryStream, AccountsForEveryRowOfRandomBytes) {
   std::mt19937 random{7};
   constexpr std::string_view kAlphabet = "0123456789,sunorth_i\r\"-+.e \x80";
   for (int trial = 0; trial < 200; ++trial) {
@@ -294,6 +325,233 @@ TEST(ReadPulses, AccountsForEveryRowOfRandomBytes) {
     const auto pulses = read({folder.write("a.csv", text)});
     EXPECT_EQ(pulses.samples.size() + pulses.rejected.size(), 20U);
   }
+}
+
+constexpr std::string_view kCodedHeader =
+    "t_tai_ns,period_s,sun2_s,north_in_s,north_out_s,south_in_s,south_out_s\n";
+
+Telemetry read_coded_row(std::string_view row) {
+  const TemporaryFolder folder;
+  return read({folder.write("coded.csv", std::string{kCodedHeader}.append(row).append("\n"))});
+}
+
+TEST(CodedFile, GivesFramesWithTheirOrigin) {
+  const auto telemetry =
+      read_coded_row("1795143637568985513,1.00007,0.07932,0.4545,,0.45928,0.60985");
+  EXPECT_TRUE(telemetry.rejected.empty());
+  ASSERT_EQ(telemetry.coded.size(), 1U);
+  const CodedSample& sample = telemetry.coded[0];
+  EXPECT_EQ(sample.spacecraft, "SPINNER");
+  EXPECT_EQ(sample.origin.source, "coded.csv");
+  EXPECT_EQ(sample.origin.session, 0U);
+  EXPECT_EQ(sample.origin.seq, 2U);
+  EXPECT_EQ(tai_ns(sample.frame.t), 1795143637568985513);
+  EXPECT_EQ(sample.frame.period_s, 1.00007);
+  EXPECT_THAT(sample.frame.delay_s, ::testing::ElementsAre(std::nullopt, 0.07932, 0.4545,
+                                                           std::nullopt, 0.45928, 0.60985));
+}
+
+TEST(CodedFile, MayLackAnythingButItsTime) {
+  const auto telemetry = read_coded_row("1795143637568985513,,,,,,");
+  EXPECT_TRUE(telemetry.rejected.empty());
+  ASSERT_EQ(telemetry.coded.size(), 1U);
+  EXPECT_EQ(telemetry.coded[0].frame.period_s, std::nullopt);
+  EXPECT_THAT(telemetry.coded[0].frame.delay_s, ::testing::Each(std::nullopt));
+}
+
+TEST(CodedFile, RejectsABadRowWithItsReason) {
+  const std::vector<BadRow> rows = {
+      {"1795143637568985513,1.0,0.07932,0.45450,0.60319,0.45928", "has 6 columns, must have 7"},
+      {"1795143637568985513,1.0,0.07932,0.4", "has 4 columns, must have 7"},
+      {"1795143637568985513,1,0,0,0,0,0,0", "has 8 columns, must have 7"},
+      {"1795143637568985513,1,0,0,0,0,0,0,0,0,0", "has 11 columns, must have 7"},
+      {"-8520336000000000000,1,0,0,0,0,0", "t_tai_ns = \"-8520336000000000000\": must lie in"},
+      {"now,1,0,0,0,0,0", "t_tai_ns = \"now\": must be an integer"},
+      {"1795143637568985513,nan,0,0,0,0,0", "period_s = \"nan\": must be a number, or empty"},
+      {"1795143637568985513,1,NaN,0,0,0,0", "sun2_s = \"NaN\": must be a number, or empty"},
+      {"1795143637568985513,inf,0,0,0,0,0", "period_s = \"inf\": must be a number"},
+      {"1795143637568985513,1,0,0,0,0,-infinity", "south_out_s = \"-infinity\": must be a number"},
+      {"1795143637568985513,1,0,1e999,0,0,0", "north_in_s = \"1e999\": must be a number"},
+      {"1795143637568985513,1,0,0.1s,0,0,0", "north_in_s = \"0.1s\": must be a number"},
+      {"1795143637568985513,1,0, 0.1,0,0,0", "north_in_s = \" 0.1\": must be a number"},
+      {"1795143637568985513,0,,,,,", "period_s = 0: must be above 0, at most 60 s"},
+      {"1795143637568985513,-1,,,,,", "period_s = -1: must be above 0"},
+      {"1795143637568985513,60.001,,,,,", "period_s = 60.001: must be above 0, at most 60 s"},
+      {"1795143637568985513,1,-0.001,,,,", "sun2_s = -0.001: must be 0 to the period, 1 s"},
+      {"1795143637568985513,0.5,,0.51,,,", "north_in_s = 0.51: must be 0 to the period, 0.5 s"},
+      {"1795143637568985513,,,,61,,", "north_out_s = 61: must be 0 to 60 s"},
+  };
+  for (const BadRow& bad : rows) {
+    SCOPED_TRACE(bad.row);
+    const auto telemetry = read_coded_row(bad.row);
+    EXPECT_TRUE(telemetry.coded.empty());
+    ASSERT_EQ(telemetry.rejected.size(), 1U);
+    EXPECT_EQ(telemetry.rejected[0].line, 2);
+    EXPECT_THAT(telemetry.rejected[0].reason, HasSubstr(bad.reason));
+  }
+}
+
+TEST(CodedFile, TakesTheEndsOfWhatItAllows) {
+  for (const char* row : {"1795143637568985513,60,0,60,,,", "1795143637568985513,1,1,1.009,,,",
+                          "1795143637568985513,1e-3,0,0,0,0,0", "1795143637568985513,,60,,,,"}) {
+    EXPECT_EQ(read_coded_row(row).coded.size(), 1U) << row;
+  }
+}
+
+TEST(CodedFile, RejectsARowCutAnywhereThatLosesAColumn) {
+  const std::string row = "1795143637568985513,1.00007,0.07932,0.45450,0.60319,0.45928,0.60985";
+  for (std::size_t length = 1; length <= row.rfind(','); ++length) {
+    const auto telemetry = read_coded_row(row.substr(0, length));
+    EXPECT_TRUE(telemetry.coded.empty()) << length;
+    EXPECT_EQ(telemetry.rejected.size(), 1U) << length;
+  }
+}
+
+TEST(TelemetryStream, MergesPulsesAndFramesByTimeAndHandsOverOneKindAtATime) {
+  const TemporaryFolder folder;
+  const auto coded = folder.write("coded.csv", std::string{kCodedHeader} +
+                                                   "1795143637000000003,1,,,,,\n"
+                                                   "1795143637000000001,1,,,,,\n");
+  const auto pulses = folder.write("pulses.csv",
+                                   "t_tai_ns,channel\n"
+                                   "1795143637000000004,sun1\n"
+                                   "1795143637000000001,south_out\n"
+                                   "1795143637000000002,sun1\n");
+  const auto files = scan_telemetry({{coded, pulses}});
+  auto stream = TelemetryStream::open(*files, "SPINNER").value();
+  std::vector<std::string> order;
+  for (auto batch = stream.next().value(); batch.pulses.size() + batch.coded.size() > 0;
+       batch = stream.next().value()) {
+    for (const PulseSample& sample : batch.pulses) {
+      order.push_back("pulse " + std::to_string(tai_ns(sample.pulse.t) % 10));
+    }
+    for (const CodedSample& sample : batch.coded) {
+      order.push_back("coded " + std::to_string(tai_ns(sample.frame.t) % 10));
+    }
+  }
+  EXPECT_THAT(order, ::testing::ElementsAre("pulse 1", "coded 1", "pulse 2", "coded 3", "pulse 4"));
+}
+
+/// `count` rows a microsecond apart, moved about within blocks of `block` rows.
+std::string disordered_rows(std::size_t count, std::size_t block) {
+  std::vector<std::int64_t> times(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    times[i] = kT0_tai_ns + static_cast<std::int64_t>(i) * 1000;
+  }
+  std::mt19937 random{20261121};
+  for (std::size_t from = 0; from < count; from += block) {
+    std::shuffle(times.begin() + static_cast<std::ptrdiff_t>(from),
+                 times.begin() + static_cast<std::ptrdiff_t>(std::min(from + block, count)),
+                 random);
+  }
+  std::string text = "t_tai_ns,channel\n";
+  for (const std::int64_t t_tai_ns : times) {
+    text += std::to_string(t_tai_ns) + ",sun1\n";
+  }
+  return text;
+}
+
+constexpr std::size_t kRow = sizeof(TelemetryRow<Pulse>);
+
+TEST(TelemetryStream, SortsCompletelyWhatItsBufferHolds) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("a.csv", disordered_rows(20'000, 20'000));
+  const auto telemetry = read({path}, 20'001 * kRow);
+  EXPECT_EQ(telemetry.samples.size(), 20'000U);
+  EXPECT_TRUE(std::is_sorted(telemetry.times.begin(), telemetry.times.end()));
+}
+
+TEST(TelemetryStream, SortsALongerFileWhoseRowsAreNearTheirPlace) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("a.csv", disordered_rows(50'000, 500));
+  const auto telemetry = read({path}, 1000 * kRow);
+  EXPECT_EQ(telemetry.samples.size(), 50'000U);
+  EXPECT_TRUE(std::is_sorted(telemetry.times.begin(), telemetry.times.end()));
+}
+
+TEST(TelemetryStream, PassesOnARowThatComesTooLateForItsPlace) {
+  const TemporaryFolder folder;
+  const auto path = folder.write(
+      "a.csv", disordered_rows(50'000, 1) + std::to_string(kT0_tai_ns - 1) + ",sun2\n");
+  const auto telemetry = read({path}, 1000 * kRow);
+  ASSERT_EQ(telemetry.samples.size(), 50'001U);
+  EXPECT_NE(telemetry.samples.front().pulse.channel, PulseChannel::Sun2);
+  std::vector<TaiTime> others;
+  for (const PulseSample& sample : telemetry.samples) {
+    if (sample.pulse.channel == PulseChannel::Sun1) {
+      others.push_back(sample.pulse.t);
+    }
+  }
+  EXPECT_EQ(others.size(), 50'000U);
+  EXPECT_TRUE(std::is_sorted(others.begin(), others.end()));
+}
+
+TEST(TelemetryStream, MergesManyFilesThatShareASmallBuffer) {
+  // Every row in one of ten files; the buffer holds a tenth of them all.
+  std::istringstream rows{disordered_rows(50'000, 20)};
+  std::vector<std::string> texts(10, "t_tai_ns,channel\n");
+  std::string row;
+  std::getline(rows, row);
+  for (std::size_t i = 0; std::getline(rows, row); ++i) {
+    texts[i % 10] += row + "\n";
+  }
+  const TemporaryFolder folder;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    folder.write(std::to_string(i) + ".csv", texts[i]);
+  }
+  const auto telemetry = read({folder.path()}, 5000 * kRow);
+  EXPECT_EQ(telemetry.samples.size(), 50'000U);
+  EXPECT_TRUE(std::is_sorted(telemetry.times.begin(), telemetry.times.end()));
+}
+
+TEST(TelemetryStream, NeverGathersRejectedRows) {
+  std::string text = "t_tai_ns,channel\n";
+  for (int i = 0; i < 10'000; ++i) {
+    text += "soon,sun1\n";
+  }
+  text += "1795143637568806257,sun1\n";
+  const TemporaryFolder folder;
+  const auto telemetry = read({folder.write("a.csv", text)});
+  EXPECT_EQ(telemetry.rejected.size(), 10'000U);
+  EXPECT_EQ(telemetry.samples.size(), 1U);
+}
+
+TEST(TelemetryStream, KeepsTheSpacecraftOfEveryRow) {
+  std::string text = "spacecraft,t_tai_ns,channel\n";
+  for (int i = 0; i < 1000; ++i) {
+    text += "SC-" + std::to_string(i % 7) + "," + std::to_string(kT0_tai_ns - i) + ",sun1\n";
+  }
+  const TemporaryFolder folder;
+  const auto telemetry = read({folder.write("a.csv", text)});
+  ASSERT_EQ(telemetry.samples.size(), 1000U);
+  for (const PulseSample& sample : telemetry.samples) {
+    EXPECT_EQ(sample.spacecraft, "SC-" + std::to_string((kT0_tai_ns - tai_ns(sample.pulse.t)) % 7));
+  }
+}
+
+TEST(TelemetryStream, ReadsLinesThatCrossItsReads) {
+  // Reads are of a power of two bytes; the rows are 26.
+  constexpr std::size_t kRows = 50'000;
+  const TemporaryFolder folder;
+  const auto telemetry = read({folder.write("a.csv", disordered_rows(kRows, 1))});
+  EXPECT_TRUE(telemetry.rejected.empty());
+  ASSERT_EQ(telemetry.samples.size(), kRows);
+  for (std::size_t i = 0; i < kRows; ++i) {
+    ASSERT_EQ(tai_ns(telemetry.samples[i].pulse.t),
+              kT0_tai_ns + static_cast<std::int64_t>(i) * 1000);
+    ASSERT_EQ(telemetry.samples[i].origin.seq, i + 2);
+  }
+}
+
+TEST(TelemetryStream, GoesOnBehindALineLongerThanItsReads) {
+  const TemporaryFolder folder;
+  const auto telemetry =
+      read({folder.write("a.csv", "t_tai_ns,channel\n" + std::string(1'000'000, '7') +
+                                      "\n1795143637568806257,sun1\n")});
+  ASSERT_EQ(telemetry.rejected.size(), 1U);
+  EXPECT_THAT(telemetry.rejected[0].reason, HasSubstr("too long for telemetry"));
+  ASSERT_EQ(telemetry.samples.size(), 1U);
+  EXPECT_EQ(telemetry.samples[0].origin.seq, 3U);
 }
 
 }  // namespace
