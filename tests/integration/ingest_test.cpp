@@ -73,6 +73,7 @@ class Station {
     for (auto batches = queue_.take_all(); !batches.empty(); batches = queue_.take_all()) {
       for (SampleBatch& batch : batches) {
         std::move(batch.pulses.begin(), batch.pulses.end(), std::back_inserter(arrived_.pulses));
+        std::move(batch.coded.begin(), batch.coded.end(), std::back_inserter(arrived_.coded));
         std::move(batch.rejected.begin(), batch.rejected.end(),
                   std::back_inserter(arrived_.rejected));
       }
@@ -166,6 +167,113 @@ TEST(FromIdl, TakesTheFirstAndLastTimeOfTelemetry) {
     pulse.t_tai_ns = t_tai_ns;
     EXPECT_EQ(tai_ns(from_idl(pulse).value().pulse.t), t_tai_ns);
   }
+}
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+spindrift_CodedFrame idl_frame(std::uint64_t seq) {
+  return {.spacecraft = "SPINNER",
+          .source = "front-end",
+          .session = 1,
+          .seq = seq,
+          .t_tai_ns = kTestTime_tai_ns + static_cast<std::int64_t>(seq) * 1'000'000'000,
+          .period_s = 1.0,
+          .sun2_s = 0.125,
+          .north_in_s = 0.25,
+          .north_out_s = 0.375,
+          .south_in_s = 0.5,
+          .south_out_s = 0.625};
+}
+
+TEST(FromIdl, KeepsEveryFieldOfACodedFrame) {
+  const CodedSample sample = from_idl(idl_frame(41)).value();
+  EXPECT_EQ(sample.spacecraft, "SPINNER");
+  EXPECT_EQ(sample.origin.source, "front-end");
+  EXPECT_EQ(sample.origin.session, 1U);
+  EXPECT_EQ(sample.origin.seq, 41U);
+  EXPECT_EQ(tai_ns(sample.frame.t), kTestTime_tai_ns + 41'000'000'000);
+  EXPECT_EQ(sample.frame.period_s, 1.0);
+  EXPECT_THAT(sample.frame.delay_s, ElementsAre(std::nullopt, 0.125, 0.25, 0.375, 0.5, 0.625));
+}
+
+TEST(FromIdl, TakesNanForNotReceived) {
+  spindrift_CodedFrame frame = idl_frame(0);
+  frame.period_s = frame.sun2_s = frame.north_in_s = kNan;
+  frame.north_out_s = frame.south_in_s = frame.south_out_s = kNan;
+  const CodedSample sample = from_idl(frame).value();
+  EXPECT_EQ(sample.frame.period_s, std::nullopt);
+  EXPECT_THAT(sample.frame.delay_s, ::testing::Each(std::nullopt));
+}
+
+struct ImpossibleFrame {
+  std::function<void(spindrift_CodedFrame&)> spoil;
+  const char* reason;
+};
+
+TEST(FromIdl, RefusesACodedFrameThatCannotBeTrueWithItsReason) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::vector<ImpossibleFrame> cases = {
+      {[](auto& frame) { frame.spacecraft[0] = ' '; }, "spacecraft = \" PINNER\": must be"},
+      {[](auto& frame) { frame.t_tai_ns = -1; }, "t_tai_ns = -1: must lie in the years"},
+      {[](auto& frame) { frame.period_s = 0.0; }, "period_s = 0: must be above 0, at most 60 s"},
+      {[](auto& frame) { frame.period_s = kInfinity; }, "period_s = inf: must be above 0"},
+      {[](auto& frame) { frame.sun2_s = -kInfinity; }, "sun2_s = -inf: must be 0 to the period"},
+      {[](auto& frame) { frame.south_out_s = 1.5; },
+       "south_out_s = 1.5: must be 0 to the period, 1 s"}};
+  for (const ImpossibleFrame& impossible : cases) {
+    SCOPED_TRACE(impossible.reason);
+    spindrift_CodedFrame frame = idl_frame(0);
+    impossible.spoil(frame);
+    const auto refused = from_idl(frame);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
+    EXPECT_THAT(refused.error().message, HasSubstr(impossible.reason));
+  }
+}
+
+TEST(TelemetrySubscriber, TakesCodedFramesBesidePulsesAndCountsBothOfASource) {
+  Station station{bus_of_its_own()};
+  const auto session = random_session();
+  auto pulses = PulsePublisher::create(station.participant(), "antenna", session).value();
+  auto frames = CodedPublisher::create(station.participant(), "antenna", session).value();
+  const std::stop_token never;
+  constexpr int kCount = 1000;
+  for (int i = 0; i < kCount; ++i) {
+    const TaiTime t = tai_from_ns(kTestTime_tai_ns + i);
+    ASSERT_TRUE(pulses.publish("SPINNER", {.t = t, .channel = PulseChannel::Sun1}, never));
+    ASSERT_TRUE(frames.publish("SPINNER",
+                               {.t = t, .period_s = 0.5, .delay_s = {std::nullopt, 0.25}}, never));
+  }
+  ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received == 2 * kCount; }));
+  // Both topics count from 0 in one session: neither gaps nor duplicates.
+  EXPECT_EQ(station.counts_of("antenna"), (SequenceCounts{.received = 2 * kCount}));
+  const SampleBatch arrived = station.finish();
+  EXPECT_EQ(arrived.pulses.size(), kCount);
+  ASSERT_EQ(arrived.coded.size(), kCount);
+  EXPECT_EQ(arrived.coded.back().origin.session, session);
+  EXPECT_EQ(arrived.coded.back().origin.seq, kCount - 1);
+  EXPECT_EQ(tai_ns(arrived.coded.back().frame.t), kTestTime_tai_ns + kCount - 1);
+  EXPECT_EQ(arrived.coded.back().frame.period_s, 0.5);
+  EXPECT_THAT(
+      arrived.coded.back().frame.delay_s,
+      ElementsAre(std::nullopt, 0.25, std::nullopt, std::nullopt, std::nullopt, std::nullopt));
+}
+
+TEST(TelemetrySubscriber, PassesOnACodedFrameThatCannotBeTrueAsRejected) {
+  Station station{bus_of_its_own()};
+  const auto writer = Writer<spindrift_CodedFrame>::create(
+                          station.participant(), bus::kCodedFrameTopic, bus::telemetry_writer_qos())
+                          .value();
+  spindrift_CodedFrame impossible = idl_frame(7);
+  impossible.north_in_s = 2.0;
+  ASSERT_TRUE(writer.write(impossible));
+  ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 1; }));
+  const SampleBatch arrived = station.finish();
+  EXPECT_TRUE(arrived.coded.empty());
+  ASSERT_EQ(arrived.rejected.size(), 1U);
+  EXPECT_EQ(arrived.rejected[0].line, 7);
+  EXPECT_EQ(arrived.rejected[0].session, 1U);
+  EXPECT_THAT(arrived.rejected[0].reason, HasSubstr("north_in_s = 2"));
 }
 
 TEST(TelemetrySubscriber, QueuesWhatAPublisherSends) {
