@@ -5,6 +5,16 @@
 #include "services/bus/endpoints.h"
 
 namespace spindrift::bus {
+
+ReaderStatus& ReaderStatus::operator+=(const ReaderStatus& other) {
+  writers += other.writers;
+  lost += other.lost;
+  rejected += other.rejected;
+  incompatible_writers.insert(incompatible_writers.end(), other.incompatible_writers.begin(),
+                              other.incompatible_writers.end());
+  return *this;
+}
+
 Expected<UntypedReader> UntypedReader::create(const Participant& participant, const char* topic,
                                               const dds_topic_descriptor_t* type, const Qos& qos) {
   const auto created_topic =

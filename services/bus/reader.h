@@ -21,6 +21,9 @@ struct ReaderStatus {
   std::uint32_t lost;      ///< Samples that Cyclone knows it lost; it does not know of all.
   std::uint32_t rejected;  ///< Attempts that a full reader refused; the writer tries again.
   std::vector<std::string> incompatible_writers;  ///< In sight now; see endpoints.h.
+
+  /// Of several readers together.
+  ReaderStatus& operator+=(const ReaderStatus& other);
 };
 
 /// Everything about a reader that does not depend on the type of its samples.

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <utility>
 
+#include "services/ingest/coded_check.h"
 #include "services/ingest/spacecraft_id.h"
 #include "services/ingest/telemetry_time.h"
 
@@ -32,34 +35,43 @@ std::uint32_t channel_value(const spindrift_Pulse& pulse) {
   return value;
 }
 
-std::string why_impossible(const spindrift_Pulse& pulse, std::uint32_t channel) {
-  const std::string_view source{pulse.source};
-  if (!is_spacecraft_id(pulse.spacecraft)) {
-    return fmt::format("spacecraft = \"{}\": must be {}", printable(pulse.spacecraft),
+/// What every telemetry sample has.
+template <class Sample>
+std::string why_common_fields_impossible(const Sample& sample) {
+  const std::string_view source{sample.source};
+  if (!is_spacecraft_id(sample.spacecraft)) {
+    return fmt::format("spacecraft = \"{}\": must be {}", printable(sample.spacecraft),
                        kSpacecraftIdAllowed);
   }
   if (!std::all_of(source.begin(), source.end(), is_printable)) {
     return fmt::format("source = \"{}\": must be printable ASCII", printable(source));
   }
-  if (!is_telemetry_time(tai_from_ns(pulse.t_tai_ns))) {
+  if (!is_telemetry_time(tai_from_ns(sample.t_tai_ns))) {
     return fmt::format("t_tai_ns = {}: must lie in the years 1972 to 2099, [{}, {}) ns",
-                       pulse.t_tai_ns, tai_ns(kEarliestTelemetry), tai_ns(kLatestTelemetry));
-  }
-  if (channel >= kPulseChannels) {
-    return fmt::format("channel = {}: must be 0 to {}", channel, kPulseChannels - 1);
+                       sample.t_tai_ns, tai_ns(kEarliestTelemetry), tai_ns(kLatestTelemetry));
   }
   return {};
 }
 
-}  // namespace
-
-Origin origin_from_idl(const spindrift_Pulse& pulse) {
-  return {.source = pulse.source, .session = pulse.session, .seq = pulse.seq};
+std::string why_no_channel(std::uint32_t channel) {
+  return channel < kPulseChannels
+             ? std::string{}
+             : fmt::format("channel = {}: must be 0 to {}", channel, kPulseChannels - 1);
 }
+
+std::optional<double> received(double value) {
+  return std::isnan(value) ? std::nullopt : std::optional{value};
+}
+
+}  // namespace
 
 Expected<PulseSample> from_idl(const spindrift_Pulse& pulse) {
   const std::uint32_t channel = channel_value(pulse);
-  if (auto reason = why_impossible(pulse, channel); !reason.empty()) {
+  auto reason = why_common_fields_impossible(pulse);
+  if (reason.empty()) {
+    reason = why_no_channel(channel);
+  }
+  if (!reason.empty()) {
     return Unexpected{Error{ErrorCode::InvalidInput, std::move(reason)}};
   }
   return PulseSample{
@@ -68,11 +80,30 @@ Expected<PulseSample> from_idl(const spindrift_Pulse& pulse) {
       .pulse = {.t = tai_from_ns(pulse.t_tai_ns), .channel = static_cast<PulseChannel>(channel)}};
 }
 
-RejectedInput rejected_from_idl(const spindrift_Pulse& pulse, std::string reason) {
-  return {.source = printable(pulse.source),
-          .line = static_cast<std::int64_t>(pulse.seq),
+Expected<CodedSample> from_idl(const spindrift_CodedFrame& frame) {
+  CodedSample sample{
+      .spacecraft = frame.spacecraft,
+      .origin = origin_from_idl(frame),
+      .frame = {.t = tai_from_ns(frame.t_tai_ns),
+                .period_s = received(frame.period_s),
+                .delay_s = {std::nullopt, received(frame.sun2_s), received(frame.north_in_s),
+                            received(frame.north_out_s), received(frame.south_in_s),
+                            received(frame.south_out_s)}}};
+  auto reason = why_common_fields_impossible(frame);
+  if (reason.empty()) {
+    reason = why_impossible(sample.frame);
+  }
+  if (!reason.empty()) {
+    return Unexpected{Error{ErrorCode::InvalidInput, std::move(reason)}};
+  }
+  return sample;
+}
+
+RejectedInput rejected_from_idl(Origin origin, std::string reason) {
+  return {.source = printable(origin.source),
+          .line = static_cast<std::int64_t>(origin.seq),
           .reason = std::move(reason),
-          .session = pulse.session};
+          .session = origin.session};
 }
 
 }  // namespace spindrift

@@ -13,13 +13,20 @@
 
 namespace spindrift {
 
-Origin origin_from_idl(const spindrift_Pulse& pulse);
+/// Of any telemetry sample.
+template <class Sample>
+Origin origin_from_idl(const Sample& sample) {
+  return {.source = sample.source, .session = sample.session, .seq = sample.seq};
+}
 
 /// @return InvalidInput naming field, value and what is allowed, when the sample cannot be true:
 /// spacecraft or source no name, time outside telemetry_time.h, channel unknown.
 Expected<PulseSample> from_idl(const spindrift_Pulse& pulse);
 
-/// `pulse` as what is stored in its place.
-RejectedInput rejected_from_idl(const spindrift_Pulse& pulse, std::string reason);
+/// NaN becomes "not received". @return InvalidInput likewise; intervals: see coded_check.h.
+Expected<CodedSample> from_idl(const spindrift_CodedFrame& frame);
+
+/// What is stored in the place of a telemetry sample of `origin`.
+RejectedInput rejected_from_idl(Origin origin, std::string reason);
 
 }  // namespace spindrift

@@ -5,18 +5,46 @@
 
 namespace spindrift {
 
-Arrival SequenceTracker::record(const Origin& origin, const std::string& spacecraft) {
-  SequenceCounts& counts = counts_of(origin.source);
-  Session& session = session_of(origin);
-  session.last_active = ++clock_;
+Arrival SequenceTracker::record(const Origin& origin, const std::string& spacecraft,
+                                std::size_t topic) {
+  if (!last_.is_of(origin, spacecraft, topic)) {
+    last_ = place_of(origin, spacecraft, topic);
+    changed_.insert(last_.counts);
+  }
+  SequenceCounts& counts = last_.counts->second;
+  last_.session->last_active = ++clock_;
   ++counts.received;
-  const Arrival arrival = insert(session, origin.seq, counts);
+  const Arrival arrival = insert(*last_.session, origin.seq, counts);
   if (arrival == Arrival::Duplicate) {
     ++counts.duplicates;
-  } else if (is_overtaken(session, spacecraft, origin.seq)) {
+  } else if (origin.seq < *last_.highest) {
     ++counts.disordered;
+  } else {
+    *last_.highest = origin.seq;
   }
   return arrival;
+}
+
+std::map<std::string, SequenceCounts> SequenceTracker::take_changed() {
+  std::map<std::string, SequenceCounts> counts;
+  for (const SourceEntry* entry : changed_) {
+    counts.insert(*entry);
+  }
+  changed_.clear();
+  last_ = {};
+  return counts;
+}
+
+SequenceTracker::Place SequenceTracker::place_of(const Origin& origin,
+                                                 const std::string& spacecraft, std::size_t topic) {
+  Session& session = session_of(origin, topic);
+  return {.source = origin.source,
+          .session_number = origin.session,
+          .topic = topic,
+          .spacecraft = spacecraft,
+          .counts = &counts_of(origin.source),
+          .session = &session,
+          .highest = &highest_of(session, spacecraft, origin.seq)};
 }
 
 Arrival SequenceTracker::insert(Session& session, std::uint64_t seq, SequenceCounts& counts) {
@@ -27,6 +55,10 @@ Arrival SequenceTracker::insert(Session& session, std::uint64_t seq, SequenceCou
   }
   const auto last = std::prev(runs.end());
   if (seq > last->second) {
+    if (seq - last->second == 1) {
+      last->second = seq;
+      return Arrival::New;
+    }
     counts.missing += seq - last->second - 1;
     join_neighbours(session, runs.emplace(seq, seq).first);
     return Arrival::New;
@@ -66,20 +98,15 @@ void SequenceTracker::join_neighbours(Session& session,
   }
 }
 
-bool SequenceTracker::is_overtaken(Session& session, const std::string& spacecraft,
-                                   std::uint64_t seq) {
+std::uint64_t& SequenceTracker::highest_of(Session& session, const std::string& spacecraft,
+                                           std::uint64_t seq) {
   auto& highest = session.highest;
   const bool room = highest.size() < kMaxSpacecraft || highest.contains(spacecraft);
-  const auto [place, is_first] = highest.try_emplace(room ? spacecraft : std::string{}, seq);
-  if (!is_first && seq < place->second) {
-    return true;
-  }
-  place->second = seq;
-  return false;
+  return highest.try_emplace(room ? spacecraft : std::string{}, seq).first->second;
 }
 
-SequenceTracker::Session& SequenceTracker::session_of(const Origin& origin) {
-  const std::pair key{origin.source, origin.session};
+SequenceTracker::Session& SequenceTracker::session_of(const Origin& origin, std::size_t topic) {
+  const std::tuple key{origin.source, origin.session, topic};
   if (const auto known = sessions_.find(key); known != sessions_.end()) {
     return known->second;
   }
@@ -91,15 +118,9 @@ SequenceTracker::Session& SequenceTracker::session_of(const Origin& origin) {
   return sessions_[key];
 }
 
-const std::pair<const std::string, SequenceCounts>& SequenceTracker::entry_of(
-    const std::string& source) const {
-  const auto own = by_source_.find(source);
-  return own == by_source_.end() ? *by_source_.find(kOtherSources) : *own;
-}
-
-SequenceCounts& SequenceTracker::counts_of(const std::string& source) {
+SequenceTracker::SourceEntry& SequenceTracker::counts_of(const std::string& source) {
   const bool room = by_source_.size() < kMaxSources || by_source_.contains(source);
-  return by_source_[room ? source : kOtherSources];
+  return *by_source_.try_emplace(room ? source : kOtherSources).first;
 }
 
 }  // namespace spindrift

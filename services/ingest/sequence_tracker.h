@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "services/ingest/sample.h"
@@ -16,7 +18,8 @@ namespace spindrift {
 
 enum class Arrival { New, Duplicate };
 
-/// Of one topic. A late arrival fills its gap. What a session sent before the first sample seen of
+/// `seq` counts per source, session and topic; the counts of a source are those of all its topics
+/// together. A late arrival fills its gap. What a session sent before the first sample seen of
 /// it is no gap: it was there before we were.
 ///
 /// A source numbers the samples of all its spacecraft together, and a reader gives them spacecraft
@@ -35,12 +38,20 @@ class SequenceTracker {
   static constexpr std::size_t kMaxSpacecraft = 64;
   static constexpr const char* kOtherSources = "(other sources)";
 
-  Arrival record(const Origin& origin, const std::string& spacecraft);
+  SequenceTracker() = default;
+  ~SequenceTracker() = default;
+  SequenceTracker(const SequenceTracker&) = delete;
+  SequenceTracker& operator=(const SequenceTracker&) = delete;
+  SequenceTracker(SequenceTracker&&) = delete;
+  SequenceTracker& operator=(SequenceTracker&&) = delete;
+
+  /// @param topic  Any number that stands for the topic.
+  Arrival record(const Origin& origin, const std::string& spacecraft, std::size_t topic = 0);
 
   const std::map<std::string, SequenceCounts>& by_source() const { return by_source_; }
 
-  /// The entry of `by_source` that counts the samples of `source`, of which one was recorded.
-  const std::pair<const std::string, SequenceCounts>& entry_of(const std::string& source) const;
+  /// Those entries of `by_source` in which samples were recorded since this was last asked.
+  std::map<std::string, SequenceCounts> take_changed();
 
  private:
   /// What has arrived of one session: runs of consecutive seq, first to last, both included.
@@ -51,15 +62,37 @@ class SequenceTracker {
     std::uint64_t last_active = 0;
   };
 
+  using SourceEntry = std::pair<const std::string, SequenceCounts>;
+
+  /// Where the samples of one source, session, topic and spacecraft are recorded.
+  struct Place {
+    std::string source;
+    std::uint64_t session_number = 0;
+    std::size_t topic = 0;
+    std::string spacecraft;
+    SourceEntry* counts = nullptr;
+    Session* session = nullptr;
+    std::uint64_t* highest = nullptr;
+
+    bool is_of(const Origin& origin, const std::string& of_spacecraft, std::size_t of_topic) const {
+      return session != nullptr && session_number == origin.session && topic == of_topic &&
+             source == origin.source && spacecraft == of_spacecraft;
+    }
+  };
+
+  Place place_of(const Origin& origin, const std::string& spacecraft, std::size_t topic);
   static Arrival insert(Session& session, std::uint64_t seq, SequenceCounts& counts);
   static void join_neighbours(Session& session,
                               std::map<std::uint64_t, std::uint64_t>::iterator run);
-  static bool is_overtaken(Session& session, const std::string& spacecraft, std::uint64_t seq);
-  Session& session_of(const Origin& origin);
-  SequenceCounts& counts_of(const std::string& source);
+  static std::uint64_t& highest_of(Session& session, const std::string& spacecraft,
+                                   std::uint64_t seq);
+  Session& session_of(const Origin& origin, std::size_t topic);
+  SourceEntry& counts_of(const std::string& source);
 
-  std::map<std::pair<std::string, std::uint64_t>, Session> sessions_;
+  std::map<std::tuple<std::string, std::uint64_t, std::size_t>, Session> sessions_;
   std::map<std::string, SequenceCounts> by_source_;
+  std::set<const SourceEntry*> changed_;
+  Place last_;               ///< Where the next sample most often belongs as well.
   std::uint64_t clock_ = 0;  ///< Samples recorded.
 };
 

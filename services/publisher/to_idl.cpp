@@ -48,6 +48,26 @@ Expected<spindrift_Pulse> to_idl(const PulseSample& sample) {
       .map([&out] { return out; });
 }
 
+Expected<spindrift_CodedFrame> to_idl(const CodedSample& sample) {
+  const auto delay_s = [&sample](PulseChannel channel) {
+    return sample.frame.delay_s.at(index_of(channel)).value_or(kNotAvailable);
+  };
+  spindrift_CodedFrame out{.spacecraft = {},
+                           .source = {},
+                           .session = sample.origin.session,
+                           .seq = sample.origin.seq,
+                           .t_tai_ns = tai_ns(sample.frame.t),
+                           .period_s = sample.frame.period_s.value_or(kNotAvailable),
+                           .sun2_s = delay_s(PulseChannel::Sun2),
+                           .north_in_s = delay_s(PulseChannel::NorthIn),
+                           .north_out_s = delay_s(PulseChannel::NorthOut),
+                           .south_in_s = delay_s(PulseChannel::SouthIn),
+                           .south_out_s = delay_s(PulseChannel::SouthOut)};
+  return put_name(out.spacecraft, sample.spacecraft, "spacecraft")
+      .and_then([&] { return put_name(out.source, sample.origin.source, "source"); })
+      .map([&out] { return out; });
+}
+
 Expected<spindrift_SpinFix> to_idl(std::string_view spacecraft, const SpinFix& fix) {
   const auto [ra_deg, dec_deg] = place_deg(fix.axis_icrf);
   spindrift_SpinFix out{.spacecraft = {},

@@ -20,6 +20,9 @@ namespace spindrift {
 
 Expected<spindrift_Pulse> to_idl(const PulseSample& sample);
 
+/// What was not received is NaN.
+Expected<spindrift_CodedFrame> to_idl(const CodedSample& sample);
+
 /// The IDL has no optional: an absent alternate is NaN in both its members.
 Expected<spindrift_SpinFix> to_idl(std::string_view spacecraft, const SpinFix& fix);
 

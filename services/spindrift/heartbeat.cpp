@@ -26,7 +26,7 @@ std::string service_name() {
   return fmt::format("spindrift {}:{}", host.data(), ::getpid());
 }
 
-SequenceCounts total(const PulseSubscriberStatus& status) {
+SequenceCounts total(const TelemetrySubscriberStatus& status) {
   SequenceCounts sum;
   for (const auto& [source, counts] : status.by_source) {
     sum += counts;
@@ -76,7 +76,7 @@ void Heartbeat::beat() {
   }
 }
 
-void Heartbeat::note_losses(const PulseSubscriberStatus& status) {
+void Heartbeat::note_losses(const TelemetrySubscriberStatus& status) {
   auto gaps = gap_watch_.beat(status.by_source);
   const bool more = std::any_of(gaps.begin(), gaps.end(), [this](const auto& gap) {
     const auto told = gaps_.find(gap.first);
@@ -92,7 +92,7 @@ void Heartbeat::note_losses(const PulseSubscriberStatus& status) {
   lost_ = status.reader.lost;
 }
 
-void Heartbeat::publish_health(const PulseSubscriberStatus& status) {
+void Heartbeat::publish_health(const TelemetrySubscriberStatus& status) {
   const SequenceCounts counts = total(status);
   const ArchiveStatistics archive = watched_.archive.statistics();
   std::string health = "ok";

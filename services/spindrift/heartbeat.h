@@ -12,7 +12,7 @@
 
 #include "services/archive/archive.h"
 #include "services/ingest/gap_watch.h"
-#include "services/ingest/pulse_subscriber.h"
+#include "services/ingest/telemetry_subscriber.h"
 #include "services/publisher/result_publisher.h"
 
 namespace spindrift {
@@ -21,7 +21,7 @@ class Heartbeat {
  public:
   /// All of them outlive it.
   struct Watched {
-    const PulseSubscriber& subscriber;
+    const TelemetrySubscriber& subscriber;
     const BoundedQueue<SampleBatch>& queue;
     const Archive& archive;
     const ResultPublisher& publisher;
@@ -38,8 +38,8 @@ class Heartbeat {
  private:
   void run(const std::stop_token& stop);
   void beat();
-  void note_losses(const PulseSubscriberStatus& status);
-  void publish_health(const PulseSubscriberStatus& status);
+  void note_losses(const TelemetrySubscriberStatus& status);
+  void publish_health(const TelemetrySubscriberStatus& status);
   void say_once(const std::string& problem);
 
   Watched watched_;

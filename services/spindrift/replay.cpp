@@ -4,14 +4,17 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stop_token>
 #include <thread>
+#include <utility>
 
 #include "services/bus/participant.h"
 #include "services/mission/mission.h"
-#include "services/publisher/pulse_publisher.h"
-#include "services/spindrift/pulse_input.h"
+#include "services/publisher/telemetry_publisher.h"
+#include "services/spindrift/telemetry_input.h"
 
 namespace spindrift {
 namespace {
@@ -28,18 +31,89 @@ steady_clock::time_point due(steady_clock::time_point start, TaiTime first, TaiT
   return start + std::chrono::duration_cast<steady_clock::duration>(elapsed);
 }
 
-Expected<void> publish(PulsePublisher& publisher, const std::vector<PulseSample>& samples,
-                       double speed) {
-  const auto start = steady_clock::now();
-  for (const PulseSample& sample : samples) {
-    if (speed > 0.0) {
-      std::this_thread::sleep_until(due(start, samples.front().pulse.t, sample.pulse.t, speed));
+/// One source, on the topics of the telemetry.
+struct Publishers {
+  PulsePublisher pulses;
+  CodedPublisher coded;
+};
+
+Expected<Publishers> publishers_on(const bus::Participant& participant) {
+  const std::uint64_t session = random_session();
+  auto pulses = PulsePublisher::create(participant, "replay", session);
+  if (!pulses) {
+    return Unexpected{std::move(pulses.error())};
+  }
+  auto coded = CodedPublisher::create(participant, "replay", session);
+  if (!coded) {
+    return Unexpected{std::move(coded.error())};
+  }
+  return Publishers{.pulses = std::move(*pulses), .coded = std::move(*coded)};
+}
+
+Expected<void> wait_for_subscriber(const Publishers& publishers, const TelemetryInput& telemetry) {
+  if (telemetry.holds(TelemetryKind::Pulses)) {
+    if (auto found = publishers.pulses.wait_for_subscriber(kWaitForSubscriber); !found) {
+      return found;
     }
-    if (auto sent = publisher.publish(sample.spacecraft, sample.pulse, std::stop_token{}); !sent) {
+  }
+  return telemetry.holds(TelemetryKind::Coded)
+             ? publishers.coded.wait_for_subscriber(kWaitForSubscriber)
+             : Expected<void>{};
+}
+
+/// Publishes when it is due; the first sample at once.
+class Pacer {
+ public:
+  explicit Pacer(double speed) : speed_{speed} {}
+
+  void wait_for(TaiTime t) {
+    if (speed_ > 0.0) {
+      const TaiTime first = first_.value_or(t);
+      first_ = first;
+      std::this_thread::sleep_until(due(start_, first, t, speed_));
+    }
+  }
+
+ private:
+  double speed_;
+  std::optional<TaiTime> first_;
+  steady_clock::time_point start_ = steady_clock::now();
+};
+
+Expected<void> publish(Publishers& publishers, const SampleBatch& batch, Pacer& pacer) {
+  const std::stop_token never;
+  for (const PulseSample& sample : batch.pulses) {
+    pacer.wait_for(sample.pulse.t);
+    if (auto sent = publishers.pulses.publish(sample.spacecraft, sample.pulse, never); !sent) {
       return sent;
     }
   }
-  return publisher.wait_for_acknowledgments(kWaitForArrival);
+  for (const CodedSample& sample : batch.coded) {
+    pacer.wait_for(sample.frame.t);
+    if (auto sent = publishers.coded.publish(sample.spacecraft, sample.frame, never); !sent) {
+      return sent;
+    }
+  }
+  return {};
+}
+
+Expected<void> publish(Publishers& publishers, TelemetryInput& telemetry, double speed) {
+  Pacer pacer{speed};
+  while (true) {
+    const auto batch = telemetry.next();
+    if (!batch) {
+      return Unexpected{batch.error()};
+    }
+    if (is_empty(*batch)) {
+      break;
+    }
+    if (auto sent = publish(publishers, *batch, pacer); !sent) {
+      return sent;
+    }
+  }
+  return publishers.pulses.wait_for_acknowledgments(kWaitForArrival).and_then([&] {
+    return publishers.coded.wait_for_acknowledgments(kWaitForArrival);
+  });
 }
 
 }  // namespace
@@ -49,12 +123,9 @@ Expected<void> replay(const ReplayOptions& options) {
   if (!mission) {
     return Unexpected{mission.error()};
   }
-  const auto telemetry = load_pulses(options.telemetry, mission->spacecraft_id);
+  auto telemetry = TelemetryInput::open(options.telemetry, mission->spacecraft_id, false);
   if (!telemetry) {
     return Unexpected{telemetry.error()};
-  }
-  if (!telemetry->rejected.empty()) {
-    spdlog::warn("{}", bad_rows(telemetry->rejected));
   }
   const auto participant =
       bus::Participant::create({.domain = options.domain, .partition = options.partition});
@@ -62,26 +133,34 @@ Expected<void> replay(const ReplayOptions& options) {
     return Unexpected{participant.error()};
   }
   spdlog::info("{}", participant->description());
-  auto publisher = PulsePublisher::create(*participant, "replay");
-  if (!publisher) {
-    return Unexpected{publisher.error()};
+  auto publishers = publishers_on(*participant);
+  if (!publishers) {
+    return Unexpected{publishers.error()};
   }
-  if (auto found = publisher->wait_for_subscriber(kWaitForSubscriber); !found) {
+  if (auto found = wait_for_subscriber(*publishers, *telemetry); !found) {
     return Unexpected{{ErrorCode::Unavailable,
                        fmt::format("nobody subscribes in domain {}, partition '{}': {}",
                                    options.domain, options.partition, found.error().message)}};
   }
-  spdlog::info("publishing {} pulses of {}", telemetry->samples.size(), mission->spacecraft_id);
-  if (auto sent = publish(*publisher, telemetry->samples, options.speed); !sent) {
+  spdlog::info("publishing the telemetry of {}", mission->spacecraft_id);
+  if (auto sent = publish(*publishers, *telemetry, options.speed); !sent) {
     return sent;
   }
+  const BadRows& bad = telemetry->bad_rows();
+  if (bad.count > 0) {
+    spdlog::warn("{}", bad.text());
+  }
+  const std::uint64_t edges = publishers->pulses.next().seq;
+  const std::uint64_t frames = publishers->coded.next().seq;
   if (options.json) {
-    fmt::print("{}\n", nlohmann::json{{"published", telemetry->samples.size()},
-                                      {"input_rejected", telemetry->rejected.size()}}
+    fmt::print("{}\n", nlohmann::json{{"published", edges + frames},
+                                      {"edges", edges},
+                                      {"coded_frames", frames},
+                                      {"input_rejected", bad.count}}
                            .dump());
   } else {
-    fmt::print("{} edges published, {} bad rows left out\n", telemetry->samples.size(),
-               telemetry->rejected.size());
+    fmt::print("{} edges and {} coded frames published, {} bad rows left out\n", edges, frames,
+               bad.count);
   }
   return {};
 }

@@ -1,5 +1,5 @@
 /// @file
-/// `spindrift replay`: recorded pulses onto the bus, as the front-end sent them.
+/// `spindrift replay`: recorded telemetry onto the bus, as the front-end sent them.
 
 #pragma once
 

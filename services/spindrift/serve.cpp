@@ -11,7 +11,7 @@
 
 #include "services/archive/archive.h"
 #include "services/bus/participant.h"
-#include "services/ingest/pulse_subscriber.h"
+#include "services/ingest/telemetry_subscriber.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
 #include "services/publisher/result_publisher.h"
@@ -78,11 +78,11 @@ void give_up_when_stuck(const std::stop_token& done, const std::atomic<bool>& st
 Expected<void> run(const bus::Participant& participant, const ResultPublisher& publisher,
                    Processor& processor, Archive& archive, StopSignal& stop_signal) {
   BoundedQueue<SampleBatch> queue{kTakenBatches};
-  auto started = PulseSubscriber::start(participant, queue);
+  auto started = TelemetrySubscriber::start(participant, queue);
   if (!started) {
     return Unexpected{started.error()};
   }
-  PulseSubscriber& subscriber = **started;
+  TelemetrySubscriber& subscriber = **started;
   std::atomic<bool> stopping = false;
   stop_signal.on_stop([&] {
     stopping = true;

@@ -50,16 +50,17 @@ Expected<TelemetryLayout> read_layout(CsvLines& lines, const std::filesystem::pa
                        fmt::format("{}: is empty: must begin with a header line, one of {}",
                                    path.string(), all_headers())}};
   }
-  std::vector<std::string_view> columns = csv_fields(header.text);
-  const std::size_t count = columns.size();
+  CsvFields columns{header.text};
+  const std::size_t count = columns.count();
   std::optional<std::size_t> spacecraft_column;
-  if (const auto found = std::find(columns.begin(), columns.end(), "spacecraft");
-      found != columns.end()) {
-    spacecraft_column = static_cast<std::size_t>(found - columns.begin());
-    columns.erase(found);
+  const auto names = columns.fields();
+  if (const auto found = std::find(names.begin(), names.end(), "spacecraft");
+      found != names.end()) {
+    spacecraft_column = static_cast<std::size_t>(found - names.begin());
+    columns.remove(*spacecraft_column);
   }
   const auto* const kind = std::find_if(kKinds.begin(), kKinds.end(), [&](const KindHeader& known) {
-    return csv_fields(known.header) == columns;
+    return CsvFields{known.header} == columns;
   });
   if (kind == kKinds.end()) {
     return Unexpected{

@@ -6,8 +6,8 @@
 #include <latch>
 
 #include "services/ingest/from_idl.h"
-#include "services/ingest/pulse_subscriber.h"
-#include "services/publisher/pulse_publisher.h"
+#include "services/ingest/telemetry_subscriber.h"
+#include "services/publisher/telemetry_publisher.h"
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"
 
@@ -29,7 +29,7 @@ class Station {
                    Consumer consumer = Consumer::Works)
       : participant_{Participant::create(config).value()},
         queue_{capacity},
-        subscriber_{PulseSubscriber::start(participant_, queue_).value()},
+        subscriber_{TelemetrySubscriber::start(participant_, queue_).value()},
         consumer_{[this] { consume(); }} {
     if (consumer == Consumer::Works) {
       release();
@@ -48,7 +48,7 @@ class Station {
   }
 
   Participant& participant() { return participant_; }
-  PulseSubscriberStatus status() const { return subscriber_->status().value(); }
+  TelemetrySubscriberStatus status() const { return subscriber_->status().value(); }
 
   SequenceCounts counts_of(const std::string& source) const {
     const auto by_source = status().by_source;
@@ -73,6 +73,7 @@ class Station {
     for (auto batches = queue_.take_all(); !batches.empty(); batches = queue_.take_all()) {
       for (SampleBatch& batch : batches) {
         std::move(batch.pulses.begin(), batch.pulses.end(), std::back_inserter(arrived_.pulses));
+        std::move(batch.coded.begin(), batch.coded.end(), std::back_inserter(arrived_.coded));
         std::move(batch.rejected.begin(), batch.rejected.end(),
                   std::back_inserter(arrived_.rejected));
       }
@@ -81,7 +82,7 @@ class Station {
 
   Participant participant_;
   BoundedQueue<SampleBatch> queue_;
-  std::unique_ptr<PulseSubscriber> subscriber_;
+  std::unique_ptr<TelemetrySubscriber> subscriber_;
   SampleBatch arrived_;
   std::latch gate_{1};
   std::thread consumer_;
@@ -168,7 +169,114 @@ TEST(FromIdl, TakesTheFirstAndLastTimeOfTelemetry) {
   }
 }
 
-TEST(PulseSubscriber, QueuesWhatAPublisherSends) {
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+spindrift_CodedFrame idl_frame(std::uint64_t seq) {
+  return {.spacecraft = "SPINNER",
+          .source = "front-end",
+          .session = 1,
+          .seq = seq,
+          .t_tai_ns = kTestTime_tai_ns + static_cast<std::int64_t>(seq) * 1'000'000'000,
+          .period_s = 1.0,
+          .sun2_s = 0.125,
+          .north_in_s = 0.25,
+          .north_out_s = 0.375,
+          .south_in_s = 0.5,
+          .south_out_s = 0.625};
+}
+
+TEST(FromIdl, KeepsEveryFieldOfACodedFrame) {
+  const CodedSample sample = from_idl(idl_frame(41)).value();
+  EXPECT_EQ(sample.spacecraft, "SPINNER");
+  EXPECT_EQ(sample.origin.source, "front-end");
+  EXPECT_EQ(sample.origin.session, 1U);
+  EXPECT_EQ(sample.origin.seq, 41U);
+  EXPECT_EQ(tai_ns(sample.frame.t), kTestTime_tai_ns + 41'000'000'000);
+  EXPECT_EQ(sample.frame.period_s, 1.0);
+  EXPECT_THAT(sample.frame.delay_s, ElementsAre(std::nullopt, 0.125, 0.25, 0.375, 0.5, 0.625));
+}
+
+TEST(FromIdl, TakesNanForNotReceived) {
+  spindrift_CodedFrame frame = idl_frame(0);
+  frame.period_s = frame.sun2_s = frame.north_in_s = kNan;
+  frame.north_out_s = frame.south_in_s = frame.south_out_s = kNan;
+  const CodedSample sample = from_idl(frame).value();
+  EXPECT_EQ(sample.frame.period_s, std::nullopt);
+  EXPECT_THAT(sample.frame.delay_s, ::testing::Each(std::nullopt));
+}
+
+struct ImpossibleFrame {
+  std::function<void(spindrift_CodedFrame&)> spoil;
+  const char* reason;
+};
+
+TEST(FromIdl, RefusesACodedFrameThatCannotBeTrueWithItsReason) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::vector<ImpossibleFrame> cases = {
+      {[](auto& frame) { frame.spacecraft[0] = ' '; }, "spacecraft = \" PINNER\": must be"},
+      {[](auto& frame) { frame.t_tai_ns = -1; }, "t_tai_ns = -1: must lie in the years"},
+      {[](auto& frame) { frame.period_s = 0.0; }, "period_s = 0: must be above 0, at most 60 s"},
+      {[](auto& frame) { frame.period_s = kInfinity; }, "period_s = inf: must be above 0"},
+      {[](auto& frame) { frame.sun2_s = -kInfinity; }, "sun2_s = -inf: must be 0 to the period"},
+      {[](auto& frame) { frame.south_out_s = 1.5; },
+       "south_out_s = 1.5: must be 0 to the period, 1 s"}};
+  for (const ImpossibleFrame& impossible : cases) {
+    SCOPED_TRACE(impossible.reason);
+    spindrift_CodedFrame frame = idl_frame(0);
+    impossible.spoil(frame);
+    const auto refused = from_idl(frame);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
+    EXPECT_THAT(refused.error().message, HasSubstr(impossible.reason));
+  }
+}
+
+TEST(TelemetrySubscriber, TakesCodedFramesBesidePulsesAndCountsBothOfASource) {
+  Station station{bus_of_its_own()};
+  const auto session = random_session();
+  auto pulses = PulsePublisher::create(station.participant(), "antenna", session).value();
+  auto frames = CodedPublisher::create(station.participant(), "antenna", session).value();
+  const std::stop_token never;
+  constexpr int kCount = 1000;
+  for (int i = 0; i < kCount; ++i) {
+    const TaiTime t = tai_from_ns(kTestTime_tai_ns + i);
+    ASSERT_TRUE(pulses.publish("SPINNER", {.t = t, .channel = PulseChannel::Sun1}, never));
+    ASSERT_TRUE(frames.publish("SPINNER",
+                               {.t = t, .period_s = 0.5, .delay_s = {std::nullopt, 0.25}}, never));
+  }
+  ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received == 2 * kCount; }));
+  // Both topics count from 0 in one session: neither gaps nor duplicates.
+  EXPECT_EQ(station.counts_of("antenna"), (SequenceCounts{.received = 2 * kCount}));
+  const SampleBatch arrived = station.finish();
+  EXPECT_EQ(arrived.pulses.size(), kCount);
+  ASSERT_EQ(arrived.coded.size(), kCount);
+  EXPECT_EQ(arrived.coded.back().origin.session, session);
+  EXPECT_EQ(arrived.coded.back().origin.seq, kCount - 1);
+  EXPECT_EQ(tai_ns(arrived.coded.back().frame.t), kTestTime_tai_ns + kCount - 1);
+  EXPECT_EQ(arrived.coded.back().frame.period_s, 0.5);
+  EXPECT_THAT(
+      arrived.coded.back().frame.delay_s,
+      ElementsAre(std::nullopt, 0.25, std::nullopt, std::nullopt, std::nullopt, std::nullopt));
+}
+
+TEST(TelemetrySubscriber, PassesOnACodedFrameThatCannotBeTrueAsRejected) {
+  Station station{bus_of_its_own()};
+  const auto writer = Writer<spindrift_CodedFrame>::create(
+                          station.participant(), bus::kCodedFrameTopic, bus::telemetry_writer_qos())
+                          .value();
+  spindrift_CodedFrame impossible = idl_frame(7);
+  impossible.north_in_s = 2.0;
+  ASSERT_TRUE(writer.write(impossible));
+  ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 1; }));
+  const SampleBatch arrived = station.finish();
+  EXPECT_TRUE(arrived.coded.empty());
+  ASSERT_EQ(arrived.rejected.size(), 1U);
+  EXPECT_EQ(arrived.rejected[0].line, 7);
+  EXPECT_EQ(arrived.rejected[0].session, 1U);
+  EXPECT_THAT(arrived.rejected[0].reason, HasSubstr("north_in_s = 2"));
+}
+
+TEST(TelemetrySubscriber, QueuesWhatAPublisherSends) {
   Station station{bus_of_its_own()};
   auto publisher = PulsePublisher::create(station.participant(), "antenna").value();
   const auto session = publisher.next().session;
@@ -184,7 +292,7 @@ TEST(PulseSubscriber, QueuesWhatAPublisherSends) {
   EXPECT_EQ(arrived.pulses[0].pulse, pulse);
 }
 
-TEST(PulseSubscriber, LosesNothingToASlowConsumer) {
+TEST(TelemetrySubscriber, LosesNothingToASlowConsumer) {
   constexpr std::size_t kCount = 20'000;
   const auto config = bus_of_its_own();
   Station station{config, 2, Consumer::IsHeld};
@@ -199,7 +307,7 @@ TEST(PulseSubscriber, LosesNothingToASlowConsumer) {
   EXPECT_EQ(seqs_of(arrived.pulses), first_seqs(kCount));
 }
 
-TEST(PulseSubscriber, PassesOnWhatCannotBeTrueAsRejected) {
+TEST(TelemetrySubscriber, PassesOnWhatCannotBeTrueAsRejected) {
   Station station{bus_of_its_own()};
   const auto writer = pulse_writer(station.participant());
   spindrift_Pulse impossible = idl_pulse(1);
@@ -217,7 +325,7 @@ TEST(PulseSubscriber, PassesOnWhatCannotBeTrueAsRejected) {
   EXPECT_THAT(arrived.rejected[0].reason, HasSubstr("t_tai_ns = -1"));
 }
 
-TEST(PulseSubscriber, CountsGapsDuplicatesAndDisorderAndPassesAllOn) {
+TEST(TelemetrySubscriber, CountsGapsDuplicatesAndDisorderAndPassesAllOn) {
   Station station{bus_of_its_own()};
   const auto writer = pulse_writer(station.participant());
   for (const std::uint64_t seq : {0U, 4U, 1U, 1U}) {
@@ -240,7 +348,7 @@ Expected<void> run_source(const Participant& participant, int count) {
   return sent.and_then([&publisher] { return publisher.wait_for_acknowledgments(30s); });
 }
 
-TEST(PulseSubscriber, CountsNoGapWhenASourceRestarts) {
+TEST(TelemetrySubscriber, CountsNoGapWhenASourceRestarts) {
   Station station{bus_of_its_own()};
   ASSERT_TRUE(run_source(station.participant(), 5));
   ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received == 5; }));
@@ -249,7 +357,7 @@ TEST(PulseSubscriber, CountsNoGapWhenASourceRestarts) {
   EXPECT_EQ(station.counts_of("antenna"), (SequenceCounts{.received = 15}));
 }
 
-TEST(PulseSubscriber, CatchesUpOnWhatWasSentBeforeItStarted) {
+TEST(TelemetrySubscriber, CatchesUpOnWhatWasSentBeforeItStarted) {
   const auto config = bus_of_its_own();
   const auto participant = Participant::create(config).value();
   const auto writer = pulse_writer(participant);
@@ -261,7 +369,7 @@ TEST(PulseSubscriber, CatchesUpOnWhatWasSentBeforeItStarted) {
       [&] { return station.counts_of("front-end") == SequenceCounts{.received = 1000}; }));
 }
 
-TEST(PulseSubscriber, NamesAnIncompatibleWriterWhileItIsThere) {
+TEST(TelemetrySubscriber, NamesAnIncompatibleWriterWhileItIsThere) {
   const auto config = bus_of_its_own();
   Station station{config};
   EXPECT_THAT(station.status().reader.incompatible_writers, ElementsAre());
@@ -271,7 +379,7 @@ TEST(PulseSubscriber, NamesAnIncompatibleWriterWhileItIsThere) {
               ElementsAre(HasSubstr("pid " + std::to_string(writer.pid()))));
 }
 
-TEST(PulseSubscriber, StopsWhilePulsesArriveAndKeepsWhatItTook) {
+TEST(TelemetrySubscriber, StopsWhilePulsesArriveAndKeepsWhatItTook) {
   Station station{bus_of_its_own(), 2};
   std::jthread front_end{[&station](const std::stop_token& stop) {
     auto publisher = PulsePublisher::create(station.participant(), "antenna").value();
@@ -288,10 +396,10 @@ TEST(PulseSubscriber, StopsWhilePulsesArriveAndKeepsWhatItTook) {
   EXPECT_EQ(station.status().failure, "");
 }
 
-TEST(PulseSubscriber, HandsOverWhatIsAcknowledgedWhenStopped) {
+TEST(TelemetrySubscriber, HandsOverWhatIsAcknowledgedWhenStopped) {
   const auto participant = Participant::create(bus_of_its_own()).value();
   BoundedQueue<SampleBatch> queue{1};
-  const auto subscriber = PulseSubscriber::start(participant, queue).value();
+  const auto subscriber = TelemetrySubscriber::start(participant, queue).value();
   // The queue is full at once, and the rest waits in the reader, acknowledged.
   constexpr std::uint64_t kSent = 3000;
   const auto writer = pulse_writer(participant);
@@ -314,10 +422,10 @@ TEST(PulseSubscriber, HandsOverWhatIsAcknowledgedWhenStopped) {
   EXPECT_EQ(arrived, kSent);
 }
 
-TEST(PulseSubscriber, SaysSoWhenItsQueueIsClosedTooEarly) {
+TEST(TelemetrySubscriber, SaysSoWhenItsQueueIsClosedTooEarly) {
   const auto participant = Participant::create(bus_of_its_own()).value();
   BoundedQueue<SampleBatch> queue{4};
-  const auto subscriber = PulseSubscriber::start(participant, queue).value();
+  const auto subscriber = TelemetrySubscriber::start(participant, queue).value();
   queue.close();
   ASSERT_TRUE(pulse_writer(participant).write(idl_pulse(0)));
   ASSERT_TRUE(eventually([&] { return !subscriber->status().value().taking; }));

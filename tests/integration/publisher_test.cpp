@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "pipelines/frames/celestial.h"
-#include "services/publisher/pulse_publisher.h"
 #include "services/publisher/result_publisher.h"
+#include "services/publisher/telemetry_publisher.h"
 #include "services/publisher/to_idl.h"
 #include "tests/support/bus_fixture.h"
 
@@ -218,6 +218,33 @@ TEST(PulsePublisher, PublishesEveryField) {
   EXPECT_STREQ(taken[0].source, "replay");
   EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
   EXPECT_EQ(taken[0].channel, spindrift_SOUTH_IN);
+}
+
+TEST(CodedPublisher, PublishesEveryFieldAndNanForWhatWasNotReceived) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  auto publisher = CodedPublisher::create(participant, "replay", 17).value();
+  ASSERT_TRUE(publisher.publish("SPINNER",
+                                {.t = tai_from_ns(kTestTime_tai_ns),
+                                 .period_s = 1.0,
+                                 .delay_s = {std::nullopt, 0.125, 0.25, 0.375, 0.5, std::nullopt}},
+                                {}));
+  const auto taken =
+      take_samples(Reader<spindrift_CodedFrame>::create(participant, bus::kCodedFrameTopic,
+                                                        bus::telemetry_reader_qos())
+                       .value(),
+                   1);
+  ASSERT_EQ(taken.size(), 1U);
+  EXPECT_STREQ(taken[0].spacecraft, "SPINNER");
+  EXPECT_STREQ(taken[0].source, "replay");
+  EXPECT_EQ(taken[0].session, 17U);
+  EXPECT_EQ(taken[0].seq, 0U);
+  EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
+  EXPECT_EQ(taken[0].period_s, 1.0);
+  EXPECT_EQ(taken[0].sun2_s, 0.125);
+  EXPECT_EQ(taken[0].north_in_s, 0.25);
+  EXPECT_EQ(taken[0].north_out_s, 0.375);
+  EXPECT_EQ(taken[0].south_in_s, 0.5);
+  EXPECT_TRUE(std::isnan(taken[0].south_out_s));
 }
 
 TEST(PulsePublisher, NumbersItsSamplesFromZeroInOneSession) {

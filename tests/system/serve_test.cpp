@@ -8,7 +8,7 @@
 
 #include "services/bus/qos.h"
 #include "services/bus/reader.h"
-#include "services/publisher/pulse_publisher.h"
+#include "services/publisher/telemetry_publisher.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"

@@ -1,5 +1,6 @@
 #include "services/ingest/sequence_tracker.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -71,6 +72,41 @@ TEST(SequenceTracker, KeepsSourcesOfTheSameSessionNumberApart) {
   EXPECT_EQ(tracker.record(origin(2, 1, "south"), kSpacecraft), Arrival::New);
   EXPECT_EQ(tracker.by_source().at("north"), (SequenceCounts{.received = 1}));
   EXPECT_EQ(tracker.by_source().at("south"), (SequenceCounts{.received = 2, .missing = 1}));
+}
+
+TEST(SequenceTracker, KeepsTheTopicsOfASessionApart) {
+  SequenceTracker tracker;
+  for (std::uint64_t seq = 0; seq < 10; ++seq) {
+    for (const std::size_t topic : {0U, 1U}) {
+      EXPECT_EQ(tracker.record(origin(seq), kSpacecraft, topic), Arrival::New);
+    }
+  }
+  tracker.record(origin(12), kSpacecraft, 1);
+  EXPECT_EQ(tracker.by_source().at("front-end"), (SequenceCounts{.received = 21, .missing = 2}));
+}
+
+TEST(SequenceTracker, TellsOnceWhichSourcesChanged) {
+  SequenceTracker tracker;
+  tracker.record(origin(0, 1, "north"), kSpacecraft);
+  tracker.record(origin(0, 1, "south"), kSpacecraft);
+  tracker.record(origin(1, 1, "south"), kSpacecraft);
+  using Counts = std::map<std::string, SequenceCounts>;
+  EXPECT_EQ(tracker.take_changed(),
+            (Counts{{"north", {.received = 1}}, {"south", {.received = 2}}}));
+  EXPECT_EQ(tracker.take_changed(), Counts{});
+  tracker.record(origin(2, 1, "south"), kSpacecraft);
+  EXPECT_EQ(tracker.take_changed(), (Counts{{"south", {.received = 3}}}));
+}
+
+TEST(SequenceTracker, TellsOfSourcesCountedTogetherUnderTheirCommonName) {
+  SequenceTracker tracker;
+  for (std::size_t i = 0; i < SequenceTracker::kMaxSources; ++i) {
+    tracker.record(origin(0, 1, "source " + std::to_string(i)), kSpacecraft);
+  }
+  tracker.take_changed();
+  tracker.record(origin(0, 1, "one more"), kSpacecraft);
+  EXPECT_THAT(tracker.take_changed(),
+              ::testing::ElementsAre(::testing::Key(SequenceTracker::kOtherSources)));
 }
 
 TEST(SequenceTracker, HoldsTheLastSeqThereIs) {

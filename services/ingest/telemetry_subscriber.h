@@ -1,0 +1,76 @@
+/// @file
+/// Telemetry from the bus into a queue, on a thread that does nothing else.
+
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <tuple>
+
+#include "services/bus/reader.h"
+#include "services/bus/wait_set.h"
+#include "services/ingest/sample_batch.h"
+#include "services/ingest/sequence_tracker.h"
+#include "services/queue/bounded_queue.h"
+
+namespace spindrift {
+
+struct TelemetrySubscriberStatus {
+  std::map<std::string, SequenceCounts> by_source;
+  bus::ReaderStatus reader;  ///< Of all topics together.
+  bool taking;               ///< False: the thread ended, stopped or failed (see `failure`).
+  std::string failure;
+};
+
+/// Takes from spindrift/pulse and spindrift/coded_frame for as long as it lives. When the queue is
+/// full it waits, the reader fills up, and the writers feel the pressure: nothing is dropped.
+class TelemetrySubscriber {
+ public:
+  /// `participant` and `queue` outlive it. @return Unavailable when Cyclone refuses.
+  static Expected<std::unique_ptr<TelemetrySubscriber>> start(const bus::Participant& participant,
+                                                              BoundedQueue<SampleBatch>& queue);
+
+  ~TelemetrySubscriber();
+  TelemetrySubscriber(const TelemetrySubscriber&) = delete;
+  TelemetrySubscriber& operator=(const TelemetrySubscriber&) = delete;
+  TelemetrySubscriber(TelemetrySubscriber&&) = delete;
+  TelemetrySubscriber& operator=(TelemetrySubscriber&&) = delete;
+
+  /// Ends taking: what was taken is in the queue when this returns. Until then somebody must go on
+  /// emptying the queue; close it afterwards. Once is enough, from the thread that owns this.
+  void stop();
+
+  /// From any thread. @return Unavailable when Cyclone refuses.
+  Expected<TelemetrySubscriberStatus> status() const;
+
+ private:
+  /// One for each topic; what is done with a sample follows from its type (from_idl).
+  using Readers = std::tuple<bus::Reader<spindrift_Pulse>, bus::Reader<spindrift_CodedFrame>>;
+
+  TelemetrySubscriber(Readers readers, bus::WaitSet waitset, BoundedQueue<SampleBatch>& queue);
+
+  void run();
+  Expected<void> take_until_stopped();
+  Expected<void> take_what_is_left();
+  Expected<bool> hand_over_batches();
+  template <std::size_t topic>
+  Expected<bool> hand_over_batch();
+  template <std::size_t topic>
+  Expected<SampleBatch> take_batch();
+
+  Readers readers_;
+  bus::WaitSet waitset_;
+  BoundedQueue<SampleBatch>& queue_;
+
+  mutable std::mutex mutex_;  // Guards the three below.
+  SequenceTracker tracker_;
+  bool taking_ = true;
+  std::string failure_;
+
+  std::thread thread_;  // Last: it uses all the others.
+};
+
+}  // namespace spindrift
