@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "services/mission/text_file.h"
+#include "services/toml_schema/text_file.h"
 
 namespace spindrift {
 namespace {
@@ -37,7 +37,7 @@ Expected<MissionOrbit> orbit_from_oem(const std::string& oem, const std::filesys
   return MissionOrbit{.orbit = Orbit{std::move(*ephemeris)}, .file_sha256 = std::move(*sha256)};
 }
 
-Expected<MissionOrbit> orbit_from_elements(const MissionValues& values) {
+Expected<MissionOrbit> orbit_from_elements(const TomlValues& values) {
   const auto number = [&](std::string_view key) {
     return std::get<double>(values.find(fmt::format("orbit.elements.{}", key))->second);
   };
@@ -58,8 +58,11 @@ Expected<MissionOrbit> orbit_from_elements(const MissionValues& values) {
 
 }  // namespace
 
-Expected<MissionOrbit> load_orbit(const MissionValues& values,
-                                  const std::filesystem::path& folder) {
+std::string_view orbit_key(const TomlValues& values) {
+  return values.contains("orbit.oem") ? "orbit.oem" : "orbit.elements";
+}
+
+Expected<MissionOrbit> load_orbit(const TomlValues& values, const std::filesystem::path& folder) {
   if (const auto oem = values.find("orbit.oem"); oem != values.end()) {
     return orbit_from_oem(std::get<std::string>(oem->second), folder);
   }

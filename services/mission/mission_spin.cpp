@@ -10,16 +10,15 @@
 namespace spindrift {
 namespace {
 
-double number(const MissionValues& values, const std::string& key) {
+double number(const TomlValues& values, const std::string& key) {
   return std::get<double>(values.at(key));
 }
 
-double radians(const MissionValues& values, const std::string& key) {
+double radians(const TomlValues& values, const std::string& key) {
   return number(values, key) * (std::numbers::pi / 180.0);
 }
 
-std::optional<InfraredSensor> infrared_sensor(const MissionValues& values,
-                                              const std::string& table) {
+std::optional<InfraredSensor> infrared_sensor(const TomlValues& values, const std::string& table) {
   if (!values.contains(table + ".mount_angle_deg")) {
     return std::nullopt;
   }
@@ -28,7 +27,7 @@ std::optional<InfraredSensor> infrared_sensor(const MissionValues& values,
                         .healthy = std::get<bool>(values.at(table + ".healthy"))};
 }
 
-std::optional<SpinPrior> prior(const MissionValues& values) {
+std::optional<SpinPrior> prior(const TomlValues& values) {
   if (!values.contains("spin.prior.ra_deg")) {
     return std::nullopt;
   }
@@ -43,7 +42,7 @@ HorizonModel horizon_model(const std::string& name) {
 
 }  // namespace
 
-SpinConfig spin_config(const MissionValues& values) {
+SpinConfig spin_config(const TomlValues& values) {
   return {
       .sun_sensor = {.slit_cant_rad = radians(values, "spin.sun_sensor.slit_cant_deg"),
                      .slit_separation_rad = radians(values, "spin.sun_sensor.slit_separation_deg")},
