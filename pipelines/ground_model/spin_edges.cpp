@@ -1,5 +1,7 @@
 #include "pipelines/ground_model/spin_edges.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include <utility>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/time/utc.h"
 
 namespace spindrift {
 namespace {
@@ -131,7 +134,15 @@ SpinEdges::SpinEdges(const SpinTruth& truth, const Orbit& orbit) : truth_{truth}
 
 Expected<SpinEdges::View> SpinEdges::view(double t_s) {
   const TaiTime t = shifted(truth_.start, t_s);
-  return orbit_->at(t).map([&](const OrbitState& state) {
+  return orbit_->at(t).and_then([&](const OrbitState& state) -> Expected<View> {
+    const double range_km = state.position_icrf_km.norm();
+    if (!(range_km > truth_.horizon.equatorial_km)) {
+      return Unexpected{
+          {ErrorCode::Unobservable,
+           fmt::format("the spacecraft is {:.3f} km from the Earth's centre at {}: must be above "
+                       "the infrared horizon, {} km",
+                       range_km, format_utc(t), truth_.horizon.equatorial_km)}};
+    }
     return View{.sun_axes = axes_from_icrf_ * sun_.direction_icrf(t, state),
                 .earth_axes_km = -(axes_from_icrf_ * state.position_icrf_km)};
   });

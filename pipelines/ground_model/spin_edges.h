@@ -74,7 +74,8 @@ class SpinEdges {
 
   /// The edges from where the last slice ended (at first: the start) up to `end_s`, exclusive, in
   /// order of time and channel.
-  /// @return NoCoverage where the orbit ends before.
+  /// @return NoCoverage where the orbit ends before (one turn ahead of the edges is looked at);
+  ///         Unobservable where it dips below the horizon.
   Expected<std::vector<TrueEdge>> until(double end_s);
 
   /// Turns that slit 1 has begun at the Sun since the start, whether it was seen or not.
