@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "pipelines/time/utc.h"
 #include "services/mission/mission_orbit.h"
 #include "services/mission/mission_spin.h"
+#include "services/scenario/mission_text.h"
 #include "services/scenario/scenario_schema.h"
 #include "services/toml_schema/document.h"
 #include "services/toml_schema/text_file.h"
@@ -23,7 +23,8 @@ namespace {
 
 // The longest turn, twice over: where the next edge will be is asked one turn ahead.
 constexpr double kOrbitMargin_s = 30.0;
-// As pass.start_tai_ns: where there is UTC for the orbit file, and leap seconds are not all guessed.
+// As pass.start_tai_ns: where there is UTC for the orbit file, and leap seconds are not all
+// guessed.
 constexpr TaiTime kEarliest = tai_from_ns(63158400000000000);
 constexpr TaiTime kLatest = tai_from_ns(4102444800000000000);
 constexpr double kSecondsPerHour = 3600.0;
@@ -201,18 +202,6 @@ TelemetryKinds telemetry_of(const TomlValues& values) {
   return {.pulses = kind != "coded",
           .coded = kind != "pulses",
           .coded_resolution_s = number(values, "telemetry.coded_resolution_s")};
-}
-
-/// The tables that a scenario shares with the mission file, as they are, and the simulated orbit.
-std::string mission_text(const toml::table& scenario) {
-  toml::table mission{{"orbit", toml::table{{"oem", "orbit.oem"}}}};
-  for (const char* const shared : {"spacecraft", "spin"}) {
-    mission.insert(shared, *scenario.get(shared));
-  }
-  std::ostringstream text;
-  text << "# Written by spindrift simulate, with the pass that this describes.\n"
-       << mission << '\n';
-  return text.str();
 }
 
 /// Of the orbit's file, once that was found good.

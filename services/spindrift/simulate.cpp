@@ -122,9 +122,8 @@ Expected<void> simulate(const SimulateOptions& options) {
   }
   const auto pass = simulated_pass(*scenario);
   if (!pass) {
-    return Unexpected{
-        {pass.error().code,
-         fmt::format("{}: {}", options.scenario.string(), pass.error().message)}};
+    return Unexpected{{pass.error().code,
+                       fmt::format("{}: {}", options.scenario.string(), pass.error().message)}};
   }
   return options.publish ? to_bus(options, *scenario, *pass) : to_files(options, *scenario, *pass);
 }
