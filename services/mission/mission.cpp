@@ -1,49 +1,16 @@
 #include "services/mission/mission.h"
 
-#include <fmt/format.h>
-#include <toml++/toml.h>
-
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
 
-#include "services/mission/mission_check.h"
 #include "services/mission/mission_orbit.h"
 #include "services/mission/mission_schema.h"
 #include "services/mission/mission_spin.h"
-#include "services/mission/text_file.h"
+#include "services/toml_schema/document.h"
+#include "services/toml_schema/text_file.h"
 
 namespace spindrift {
-namespace {
-
-Expected<toml::table> parse(const std::filesystem::path& path, const std::string& text) {
-  try {
-    return toml::parse(text);
-  } catch (const toml::parse_error& error) {
-    const auto& at = error.source().begin;
-    return Unexpected{
-        {ErrorCode::InvalidConfiguration,
-         fmt::format("{}:{}:{}: {}", path.string(), at.line, at.column, error.description())}};
-  }
-}
-
-Error all_of(std::vector<MissionProblem> problems, const std::filesystem::path& path) {
-  // In the order of the file; what has no line comes last.
-  std::stable_sort(problems.begin(), problems.end(),
-                   [](const auto& a, const auto& b) { return a.line - 1 < b.line - 1; });
-  std::vector<std::string> lines;
-  lines.reserve(problems.size());
-  for (const MissionProblem& problem : problems) {
-    lines.push_back(problem.line == 0
-                        ? fmt::format("{}: {}", path.string(), problem.text)
-                        : fmt::format("{}:{}: {}", path.string(), problem.line, problem.text));
-  }
-  return {ErrorCode::InvalidConfiguration, fmt::format("{}", fmt::join(lines, "\n"))};
-}
-
-}  // namespace
-
 std::string_view name_of(SpacecraftKind kind) {
   static constexpr std::array<std::string_view, 2> kNames = {"spin", "three_axis"};
   return kNames.at(static_cast<std::size_t>(kind));
@@ -54,28 +21,21 @@ Expected<Mission> load_mission(const std::filesystem::path& path) {
   if (!schema) {
     return Unexpected{schema.error()};
   }
-  auto text = read_text_file(path);
-  if (!text) {
-    return Unexpected{std::move(text.error())};
-  }
-  const auto document = parse(path, *text);
+  auto document = read_document(path, *schema);
   if (!document) {
-    return Unexpected{document.error()};
+    return Unexpected{std::move(document.error())};
   }
-  auto sha256 = sha256_hex(*text);
+  auto sha256 = sha256_hex(document->text);
   if (!sha256) {
     return Unexpected{std::move(sha256.error())};
   }
-
-  auto [values, problems] = check_mission(*schema, *document);
+  const TomlValues& values = document->values;
   auto orbit = load_orbit(values, path.parent_path());
   if (!orbit) {
-    const auto* const key = values.contains("orbit.oem") ? "orbit.oem" : "orbit.elements";
-    const auto& source = document->at_path(key).node()->source();
-    problems.push_back({source.begin.line, std::move(orbit.error().message)});
+    add_problem(*document, orbit_key(values), std::move(orbit.error().message));
   }
-  if (!problems.empty()) {
-    return Unexpected{all_of(std::move(problems), path)};
+  if (auto sound = soundness(*document); !sound) {
+    return Unexpected{std::move(sound.error())};
   }
   const auto kind =
       std::get<std::string>(values.at("spacecraft.kind")) == name_of(SpacecraftKind::Spin)
@@ -86,7 +46,7 @@ Expected<Mission> load_mission(const std::filesystem::path& path) {
       .kind = kind,
       .orbit = std::move(orbit->orbit),
       .spin = kind == SpacecraftKind::Spin ? std::optional{spin_config(values)} : std::nullopt,
-      .toml_text = std::move(*text),
+      .toml_text = std::move(document->text),
       .sha256 = std::move(*sha256),
       .orbit_sha256 = std::move(orbit->file_sha256)};
 }

@@ -10,7 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "services/mission/text_file.h"
+#include "services/toml_schema/text_file.h"
+#include "services/toml_schema/values.h"
 
 namespace spindrift {
 namespace {
@@ -37,18 +38,18 @@ Expected<MissionOrbit> orbit_from_oem(const std::string& oem, const std::filesys
   return MissionOrbit{.orbit = Orbit{std::move(*ephemeris)}, .file_sha256 = std::move(*sha256)};
 }
 
-Expected<MissionOrbit> orbit_from_elements(const MissionValues& values) {
-  const auto number = [&](std::string_view key) {
-    return std::get<double>(values.find(fmt::format("orbit.elements.{}", key))->second);
+Expected<MissionOrbit> orbit_from_elements(const TomlValues& values) {
+  const auto element = [&](std::string_view key) {
+    return number(values, fmt::format("orbit.elements.{}", key));
   };
   const auto orbit = KeplerOrbit::make(
-      {.epoch = tai_from_ns(std::get<std::int64_t>(values.at("orbit.elements.epoch_tai_ns"))),
-       .semi_major_axis_km = number("a_km"),
-       .eccentricity = number("e"),
-       .inclination_rad = number("i_deg") * kRadPerDeg,
-       .raan_rad = number("raan_deg") * kRadPerDeg,
-       .argument_of_perigee_rad = number("argp_deg") * kRadPerDeg,
-       .mean_anomaly_rad = number("mean_anomaly_deg") * kRadPerDeg});
+      {.epoch = tai_from_ns(value_of<std::int64_t>(values, "orbit.elements.epoch_tai_ns")),
+       .semi_major_axis_km = element("a_km"),
+       .eccentricity = element("e"),
+       .inclination_rad = element("i_deg") * kRadPerDeg,
+       .raan_rad = element("raan_deg") * kRadPerDeg,
+       .argument_of_perigee_rad = element("argp_deg") * kRadPerDeg,
+       .mean_anomaly_rad = element("mean_anomaly_deg") * kRadPerDeg});
   if (!orbit) {
     return Unexpected{{ErrorCode::InvalidConfiguration,
                        fmt::format("[orbit.elements]: {}", orbit.error().message)}};
@@ -58,8 +59,11 @@ Expected<MissionOrbit> orbit_from_elements(const MissionValues& values) {
 
 }  // namespace
 
-Expected<MissionOrbit> load_orbit(const MissionValues& values,
-                                  const std::filesystem::path& folder) {
+std::string_view orbit_key(const TomlValues& values) {
+  return values.contains("orbit.oem") ? "orbit.oem" : "orbit.elements";
+}
+
+Expected<MissionOrbit> load_orbit(const TomlValues& values, const std::filesystem::path& folder) {
   if (const auto oem = values.find("orbit.oem"); oem != values.end()) {
     return orbit_from_oem(std::get<std::string>(oem->second), folder);
   }

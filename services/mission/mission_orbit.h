@@ -6,10 +6,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
-#include "services/mission/scalar.h"
+#include "services/toml_schema/scalar.h"
 
 namespace spindrift {
 
@@ -18,9 +19,12 @@ struct MissionOrbit {
   std::optional<std::string> file_sha256;  ///< Where the orbit is from a file.
 };
 
+/// The key that says where the orbit comes from.
+std::string_view orbit_key(const TomlValues& values);
+
 /// Reads the orbit file, if one is named (relative to `folder`), or takes the elements, if all of
 /// them are there. Empty when there is neither.
 /// @return InvalidConfiguration with the key, its value and the reason.
-Expected<MissionOrbit> load_orbit(const MissionValues& values, const std::filesystem::path& folder);
+Expected<MissionOrbit> load_orbit(const TomlValues& values, const std::filesystem::path& folder);
 
 }  // namespace spindrift

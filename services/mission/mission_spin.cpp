@@ -1,34 +1,25 @@
 #include "services/mission/mission_spin.h"
 
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <string>
 
 #include "pipelines/frames/celestial.h"
+#include "services/toml_schema/values.h"
 
 namespace spindrift {
 namespace {
 
-double number(const MissionValues& values, const std::string& key) {
-  return std::get<double>(values.at(key));
-}
-
-double radians(const MissionValues& values, const std::string& key) {
-  return number(values, key) * (std::numbers::pi / 180.0);
-}
-
-std::optional<InfraredSensor> infrared_sensor(const MissionValues& values,
-                                              const std::string& table) {
+std::optional<InfraredSensor> infrared_sensor(const TomlValues& values, const std::string& table) {
   if (!values.contains(table + ".mount_angle_deg")) {
     return std::nullopt;
   }
   return InfraredSensor{.mount_angle_rad = radians(values, table + ".mount_angle_deg"),
                         .azimuth_rad = radians(values, table + ".azimuth_deg"),
-                        .healthy = std::get<bool>(values.at(table + ".healthy"))};
+                        .healthy = value_of<bool>(values, table + ".healthy")};
 }
 
-std::optional<SpinPrior> prior(const MissionValues& values) {
+std::optional<SpinPrior> prior(const TomlValues& values) {
   if (!values.contains("spin.prior.ra_deg")) {
     return std::nullopt;
   }
@@ -43,7 +34,7 @@ HorizonModel horizon_model(const std::string& name) {
 
 }  // namespace
 
-SpinConfig spin_config(const MissionValues& values) {
+SpinConfig spin_config(const TomlValues& values) {
   return {
       .sun_sensor = {.slit_cant_rad = radians(values, "spin.sun_sensor.slit_cant_deg"),
                      .slit_separation_rad = radians(values, "spin.sun_sensor.slit_separation_deg")},
@@ -51,10 +42,10 @@ SpinConfig spin_config(const MissionValues& values) {
       .south = infrared_sensor(values, "spin.ir.south"),
       .noise = {.sun_s = number(values, "spin.noise.sun_pulse_s"),
                 .infrared_s = number(values, "spin.noise.ir_pulse_s")},
-      .horizon = {.model = horizon_model(std::get<std::string>(values.at("spin.horizon.model"))),
+      .horizon = {.model = horizon_model(value_of<std::string>(values, "spin.horizon.model")),
                   .co2_altitude_km = number(values, "spin.horizon.co2_altitude_km")},
-      .screening = {.window = static_cast<int>(
-                        std::get<std::int64_t>(values.at("spin.screening.window"))),
+      .screening = {.window =
+                        static_cast<int>(value_of<std::int64_t>(values, "spin.screening.window")),
                     .sigma = number(values, "spin.screening.sigma"),
                     .interference_s = number(values, "spin.screening.interference_s")},
       .geometry = {.determinant_usable = number(values, "spin.geometry.determinant_usable"),

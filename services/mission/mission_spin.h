@@ -4,11 +4,11 @@
 #pragma once
 
 #include "pipelines/spin/config.h"
-#include "services/mission/scalar.h"
+#include "services/toml_schema/scalar.h"
 
 namespace spindrift {
 
 /// `values` are those of a mission file of kind spin in which no problem was found.
-SpinConfig spin_config(const MissionValues& values);
+SpinConfig spin_config(const TomlValues& values);
 
 }  // namespace spindrift

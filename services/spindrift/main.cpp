@@ -24,6 +24,7 @@
 #include "services/spindrift/process.h"
 #include "services/spindrift/replay.h"
 #include "services/spindrift/serve.h"
+#include "services/spindrift/simulate.h"
 
 namespace {
 
@@ -42,6 +43,7 @@ struct Request {
   spindrift::ProcessOptions process;
   spindrift::ServeOptions serve;
   spindrift::ReplayOptions replay;
+  spindrift::SimulateOptions simulate;
   std::function<Expected<void>()> run;
 };
 
@@ -107,6 +109,27 @@ void add_replay(CLI::App& app, Request& request) {
   });
 }
 
+void add_simulate(CLI::App& app, Request& request) {
+  spindrift::SimulateOptions& options = request.simulate;
+  CLI::App& command = *app.add_subcommand("simulate", "Make a pass from a scenario");
+  command.add_option("scenario", options.scenario, "Scenario file")->required();
+  CLI::Option_group& where = *command.add_option_group("where", "Where it goes");
+  where.add_option("--out", options.out, "Folder to write, made where there is none");
+  CLI::Option* const publish = where.add_flag("--publish", options.publish, "Onto DDS");
+  where.require_option(1);
+  command.add_option("--speed", options.speed, "Times real time; 0: as fast as it is taken")
+      ->capture_default_str()
+      ->needs(publish);
+  add_bus_options(command, options.domain, options.partition);
+  command.get_option("--domain")->needs(publish);
+  command.get_option("--partition")->needs(publish);
+  command.add_flag("--json", options.json, "Print one JSON object");
+  command.callback([&] {
+    check_speed(options.speed);
+    request.run = [&] { return simulate(request.simulate); };
+  });
+}
+
 /// Message for people on standard error; with --json, which even a bad command line may hold, an
 /// object on standard output as well.
 void tell_failure(const std::string& message, std::span<char* const> arguments) {
@@ -127,6 +150,7 @@ int run(int argc, char** argv) {
   add_process(app, request);
   add_serve(app, request);
   add_replay(app, request);
+  add_simulate(app, request);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

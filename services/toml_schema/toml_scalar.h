@@ -7,7 +7,7 @@
 
 #include <optional>
 
-#include "services/mission/scalar.h"
+#include "services/toml_schema/scalar.h"
 
 namespace spindrift {
 

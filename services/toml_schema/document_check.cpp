@@ -1,4 +1,4 @@
-#include "services/mission/mission_check.h"
+#include "services/toml_schema/document_check.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <set>
 #include <string_view>
 
-#include "services/mission/key_check.h"
-#include "services/mission/nearest_name.h"
+#include "services/toml_schema/key_check.h"
+#include "services/toml_schema/nearest_name.h"
 
 namespace spindrift {
 namespace {
@@ -29,7 +29,7 @@ class Check {
 
   void document(const TableRule& schema, const toml::table& table) { given(schema, table, ""); }
 
-  CheckedMission result() && { return std::move(result_); }
+  CheckedToml result() && { return std::move(result_); }
 
  private:
   static std::string joined(const std::string& path, std::string_view name) {
@@ -56,15 +56,34 @@ class Check {
         if (!meant.contains(name)) {
           absent_table(table_rule, joined(path, name));
         }
-      } else if (const toml::table* const inner = node->as_table()) {
-        given(table_rule, *inner, joined(path, name));
+      } else if (table_rule.many) {
+        many(table_rule, *node, joined(path, name));
       } else {
-        problem(node->source(),
-                fmt::format("{} = {}: must be a table", joined(path, name), shown(*node)));
+        one(table_rule, *node, joined(path, name));
       }
     }
     exactly_one(rule, table, meant, path);
     order(rule, table, path);
+  }
+
+  void one(const TableRule& rule, const toml::node& node, const std::string& path) {
+    if (const toml::table* const table = node.as_table()) {
+      given(rule, *table, path);
+    } else {
+      problem(node.source(), fmt::format("{} = {}: must be a table", path, shown(node)));
+    }
+  }
+
+  void many(const TableRule& rule, const toml::node& node, const std::string& path) {
+    const toml::array* const array = node.as_array();
+    if (array == nullptr) {
+      problem(node.source(),
+              fmt::format("{} = {}: must be an array of tables, [[{}]]", path, shown(node), path));
+      return;
+    }
+    for (std::size_t i = 0; i < array->size(); ++i) {
+      one(rule, (*array)[i], fmt::format("{}[{}]", path, i));
+    }
   }
 
   std::set<std::string> unknown_names(const TableRule& rule, const toml::table& table,
@@ -108,6 +127,9 @@ class Check {
   void absent_table(const TableRule& rule, const std::string& path) {
     if (rule.required == "always" || (!rule.required.empty() && rule.required == kind_)) {
       problem({}, fmt::format("[{}]: missing: {}", path, rule.about));
+      return;
+    }
+    if (rule.many) {
       return;
     }
     for (const auto& [name, key_rule] : rule.keys) {
@@ -156,12 +178,12 @@ class Check {
   }
 
   std::string kind_;
-  CheckedMission result_;
+  CheckedToml result_;
 };
 
 }  // namespace
 
-CheckedMission check_mission(const TableRule& schema, const toml::table& document) {
+CheckedToml check_document(const TableRule& schema, const toml::table& document) {
   Check check{document["spacecraft"]["kind"].value_or(std::string{})};
   check.document(schema, document);
   return std::move(check).result();

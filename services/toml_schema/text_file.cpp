@@ -1,4 +1,4 @@
-#include "services/mission/text_file.h"
+#include "services/toml_schema/text_file.h"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>

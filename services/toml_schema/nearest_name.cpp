@@ -1,4 +1,4 @@
-#include "services/mission/nearest_name.h"
+#include "services/toml_schema/nearest_name.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "services/mission/mission_schema.h"
+#include "services/toml_schema/schema.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,18 +11,12 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string error_of(std::string_view schema) {
-  const auto rule = parse_mission_schema(schema);
+  const auto rule = parse_schema(schema);
   return rule ? "no error" : rule.error().message;
 }
 
-TEST(MissionSchema, ThatTheProgramCarriesIsSound) {
-  const auto schema = mission_schema();
-  ASSERT_TRUE(schema) << schema.error().message;
-  EXPECT_EQ(schema->tables.size(), 5U);
-}
-
-TEST(MissionSchema, GivesTheRulesAsTheyAreWritten) {
-  const auto schema = parse_mission_schema(R"(
+TEST(Schema, GivesTheRulesAsTheyAreWritten) {
+  const auto schema = parse_schema(R"(
       [a]
       about = "table"
       required = "spin"
@@ -52,7 +46,7 @@ TEST(MissionSchema, GivesTheRulesAsTheyAreWritten) {
   EXPECT_EQ(a.keys.at("i").not_below_key, "n");
 }
 
-TEST(MissionSchema, WithARuleThatHasNoMeaningIsRefused) {
+TEST(Schema, WithARuleThatHasNoMeaningIsRefused) {
   EXPECT_THAT(error_of("[a]\nk = { type = \"number\", atleast = 0, below = 1, about = \"k\" }"),
               HasSubstr("a.k: no meaning is known for 'atleast'"));
   EXPECT_THAT(error_of("[a]\nneeded = true"), HasSubstr("a: no meaning is known for 'needed'"));
@@ -60,16 +54,16 @@ TEST(MissionSchema, WithARuleThatHasNoMeaningIsRefused) {
               HasSubstr("a.k: type must be text, boolean, integer or number"));
   EXPECT_THAT(error_of("[a]\nk = { type = \"text\", form = \"email\", about = \"k\" }"),
               HasSubstr("a.k: the form is not known"));
-  EXPECT_THAT(error_of("[a\n"), HasSubstr("mission schema: line 1: "));
+  EXPECT_THAT(error_of("[a\n"), HasSubstr("schema: line 1: "));
 }
 
-TEST(MissionSchema, WithAnIncompleteRuleIsRefused) {
+TEST(Schema, WithAnIncompleteRuleIsRefused) {
   EXPECT_THAT(error_of("[a]\nk = { type = \"number\", at_least = 0, about = \"k\" }"),
               HasSubstr("a.k: needs a lower and an upper bound"));
   EXPECT_THAT(error_of("[a]\nk = { type = \"text\" }"), HasSubstr("a.k: needs an 'about'"));
 }
 
-TEST(MissionSchema, WithADefaultThatBreaksItsOwnRuleIsRefused) {
+TEST(Schema, WithADefaultThatBreaksItsOwnRuleIsRefused) {
   EXPECT_THAT(error_of("[a]\nk = { type = \"number\", above = 0, below = 1, default = 1, "
                        "about = \"k\" }"),
               HasSubstr("a.k: the default must lie in (0, 1)"));

@@ -1,4 +1,4 @@
-#include "services/mission/key_check.h"
+#include "services/toml_schema/key_check.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "services/ingest/spacecraft_id.h"
-#include "services/mission/toml_scalar.h"
+#include "services/toml_schema/toml_scalar.h"
 
 namespace spindrift {
 namespace {

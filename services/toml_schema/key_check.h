@@ -1,5 +1,5 @@
 /// @file
-/// One value of a mission file against the rule of its key.
+/// One value of a configuration file against the rule of its key.
 
 #pragma once
 
@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "services/mission/mission_schema.h"
-#include "services/mission/scalar.h"
+#include "services/toml_schema/scalar.h"
+#include "services/toml_schema/schema.h"
 
 namespace spindrift {
 

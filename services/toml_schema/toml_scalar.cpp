@@ -1,4 +1,4 @@
-#include "services/mission/toml_scalar.h"
+#include "services/toml_schema/toml_scalar.h"
 
 namespace spindrift {
 

@@ -1,0 +1,139 @@
+#include "pipelines/ground_model/pulse_link.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <random>
+#include <utility>
+
+namespace spindrift {
+namespace {
+
+/// Numbers that are the same with every standard library, which its distributions are not.
+class Chance {
+ public:
+  explicit Chance(std::uint64_t seed) : engine_{seed} {}
+
+  /// [0, 1)
+  double uniform() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
+  /// [-1, 1)
+  double either_way() { return 2.0 * uniform() - 1.0; }
+  /// Standard normal, by Box and Muller.
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+    return radius * std::cos(2.0 * std::numbers::pi * uniform());
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+struct Arrival {
+  double t_s;
+  PulseChannel channel;
+  std::optional<Damage> damage;
+};
+
+bool is_silent(const PulseLink& link, double t_s) {
+  return std::any_of(link.silences.begin(), link.silences.end(), [t_s](const Silence& silence) {
+    return t_s >= silence.from_s && t_s < silence.to_s;
+  });
+}
+
+/// Everything that can befall one edge. Draws as often whatever happens.
+void send(const PulseLink& link, const TrueEdge& edge, Chance& chance, ReceivedPass& pass,
+          std::vector<Arrival>& arrivals) {
+  const ChannelFaults& faults = link.channels.at(index_of(edge.channel));
+  const bool sun = edge.channel == PulseChannel::Sun1 || edge.channel == PulseChannel::Sun2;
+  const bool lost = chance.uniform() < faults.lost;
+  const bool spoilt = chance.uniform() < faults.spoilt;
+  const bool doubled = chance.uniform() < faults.doubled;
+  const double way = chance.either_way();
+  const double again_s = (1.0 - chance.uniform()) * link.doubled_max_s;
+  const double noise_s = (sun ? link.noise.sun_s : link.noise.infrared_s) * chance.normal();
+  if (lost || faults.dead || is_silent(link, edge.t_s)) {
+    ++pass.missing;
+    return;
+  }
+  const double off_s = std::copysign(
+      link.spoilt_min_s + std::abs(way) * (link.spoilt_max_s - link.spoilt_min_s), way);
+  const double t_s = edge.t_s + noise_s + (spoilt ? off_s : 0.0);
+  arrivals.push_back({.t_s = t_s,
+                      .channel = edge.channel,
+                      .damage = spoilt ? std::optional{Damage::Spoilt} : std::nullopt});
+  if (doubled) {
+    arrivals.push_back({.t_s = t_s + again_s, .channel = edge.channel, .damage = Damage::Doubled});
+  }
+}
+
+void add_spurious(const PulseLink& link, double duration_s, std::int64_t revolutions,
+                  Chance& chance, std::vector<Arrival>& arrivals) {
+  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+    for (std::int64_t turn = 0; turn < revolutions; ++turn) {
+      const bool comes = chance.uniform() < link.channels.at(channel).spurious;
+      const double t_s = chance.uniform() * duration_s;
+      if (comes && !link.channels.at(channel).dead && !is_silent(link, t_s)) {
+        arrivals.push_back({.t_s = t_s,
+                            .channel = static_cast<PulseChannel>(channel),
+                            .damage = Damage::Spurious});
+      }
+    }
+  }
+}
+
+void sort_by_time(std::vector<Arrival>& arrivals) {
+  std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
+    return std::pair{a.t_s, a.channel} < std::pair{b.t_s, b.channel};
+  });
+}
+
+/// `arrivals` are in order of time.
+void interfere(double interference_s, Chance& chance, std::vector<Arrival>& arrivals) {
+  std::vector<bool> hit(arrivals.size());
+  for (std::size_t i = 0; i < arrivals.size(); ++i) {
+    for (std::size_t j = i + 1;
+         j < arrivals.size() && arrivals[j].t_s - arrivals[i].t_s < interference_s; ++j) {
+      if (arrivals[i].channel != arrivals[j].channel) {
+        hit[i] = hit[j] = true;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < arrivals.size(); ++i) {
+    if (hit[i]) {
+      arrivals[i].t_s += 0.5 * interference_s * chance.either_way();
+      arrivals[i].damage = arrivals[i].damage.value_or(Damage::Interference);
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(Damage damage) {
+  static constexpr std::array<std::string_view, 4> kNames = {"spoilt", "spurious", "doubled",
+                                                             "interference"};
+  return kNames.at(static_cast<std::size_t>(damage));
+}
+
+ReceivedPass receive(const PulseLink& link, const std::vector<TrueEdge>& edges, TaiTime start,
+                     double duration_s, std::int64_t revolutions) {
+  Chance chance{link.seed};
+  ReceivedPass pass;
+  std::vector<Arrival> arrivals;
+  arrivals.reserve(edges.size());
+  for (const TrueEdge& edge : edges) {
+    send(link, edge, chance, pass, arrivals);
+  }
+  add_spurious(link, duration_s, revolutions, chance, arrivals);
+  sort_by_time(arrivals);
+  interfere(link.interference_s, chance, arrivals);
+  sort_by_time(arrivals);
+  pass.pulses.reserve(arrivals.size());
+  for (const Arrival& arrival : arrivals) {
+    pass.pulses.push_back({.pulse = {.t = shifted(start, arrival.t_s), .channel = arrival.channel},
+                           .damage = arrival.damage});
+  }
+  return pass;
+}
+
+}  // namespace spindrift

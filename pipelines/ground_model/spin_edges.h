@@ -1,0 +1,122 @@
+/// @file
+/// When the sensors of a spinning spacecraft really see the Sun and the Earth.
+///
+/// Each edge is the root of its own condition at its own time: the body turns, the spacecraft moves
+/// along its orbit, the Sun along the ecliptic. For the geometry of an instant the condition gives
+/// the azimuth that slit 1 must have,
+///
+///     sun1        the Sun's azimuth
+///     sun2        the Sun's azimuth + psi0 + asin(cot theta_s tan I)
+///     *_in, *_out azimuth at which the beam touches the horizon, its own azimuth added,
+///
+/// and the edge is where the body's azimuth meets it. Times are at the spacecraft: no light time
+/// but that of the apparent Sun. Sun slits see no Sun that the Earth hides.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/orbit.h"
+#include "pipelines/ephemeris/sun.h"
+#include "pipelines/ground_model/spin_motion.h"
+#include "pipelines/spin/config.h"
+#include "pipelines/spin/pulse.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// A pencil beam as it really sits, and its electronics.
+struct TrueInfrared {
+  double mount_angle_rad;
+  double azimuth_rad;
+  double chord_excess_rad = 0.0;  ///< The chord comes out wider by this, half at each end.
+};
+
+/// An ellipsoid of revolution about the pole; a sphere where both are the same.
+struct EarthFigure {
+  double equatorial_km;
+  double polar_km;
+  Eigen::Vector3d pole_icrf;  ///< Unit length.
+};
+
+/// The infrared horizon: the sphere of the Earth's equatorial radius or the WGS-84 ellipsoid, its
+/// half axes longer by the altitude.
+EarthFigure infrared_horizon(const Horizon& horizon, const Eigen::Vector3d& pole_icrf);
+
+/// What there is, as opposed to what the mission file says of it.
+struct SpinTruth {
+  TaiTime start;
+  SpinMotion motion;
+  SunSensor sun_sensor;
+  std::optional<TrueInfrared> north;
+  std::optional<TrueInfrared> south;
+  EarthFigure horizon;
+};
+
+struct TrueEdge {
+  double t_s;  ///< Behind the start.
+  PulseChannel channel;
+};
+
+/// The edges of a pass, asked for in slices.
+///
+/// Good to 1e-10 s within a day. A chord narrower than half a degree is not seen: no beam is that
+/// fine, and its edges are no longer roots that a step can find.
+class SpinEdges {
+ public:
+  /// `orbit` outlives it.
+  SpinEdges(const SpinTruth& truth, const Orbit& orbit);
+
+  /// The edges from where the last slice ended (at first: the start) up to `end_s`, exclusive, in
+  /// order of time and channel.
+  /// @return NoCoverage where the orbit ends before (one turn ahead of the edges is looked at);
+  ///         Unobservable where it dips below the horizon.
+  Expected<std::vector<TrueEdge>> until(double end_s);
+
+  /// Turns that slit 1 has begun at the Sun since the start, whether it was seen or not.
+  std::int64_t revolutions() const { return revolutions_; }
+
+ private:
+  /// Geometry of an instant about the spin axis.
+  struct View {
+    Eigen::Vector3d sun_axes;       ///< Unit: east, north, axis.
+    Eigen::Vector3d earth_axes_km;  ///< Spacecraft -> Earth's centre.
+  };
+  /// Azimuth of slit 1 at which a channel's edge happens; without an edge one nearby, to count on.
+  struct Due {
+    double azimuth_rad;
+    bool seen;
+  };
+  struct Crossing {
+    double t_s;
+    bool seen;
+  };
+  struct Follower {
+    PulseChannel channel;
+    Crossing next;
+  };
+
+  Expected<View> view(double t_s);
+  Due due(PulseChannel channel, const View& view) const;
+  Due sun_due(PulseChannel channel, const View& view) const;
+  Due earth_due(const TrueInfrared& sensor, bool in, const View& view) const;
+  bool hides_sun(const View& view) const;
+  Expected<Crossing> crossing_near(PulseChannel channel, double guess_s);
+  Expected<void> follow(Follower& follower, double end_s, std::vector<TrueEdge>& edges);
+  Expected<void> start();
+
+  SpinTruth truth_;
+  const Orbit* orbit_;
+  ApparentSun sun_;
+  Eigen::Matrix3d axes_from_icrf_;
+  Eigen::Matrix3d squeezed_from_axes_;  ///< To a space where the horizon is the unit sphere.
+  std::vector<Follower> followers_;
+  std::int64_t revolutions_ = 0;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,44 @@
+#include "services/progress/progress_bar.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+namespace spindrift {
+namespace {
+
+constexpr std::chrono::milliseconds kBetweenDrawings{100};
+constexpr std::int64_t kWidth = 30;
+constexpr const char* kEraseLine = "\r\x1b[K";
+
+}  // namespace
+
+ProgressBar::ProgressBar(std::string label, std::int64_t total)
+    : label_{std::move(label)}, total_{total}, shown_{total > 0 && isatty(STDERR_FILENO) == 1} {}
+
+ProgressBar::~ProgressBar() {
+  if (shown_) {
+    std::fputs(kEraseLine, stderr);
+  }
+}
+
+void ProgressBar::advance_to(std::int64_t done) {
+  if (!shown_) {
+    return;
+  }
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_drawing_) {
+    return;
+  }
+  next_drawing_ = now + kBetweenDrawings;
+  const double part =
+      static_cast<double>(std::clamp<std::int64_t>(done, 0, total_)) / static_cast<double>(total_);
+  const auto filled = static_cast<std::int64_t>(part * static_cast<double>(kWidth));
+  fmt::print(stderr, "{}{} [{:#>{}}{:->{}}] {:3.0f} %", kEraseLine, label_, "", filled, "",
+             kWidth - filled, 100.0 * part);
+}
+
+}  // namespace spindrift

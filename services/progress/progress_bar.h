@@ -1,0 +1,34 @@
+/// @file
+/// How far a long command is, for somebody who watches it.
+
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace spindrift {
+
+/// One line on standard error, drawn anew at most ten times a second and gone at the end. Silent
+/// where standard error is no terminal.
+class ProgressBar {
+ public:
+  /// @param label What is being done: "processing". @param total What `done` will reach.
+  ProgressBar(std::string label, std::int64_t total);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+  ProgressBar(ProgressBar&&) = delete;
+  ProgressBar& operator=(ProgressBar&&) = delete;
+
+  /// Cheap enough for every batch.
+  void advance_to(std::int64_t done);
+
+ private:
+  std::string label_;
+  std::int64_t total_;
+  bool shown_;
+  std::chrono::steady_clock::time_point next_drawing_;
+};
+
+}  // namespace spindrift

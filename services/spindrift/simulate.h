@@ -1,0 +1,29 @@
+/// @file
+/// `spindrift simulate`: a pass made from a scenario, into files or onto the bus.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "pipelines/core/expected.h"
+
+namespace spindrift {
+
+struct SimulateOptions {
+  std::filesystem::path scenario;
+  std::filesystem::path out;  ///< Folder for the files; unless `publish`.
+  bool publish = false;
+  double speed = 1.0;  ///< Times real time; 0: as fast as it is taken.
+  std::uint32_t domain = 0;
+  std::string partition = "replay";
+  bool json = false;
+};
+
+/// Prints what it made on standard output.
+/// @return InvalidConfiguration for a bad scenario; Unavailable when the files cannot be written,
+///         nobody subscribes or the bus fails.
+Expected<void> simulate(const SimulateOptions& options);
+
+}  // namespace spindrift

@@ -1,0 +1,38 @@
+/// @file
+/// Values of a configuration file in which no problem was found.
+
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "services/toml_schema/scalar.h"
+
+namespace spindrift {
+
+/// The value of a key; empty where the key is absent. `T`: as the schema has it.
+template <class T>
+std::optional<T> value_if(const TomlValues& values, std::string_view key) {
+  const auto found = values.find(key);
+  return found == values.end() ? std::nullopt : std::optional{std::get<T>(found->second)};
+}
+
+/// The key is required or has a default.
+template <class T>
+T value_of(const TomlValues& values, std::string_view key) {
+  return std::get<T>(values.find(key)->second);
+}
+
+inline double number(const TomlValues& values, std::string_view key) {
+  return value_of<double>(values, key);
+}
+
+/// Of a key in degrees.
+inline double radians(const TomlValues& values, std::string_view key) {
+  return number(values, key) * (std::numbers::pi / 180.0);
+}
+
+}  // namespace spindrift

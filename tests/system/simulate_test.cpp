@@ -1,0 +1,245 @@
+// `spindrift simulate`, as a user runs it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+#include "pipelines/frames/celestial.h"
+#include "tests/support/archive_rows.h"
+#include "tests/support/bus_fixture.h"
+#include "tests/support/program.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const std::filesystem::path kScenarios =
+    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios";
+const std::string kNominal = (kScenarios / "gto-nominal.toml").string();
+const std::string kDirty = (kScenarios / "gto-dirty.toml").string();
+const std::string kLastMean =
+    " FROM spin_estimate WHERE estimator = 'mean' ORDER BY t_tai_ns DESC LIMIT 1";
+
+nlohmann::json simulated(const std::string& scenario, const std::filesystem::path& out) {
+  Program program{{"simulate", scenario, "--out", out.string(), "--json"}};
+  EXPECT_EQ(program.exit_status(), 0) << program.log();
+  // Standard error is a file here: no bar is drawn.
+  EXPECT_EQ(program.log(), "");
+  return nlohmann::json::parse(program.out());
+}
+
+std::vector<std::string> lines_of(const std::filesystem::path& path) {
+  std::vector<std::string> lines;
+  std::istringstream text{text_of(path)};
+  for (std::string line; std::getline(text, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+/// A scenario that comes with the program, changed.
+std::string changed(const TemporaryFolder& folder, const std::string& scenario,
+                    const std::string& from, const std::string& to) {
+  std::string text = text_of(scenario);
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return folder.write("scenario.toml", text.replace(at, from.size(), to)).string();
+}
+
+TEST(Simulate, MakesAPassOfWhichTheAxisIsFound) {
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "deep" / "pass";
+  const auto summary = simulated(kNominal, out);
+  EXPECT_EQ(summary["revolutions"], 600);
+  EXPECT_EQ(summary["edges"], 3600);
+  EXPECT_EQ(summary["spacecraft"], "SPINNER");
+  EXPECT_EQ(summary["files"].size(), 4U);
+  for (const auto& file : summary["files"]) {
+    EXPECT_TRUE(std::filesystem::exists(file.get<std::string>())) << file;
+  }
+
+  const auto db = folder.path() / "pass.db";
+  Program process{{"process", "--mission", (out / "mission.toml").string(), "--telemetry",
+                   out.string(), "--db", db.string(), "--strict"}};
+  ASSERT_EQ(process.exit_status(), 0) << process.log();
+  const auto truth = nlohmann::json::parse(text_of(out / "truth.json"));
+  const auto place = [](double ra_deg, double dec_deg) {
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    return direction_icrf({.ra_rad = ra_deg * kDegree, .dec_rad = dec_deg * kDegree});
+  };
+  const double error_deg = angle_between_rad(place(truth["ra_deg"], truth["dec_deg"]),
+                                             place(real_of(db, "SELECT ra_deg" + kLastMean),
+                                                   real_of(db, "SELECT dec_deg" + kLastMean))) *
+                           180.0 / std::numbers::pi;
+  // Three sigma of a two-dimensional error, whose sigma is that of both axes together.
+  EXPECT_LT(error_deg, 3.0 * real_of(db, "SELECT sigma_deg" + kLastMean));
+  EXPECT_NEAR(real_of(db, "SELECT spin_rate_rpm" + kLastMean), truth["rpm"],
+              4.0 * real_of(db, "SELECT sigma_rpm" + kLastMean));
+}
+
+TEST(Simulate, TellsTheTruthAboutEveryFault) {
+  const TemporaryFolder folder;
+  const auto summary = simulated(kDirty, folder.path() / "pass");
+  const auto truth = nlohmann::json::parse(text_of(folder.path() / "pass" / "truth.json"));
+  const auto rows = lines_of(folder.path() / "pass" / "pulses.csv");
+
+  EXPECT_EQ(summary["edges"], rows.size() - 1);
+  const std::set<std::string> written{rows.begin(), rows.end()};
+  std::map<std::string, int> counted;
+  for (const auto& bad : truth["bad_edges"]) {
+    EXPECT_TRUE(written.contains(std::to_string(bad[0].get<std::int64_t>()) + "," +
+                                 bad[1].get<std::string>()))
+        << bad;
+    ++counted[bad[2]];
+  }
+  for (const char* const kind : {"spoilt", "spurious", "doubled", "interference"}) {
+    EXPECT_GT(counted[kind], 0) << kind;
+    EXPECT_EQ(truth[kind], counted[kind]) << kind;
+    EXPECT_EQ(summary["faults"][kind], counted[kind]) << kind;
+  }
+  // What came of 3600 true edges, and what came of nothing.
+  const std::int64_t edges = summary["edges"];
+  const std::int64_t missing = truth["missing"];
+  EXPECT_EQ(edges + missing - counted["spurious"] - counted["doubled"], 3600);
+}
+
+TEST(Simulate, GivesTheSameBytesForTheSameSeed) {
+  const TemporaryFolder folder;
+  simulated(kDirty, folder.path() / "a");
+  simulated(kDirty, folder.path() / "b");
+  simulated(changed(folder, kDirty, "seed = 7", "seed = 8"), folder.path() / "c");
+  for (const char* const name : {"pulses.csv", "orbit.oem", "mission.toml", "truth.json"}) {
+    EXPECT_EQ(text_of(folder.path() / "a" / name), text_of(folder.path() / "b" / name)) << name;
+  }
+  EXPECT_NE(text_of(folder.path() / "a" / "pulses.csv"),
+            text_of(folder.path() / "c" / "pulses.csv"));
+}
+
+TEST(Simulate, WritesCodedTelemetryOneRowARevolution) {
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "pass";
+  simulated(changed(folder, kNominal, "[attitude]",
+                    "[telemetry]\nkind = \"both\"\ncoded_resolution_s = 1e-4\n[attitude]"),
+            out);
+  const auto rows = lines_of(out / "coded.csv");
+  ASSERT_EQ(rows.size(), 601U);
+  EXPECT_EQ(rows[0], "t_tai_ns,period_s,sun2_s,north_in_s,north_out_s,south_in_s,south_out_s");
+  std::vector<std::string> sun1;
+  for (const std::string& row : lines_of(out / "pulses.csv")) {
+    if (row.ends_with(",sun1")) {
+      sun1.push_back(row.substr(0, row.find(',')));
+    }
+  }
+  ASSERT_EQ(sun1.size(), 600U);
+  for (std::size_t i = 0; i < sun1.size(); ++i) {
+    EXPECT_THAT(rows[i + 1], StartsWith(sun1[i] + ","));
+  }
+  // One turn a second, to a tenth of a millisecond; only the first frame has no neighbour.
+  EXPECT_THAT(rows[1], StartsWith(sun1[0] + ",,0."));
+  EXPECT_THAT(rows[2],
+              ::testing::AnyOf(StartsWith(sun1[1] + ",0.999"), StartsWith(sun1[1] + ",1.000")));
+  EXPECT_THAT(rows[2], ::testing::ContainsRegex(R"(^[0-9]+(,[01]\.[0-9]{4}00000){6}$)"));
+}
+
+TEST(Simulate, ReplacesItsOwnFilesButRefusesAFolderWithOtherTelemetry) {
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "pass";
+  simulated(kDirty, out);
+  simulated(kNominal, out);
+  EXPECT_EQ(lines_of(out / "pulses.csv").size(), 3601U);
+
+  std::ofstream{out / "other.csv"} << "t_tai_ns,channel\n";
+  Program refused{{"simulate", kDirty, "--out", out.string()}};
+  EXPECT_EQ(refused.exit_status(), 2);
+  EXPECT_THAT(refused.log(), HasSubstr("other.csv: is not of this pass"));
+  EXPECT_EQ(lines_of(out / "pulses.csv").size(), 3601U);
+}
+
+TEST(Simulate, LeavesNothingHalfWrittenOnAFullDisk) {
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "pass";
+  Program program{{"simulate", kNominal, "--out", out.string()}, 32};
+  EXPECT_EQ(program.exit_status(), 1);
+  EXPECT_THAT(program.log(), HasSubstr("pulses.csv: cannot be written: File too large"));
+  EXPECT_TRUE(std::filesystem::is_empty(out));
+}
+
+TEST(Simulate, FailsWhereTheFolderCannotBe) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("file", "");
+  Program program{{"simulate", kNominal, "--out", (file / "pass").string()}};
+  EXPECT_EQ(program.exit_status(), 1);
+  EXPECT_THAT(program.log(), HasSubstr("cannot be made"));
+}
+
+TEST(Simulate, RefusesABadScenarioBeforeItWritesAnything) {
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "pass";
+  Program program{{"simulate", changed(folder, kNominal, "rate_rpm = 60.0", "rate_rpm = 0"),
+                   "--out", out.string(), "--json"}};
+  EXPECT_EQ(program.exit_status(), 2);
+  const std::string error = nlohmann::json::parse(program.out()).at("error");
+  EXPECT_THAT(error, HasSubstr("attitude.rate_rpm = 0: must lie in [5, 200] rpm"));
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(Simulate, RefusesABadCommandLine) {
+  for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{
+           {"simulate"},
+           {"simulate", kNominal},
+           {"simulate", kNominal, "--out", "x", "--publish"},
+           {"simulate", kNominal, "--out", "x", "--speed", "2"},
+           {"simulate", kNominal, "--out", "x", "--partition", "replay"},
+           {"simulate", kNominal, "--publish", "--speed", "-1"},
+           {"simulate", kNominal, "--publish", "--partition", "*"}}) {
+    Program program{bad};
+    EXPECT_EQ(program.exit_status(), 2);
+    EXPECT_THAT(program.log(), HasSubstr("--help"));
+  }
+}
+
+TEST(Simulate, DoesNotPublishCodedTelemetry) {
+  const TemporaryFolder folder;
+  Program program{
+      {"simulate",
+       changed(folder, kNominal, "[attitude]", "[telemetry]\nkind = \"coded\"\n[attitude]"),
+       "--publish"}};
+  EXPECT_EQ(program.exit_status(), 2);
+  EXPECT_THAT(program.log(), HasSubstr("telemetry.kind: only \"pulses\" can be published"));
+}
+
+TEST(Simulate, PublishesWhatItWouldWrite) {
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "pass";
+  simulated(kDirty, out);
+  const auto bus = bus_of_its_own();
+  const auto db = folder.path() / "served.db";
+  const std::string domain = std::to_string(bus.domain);
+  Program service{{"serve", "--mission", (out / "mission.toml").string(), "--db", db.string(),
+                   "--domain", domain, "--partition", bus.partition}};
+  ASSERT_TRUE(service.says("ready")) << service.log();
+  Program publishing{{"simulate", kDirty, "--publish", "--speed", "0", "--domain", domain,
+                      "--partition", bus.partition, "--json"}};
+  ASSERT_EQ(publishing.exit_status(), 0) << publishing.log();
+  service.signal(SIGTERM);
+  ASSERT_EQ(service.exit_status(), 0) << service.log();
+
+  auto expected = lines_of(out / "pulses.csv");
+  expected.erase(expected.begin());
+  EXPECT_EQ(nlohmann::json::parse(publishing.out())["published"], expected.size());
+  auto stored = rows_of(db, "SELECT t_tai_ns || ',' || channel FROM pulse");
+  for (std::string& row : stored) {
+    row.pop_back();
+  }
+  EXPECT_THAT(stored, ::testing::UnorderedElementsAreArray(expected));
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,263 @@
+#include "pipelines/ground_model/spin_edges.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "pipelines/frames/celestial.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kRpm = std::numbers::pi / 30.0;
+constexpr TaiTime kStart = tai_from_ns(1795143637000000000);  // 2026-11-20
+const Eigen::Vector3d kIcrfPole = Eigen::Vector3d::UnitZ();
+
+Orbit orbit_of(double a_km, double e, double mean_anomaly_rad) {
+  return Orbit{KeplerOrbit::make({.epoch = kStart,
+                                  .semi_major_axis_km = a_km,
+                                  .eccentricity = e,
+                                  .inclination_rad = 28.5 * kDegree,
+                                  .raan_rad = 300.0 * kDegree,
+                                  .argument_of_perigee_rad = 178.0 * kDegree,
+                                  .mean_anomaly_rad = mean_anomaly_rad})
+                   .value()};
+}
+
+Eigen::Vector3d place(double ra_deg, double dec_deg) {
+  return direction_icrf({.ra_rad = ra_deg * kDegree, .dec_rad = dec_deg * kDegree});
+}
+
+SpinTruth truth_of(const Eigen::Vector3d& axis_icrf, double rpm, HorizonModel horizon) {
+  const SpinConfig config = testing::usual_config();
+  const auto beam = [](const InfraredSensor& sensor) {
+    return TrueInfrared{.mount_angle_rad = sensor.mount_angle_rad,
+                        .azimuth_rad = sensor.azimuth_rad};
+  };
+  return {.start = kStart,
+          .motion = {.axis_icrf = axis_icrf,
+                     .rate_rad_s = rpm * kRpm,
+                     .rate_drift_rad_s2 = 0.0,
+                     .first_azimuth_rad = 1.0},
+          .sun_sensor = config.sun_sensor,
+          .north = beam(*config.north),
+          .south = beam(*config.south),
+          .horizon = infrared_horizon({.model = horizon, .co2_altitude_km = 40.0}, kIcrfPole)};
+}
+
+std::vector<TrueEdge> edges_of(const SpinTruth& truth, const Orbit& orbit, double end_s) {
+  SpinEdges edges{truth, orbit};
+  return edges.until(end_s).value();
+}
+
+/// The oracle turns evenly; where the rate drifts its clock is the angle turned, as a time.
+double turned_s(const SpinMotion& motion, double t_s) {
+  return (motion.azimuth_rad(t_s) - motion.first_azimuth_rad) / motion.rate_rad_s;
+}
+double time_s(const SpinMotion& motion, double turned_s) {
+  const double ratio = motion.rate_drift_rad_s2 / motion.rate_rad_s;
+  return ratio == 0.0 ? turned_s : (std::sqrt(1.0 + 2.0 * ratio * turned_s) - 1.0) / ratio;
+}
+
+std::vector<testing::Edge> oracle(const SpinTruth& truth, const Orbit& orbit, double from_s,
+                                  double to_s) {
+  const SpinMotion& motion = truth.motion;
+  // The oracle's Earth stands upright: everything is turned until it does.
+  const Eigen::Quaterniond upright =
+      Eigen::Quaterniond::FromTwoVectors(truth.horizon.pole_icrf, kIcrfPole);
+  const Eigen::Vector3d axis = upright * motion.axis_icrf;
+  const Eigen::Vector3d zero =
+      upright.conjugate() * (Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis) *
+                             Eigen::Vector3d::UnitX());
+  const Eigen::Vector2d zero_plane = tangent_basis(motion.axis_icrf).transpose() * zero;
+  SpinConfig config = testing::usual_config();
+  config.sun_sensor = truth.sun_sensor;
+  const testing::SpinningBody body = {
+      .axis_icrf = axis,
+      .rate_rad_s = motion.rate_rad_s,
+      .first_turn_rad = motion.first_azimuth_rad - std::atan2(zero_plane.y(), zero_plane.x()),
+      .config = config};
+  ApparentSun sun;
+  const auto state = [&](double turned) {
+    return orbit.at(shifted(truth.start, time_s(motion, turned))).value();
+  };
+  const testing::Surroundings around = {
+      .sun_icrf = [&](double turned) -> Eigen::Vector3d {
+        return upright *
+               sun.direction_icrf(shifted(truth.start, time_s(motion, turned)), state(turned));
+      },
+      .earth_icrf_km = [&](double turned) -> Eigen::Vector3d {
+        return upright * -state(turned).position_icrf_km;
+      },
+      .horizon_km = {truth.horizon.equatorial_km, truth.horizon.equatorial_km,
+                     truth.horizon.polar_km}};
+  auto edges =
+      testing::edges_between(body, around, turned_s(motion, from_s), turned_s(motion, to_s));
+  for (testing::Edge& edge : edges) {
+    edge.t_s = time_s(motion, edge.t_s);
+  }
+  return edges;
+}
+
+void expect_the_oracles_edges(const SpinTruth& truth, const Orbit& orbit, double from_s,
+                              double to_s) {
+  std::vector<TrueEdge> edges = edges_of(truth, orbit, to_s);
+  std::erase_if(edges, [&](const TrueEdge& edge) { return edge.t_s < from_s; });
+  const auto expected = oracle(truth, orbit, from_s, to_s);
+  ASSERT_GT(expected.size(), 0U);
+  ASSERT_EQ(edges.size(), expected.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    ASSERT_EQ(name_of(edges[i].channel), name_of(expected[i].channel)) << i;
+    ASSERT_NEAR(edges[i].t_s, expected[i].t_s, 1e-9) << i << ' ' << name_of(edges[i].channel);
+  }
+}
+
+struct Case {
+  std::string name;
+  Eigen::Vector3d axis_icrf;
+  double rpm;
+  Orbit orbit;
+};
+
+std::vector<Case> cases() {
+  const Orbit transfer = orbit_of(24400.0, 0.73, 0.5);
+  return {{"transfer orbit", place(100.0, -55.0), 60.0, transfer},
+          {"slowest spin on the transfer orbit", place(100.0, -55.0), 5.0, transfer},
+          {"fastest spin", place(120.0, -60.0), 200.0, transfer},
+          {"geostationary ring, axis near the pole", place(54.0, -89.5), 100.0,
+           orbit_of(42164.0, 0.0, 1.0)},
+          {"axis at the pole itself", place(0.0, 90.0), 30.0, orbit_of(42164.0, 0.001, 2.0)},
+          {"low orbit, slow", place(210.0, 62.0), 5.0, orbit_of(6900.0, 0.001, 3.0)}};
+}
+
+TEST(SpinEdges, AreThoseOfTheOracleOnTheSphereAndOnTheEllipsoid) {
+  for (const Case& each : cases()) {
+    for (const HorizonModel horizon : {HorizonModel::Sphere, HorizonModel::Ellipsoid}) {
+      SCOPED_TRACE(each.name + (horizon == HorizonModel::Sphere ? ", sphere" : ", ellipsoid"));
+      const SpinTruth truth = truth_of(each.axis_icrf, each.rpm, horizon);
+      expect_the_oracles_edges(truth, each.orbit, 0.0, 30.3 * 60.0 / each.rpm);
+    }
+  }
+}
+
+TEST(SpinEdges, AreThoseOfTheOracleAfterADay) {
+  const SpinTruth truth = truth_of(place(54.0, -80.0), 100.0, HorizonModel::Ellipsoid);
+  expect_the_oracles_edges(truth, orbit_of(42164.0, 0.0, 1.0), 86400.0, 86410.0);
+}
+
+TEST(SpinEdges, FollowADriftOfTheRate) {
+  for (const double drift_rad_s2 : {1e-3, -1e-3}) {
+    SpinTruth truth = truth_of(place(100.0, -55.0), 60.0, HorizonModel::Ellipsoid);
+    truth.motion.rate_drift_rad_s2 = drift_rad_s2;
+    expect_the_oracles_edges(truth, orbit_of(24400.0, 0.73, 0.5), 0.0, 120.0);
+  }
+}
+
+TEST(SpinEdges, HaveNoSecondSunEdgeWhereTheSlitMissesTheSun) {
+  SpinTruth truth = truth_of(place(100.0, -55.0), 60.0, HorizonModel::Sphere);
+  // The Sun stands 6 deg from this body's equator: only a slit that is all but level misses it.
+  truth.sun_sensor.slit_cant_rad = 85.0 * kDegree;
+  const auto edges = edges_of(truth, orbit_of(24400.0, 0.73, 0.5), 10.0);
+  EXPECT_EQ(std::count_if(edges.begin(), edges.end(),
+                          [](const TrueEdge& e) { return e.channel == PulseChannel::Sun2; }),
+            0);
+  EXPECT_EQ(std::count_if(edges.begin(), edges.end(),
+                          [](const TrueEdge& e) { return e.channel == PulseChannel::Sun1; }),
+            10);
+}
+
+TEST(SpinEdges, DoNotDependOnTheSlices) {
+  const SpinTruth truth = truth_of(place(100.0, -55.0), 60.0, HorizonModel::Ellipsoid);
+  const Orbit orbit = orbit_of(24400.0, 0.73, 0.5);
+  const auto whole = edges_of(truth, orbit, 20.0);
+  SpinEdges sliced{truth, orbit};
+  std::vector<TrueEdge> joined;
+  for (const double end_s : {0.1, 0.1, 3.7, 19.99, 20.0}) {
+    const auto slice = sliced.until(end_s).value();
+    joined.insert(joined.end(), slice.begin(), slice.end());
+  }
+  ASSERT_EQ(joined.size(), whole.size());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(joined[i].t_s, whole[i].t_s);
+    EXPECT_EQ(joined[i].channel, whole[i].channel);
+  }
+  EXPECT_EQ(sliced.revolutions(), 20);
+}
+
+TEST(SpinEdges, WidenAChordByItsExcessHalfAtEachEnd) {
+  SpinTruth truth = truth_of(place(100.0, -55.0), 60.0, HorizonModel::Sphere);
+  const Orbit orbit = orbit_of(24400.0, 0.73, 0.5);
+  const auto exact = edges_of(truth, orbit, 5.0);
+  truth.north->chord_excess_rad = 0.2 * kDegree;
+  const auto wide = edges_of(truth, orbit, 5.0);
+  ASSERT_EQ(wide.size(), exact.size());
+  for (std::size_t i = 0; i < wide.size(); ++i) {
+    const PulseChannel channel = exact[i].channel;
+    const double expected_deg = channel == PulseChannel::NorthIn    ? -0.1
+                                : channel == PulseChannel::NorthOut ? 0.1
+                                                                    : 0.0;
+    // 6 deg per ms; the Earth moves by less than 1e-6 deg in that time.
+    EXPECT_NEAR((wide[i].t_s - exact[i].t_s) * 360.0, expected_deg, 1e-5);
+  }
+}
+
+TEST(SpinEdges, AreThoseOfTheOracleWhereverThePoleStands) {
+  SpinTruth truth = truth_of(place(100.0, -55.0), 60.0, HorizonModel::Ellipsoid);
+  truth.horizon.pole_icrf = place(30.0, 50.0);
+  expect_the_oracles_edges(truth, orbit_of(24400.0, 0.73, 0.5), 0.0, 10.0);
+}
+
+TEST(SpinEdges, EndWhereTheEarthHidesTheSun) {
+  // Opposite to the Sun, 7000 km from the Earth's centre.
+  ApparentSun sun;
+  const Eigen::Vector3d away = -sun.direction_icrf(
+      kStart, {.position_icrf_km = {7000.0, 0.0, 0.0}, .velocity_icrf_km_s = {0.0, 0.0, 0.0}});
+  const Eigen::Vector3d along = away.cross(kIcrfPole).normalized();
+  std::vector<EphemerisPoint> points;
+  for (int i = -2; i <= 2; ++i) {
+    points.push_back(
+        {.t = shifted(kStart, 600.0 * i),
+         .state = {.position_icrf_km = 7000.0 * away, .velocity_icrf_km_s = 1e-9 * along}});
+  }
+  const Orbit orbit{OrbitEphemeris::make({{.usable_from = points.front().t,
+                                           .usable_to = points.back().t,
+                                           .interpolation = Interpolation::Lagrange,
+                                           .degree = 1,
+                                           .points = points}})
+                        .value()};
+  SpinEdges edges{truth_of(along, 60.0, HorizonModel::Sphere), orbit};
+  const auto seen = edges.until(10.0).value();
+  EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](const TrueEdge& edge) {
+    return edge.channel != PulseChannel::Sun1 && edge.channel != PulseChannel::Sun2;
+  }));
+  EXPECT_GT(seen.size(), 30U);
+  EXPECT_EQ(edges.revolutions(), 10);
+}
+
+TEST(SpinEdges, SayWhereTheOrbitEnds) {
+  const std::vector<EphemerisPoint> points = {
+      {.t = kStart,
+       .state = {.position_icrf_km = {9000.0, 0.0, 0.0}, .velocity_icrf_km_s = {0.0, 7.0, 0.0}}},
+      {.t = shifted(kStart, 5.0),
+       .state = {.position_icrf_km = {9000.0, 35.0, 0.0}, .velocity_icrf_km_s = {0.0, 7.0, 0.0}}}};
+  const Orbit orbit{OrbitEphemeris::make({{.usable_from = points.front().t,
+                                           .usable_to = points.back().t,
+                                           .interpolation = Interpolation::Hermite,
+                                           .degree = 3,
+                                           .points = points}})
+                        .value()};
+  SpinEdges edges{truth_of(place(100.0, -55.0), 60.0, HorizonModel::Sphere), orbit};
+  const auto seen = edges.until(10.0);
+  ASSERT_FALSE(seen);
+  EXPECT_EQ(seen.error().code, ErrorCode::NoCoverage);
+}
+
+}  // namespace
+}  // namespace spindrift
