@@ -11,7 +11,7 @@ constexpr int kLastYear = 2261;
 // Sockets, archive, log and what the libraries open come to some forty.
 constexpr std::uint64_t kFewFiles = 256;
 constexpr std::int64_t kLittleMemory_bytes = 512LL << 20;
-// Versions with the WAL-reset bug: https://www.sqlite.org/wal.html section "The WAL-Reset Bug".
+// Versions 3.7.0 to 3.51.2 have the WAL-reset bug.
 constexpr int kFirstWithResetBug = 3007000;
 constexpr int kFirstWithoutResetBug = 3051003;
 

@@ -25,8 +25,8 @@ struct NetworkSettings {
   /// Programs that a host can run in the domain; absent where they are not numbered, which only
   /// multicast allows.
   std::optional<int> indices;
-  std::uint16_t first_port = 0;  ///< Of index 0.
-  std::uint16_t port_step = 2;   ///< From an index to the next.
+  std::uint16_t first_port = 0;                      ///< Of index 0.
+  std::uint16_t port_step = 2;                       ///< From an index to the next.
   std::optional<std::int64_t> receive_buffer_bytes;  ///< As the kernel granted it.
 };
 

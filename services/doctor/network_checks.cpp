@@ -14,9 +14,10 @@ constexpr double kSlowRoundTrip_ms = 1000.0;
 
 std::string description(const NetworkFacts& facts) {
   const NetworkSettings& settings = *facts.settings;
-  return fmt::format("domain {}, {}\ninterfaces: {}; multicast: {}; peers: {}", facts.domain,
-                     facts.configuration, settings.interfaces, settings.multicast,
-                     settings.peers.empty() ? "none" : fmt::format("{}", fmt::join(settings.peers, ", ")));
+  return fmt::format(
+      "domain {}, {}\ninterfaces: {}; multicast: {}; peers: {}", facts.domain, facts.configuration,
+      settings.interfaces, settings.multicast,
+      settings.peers.empty() ? "none" : fmt::format("{}", fmt::join(settings.peers, ", ")));
 }
 
 Check check_configuration(const NetworkFacts& facts) {
@@ -78,9 +79,8 @@ Check check_round_trip(const Expected<double>& duration_ms) {
                    "look for a firewall on the interface, or for another configuration of the "
                    "network than the one above");
   }
-  const std::string found =
-      fmt::format("a sample came from another process after {:.0f} ms, discovery included",
-                  *duration_ms);
+  const std::string found = fmt::format(
+      "a sample came from another process after {:.0f} ms, discovery included", *duration_ms);
   return *duration_ms > kSlowRoundTrip_ms
              ? warning(name, found, "the host is busy: see what else runs on it")
              : ok(name, found);

@@ -2,10 +2,10 @@
 #include <dds/ddsrt/log.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <set>
 
 #include "services/bus/entity.h"
@@ -48,7 +48,7 @@ class TraceCapture {
   std::string trace_;
 };
 
-/// What stands between `after` and `until`, from `from` on; empty where `after` is not found.
+/// What stands between `after` and `until`, or the end; empty where `after` is not found.
 std::string_view between(std::string_view text, std::string_view after, std::string_view until) {
   const std::size_t found = text.find(after);
   if (found == std::string_view::npos) {
@@ -78,6 +78,17 @@ std::vector<std::string> peers_of(std::string_view trace) {
   return peers;
 }
 
+/// "lo (index 1 priority 0), eth0 (...)" without what stands in brackets.
+std::string interfaces_of(std::string_view trace) {
+  std::string_view chosen = between(trace, "selected interfaces: ", "\n");
+  std::string interfaces;
+  while (!chosen.empty()) {
+    interfaces += chosen.substr(0, chosen.find(" ("));
+    chosen.remove_prefix(std::min(chosen.find(')'), chosen.size() - 1) + 1);
+  }
+  return interfaces;
+}
+
 std::string text_of(const char* path) {
   std::ifstream file{path, std::ios::binary};
   return {std::istreambuf_iterator<char>{file}, {}};
@@ -87,7 +98,7 @@ std::string text_of(const char* path) {
 
 NetworkSettings settings_of(std::string_view trace) {
   NetworkSettings settings{
-      .interfaces = std::string{between(trace, "selected interfaces: ", "\n")},
+      .interfaces = interfaces_of(trace),
       .multicast = std::string{setting(trace, "General/AllowMulticast/#text")},
       .peers = peers_of(trace),
       .indices = {},
@@ -98,11 +109,10 @@ NetworkSettings settings_of(std::string_view trace) {
   }
   const auto step = number(setting(trace, "Discovery/Ports/ParticipantGain/#text")).value_or(2);
   const auto port = number(between(trace, "Unicast Ports: discovery ", " "));
-  const auto index = number(between(between(trace, "rtps_init: domainid", "\n"),
-                                    "participantid ", " "));
+  const auto index =
+      number(between(between(trace, "rtps_init: domainid", "\n"), "participantid ", " "));
   settings.port_step = static_cast<std::uint16_t>(step);
-  settings.first_port =
-      static_cast<std::uint16_t>(port.value_or(0) - index.value_or(0) * step);
+  settings.first_port = static_cast<std::uint16_t>(port.value_or(0) - index.value_or(0) * step);
   return settings;
 }
 
@@ -137,8 +147,8 @@ NetworkFacts network_facts(std::uint32_t domain) {
         dds_create_domain(domain, (network.text + std::string{kTraceConfiguration}).c_str()),
         fmt::format("DDS domain {}", domain));
     if (!created) {
-      facts.settings = Unexpected{{created.error().code,
-                                   fmt::format("{}: {}", created.error().message, capture.log())}};
+      facts.settings = Unexpected{
+          {created.error().code, fmt::format("{}: {}", created.error().message, capture.log())}};
       return facts;
     }
     facts.settings = settings_of(capture.trace());

@@ -12,11 +12,11 @@ namespace spindrift::doctor {
 namespace {
 
 bool in_partition(const Endpoint& endpoint, const std::string& partition) {
-  return std::any_of(
-      endpoint.partitions.begin(), endpoint.partitions.end(), [&](const std::string& name) {
-        return fnmatch(name.c_str(), partition.c_str(), 0) == 0 ||
-               fnmatch(partition.c_str(), name.c_str(), 0) == 0;
-      });
+  return std::any_of(endpoint.partitions.begin(), endpoint.partitions.end(),
+                     [&](const std::string& name) {
+                       return fnmatch(name.c_str(), partition.c_str(), 0) == 0 ||
+                              fnmatch(partition.c_str(), name.c_str(), 0) == 0;
+                     });
 }
 
 std::string lines(const std::set<std::string>& texts) {
@@ -58,8 +58,7 @@ Check check_company(const PresenceFacts& facts) {
   for (const Endpoint& endpoint : facts.endpoints) {
     texts.insert("  " + description(endpoint));
   }
-  return ok("programs on the bus",
-            texts.empty() ? "none but this one" : lines(texts));
+  return ok("programs on the bus", texts.empty() ? "none but this one" : lines(texts));
 }
 
 Check check_telemetry(const PresenceFacts& facts) {
@@ -93,7 +92,7 @@ Check check_qos(const PresenceFacts& facts) {
     }
   }
   return mismatches.empty()
-             ? ok("QoS", "everyone on the topics of spindrift matches")
+             ? ok("QoS", fmt::format("no mismatch in partition '{}'", facts.bus.partition))
              : failure("QoS", lines(mismatches),
                        "these never exchange a sample: change the QoS of the program named");
 }

@@ -94,8 +94,8 @@ Expected<std::map<Guid, std::string>> participants_of(const bus::Participant& pa
     participants[guid_of(present.key)] =
         fmt::format("{} (pid {}) on {}", property(present.qos, "__ProcessName"), pid, at);
   };
-  return for_each_present<dds_builtintopic_participant_t>(
-             participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, note)
+  return for_each_present<dds_builtintopic_participant_t>(participant,
+                                                          DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, note)
       .map([&] { return std::move(participants); });
 }
 

@@ -33,7 +33,12 @@ Expected<void> send_one(const bus::BusConfig& config) {
   if (!writer) {
     return Unexpected{writer.error()};
   }
-  const spindrift_Pulse pulse{.spacecraft = "DOCTOR", .source = "doctor"};
+  const spindrift_Pulse pulse{.spacecraft = "DOCTOR",
+                              .source = "doctor",
+                              .session = 0,
+                              .seq = 0,
+                              .t_tai_ns = 0,
+                              .channel = spindrift_SUN1};
   return writer->wait_for_reader(kPatience).and_then([&] { return writer->write(pulse); });
 }
 
@@ -59,10 +64,9 @@ Expected<void> receive_one(const bus::BusConfig& config,
     }
     std::this_thread::sleep_for(kPoll);
   }
-  return Unexpected{
-      {ErrorCode::Unavailable,
-       fmt::format("no sample came from another process of this host within {} s",
-                   std::chrono::seconds{kPatience}.count())}};
+  return Unexpected{{ErrorCode::Unavailable,
+                     fmt::format("no sample came from another process of this host within {} s",
+                                 std::chrono::seconds{kPatience}.count())}};
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 #include <system_error>
 
 #include "services/processor/version.h"
+#include "services/spindrift/doctor.h"
 #include "services/spindrift/process.h"
 #include "services/spindrift/replay.h"
 #include "services/spindrift/serve.h"
@@ -42,7 +43,9 @@ struct Request {
   spindrift::ProcessOptions process;
   spindrift::ServeOptions serve;
   spindrift::ReplayOptions replay;
+  spindrift::DoctorOptions doctor;
   std::function<Expected<void>()> run;
+  int status = EXIT_SUCCESS;  ///< Of a run that came to its end.
 };
 
 /// A partition is one by name: a pattern would let a rehearsal reach live subscribers.
@@ -107,6 +110,23 @@ void add_replay(CLI::App& app, Request& request) {
   });
 }
 
+void add_doctor(CLI::App& app, Request& request) {
+  spindrift::DoctorOptions& options = request.doctor;
+  CLI::App& command =
+      *app.add_subcommand("doctor", "Say what is wrong before a pass, and what to do about it");
+  command.add_option("--mission", options.missions, "Mission file of each spacecraft");
+  command.add_option("--db", options.db, "Archive of the pass");
+  add_bus_options(command, options.domain, options.partition);
+  command.add_flag("--json", options.json, "Print one JSON object");
+  command.callback([&] {
+    request.run = [&] {
+      return run_doctor(request.doctor).map([&](bool sound) {
+        request.status = sound ? EXIT_SUCCESS : kFailed;
+      });
+    };
+  });
+}
+
 /// Message for people on standard error; with --json, which even a bad command line may hold, an
 /// object on standard output as well.
 void tell_failure(const std::string& message, std::span<char* const> arguments) {
@@ -127,6 +147,7 @@ int run(int argc, char** argv) {
   add_process(app, request);
   add_serve(app, request);
   add_replay(app, request);
+  add_doctor(app, request);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -138,7 +159,7 @@ int run(int argc, char** argv) {
 
   const auto done = request.run();
   if (done) {
-    return EXIT_SUCCESS;
+    return request.status;
   }
   tell_failure(done.error().message, arguments);
   return done.error().code == ErrorCode::InvalidConfiguration ? kBadInput : kFailed;
