@@ -74,16 +74,49 @@ ArchiveContent read_content(SQLite::Database& database, bool everything) {
   return content;
 }
 
-Expected<ArchiveContent> content_of(const std::filesystem::path& path, bool everything) {
-  auto database = open_for_reading(path);
-  if (!database) {
-    return Unexpected{database.error()};
+std::filesystem::path log_of(const std::filesystem::path& archive) {
+  return archive.string() + "-wal";
+}
+
+/// `path` as a URI of SQLite for a file that nobody changes meanwhile.
+std::string immutable_uri(const std::filesystem::path& path) {
+  std::string uri = "file:";
+  for (const char c : path.string()) {
+    uri += c == '%' || c == '?' || c == '#' ? fmt::format("%{:02X}", static_cast<unsigned char>(c))
+                                            : std::string{c};
+  }
+  return uri + "?immutable=1";
+}
+
+/// Opened as any other connection, one to an archive that nobody has open would leave its -wal and
+/// -shm files behind, since it may not tidy up.
+Expected<SQLite::Database> open_at_rest(const std::filesystem::path& path) {
+  if (const auto ours = refuse_foreign_file(path); !ours) {
+    return Unexpected{ours.error()};
   }
   try {
-    return read_content(*database, everything);
+    SQLite::Database database{immutable_uri(path), SQLite::OPEN_READONLY | SQLite::OPEN_URI};
+    database.exec("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON");
+    return database;
   } catch (const SQLite::Exception& exception) {
     return Unexpected{archive_error(path.string(), exception)};
   }
+}
+
+Expected<ArchiveContent> content_of(const std::filesystem::path& path, bool everything) {
+  const bool at_rest = !std::filesystem::exists(log_of(path));
+  auto database = at_rest ? open_at_rest(path) : open_for_reading(path);
+  if (!database) {
+    return Unexpected{database.error()};
+  }
+  Expected<ArchiveContent> content;
+  try {
+    content = read_content(*database, everything);
+  } catch (const SQLite::Exception& exception) {
+    content = Unexpected{archive_error(path.string(), exception)};
+  }
+  // Somebody has begun to write: what was read may be half old and half new.
+  return at_rest && std::filesystem::exists(log_of(path)) ? content_of(path, everything) : content;
 }
 
 }  // namespace
@@ -92,7 +125,7 @@ ArchiveFacts archive_facts(const std::filesystem::path& path) {
   ArchiveFacts facts{.path = path.string(),
                      .exists = size_of(path) > 0,
                      .bytes = size_of(path),
-                     .wal_bytes = size_of(path.string() + "-wal"),
+                     .wal_bytes = size_of(log_of(path)),
                      .writer = writer_of(path),
                      .content = ArchiveContent{}};
   if (facts.exists) {
