@@ -26,11 +26,11 @@ struct NetworkSettings {
   /// multicast allows.
   std::optional<int> indices;
   std::uint16_t first_port = 0;                      ///< Of index 0.
-  std::uint16_t port_step = 2;                       ///< From an index to the next.
+  std::uint16_t port_step = 0;                       ///< From an index to the next.
   std::optional<std::int64_t> receive_buffer_bytes;  ///< As the kernel granted it.
 };
 
-/// From the trace that Cyclone writes when a domain is created.
+/// From the trace that Cyclone writes when a domain is created. What it does not say is empty or 0.
 NetworkSettings settings_of(std::string_view trace);
 
 /// How many of the indices have no UDP port in use.

@@ -104,15 +104,18 @@ NetworkSettings settings_of(std::string_view trace) {
       .indices = {},
       .receive_buffer_bytes = number(between(trace, "socket receive buffer size set to ", " "))};
   if (setting(trace, "Discovery/ParticipantIndex/#text") == "auto") {
-    const auto last = number(setting(trace, "Discovery/MaxAutoParticipantIndex/#text"));
-    settings.indices = last ? std::optional{static_cast<int>(*last) + 1} : std::nullopt;
+    // Cyclone 0.10.2 gives out the indices below the "maximum": not that one itself.
+    const auto count = number(setting(trace, "Discovery/MaxAutoParticipantIndex/#text"));
+    settings.indices = static_cast<int>(count.value_or(0));
   }
-  const auto step = number(setting(trace, "Discovery/Ports/ParticipantGain/#text")).value_or(2);
-  const auto port = number(between(trace, "Unicast Ports: discovery ", " "));
-  const auto index =
-      number(between(between(trace, "rtps_init: domainid", "\n"), "participantid ", " "));
-  settings.port_step = static_cast<std::uint16_t>(step);
-  settings.first_port = static_cast<std::uint16_t>(port.value_or(0) - index.value_or(0) * step);
+  const auto port_setting = [&](const std::string& name) {
+    return number(setting(trace, fmt::format("Discovery/{}/#text", name))).value_or(0);
+  };
+  settings.port_step = static_cast<std::uint16_t>(port_setting("Ports/ParticipantGain"));
+  settings.first_port = static_cast<std::uint16_t>(port_setting("Ports/Base") +
+                                                   port_setting("Ports/DomainGain") *
+                                                       port_setting("ExternalDomainId") +
+                                                   port_setting("Ports/UnicastMetaOffset"));
   return settings;
 }
 

@@ -111,6 +111,9 @@ TEST(Doctor, FindsNoFailureWhereAllIsWell) {
   }
   EXPECT_NE(diagnosis.verdict("round trip"), "failure") << diagnosis.found("round trip");
   EXPECT_THAT(diagnosis.found("telemetry"), HasSubstr("pid " + std::to_string(front_end.pid())));
+  // "N of 100 programs ...", N without the front-end at least.
+  EXPECT_LT(std::stoi(diagnosis.found("participants")), 100);
+  EXPECT_THAT(diagnosis.found("participants"), HasSubstr(" of 100 programs"));
   // It waits for a subscriber, and has not taken the doctor for one.
   EXPECT_TRUE(is_running(front_end.pid()));
 }

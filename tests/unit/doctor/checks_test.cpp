@@ -46,13 +46,16 @@ constexpr std::string_view kTrace =
     "config: Domain/Discovery/Peers/Peer[@Address]: localhost {1}\n"
     "config: Domain/Discovery/Peers/Peer[@Address]: 10.0.0.7 {1}\n"
     "config: Domain/Discovery/ParticipantIndex/#text: auto {1}\n"
-    "config: Domain/Discovery/MaxAutoParticipantIndex/#text: 3 {}\n"
+    "config: Domain/Discovery/MaxAutoParticipantIndex/#text: 4 {}\n"
+    "config: Domain/Discovery/ExternalDomainId/#text: 77 {}\n"
+    "config: Domain/Discovery/Ports/Base/#text: 7400 {}\n"
+    "config: Domain/Discovery/Ports/DomainGain/#text: 250 {}\n"
+    "config: Domain/Discovery/Ports/UnicastMetaOffset/#text: 10 {}\n"
     "config: Domain/Discovery/Ports/ParticipantGain/#text: 2 {}\n"
     "interfaces: lo udp/127.0.0.1(q1) eth0 udp/192.0.2.2(q9)\n"
     "selected interfaces: lo (index 1 priority 2), eth0 (index 2 priority 0)\n"
     "socket receive buffer size set to 425984 bytes\n"
-    "rtps_init: domainid 77 participantid 1\n"
-    "Unicast Ports: discovery 26662 data 26663 \n";
+    "rtps_init: domainid 77 participantid 1\n";
 
 TEST(DoctorNetwork, ReadsWhatCycloneMadeOfItsConfiguration) {
   const NetworkSettings settings = settings_of(kTrace);
@@ -87,9 +90,9 @@ NetworkFacts good_network() {
           .settings = NetworkSettings{.interfaces = "lo",
                                       .multicast = "false",
                                       .peers = {"localhost"},
-                                      .indices = 101,
+                                      .indices = 100,
                                       .receive_buffer_bytes = 2097152},
-          .free_indices = 100};
+          .free_indices = 99};
 }
 
 TEST(DoctorNetwork, IsContentWithTheLoopbackConfiguration) {
@@ -122,7 +125,7 @@ TEST(DoctorNetwork, WarnsWhenFewMoreProgramsFit) {
   facts.free_indices = 3;
   const auto checks = check_network(facts);
   EXPECT_EQ(named(checks, "participants").verdict, Verdict::Warning);
-  EXPECT_THAT(named(checks, "participants").found, HasSubstr("3 of 101"));
+  EXPECT_THAT(named(checks, "participants").found, HasSubstr("3 of 100"));
   expect_advice(checks);
 }
 
