@@ -27,6 +27,9 @@ class Orbit {
     return std::visit([t](const auto& source) { return source.at(t); }, source_);
   }
 
+  /// Null where the orbit is of elements.
+  const OrbitEphemeris* ephemeris() const { return std::get_if<OrbitEphemeris>(&source_); }
+
  private:
   std::variant<OrbitEphemeris, KeplerOrbit> source_;
 };

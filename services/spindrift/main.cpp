@@ -21,6 +21,7 @@
 #include <system_error>
 
 #include "services/processor/version.h"
+#include "services/spindrift/doctor.h"
 #include "services/spindrift/process.h"
 #include "services/spindrift/replay.h"
 #include "services/spindrift/serve.h"
@@ -44,7 +45,9 @@ struct Request {
   spindrift::ServeOptions serve;
   spindrift::ReplayOptions replay;
   spindrift::SimulateOptions simulate;
+  spindrift::DoctorOptions doctor;
   std::function<Expected<void>()> run;
+  int status = EXIT_SUCCESS;  ///< Of a run that came to its end.
 };
 
 /// A partition is one by name: a pattern would let a rehearsal reach live subscribers.
@@ -130,6 +133,23 @@ void add_simulate(CLI::App& app, Request& request) {
   });
 }
 
+void add_doctor(CLI::App& app, Request& request) {
+  spindrift::DoctorOptions& options = request.doctor;
+  CLI::App& command =
+      *app.add_subcommand("doctor", "Say what is wrong before a pass, and what to do about it");
+  command.add_option("--mission", options.missions, "Mission file of each spacecraft");
+  command.add_option("--db", options.db, "Archive of the pass");
+  add_bus_options(command, options.domain, options.partition);
+  command.add_flag("--json", options.json, "Print one JSON object");
+  command.callback([&] {
+    request.run = [&] {
+      return run_doctor(request.doctor).map([&](bool sound) {
+        request.status = sound ? EXIT_SUCCESS : kFailed;
+      });
+    };
+  });
+}
+
 /// Message for people on standard error; with --json, which even a bad command line may hold, an
 /// object on standard output as well.
 void tell_failure(const std::string& message, std::span<char* const> arguments) {
@@ -151,6 +171,7 @@ int run(int argc, char** argv) {
   add_serve(app, request);
   add_replay(app, request);
   add_simulate(app, request);
+  add_doctor(app, request);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -162,7 +183,7 @@ int run(int argc, char** argv) {
 
   const auto done = request.run();
   if (done) {
-    return EXIT_SUCCESS;
+    return request.status;
   }
   tell_failure(done.error().message, arguments);
   return done.error().code == ErrorCode::InvalidConfiguration ? kBadInput : kFailed;

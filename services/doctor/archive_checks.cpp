@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "services/doctor/archive.h"
+
+namespace spindrift::doctor {
+namespace {
+
+// The service cuts the log to 64 MiB when it has moved it into the archive.
+constexpr std::uint64_t kLongLog_bytes = 256ULL << 20U;
+
+Check check_schema(const ArchiveFacts& facts, int program_version) {
+  const int version = facts.content->schema_version;
+  const std::string found = fmt::format("{}, {} MiB, schema version {}; this program's is {}",
+                                        facts.path, facts.bytes >> 20U, version, program_version);
+  if (version < 1 || version > program_version) {
+    return failure("archive", found,
+                   version < 1 ? "no archive has this version: restore a copy"
+                               : "use the newer program, or another archive");
+  }
+  return version < program_version
+             ? ok("archive", found,
+                  "the next run brings it forward; keep a copy for older programs")
+             : ok("archive", found);
+}
+
+Check check_integrity(const ArchiveContent& content) {
+  const std::string name = "integrity";
+  if (!content.damages.empty()) {
+    return failure(name, fmt::format("{}", fmt::join(content.damages, "\n")),
+                   "the archive is damaged: stop the service, keep the file, take another archive "
+                   "for the pass, and save what can be read with sqlite3 ARCHIVE .recover");
+  }
+  if (content.orphans > 0) {
+    return failure(name, fmt::format("{} rows refer to rows that are not there", content.orphans),
+                   "another program has written this archive: restore a copy");
+  }
+  return ok(name, content.looked_at_everything
+                      ? "no damage, everything refers to what is there"
+                      : "no damage to its structure; too large to look at every index");
+}
+
+Check check_log(std::uint64_t wal_bytes) {
+  const std::string name = "write-ahead log";
+  const std::string found = fmt::format("{} MiB", wal_bytes >> 20U);
+  return wal_bytes > kLongLog_bytes
+             ? warning(name, found,
+                       "a program that reads the archive holds it up: end readers that stay open")
+             : ok(name, found);
+}
+
+Check check_writer(const ArchiveFacts& facts) {
+  return facts.writer ? ok("writer", *facts.writer, "it must end before another can write")
+                      : ok("writer", "nobody writes the archive now");
+}
+
+Check check_runs(const ArchiveFacts& facts) {
+  const std::int64_t unfinished = facts.content->unfinished_runs;
+  if (unfinished == 0) {
+    return ok("runs", "all are finished");
+  }
+  const std::string found = fmt::format("{} not finished", unfinished);
+  return facts.writer ? ok("runs", found + "; the writer's are among them")
+                      : warning("runs", found,
+                                "a program was killed or lost power; what it had stored is whole");
+}
+
+Check check_leap_table(int archive_s, int program_s) {
+  const std::string name = "leap seconds of the archive";
+  const std::string found =
+      fmt::format("TAI - UTC = {} s; this program's is {} s", archive_s, program_s);
+  if (archive_s == program_s) {
+    return ok(name, found);
+  }
+  return archive_s < program_s
+             ? warning(name, found, "times in UTC are right again when a run has opened it")
+             : warning(name, found, "a newer program wrote it: install a newer liberfa1 here");
+}
+
+}  // namespace
+
+std::vector<Check> check_archive(const ArchiveFacts& facts, const ProgramVersions& program) {
+  if (!facts.exists) {
+    return {ok("archive", fmt::format("{} is not there: it will be made", facts.path))};
+  }
+  if (!facts.content) {
+    return {failure("archive", facts.content.error().message,
+                    "restore a copy of it, or take another file for the pass"),
+            check_writer(facts)};
+  }
+  std::vector<Check> checks{check_schema(facts, program.schema), check_integrity(*facts.content),
+                            check_log(facts.wal_bytes), check_writer(facts)};
+  if (facts.content->damages.empty()) {
+    checks.push_back(check_runs(facts));
+    checks.push_back(check_leap_table(facts.content->tai_minus_utc_s, program.tai_minus_utc_s));
+  }
+  return checks;
+}
+
+}  // namespace spindrift::doctor

@@ -1,0 +1,36 @@
+/// @file
+/// Whether the mission files fit the pass: one for each spacecraft, orbits that reach.
+
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pipelines/time/tai_time.h"
+#include "services/doctor/check.h"
+#include "services/mission/mission.h"
+
+namespace spindrift::doctor {
+
+/// Of an ephemeris; there may be holes between.
+struct Coverage {
+  TaiTime from;
+  TaiTime to;
+};
+
+struct MissionFacts {
+  std::string spacecraft;
+  SpacecraftKind kind = SpacecraftKind::Spin;
+  std::optional<Coverage> ephemeris;  ///< Absent where the orbit is given otherwise, or not at all.
+  std::string no_orbit_now;           ///< Why there is none at present; empty: there is.
+  bool infrared = true;               ///< It has an infrared sensor.
+  std::vector<std::string> idle;      ///< Tables of the file that nothing reads.
+};
+
+MissionFacts mission_facts(const Mission& mission, TaiTime now);
+
+std::vector<Check> check_missions(std::span<const MissionFacts> missions, TaiTime now);
+
+}  // namespace spindrift::doctor

@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <set>
+
+#include "pipelines/time/utc.h"
+#include "services/doctor/missions.h"
+
+namespace spindrift::doctor {
+namespace {
+
+constexpr double kDay_s = 86'400.0;
+constexpr double kHour_s = 3'600.0;
+
+std::string coverage_text(const Coverage& coverage) {
+  return fmt::format("ephemeris from {} to {}", format_utc(coverage.from, 0),
+                     format_utc(coverage.to, 0));
+}
+
+Check check_orbit(const MissionFacts& mission, TaiTime now) {
+  const std::string name = fmt::format("orbit of {}", mission.spacecraft);
+  const std::string coverage =
+      mission.ephemeris ? coverage_text(*mission.ephemeris) : "no ephemeris: any time";
+  if (!mission.no_orbit_now.empty()) {
+    return warning(name, fmt::format("{}: {}", coverage, mission.no_orbit_now),
+                   "get an ephemeris of the pass: there is no spin axis without the orbit");
+  }
+  if (!mission.ephemeris) {
+    return ok(name, coverage);
+  }
+  const double left_s = seconds_between(now, mission.ephemeris->to);
+  const std::string found = fmt::format("{}, another {:.1f} h", coverage, left_s / kHour_s);
+  return left_s < kDay_s ? warning(name, found, "get the next ephemeris now") : ok(name, found);
+}
+
+std::vector<Check> check_settings(const MissionFacts& mission) {
+  const std::string name = fmt::format("mission {}", mission.spacecraft);
+  std::vector<Check> checks;
+  if (mission.kind == SpacecraftKind::ThreeAxis) {
+    checks.push_back(warning(name, "a three-axis stabilised spacecraft",
+                             "there is no processing for it yet: leave it out"));
+  }
+  if (!mission.infrared) {
+    checks.push_back(warning(name, "no infrared sensor: the sun angle alone gives no spin axis",
+                             "describe the sensors in [spin.ir.north] and [spin.ir.south]"));
+  }
+  if (!mission.idle.empty()) {
+    checks.push_back(warning(
+        name, fmt::format("nothing reads [{}]", fmt::join(mission.idle, "], [")),
+        fmt::format("take it out, or correct spacecraft.kind = \"{}\"", name_of(mission.kind))));
+  }
+  if (checks.empty()) {
+    checks.push_back(ok(name, "sound"));
+  }
+  return checks;
+}
+
+}  // namespace
+
+std::vector<Check> check_missions(std::span<const MissionFacts> missions, TaiTime now) {
+  std::vector<Check> checks;
+  std::set<std::string> known;
+  for (const MissionFacts& mission : missions) {
+    if (!known.insert(mission.spacecraft).second) {
+      checks.push_back(failure(fmt::format("mission {}", mission.spacecraft),
+                               "two mission files describe this spacecraft",
+                               "leave one out: the service takes one"));
+      continue;
+    }
+    for (Check& check : check_settings(mission)) {
+      checks.push_back(std::move(check));
+    }
+    if (mission.kind == SpacecraftKind::Spin) {
+      checks.push_back(check_orbit(mission, now));
+    }
+  }
+  return checks;
+}
+
+}  // namespace spindrift::doctor

@@ -1,0 +1,93 @@
+#include "services/spindrift/doctor.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <utility>
+
+#include "pipelines/time/utc.h"
+#include "services/archive/schema.h"
+#include "services/clock/wall_clock.h"
+#include "services/doctor/archive.h"
+#include "services/doctor/disk.h"
+#include "services/doctor/host.h"
+#include "services/doctor/leap_seconds.h"
+#include "services/doctor/missions.h"
+#include "services/doctor/network.h"
+#include "services/doctor/presence.h"
+#include "services/doctor/report.h"
+#include "services/mission/mission.h"
+
+namespace spindrift {
+namespace {
+
+using doctor::Check;
+
+void append(std::vector<Check>& checks, std::vector<Check> more) {
+  checks.insert(checks.end(), std::make_move_iterator(more.begin()),
+                std::make_move_iterator(more.end()));
+}
+
+Expected<std::vector<doctor::MissionFacts>> look_at_missions(
+    const std::vector<std::filesystem::path>& paths, TaiTime now) {
+  std::vector<doctor::MissionFacts> missions;
+  std::string problems;
+  for (const std::filesystem::path& path : paths) {
+    if (const auto mission = load_mission(path)) {
+      missions.push_back(doctor::mission_facts(*mission, now));
+    } else {
+      problems += (problems.empty() ? "" : "\n") + mission.error().message;
+    }
+  }
+  if (!problems.empty()) {
+    return Unexpected{{ErrorCode::InvalidConfiguration, problems}};
+  }
+  return missions;
+}
+
+/// Each step needs the one before.
+std::vector<Check> check_bus(const bus::BusConfig& bus) {
+  const auto network = doctor::network_facts(bus.domain);
+  std::vector<Check> checks = doctor::check_network(network);
+  if (!network.settings) {
+    return checks;
+  }
+  const auto trip = doctor::round_trip(bus.domain);
+  checks.push_back(doctor::check_round_trip(trip.duration_ms));
+  if (const auto presence = doctor::presence_facts(bus, trip.partner)) {
+    append(checks, doctor::check_presence(*presence));
+  } else {
+    checks.push_back(doctor::failure("programs on the bus", presence.error().message,
+                                     "see the network configuration above"));
+  }
+  return checks;
+}
+
+std::vector<Check> check_storage(const std::filesystem::path& db, std::size_t spacecraft) {
+  std::vector<Check> checks = doctor::check_disk(doctor::disk_facts(db), spacecraft);
+  append(checks, doctor::check_archive(doctor::archive_facts(db),
+                                       {.schema = archive_schema_version(),
+                                        .tai_minus_utc_s = leap_seconds().back().tai_minus_utc_s}));
+  return checks;
+}
+
+}  // namespace
+
+Expected<bool> run_doctor(const DoctorOptions& options) {
+  const TaiTime now = tai_now();
+  const auto missions = look_at_missions(options.missions, now);
+  if (!missions) {
+    return Unexpected{missions.error()};
+  }
+  std::vector<Check> checks = check_bus({.domain = options.domain, .partition = options.partition});
+  append(checks, doctor::check_missions(*missions, now));
+  if (!options.db.empty()) {
+    append(checks, check_storage(options.db, missions->size()));
+  }
+  append(checks, doctor::check_host(doctor::host_facts()));
+  checks.push_back(doctor::check_leap_seconds(doctor::leap_facts()));
+  fmt::print("{}", options.json ? doctor::to_json(checks) : doctor::to_text(checks));
+  return doctor::worst_of(checks) != doctor::Verdict::Failure;
+}
+
+}  // namespace spindrift

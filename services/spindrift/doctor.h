@@ -1,0 +1,27 @@
+/// @file
+/// `spindrift doctor`: what is wrong before a pass, and what to do about it.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+
+namespace spindrift {
+
+struct DoctorOptions {
+  std::vector<std::filesystem::path> missions;
+  std::filesystem::path db;  ///< Empty: no archive and no disk is looked at.
+  std::uint32_t domain = 0;
+  std::string partition = "live";
+  bool json = false;
+};
+
+/// Prints its findings on standard output. Call it before any thread is started.
+/// @return whether a pass can be taken; InvalidConfiguration when a mission file is bad.
+Expected<bool> run_doctor(const DoctorOptions& options);
+
+}  // namespace spindrift

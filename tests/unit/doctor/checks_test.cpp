@@ -1,0 +1,512 @@
+// The judgements of the doctor, on facts that are made up.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "services/doctor/archive.h"
+#include "services/doctor/disk.h"
+#include "services/doctor/host.h"
+#include "services/doctor/leap_seconds.h"
+#include "services/doctor/missions.h"
+#include "services/doctor/network.h"
+#include "services/doctor/presence.h"
+#include "services/doctor/report.h"
+
+namespace spindrift::doctor {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using namespace std::chrono_literals;
+
+Check named(const std::vector<Check>& checks, const std::string& name) {
+  const auto found = std::find_if(checks.begin(), checks.end(),
+                                  [&](const Check& check) { return check.name == name; });
+  return found == checks.end() ? Check{"absent: " + name, Verdict::Failure, "", ""} : *found;
+}
+
+/// Every check that asks for attention says what to do.
+void expect_advice(const std::vector<Check>& checks) {
+  for (const Check& check : checks) {
+    if (check.verdict != Verdict::Ok) {
+      EXPECT_THAT(check.advice, Not(IsEmpty())) << check.name;
+    }
+    EXPECT_THAT(check.found, Not(IsEmpty())) << check.name;
+  }
+}
+
+// --- network
+
+// As Cyclone DDS 0.10.2 writes it, shortened.
+constexpr std::string_view kTrace =
+    "config: Domain/General/AllowMulticast/#text: false {1}\n"
+    "config: Domain/Discovery/Peers/Peer[@Address]: localhost {1}\n"
+    "config: Domain/Discovery/Peers/Peer[@Address]: 10.0.0.7 {1}\n"
+    "config: Domain/Discovery/ParticipantIndex/#text: auto {1}\n"
+    "config: Domain/Discovery/MaxAutoParticipantIndex/#text: 4 {}\n"
+    "config: Domain/Discovery/ExternalDomainId/#text: 77 {}\n"
+    "config: Domain/Discovery/Ports/Base/#text: 7400 {}\n"
+    "config: Domain/Discovery/Ports/DomainGain/#text: 250 {}\n"
+    "config: Domain/Discovery/Ports/UnicastMetaOffset/#text: 10 {}\n"
+    "config: Domain/Discovery/Ports/ParticipantGain/#text: 2 {}\n"
+    "interfaces: lo udp/127.0.0.1(q1) eth0 udp/192.0.2.2(q9)\n"
+    "selected interfaces: lo (index 1 priority 2), eth0 (index 2 priority 0)\n"
+    "socket receive buffer size set to 425984 bytes\n"
+    "rtps_init: domainid 77 participantid 1\n";
+
+TEST(DoctorNetwork, ReadsWhatCycloneMadeOfItsConfiguration) {
+  const NetworkSettings settings = settings_of(kTrace);
+  EXPECT_EQ(settings.interfaces, "lo, eth0");
+  EXPECT_EQ(settings.multicast, "false");
+  EXPECT_EQ(settings.peers, (std::vector<std::string>{"localhost", "10.0.0.7"}));
+  EXPECT_EQ(settings.indices, 4);
+  EXPECT_EQ(settings.first_port, 26660);
+  EXPECT_EQ(settings.receive_buffer_bytes, 425984);
+}
+
+TEST(DoctorNetwork, CountsNoIndicesWhereParticipantsAreNotNumbered) {
+  EXPECT_EQ(settings_of("config: Domain/Discovery/ParticipantIndex/#text: none {}\n").indices,
+            std::nullopt);
+  EXPECT_EQ(settings_of("").indices, std::nullopt);
+}
+
+TEST(DoctorNetwork, CountsAnIndexAsTakenWhenEitherOfItsPortsIs) {
+  const NetworkSettings settings = settings_of(kTrace);
+  const std::string head = "   sl  local_address rem_address   st\n";
+  EXPECT_EQ(free_indices(settings, head), 4);
+  // 26660 = 0x6824 is the discovery port of index 0, 26663 = 0x6827 the data port of index 1.
+  EXPECT_EQ(free_indices(settings, head + "  12: 0100007F:6824 00000000:0000 07\n"
+                                          "  13: 0100007F:6827 00000000:0000 07\n"
+                                          "  14: 0100007F:6823 00000000:0000 07\n"),
+            2);
+}
+
+NetworkFacts good_network() {
+  return {.domain = 0,
+          .configuration = "built-in loopback.xml",
+          .settings = NetworkSettings{.interfaces = "lo",
+                                      .multicast = "false",
+                                      .peers = {"localhost"},
+                                      .indices = 100,
+                                      .receive_buffer_bytes = 2097152},
+          .free_indices = 99};
+}
+
+TEST(DoctorNetwork, IsContentWithTheLoopbackConfiguration) {
+  const auto checks = check_network(good_network());
+  EXPECT_EQ(worst_of(checks), Verdict::Ok);
+  EXPECT_THAT(named(checks, "network").found, HasSubstr("interfaces: lo"));
+}
+
+TEST(DoctorNetwork, FailsInTheWordsOfCycloneWhenItRefuses) {
+  NetworkFacts facts = good_network();
+  facts.settings = Unexpected{{ErrorCode::Unavailable, "unknown interface eth7"}};
+  const auto checks = check_network(facts);
+  EXPECT_EQ(worst_of(checks), Verdict::Failure);
+  EXPECT_THAT(checks.front().found, HasSubstr("unknown interface eth7"));
+  expect_advice(checks);
+}
+
+TEST(DoctorNetwork, WarnsWhenNobodyCanBeFound) {
+  NetworkFacts facts = good_network();
+  facts.settings->peers.clear();
+  EXPECT_EQ(named(check_network(facts), "network").verdict, Verdict::Warning);
+  facts.settings->multicast = "true";
+  EXPECT_EQ(named(check_network(facts), "network").verdict, Verdict::Ok);
+}
+
+TEST(DoctorNetwork, WarnsWhenFewMoreProgramsFit) {
+  NetworkFacts facts = good_network();
+  facts.free_indices = 4;
+  EXPECT_EQ(named(check_network(facts), "participants").verdict, Verdict::Ok);
+  facts.free_indices = 3;
+  const auto checks = check_network(facts);
+  EXPECT_EQ(named(checks, "participants").verdict, Verdict::Warning);
+  EXPECT_THAT(named(checks, "participants").found, HasSubstr("3 of 100"));
+  expect_advice(checks);
+}
+
+TEST(DoctorNetwork, WarnsOfAReceiveBufferBelowWhatCycloneAsksFor) {
+  NetworkFacts facts = good_network();
+  facts.settings->receive_buffer_bytes = 1048576;
+  EXPECT_EQ(named(check_network(facts), "receive buffer").verdict, Verdict::Ok);
+  facts.settings->receive_buffer_bytes = 1048575;
+  EXPECT_EQ(named(check_network(facts), "receive buffer").verdict, Verdict::Warning);
+}
+
+TEST(DoctorNetwork, FailsWhenNoSampleComesThrough) {
+  EXPECT_EQ(check_round_trip(30.0).verdict, Verdict::Ok);
+  EXPECT_EQ(check_round_trip(3000.0).verdict, Verdict::Warning);
+  EXPECT_EQ(check_round_trip(Unexpected{{ErrorCode::Unavailable, "no sample"}}).verdict,
+            Verdict::Failure);
+}
+
+// --- presence
+
+Endpoint pulses_in(const std::string& partition) {
+  return {.writes = true,
+          .topic = "spindrift/pulse",
+          .partitions = {partition},
+          .owner = "frontend (pid 7) on ant",
+          .shortfalls = {}};
+}
+
+PresenceFacts present(std::vector<Endpoint> endpoints) {
+  return {.bus = {.domain = 3, .partition = "live"},
+          .participants = {"frontend (pid 7) on ant"},
+          .endpoints = std::move(endpoints)};
+}
+
+TEST(DoctorPresence, NamesThoseWhoPublishTelemetry) {
+  const auto checks = check_presence(present({pulses_in("live")}));
+  EXPECT_EQ(worst_of(checks), Verdict::Ok);
+  EXPECT_THAT(named(checks, "telemetry").found, HasSubstr("frontend (pid 7) on ant"));
+}
+
+TEST(DoctorPresence, TakesAPartitionForThePatternThatItIs) {
+  EXPECT_EQ(worst_of(check_presence(present({pulses_in("li*")}))), Verdict::Ok);
+}
+
+TEST(DoctorPresence, WarnsWhenNobodyPublishesTelemetry) {
+  const auto checks = check_presence(present({}));
+  EXPECT_EQ(named(checks, "telemetry").verdict, Verdict::Warning);
+  expect_advice(checks);
+  Endpoint reader = pulses_in("live");
+  reader.writes = false;
+  Endpoint health = pulses_in("live");
+  health.topic = "spindrift/health";
+  EXPECT_EQ(named(check_presence(present({reader, health})), "telemetry").verdict,
+            Verdict::Warning);
+}
+
+TEST(DoctorPresence, SaysWhenTelemetryIsInAnotherPartition) {
+  const Check telemetry = named(check_presence(present({pulses_in("rehearsal")})), "telemetry");
+  EXPECT_EQ(telemetry.verdict, Verdict::Warning);
+  EXPECT_THAT(telemetry.found, HasSubstr("'rehearsal'"));
+  EXPECT_THAT(telemetry.advice, HasSubstr("--partition"));
+}
+
+TEST(DoctorPresence, FailsOnAMismatchOfThisPartitionAndNamesIt) {
+  Endpoint weak = pulses_in("live");
+  weak.shortfalls = {{.offered = "BEST_EFFORT", .needed = "RELIABLE"},
+                     {.offered = "VOLATILE", .needed = "TRANSIENT_LOCAL"}};
+  const Check qos = named(check_presence(present({weak})), "QoS");
+  EXPECT_EQ(qos.verdict, Verdict::Failure);
+  EXPECT_THAT(qos.found, HasSubstr("frontend (pid 7) on ant"));
+  EXPECT_THAT(qos.found, HasSubstr("offers BEST_EFFORT, VOLATILE, spindrift needs RELIABLE"));
+
+  weak.partitions = {"rehearsal"};
+  EXPECT_EQ(named(check_presence(present({weak})), "QoS").verdict, Verdict::Ok);
+
+  Endpoint demanding = pulses_in("live");
+  demanding.writes = false;
+  demanding.shortfalls = {{.offered = "no deadline", .needed = "deadline 1 s"}};
+  EXPECT_THAT(named(check_presence(present({demanding})), "QoS").found,
+              HasSubstr("asks for deadline 1 s, spindrift offers no deadline"));
+}
+
+// --- host
+
+HostFacts good_host() {
+  return {.year = 2026,
+          .clock_synchronised = true,
+          .clock_error_s = 0.002,
+          .open_files = 1024,
+          .memory_bytes = 4LL << 30,
+          .sqlite_version = 3051003};
+}
+
+TEST(DoctorHost, IsContentWithAHostInOrder) {
+  EXPECT_EQ(worst_of(check_host(good_host())), Verdict::Ok);
+}
+
+TEST(DoctorHost, JudgesTheClock) {
+  HostFacts facts = good_host();
+  facts.clock_synchronised = false;
+  EXPECT_EQ(named(check_host(facts), "clock").verdict, Verdict::Warning);
+  facts.clock_synchronised = std::nullopt;
+  EXPECT_EQ(named(check_host(facts), "clock").verdict, Verdict::Warning);
+  facts.clock_synchronised = true;
+  facts.year = 1970;
+  EXPECT_EQ(named(check_host(facts), "clock").verdict, Verdict::Failure);
+  facts.year = 2262;
+  EXPECT_EQ(named(check_host(facts), "clock").verdict, Verdict::Failure);
+}
+
+TEST(DoctorHost, WarnsOfTightLimits) {
+  HostFacts facts = good_host();
+  facts.open_files = 255;
+  facts.memory_bytes = 511LL << 20;
+  const auto checks = check_host(facts);
+  EXPECT_EQ(named(checks, "open files").verdict, Verdict::Warning);
+  EXPECT_EQ(named(checks, "memory").verdict, Verdict::Warning);
+  expect_advice(checks);
+}
+
+TEST(DoctorHost, NamesTheVersionsOfSqliteThatCanDamageAFile) {
+  HostFacts facts = good_host();
+  EXPECT_THAT(named(check_host(facts), "SQLite").advice, IsEmpty());
+  facts.sqlite_version = 3051002;
+  EXPECT_THAT(named(check_host(facts), "SQLite").advice, HasSubstr("no other program write"));
+  EXPECT_THAT(named(check_host(facts), "SQLite").found, HasSubstr("3.51.2"));
+}
+
+// --- leap seconds
+
+TEST(DoctorLeapSeconds, ReadsTheTableOfTheMachine) {
+  // 3676924800 and 3692217600: 1 July 2016 less leap second, and 1 January 2017. 3991593600:
+  // 28 June 2026.
+  const auto table = machine_table(
+      "#$ 3945196800\n#@ 3991593600\n2272060800\t10\t# 1 Jan 1972\n3692217600\t37\t# 1 Jan 2017\n");
+  ASSERT_TRUE(table);
+  EXPECT_EQ(table->tai_minus_utc_s, 37);
+  EXPECT_EQ(table->complete_until, std::chrono::sys_days{2026y / 6 / 28});
+  EXPECT_FALSE(machine_table(""));
+  EXPECT_FALSE(machine_table("nonsense"));
+  EXPECT_FALSE(machine_table("3692217600\t37\n"));
+}
+
+TEST(DoctorLeapSeconds, KnowsTheTableOfErfa) {
+  const LeapFacts facts = leap_facts();
+  EXPECT_GE(facts.erfa.tai_minus_utc_s, 37);
+  EXPECT_GE(facts.erfa.complete_until, std::chrono::sys_days{2017y / 12 / 31});
+  EXPECT_LT(facts.erfa.complete_until, std::chrono::sys_days{2100y / 1 / 1});
+}
+
+LeapFacts leaps(std::chrono::sys_days today) {
+  return {.today = today,
+          .erfa = {.tai_minus_utc_s = 37, .complete_until = 2021y / 12 / 31},
+          .machine = LeapTable{.tai_minus_utc_s = 37, .complete_until = 2026y / 6 / 28}};
+}
+
+TEST(DoctorLeapSeconds, WarnsWhenNoTableReachesToday) {
+  EXPECT_EQ(check_leap_seconds(leaps(2026y / 5 / 28)).verdict, Verdict::Ok);
+  EXPECT_EQ(check_leap_seconds(leaps(2026y / 5 / 31)).verdict, Verdict::Warning);
+  const Check late = check_leap_seconds(leaps(2026y / 6 / 29));
+  EXPECT_EQ(late.verdict, Verdict::Warning);
+  EXPECT_THAT(late.found, HasSubstr("out of date"));
+  expect_advice({late});
+  LeapFacts alone = leaps(2023y / 1 / 1);
+  EXPECT_EQ(check_leap_seconds(alone).verdict, Verdict::Ok);
+  alone.machine.reset();
+  EXPECT_EQ(check_leap_seconds(alone).verdict, Verdict::Warning);
+}
+
+TEST(DoctorLeapSeconds, FailsWhenTheProgramMissesOne) {
+  LeapFacts facts = leaps(2026y / 5 / 1);
+  facts.machine->tai_minus_utc_s = 38;
+  EXPECT_EQ(check_leap_seconds(facts).verdict, Verdict::Failure);
+  // A newer program on an old machine is right.
+  facts.machine->complete_until = 2016y / 12 / 28;
+  facts.machine->tai_minus_utc_s = 36;
+  facts.today = 2021y / 6 / 1;
+  EXPECT_EQ(check_leap_seconds(facts).verdict, Verdict::Ok);
+}
+
+// --- missions
+
+constexpr TaiTime kNow = tai_from_ns(1'795'143'637'000'000'000);
+
+MissionFacts spinner(std::chrono::seconds left) {
+  return {.spacecraft = "SPINNER",
+          .kind = SpacecraftKind::Spin,
+          .ephemeris = Coverage{.from = kNow - 1h, .to = kNow + left},
+          .no_orbit_now = {},
+          .infrared = true,
+          .idle = {}};
+}
+
+std::vector<Check> check_one(const MissionFacts& mission) {
+  return check_missions(std::vector{mission}, kNow);
+}
+
+TEST(DoctorMissions, WarnsWhenTheEphemerisEndsWithinADay) {
+  EXPECT_EQ(worst_of(check_one(spinner(24h))), Verdict::Ok);
+  const auto checks = check_one(spinner(24h - 1s));
+  EXPECT_EQ(named(checks, "orbit of SPINNER").verdict, Verdict::Warning);
+  EXPECT_THAT(named(checks, "orbit of SPINNER").found,
+              HasSubstr("from 2026-11-20T02:00:00Z to 2026-11-21T02:59:59Z, another 24.0 h"));
+  expect_advice(checks);
+}
+
+TEST(DoctorMissions, WarnsWhenThereIsNoOrbitNow) {
+  MissionFacts facts = spinner(48h);
+  facts.no_orbit_now = "3 s before the ephemeris begins";
+  const Check orbit = named(check_one(facts), "orbit of SPINNER");
+  EXPECT_EQ(orbit.verdict, Verdict::Warning);
+  EXPECT_THAT(orbit.found, HasSubstr("3 s before the ephemeris begins"));
+}
+
+TEST(DoctorMissions, TakesElementsForAnyTime) {
+  MissionFacts facts = spinner(1h);
+  facts.ephemeris.reset();
+  EXPECT_EQ(worst_of(check_one(facts)), Verdict::Ok);
+}
+
+TEST(DoctorMissions, FailsOnASpacecraftDescribedTwice) {
+  const auto checks = check_missions(std::vector{spinner(48h), spinner(48h)}, kNow);
+  EXPECT_EQ(worst_of(checks), Verdict::Failure);
+  expect_advice(checks);
+}
+
+TEST(DoctorMissions, WarnsOfWhatHasNoEffect) {
+  MissionFacts facts = spinner(48h);
+  facts.idle = {"three_axis"};
+  EXPECT_THAT(named(check_one(facts), "mission SPINNER").found, HasSubstr("[three_axis]"));
+  facts.idle.clear();
+  facts.infrared = false;
+  EXPECT_EQ(named(check_one(facts), "mission SPINNER").verdict, Verdict::Warning);
+  facts.infrared = true;
+  facts.kind = SpacecraftKind::ThreeAxis;
+  EXPECT_EQ(named(check_one(facts), "mission SPINNER").verdict, Verdict::Warning);
+}
+
+// --- disk
+
+DiskFacts disk(std::uint64_t free_bytes) {
+  return {.folder = "/data", .writable = true, .free_bytes = free_bytes, .file_system = 0xEF53};
+}
+
+TEST(DoctorDisk, SaysHowManyHoursItLasts) {
+  // 2200 bytes, 100 rpm: 13.2 MB an hour of one spacecraft.
+  EXPECT_EQ(worst_of(check_disk(disk(24 * 13'200'000ULL), 1)), Verdict::Ok);
+  const auto checks = check_disk(disk(24 * 13'200'000ULL), 2);
+  EXPECT_EQ(named(checks, "disk").verdict, Verdict::Warning);
+  EXPECT_THAT(named(checks, "disk").found, HasSubstr("12 h of 2 spacecraft"));
+  EXPECT_EQ(named(check_disk(disk(13'100'000), 1), "disk").verdict, Verdict::Failure);
+  expect_advice(checks);
+}
+
+TEST(DoctorDisk, RefusesFileSystemsOfTheNetwork) {
+  DiskFacts facts = disk(1ULL << 40U);
+  facts.file_system = 0x6969;
+  const Check found = named(check_disk(facts, 1), "file system");
+  EXPECT_EQ(found.verdict, Verdict::Failure);
+  EXPECT_THAT(found.found, HasSubstr("NFS"));
+  facts.file_system = 0x01021994;
+  EXPECT_EQ(named(check_disk(facts, 1), "file system").verdict, Verdict::Warning);
+}
+
+TEST(DoctorDisk, FailsWhereNothingCanBeWritten) {
+  DiskFacts facts = disk(1ULL << 40U);
+  facts.writable = false;
+  EXPECT_EQ(named(check_disk(facts, 1), "write access").verdict, Verdict::Failure);
+  EXPECT_EQ(worst_of(check_disk(Unexpected{{ErrorCode::Unavailable, "/data: absent"}}, 1)),
+            Verdict::Failure);
+}
+
+// --- archive
+
+constexpr ProgramVersions kProgram{.schema = 2, .tai_minus_utc_s = 37};
+
+ArchiveFacts good_archive() {
+  return {.path = "a.db",
+          .exists = true,
+          .bytes = 1 << 20,
+          .wal_bytes = 0,
+          .writer = {},
+          .content = ArchiveContent{.schema_version = 2, .damages = {}, .tai_minus_utc_s = 37}};
+}
+
+TEST(DoctorArchive, IsContentWithAWholeOneAndWithNone) {
+  EXPECT_EQ(worst_of(check_archive(good_archive(), kProgram)), Verdict::Ok);
+  ArchiveFacts none = good_archive();
+  none.exists = false;
+  EXPECT_EQ(worst_of(check_archive(none, kProgram)), Verdict::Ok);
+}
+
+TEST(DoctorArchive, FailsOnOneThatCannotBeOpened) {
+  ArchiveFacts facts = good_archive();
+  facts.content = Unexpected{{ErrorCode::InvalidConfiguration, "a.db is not an archive"}};
+  const auto checks = check_archive(facts, kProgram);
+  EXPECT_EQ(worst_of(checks), Verdict::Failure);
+  EXPECT_THAT(checks.front().found, HasSubstr("not an archive"));
+  expect_advice(checks);
+}
+
+TEST(DoctorArchive, ComparesTheVersions) {
+  ArchiveFacts facts = good_archive();
+  facts.content->schema_version = 1;
+  EXPECT_EQ(named(check_archive(facts, kProgram), "archive").verdict, Verdict::Ok);
+  facts.content->schema_version = 3;
+  EXPECT_EQ(named(check_archive(facts, kProgram), "archive").verdict, Verdict::Failure);
+  facts.content->schema_version = 0;
+  EXPECT_EQ(named(check_archive(facts, kProgram), "archive").verdict, Verdict::Failure);
+}
+
+TEST(DoctorArchive, FailsOnDamageInTheWordsOfSqlite) {
+  ArchiveFacts facts = good_archive();
+  facts.content->damages = {"Tree 7 page 9: btreeInitPage() returns error code 11"};
+  const auto checks = check_archive(facts, kProgram);
+  EXPECT_EQ(named(checks, "integrity").verdict, Verdict::Failure);
+  EXPECT_THAT(named(checks, "integrity").found, HasSubstr("page 9"));
+  expect_advice(checks);
+  facts = good_archive();
+  facts.content->orphans = 5;
+  EXPECT_EQ(named(check_archive(facts, kProgram), "integrity").verdict, Verdict::Failure);
+}
+
+TEST(DoctorArchive, WarnsOfALogThatIsNotMoved) {
+  ArchiveFacts facts = good_archive();
+  facts.wal_bytes = 256ULL << 20U;
+  EXPECT_EQ(named(check_archive(facts, kProgram), "write-ahead log").verdict, Verdict::Ok);
+  ++facts.wal_bytes;
+  EXPECT_EQ(named(check_archive(facts, kProgram), "write-ahead log").verdict, Verdict::Warning);
+}
+
+TEST(DoctorArchive, WarnsOfUnfinishedRunsUnlessOneIsWriting) {
+  ArchiveFacts facts = good_archive();
+  facts.content->unfinished_runs = 2;
+  EXPECT_EQ(named(check_archive(facts, kProgram), "runs").verdict, Verdict::Warning);
+  facts.writer = "pid 12 (spindrift serve) on ant";
+  const auto checks = check_archive(facts, kProgram);
+  EXPECT_EQ(named(checks, "runs").verdict, Verdict::Ok);
+  EXPECT_THAT(named(checks, "writer").found, HasSubstr("pid 12"));
+}
+
+TEST(DoctorArchive, ComparesTheLeapSeconds) {
+  ArchiveFacts facts = good_archive();
+  for (const int archive_s : {36, 38}) {
+    facts.content->tai_minus_utc_s = archive_s;
+    EXPECT_EQ(named(check_archive(facts, kProgram), "leap seconds of the archive").verdict,
+              Verdict::Warning);
+  }
+}
+
+// --- report
+
+TEST(DoctorReport, AlignsItsColumnsAndBreaksLongLines) {
+  const std::vector<Check> checks{
+      ok("disk", "fine"),
+      warning("a long name", std::string(40, 'a') + ' ' + std::string(40, 'b') + "\nsecond",
+              "do it")};
+  EXPECT_EQ(to_text(checks),
+            "ok       disk         fine\n"
+            "WARNING  a long name  " +
+                std::string(40, 'a') + "\n" + "                        " + std::string(40, 'b') +
+                "\n" +
+                "                      second\n"
+                "                      -> do it\n"
+                "\n0 failures, 1 warning\n");
+}
+
+TEST(DoctorReport, LeavesAWordLongerThanALineWhole) {
+  const std::string word(200, 'x');
+  EXPECT_THAT(to_text(std::vector{ok("n", word)}), HasSubstr(word));
+  EXPECT_THAT(to_text(std::vector{ok("n", word + " y " + word)}), HasSubstr(word + "\n"));
+}
+
+TEST(DoctorReport, GivesTheWorstVerdict) {
+  EXPECT_EQ(worst_of({}), Verdict::Ok);
+  EXPECT_EQ(worst_of(std::vector{failure("a", "b", "c"), ok("d", "e")}), Verdict::Failure);
+  EXPECT_EQ(to_json(std::vector{warning("a", "b", "c")}),
+            R"({"checks":[{"advice":"c","found":"b","name":"a","verdict":"warning"}],)"
+            R"("verdict":"warning"})"
+            "\n");
+}
+
+}  // namespace
+}  // namespace spindrift::doctor
