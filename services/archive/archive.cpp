@@ -102,7 +102,7 @@ Archive::Archive(std::string path, std::unique_ptr<Store> store, ArchiveOptions 
     : path_{std::move(path)},
       options_{std::move(options)},
       store_{std::move(store)},
-      queue_{options_.queue_capacity},
+      queue_{options_.queue_rows},
       commit_durations_{kCommitsRemembered},
       writer_{[this] { run(); }} {}
 
@@ -128,9 +128,9 @@ Expected<void> Archive::submit(ArchiveBatch batch) {
 
 Expected<void> Archive::flush() {
   std::unique_lock lock{mutex_};
-  const std::uint64_t wanted = submitted_batches_;
-  changed_.wait(lock, [&] { return state_ != State::Accepting || committed_batches_ >= wanted; });
-  if (committed_batches_ < wanted) {
+  const auto is_done = [this] { return committed_batches_ == submitted_batches_; };
+  changed_.wait(lock, [&] { return state_ != State::Accepting || is_done(); });
+  if (!is_done()) {
     return refusal();
   }
   return {};
@@ -165,7 +165,7 @@ ArchiveStatistics Archive::statistics() const {
 }
 
 void Archive::run() {
-  for (auto batches = queue_.take_all(); !batches.empty(); batches = queue_.take_all()) {
+  for (auto batches = queue_.take(); !batches.empty(); batches = queue_.take()) {
     if (gave_up_ || !store_patiently(batches)) {
       store_singly(batches);
     }
@@ -213,7 +213,7 @@ void Archive::note_success(std::span<const ArchiveBatch> batches, double duratio
     commit_durations_.add(duration_ms);
     rows_committed_ += row_count(batches);
     for (const ArchiveBatch& batch : batches) {
-      samples_committed_ += batch.pulses.size();
+      samples_committed_ += batch.pulses.size() + batch.coded.size();
     }
     committed_batches_ += batches.size();
     if (state_ == State::Accepting) {

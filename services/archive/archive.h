@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "services/archive/batch_queue.h"
 #include "services/archive/recent_durations.h"
 #include "services/archive/records.h"
-#include "services/queue/bounded_queue.h"
 
 namespace spindrift {
 
@@ -33,7 +33,7 @@ enum class OnWriteFailure {
 /// The callbacks run on the writer thread, must not throw and must not call the archive.
 struct ArchiveOptions {
   OnWriteFailure on_write_failure = OnWriteFailure::Stop;
-  std::size_t queue_capacity = 256;  ///< Batches.
+  std::size_t queue_rows = 65536;  ///< Of samples, and as many of products.
   /// After each commit, with what it stored.
   std::function<void(std::span<const ArchiveBatch>)> on_committed = [](const auto& /*stored*/) {};
   /// When writing begins to fail, and whenever it fails for another reason than before.
@@ -42,14 +42,16 @@ struct ArchiveOptions {
 
 struct ArchiveStatistics {
   std::uint64_t rows_committed = 0;     ///< As submitted: a pulse that was stored before counts.
-  std::uint64_t samples_committed = 0;  ///< The pulses among them.
+  std::uint64_t samples_committed = 0;  ///< The pulses and coded frames among them.
   std::size_t queued_batches = 0;
   std::optional<double> commit_p99_ms;  ///< Whole transactions, the last 1000 of them.
   std::optional<Error> failure;         ///< Writing fails at present, or failed and stopped.
 };
 
-/// One archive open for writing. Everything queued goes into one transaction, and the next one
-/// begins as soon as it is committed: few batches are stored at once, many at the rate of the disk.
+/// One archive open for writing. What is queued goes into one transaction, and the next one begins
+/// as soon as it is committed: few batches are stored at once, many at the rate of the disk.
+/// Samples are stored in the order submitted, products in theirs and never before samples that were
+/// submitted before them; see batch_queue.h.
 ///
 /// `submit`, `flush` and `statistics` may be called from any thread; `close` from one, after which
 /// the others give errors.
@@ -71,7 +73,7 @@ class Archive {
   /// @return the failure that stopped the archive, or Unavailable after `close`.
   Expected<void> submit(ArchiveBatch batch);
 
-  /// Waits until everything submitted before is committed and announced.
+  /// Waits until everything submitted is committed and announced.
   /// @return as `submit`.
   Expected<void> flush();
 
@@ -99,7 +101,7 @@ class Archive {
   const std::string path_;
   const ArchiveOptions options_;
   std::unique_ptr<Store> store_;
-  BoundedQueue<ArchiveBatch> queue_;
+  BatchQueue queue_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -49,6 +50,12 @@ std::optional<std::string_view> name_of(const std::optional<Rejection>& rejected
   return rejected_by ? std::optional{spindrift::name_of(*rejected_by)} : std::nullopt;
 }
 
+// What is stored already stays as it is, but for its place in the order of the run that takes it
+// now: of ?8, where ?7 is its arrival.
+constexpr const char* kTakenByALaterRun =
+    " ON CONFLICT DO UPDATE SET arrival = excluded.arrival WHERE arrival IS NULL"
+    " OR arrival < (SELECT first_arrival FROM run WHERE run_id = ?8)";
+
 struct CovarianceColumns {
   double sigma_deg;
   double east_east_deg2;
@@ -73,12 +80,22 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                   " ON CONFLICT DO UPDATE SET kind = excluded.kind"},
       run_{database,
            "INSERT INTO run (run_id, spacecraft_id, mode, software_version, config_toml,"
-           " config_sha256, orbit_sha256, telemetry, started_utc)"
-           " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+           " config_sha256, orbit_sha256, telemetry, started_utc, first_arrival)"
+           " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
       run_finished_{database, "UPDATE run SET finished_utc = ? WHERE run_id = ?"},
+      run_earliest_{database,
+                    "UPDATE run SET first_tai_ns = min(ifnull(first_tai_ns, ?1), ?1)"
+                    " WHERE run_id = ?2"},
       pulse_{database,
-             "INSERT INTO pulse (spacecraft_id, t_tai_ns, channel, source, session, seq)"
-             " VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING"},
+             std::string{"INSERT INTO pulse (spacecraft_id, t_tai_ns, channel, source, session,"
+                         " seq, arrival) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)"} +
+                 kTakenByALaterRun},
+      coded_frame_{database,
+                   std::string{"INSERT INTO coded_frame (spacecraft_id, t_tai_ns, period_s, sun2_s,"
+                               " north_in_s, north_out_s, south_in_s, south_out_s, source, session,"
+                               " seq, arrival)"
+                               " VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?9, ?10, ?11, ?12, ?13, ?7)"} +
+                       kTakenByALaterRun},
       rejected_input_{database,
                       "INSERT INTO rejected_input (run_id, source, session, line, reason)"
                       " VALUES (?, ?, ?, ?, ?) ON CONFLICT DO NOTHING"},
@@ -87,7 +104,9 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                     " duplicates, disordered) VALUES (?, ?, ?, ?, ?, ?)"},
       pulse_use_{database,
                  "INSERT INTO pulse_use (run_id, spacecraft_id, t_tai_ns, channel, revolution,"
-                 " accepted, rejected_by) VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING"},
+                 " accepted, rejected_by) VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO UPDATE SET"
+                 " revolution = excluded.revolution, accepted = excluded.accepted,"
+                 " rejected_by = excluded.rejected_by WHERE excluded.rejected_by IS NOT 'late'"},
       revolution_{database,
                   "INSERT OR REPLACE INTO revolution (run_id, revolution, t_tai_ns, period_s)"
                   " VALUES (?, ?, ?, ?)"},
@@ -123,8 +142,18 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
   if (batch.start) {
     insert(batch, *batch.start);
   }
+  if (batch.continuation) {
+    withdraw(batch, batch.continuation->t);
+  }
+  if (batch.earliest) {
+    execute(run_earliest_, tai_ns(*batch.earliest), batch.run_id);
+  }
+  std::int64_t arrival = batch.arrival;
   for (const PulseSample& sample : batch.pulses) {
-    insert(sample);
+    insert(batch, sample, arrival++);
+  }
+  for (const CodedSample& sample : batch.coded) {
+    insert(batch, sample, arrival++);
   }
   for (const RejectedInput& rejected : batch.rejected) {
     insert(batch.run_id, rejected);
@@ -144,12 +173,42 @@ void BatchWriter::insert(const ArchiveBatch& batch, const RunStart& start) {
   execute(spacecraft_, batch.spacecraft_id, start.spacecraft_kind);
   execute(run_, batch.run_id, batch.spacecraft_id, start.mode, start.software_version,
           start.config_toml, start.config_sha256, start.orbit_sha256, start.telemetry,
-          start.started_utc);
+          start.started_utc, start.first_arrival);
 }
 
-void BatchWriter::insert(const PulseSample& sample) {
+void BatchWriter::withdraw(const ArchiveBatch& batch, TaiTime from) {
+  const auto execute_for_run = [&](const char* sql) {
+    SQLite::Statement statement{database_, sql};
+    execute(statement, batch.run_id, tai_ns(from));
+  };
+  execute_for_run("UPDATE run SET finished_utc = NULL WHERE run_id = ?1 AND ?2 IS NOT NULL");
+  execute_for_run(
+      "DELETE FROM spin_measurement WHERE run_id = ?1 AND revolution >="
+      " (SELECT min(revolution) FROM revolution WHERE run_id = ?1 AND t_tai_ns >= ?2)");
+  execute_for_run("DELETE FROM revolution WHERE run_id = ?1 AND t_tai_ns >= ?2");
+  execute_for_run("DELETE FROM spin_fix WHERE run_id = ?1 AND t_tai_ns >= ?2");
+  execute_for_run("DELETE FROM spin_estimate WHERE run_id = ?1 AND t_tai_ns >= ?2");
+  execute_for_run(
+      "DELETE FROM pulse_use WHERE run_id = ?1 AND t_tai_ns >= ?2 AND spacecraft_id ="
+      " (SELECT spacecraft_id FROM run WHERE run_id = ?1)");
+}
+
+void BatchWriter::insert(const ArchiveBatch& batch, const PulseSample& sample,
+                         std::int64_t arrival) {
   execute(pulse_, sample.spacecraft, tai_ns(sample.pulse.t),
           spindrift::name_of(sample.pulse.channel), sample.origin.source,
+          as_signed(sample.origin.session), as_signed(sample.origin.seq), arrival, batch.run_id);
+}
+
+void BatchWriter::insert(const ArchiveBatch& batch, const CodedSample& sample,
+                         std::int64_t arrival) {
+  const auto delay_s = [&](PulseChannel channel) {
+    return sample.frame.delay_s.at(index_of(channel));
+  };
+  using enum PulseChannel;
+  execute(coded_frame_, sample.spacecraft, tai_ns(sample.frame.t), sample.frame.period_s,
+          delay_s(Sun2), delay_s(NorthIn), delay_s(NorthOut), arrival, batch.run_id,
+          delay_s(SouthIn), delay_s(SouthOut), sample.origin.source,
           as_signed(sample.origin.session), as_signed(sample.origin.seq));
 }
 

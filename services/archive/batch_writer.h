@@ -6,6 +6,7 @@
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>
 
+#include <cstdint>
 #include <span>
 
 #include "pipelines/core/expected.h"
@@ -27,7 +28,9 @@ class BatchWriter {
  private:
   void insert(const ArchiveBatch& batch);
   void insert(const ArchiveBatch& batch, const RunStart& start);
-  void insert(const PulseSample& sample);
+  void withdraw(const ArchiveBatch& batch, TaiTime from);
+  void insert(const ArchiveBatch& batch, const PulseSample& sample, std::int64_t arrival);
+  void insert(const ArchiveBatch& batch, const CodedSample& sample, std::int64_t arrival);
   void insert(const std::string& run_id, const RejectedInput& rejected);
   void insert(const std::string& run_id, const SourceCount& count);
   void insert(const ArchiveBatch& batch, const PulseUse& use);
@@ -40,7 +43,9 @@ class BatchWriter {
   SQLite::Statement spacecraft_;
   SQLite::Statement run_;
   SQLite::Statement run_finished_;
+  SQLite::Statement run_earliest_;
   SQLite::Statement pulse_;
+  SQLite::Statement coded_frame_;
   SQLite::Statement rejected_input_;
   SQLite::Statement source_count_;
   SQLite::Statement pulse_use_;

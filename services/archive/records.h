@@ -23,8 +23,14 @@ struct RunStart {
   std::string config_toml;
   std::string config_sha256;
   std::optional<std::string> orbit_sha256;  ///< Of the mission's orbit file, if it names one.
-  std::string telemetry;    ///< File paths, one a line, or DDS domain and partition.
-  std::string started_utc;  ///< ISO 8601, ending in Z.
+  std::string telemetry;           ///< File paths, one a line, or DDS domain and partition.
+  std::string started_utc;         ///< ISO 8601, ending in Z.
+  std::int64_t first_arrival = 0;  ///< Later than that of any sample of an earlier run.
+};
+
+/// A run that goes on. What it has stored from `t` on is withdrawn, to be made again.
+struct Continuation {
+  TaiTime t;
 };
 
 /// How the samples of one source came in, all its sessions together, since the run began.
@@ -38,14 +44,19 @@ struct SourceCount {
 
 /// The unit of submission: stored as a whole or not at all, in the order of the members.
 ///
-/// A run's first batch carries `start`, its last one `finished_utc`. A pulse that the archive
-/// already holds is not stored again, and what became of an edge is said once a run; another
-/// product with the key of an earlier one of its run, and a source's count, take its place.
+/// A run's first batch carries `start`, its last one `finished_utc`. A sample that the archive
+/// already holds is not stored again; a product with the key of an earlier one of its run, and a
+/// source's count, take its place. Only an edge that is late is not said to be so when something
+/// else has become of it: it arrived twice.
 struct ArchiveBatch {
   std::string run_id;  ///< Unique over all archives that may ever be merged.
   std::string spacecraft_id;
   std::optional<RunStart> start = {};
+  std::optional<Continuation> continuation = {};
+  std::int64_t arrival = 0;  ///< Of its first sample; the pulses and then the frames count on.
+  std::optional<TaiTime> earliest = {};  ///< A sample of it is earlier than the run's earliest.
   std::vector<PulseSample> pulses = {};
+  std::vector<CodedSample> coded = {};
   std::vector<RejectedInput> rejected = {};
   std::vector<SpinProduct> products = {};
   std::vector<SourceCount> source_counts = {};
@@ -54,7 +65,7 @@ struct ArchiveBatch {
 
 /// Rows that `batch` asks for, those the archive already holds included.
 inline std::size_t row_count(const ArchiveBatch& batch) {
-  return batch.pulses.size() + batch.rejected.size() + batch.products.size() +
+  return batch.pulses.size() + batch.coded.size() + batch.rejected.size() + batch.products.size() +
          batch.source_counts.size() + (batch.start ? 1 : 0) + (batch.finished_utc ? 1 : 0);
 }
 

@@ -14,14 +14,15 @@ namespace spindrift {
 namespace embedded {
 extern const char* const schema_0001_tables;
 extern const char* const schema_0002_views;
+extern const char* const schema_0003_restart;
 }  // namespace embedded
 
 namespace {
 
-constexpr std::size_t kMigrations = 2;
+constexpr std::size_t kMigrations = 3;
 
 std::array<const char*, kMigrations> migrations() {
-  return {embedded::schema_0001_tables, embedded::schema_0002_views};
+  return {embedded::schema_0001_tables, embedded::schema_0002_views, embedded::schema_0003_restart};
 }
 
 }  // namespace

@@ -3,43 +3,44 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <iterator>
-#include <set>
 #include <utility>
 
 namespace spindrift {
 namespace {
 
-Unexpected refused(std::string message) {
-  return Unexpected{{ErrorCode::InvalidConfiguration, std::move(message)}};
-}
-
 constexpr std::size_t kMaxOthers = 256;
 constexpr const char* kOthers = "(others)";
 
-bool is_empty(const SampleBatch& batch) {
-  return batch.pulses.empty() && batch.rejected.empty() && batch.counts.empty();
+void append(std::vector<ArchiveBatch>& batches, std::vector<ArchiveBatch> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(batches));
 }
 
 }  // namespace
 
 Expected<Processor> Processor::make(const std::vector<Mission>& missions,
                                     const TelemetrySource& source) {
-  std::set<std::string> seen;
-  std::vector<SpacecraftRun> runs;
+  Processor processor;
+  std::string problems;
+  const auto refuse = [&](const std::string& problem) {
+    problems += (problems.empty() ? "" : "\n") + problem;
+  };
   for (const Mission& mission : missions) {
+    const std::string& spacecraft = mission.spacecraft_id;
     if (!mission.spin) {
-      return refused(fmt::format("spacecraft '{}' is of kind {}: this version processes spin only",
-                                 mission.spacecraft_id, name_of(mission.kind)));
+      refuse(fmt::format("spacecraft '{}' is of kind {}: this version processes spin only",
+                         spacecraft, name_of(mission.kind)));
+    } else if (!processor.index_of_.emplace(spacecraft, processor.runs_.size()).second) {
+      refuse(fmt::format("two mission files name the spacecraft '{}': one is allowed", spacecraft));
+    } else {
+      processor.runs_.emplace_back(mission, source, processor.runs_.size());
+      processor.passes_.emplace_back(mission, processor.runs_.back().run_id());
     }
-    if (!seen.insert(mission.spacecraft_id).second) {
-      return refused(fmt::format("two mission files name the spacecraft '{}': one is allowed",
-                                 mission.spacecraft_id));
-    }
-    runs.emplace_back(mission, source);
   }
-  return Processor{std::move(runs)};
+  if (!problems.empty()) {
+    return Unexpected{{ErrorCode::InvalidConfiguration, problems}};
+  }
+  return processor;
 }
 
 std::vector<ArchiveBatch> Processor::begin() {
@@ -50,33 +51,81 @@ std::vector<ArchiveBatch> Processor::begin() {
   return batches;
 }
 
-std::vector<ArchiveBatch> Processor::take(SampleBatch samples) {
-  std::vector<SampleBatch> by_run(runs_.size());
-  by_run.front().rejected = std::move(samples.rejected);
-  by_run.front().counts = std::move(samples.counts);
-  for (PulseSample& sample : samples.pulses) {
-    const auto run = std::find_if(runs_.begin(), runs_.end(), [&](const SpacecraftRun& r) {
-      return r.summary().spacecraft_id == sample.spacecraft;
-    });
-    if (run == runs_.end()) {
-      count_other(sample.spacecraft);
-    } else {
-      by_run.at(static_cast<std::size_t>(run - runs_.begin())).pulses.push_back(std::move(sample));
+Expected<void> Processor::go_on(const std::filesystem::path& archive, const Submit& submit) {
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    SpacecraftRun& run = runs_[i];
+    const auto stored = find_stored_pass(archive, run.spacecraft_id(), run.start());
+    if (!stored) {
+      return Unexpected{stored.error()};
+    }
+    if (*stored) {
+      run.go_on(**stored);
+    }
+    auto submitted = *stored ? passes_[i].go_on(**stored, submit) : submit(run.begin());
+    if (!submitted) {
+      return submitted;
     }
   }
-  std::vector<ArchiveBatch> batches;
-  for (std::size_t i = 0; i < runs_.size(); ++i) {
-    if (!is_empty(by_run[i])) {
-      batches.push_back(runs_[i].take(std::move(by_run[i])));
+  return {};
+}
+
+Routed Processor::route(SampleBatch samples) {
+  std::map<std::size_t, SampleBatch> by_run;
+  if (!samples.rejected.empty() || !samples.counts.empty()) {
+    by_run[0].rejected = std::move(samples.rejected);
+    by_run[0].counts = std::move(samples.counts);
+  }
+  distribute(samples.pulses, &SampleBatch::pulses, by_run);
+  distribute(samples.coded, &SampleBatch::coded, by_run);
+  Routed routed;
+  for (auto& [run, of_run] : by_run) {
+    SpacecraftRun::Taken taken = runs_.at(run).take(std::move(of_run));
+    append(routed.samples, std::move(taken.batches));
+    if (!taken.input.pulses.empty() || !taken.input.frames.empty()) {
+      routed.work.push_back(std::move(taken.input));
     }
+  }
+  return routed;
+}
+
+template <class Sample>
+void Processor::distribute(std::vector<Sample>& samples, std::vector<Sample> SampleBatch::*kind,
+                           std::map<std::size_t, SampleBatch>& by_run) {
+  // The bus gives samples spacecraft by spacecraft: most are of the same one as the one before.
+  const std::string* last = nullptr;
+  std::vector<Sample>* place = nullptr;
+  for (Sample& sample : samples) {
+    if (last == nullptr || sample.spacecraft != *last) {
+      const auto known = index_of_.find(sample.spacecraft);
+      last = known == index_of_.end() ? nullptr : &known->first;
+      place = known == index_of_.end() ? nullptr : &(by_run[known->second].*kind);
+    }
+    if (place == nullptr) {
+      count_other(sample.spacecraft);
+    } else {
+      place->push_back(std::move(sample));
+    }
+  }
+}
+
+std::vector<ArchiveBatch> Processor::compute(const PassInput& work) {
+  return passes_.at(work.spacecraft).compute(work);
+}
+
+std::vector<ArchiveBatch> Processor::take(SampleBatch samples) {
+  Routed routed = route(std::move(samples));
+  std::vector<ArchiveBatch> batches = std::move(routed.samples);
+  for (const PassInput& work : routed.work) {
+    append(batches, compute(work));
   }
   return batches;
 }
 
 std::vector<ArchiveBatch> Processor::finish() {
   std::vector<ArchiveBatch> batches;
-  for (SpacecraftRun& run : runs_) {
-    batches.push_back(run.finish());
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    append(batches, compute(runs_[i].finish()));
+    batches.push_back(passes_[i].finish());
   }
   return batches;
 }
@@ -91,8 +140,11 @@ void Processor::count_other(const std::string& spacecraft) {
 
 std::vector<RunSummary> Processor::summaries() const {
   std::vector<RunSummary> summaries;
-  std::transform(runs_.begin(), runs_.end(), std::back_inserter(summaries),
-                 [](const SpacecraftRun& run) { return run.summary(); });
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    summaries.push_back(passes_[i].summary());
+    summaries.back().edges_received = runs_[i].samples_received();
+    summaries.back().input_rejected = runs_[i].inputs_rejected();
+  }
   return summaries;
 }
 

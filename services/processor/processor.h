@@ -4,31 +4,53 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
-#include <utility>
+#include <unordered_map>
 #include <vector>
 
 #include "pipelines/core/expected.h"
 #include "services/archive/records.h"
 #include "services/ingest/sample_batch.h"
 #include "services/mission/mission.h"
+#include "services/processor/pass_run.h"
 #include "services/processor/spacecraft_run.h"
 
 namespace spindrift {
 
+/// Samples as they came in, for the archive, and the work that they are for the pipelines.
+struct Routed {
+  std::vector<ArchiveBatch> samples;
+  std::vector<PassInput> work;
+};
+
+/// Has two sides, each for one thread: `route` takes samples in, `compute` works on them. The
+/// batches of `route` go to the archive before its work is computed. The other calls need both
+/// sides at rest.
 class Processor {
  public:
-  /// @return InvalidConfiguration for a mission that is no spinner, or two of one spacecraft.
+  /// @return InvalidConfiguration with every mission that is no spinner, or the second of one
+  ///         spacecraft.
   static Expected<Processor> make(const std::vector<Mission>& missions,
                                   const TelemetrySource& source);
 
   std::vector<ArchiveBatch> begin();
 
+  /// In place of `begin`: goes on with those runs that `archive` holds, and begins the others.
+  /// @return the first error of `submit`, or of reading the archive.
+  Expected<void> go_on(const std::filesystem::path& archive, const Submit& submit);
+
   /// What belongs to no spacecraft, rejected inputs and the counts of the sources, is stored under
   /// the first run only, so that sums over runs hold. A sample of a spacecraft without a mission
   /// here is another service's: it is counted and not stored.
+  Routed route(SampleBatch samples);
+
+  std::vector<ArchiveBatch> compute(const PassInput& work);
+
+  /// Both, for those who have one thread.
   std::vector<ArchiveBatch> take(SampleBatch samples);
 
   std::vector<ArchiveBatch> finish();
@@ -39,11 +61,16 @@ class Processor {
   const std::map<std::string, std::int64_t>& other_spacecraft() const { return other_spacecraft_; }
 
  private:
-  explicit Processor(std::vector<SpacecraftRun> runs) : runs_{std::move(runs)} {}
+  Processor() = default;
 
+  template <class Sample>
+  void distribute(std::vector<Sample>& samples, std::vector<Sample> SampleBatch::*kind,
+                  std::map<std::size_t, SampleBatch>& by_run);
   void count_other(const std::string& spacecraft);
 
+  std::unordered_map<std::string, std::size_t> index_of_;  ///< Of a spacecraft, in both below.
   std::vector<SpacecraftRun> runs_;
+  std::vector<PassRun> passes_;
   std::map<std::string, std::int64_t> other_spacecraft_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace spindrift {
@@ -19,10 +20,16 @@ std::optional<Announcement> announcement_of(const std::string& spacecraft,
   return std::nullopt;
 }
 
+/// Of the instance on the bus, which only the latest of is seen.
+std::pair<std::string, std::string_view> key_of(const Announcement& announcement) {
+  const auto* estimate = std::get_if<SpinEstimate>(&announcement.product);
+  return {announcement.spacecraft, estimate == nullptr ? "fix" : name_of(estimate->estimator)};
+}
+
 void keep_latest_of_each(std::vector<Announcement>& announcements) {
-  std::map<std::pair<std::string, std::size_t>, Announcement> latest;
+  std::map<std::pair<std::string, std::string_view>, Announcement> latest;
   for (const Announcement& announcement : announcements) {
-    latest.insert_or_assign({announcement.spacecraft, announcement.product.index()}, announcement);
+    latest.insert_or_assign(key_of(announcement), announcement);
   }
   announcements.clear();
   for (const auto& [key, announcement] : latest) {

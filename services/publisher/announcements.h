@@ -20,11 +20,12 @@ struct Announcement {
   std::variant<SpinFix, SpinEstimate> product;
 };
 
-/// One thread adds, one takes. Beyond kMaxWaiting only the latest of each spacecraft and kind is
-/// kept: that is what a subscriber with keep-last 1 would see of them anyhow.
+/// One thread adds, one takes. Beyond kMaxWaiting only the latest fix of each spacecraft, and the
+/// latest estimate of each of its estimators, is kept: that is what a subscriber with keep-last 1
+/// would see of them anyhow.
 class Announcements {
  public:
-  static constexpr std::size_t kMaxWaiting = 256;
+  static constexpr std::size_t kMaxWaiting = 4096;
 
   /// Those of `products` that are announced: estimates, and fixes that are accepted or AMBIGUOUS.
   /// A fix from measurements that contradict each other could not be told from a good one.

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -18,16 +19,24 @@ namespace spindrift {
 template <class T>
 class BoundedQueue {
  public:
-  explicit BoundedQueue(std::size_t capacity) : capacity_{capacity} {}
+  using Weigh = std::function<std::size_t(const T&)>;
 
-  /// Waits for room. @return false when the queue is closed: `item` was not taken.
+  /// @param capacity In what `weigh` gives: items, unless told otherwise.
+  explicit BoundedQueue(
+      std::size_t capacity, Weigh weigh = [](const T& /*item*/) { return std::size_t{1}; })
+      : capacity_{capacity}, weigh_{std::move(weigh)} {}
+
+  /// Waits until less than the capacity is queued. @return false when the queue is closed: `item`
+  /// was not taken.
   bool push(T item) {
+    const std::size_t weight = weigh_(item);
     std::unique_lock lock{mutex_};
-    room_.wait(lock, [this] { return closed_ || items_.size() < capacity_; });
+    room_.wait(lock, [this] { return closed_ || queued_ < capacity_; });
     if (closed_) {
       return false;
     }
     items_.push_back(std::move(item));
+    queued_ += weight;
     lock.unlock();
     filled_.notify_one();
     return true;
@@ -40,6 +49,7 @@ class BoundedQueue {
     std::vector<T> taken{std::make_move_iterator(items_.begin()),
                          std::make_move_iterator(items_.end())};
     items_.clear();
+    queued_ = 0;
     lock.unlock();
     room_.notify_all();
     return taken;
@@ -61,10 +71,12 @@ class BoundedQueue {
 
  private:
   const std::size_t capacity_;
+  const Weigh weigh_;
   mutable std::mutex mutex_;
   std::condition_variable room_;
   std::condition_variable filled_;
   std::deque<T> items_;
+  std::size_t queued_ = 0;  ///< By weight.
   bool closed_ = false;
 };
 

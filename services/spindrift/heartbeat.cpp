@@ -112,7 +112,7 @@ void Heartbeat::publish_health(const TelemetrySubscriberStatus& status) {
              .samples_committed = archive.samples_committed,
              .gaps = counts.missing,
              .duplicates = counts.duplicates,
-             .queue_depth = watched_.queue.size() + archive.queued_batches,
+             .queue_depth = watched_.taken.size() + watched_.work.size() + archive.queued_batches,
              .commit_p99_ms = archive.commit_p99_ms.value_or(0.0),
              .status = health});
   if (!published) {

@@ -13,6 +13,7 @@
 #include "services/archive/archive.h"
 #include "services/ingest/gap_watch.h"
 #include "services/ingest/telemetry_subscriber.h"
+#include "services/processor/pass_run.h"
 #include "services/publisher/result_publisher.h"
 
 namespace spindrift {
@@ -22,7 +23,8 @@ class Heartbeat {
   /// All of them outlive it.
   struct Watched {
     const TelemetrySubscriber& subscriber;
-    const BoundedQueue<SampleBatch>& queue;
+    const BoundedQueue<SampleBatch>& taken;
+    const BoundedQueue<PassInput>& work;
     const Archive& archive;
     const ResultPublisher& publisher;
   };

@@ -25,8 +25,10 @@
 namespace spindrift {
 namespace {
 
-// Batches of up to 256 samples between the thread that takes and the one that computes.
+// Batches of up to 256 samples between the thread that takes and the one that routes.
 constexpr std::size_t kTakenBatches = 256;
+// Samples between the thread that routes and the one that computes: a whole day's pass in a burst.
+constexpr std::size_t kSamplesToCompute = 1'000'000;
 constexpr std::chrono::milliseconds kStuckPoll{200};
 
 Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::path>& paths) {
@@ -46,17 +48,51 @@ Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::
   return missions;
 }
 
-/// Works on what is taken until the queue is closed and empty, or the archive refuses.
-Expected<void> work(BoundedQueue<SampleBatch>& queue, Processor& processor, Archive& archive) {
-  for (auto batches = queue.take_all(); !batches.empty(); batches = queue.take_all()) {
+std::size_t sample_count(const PassInput& work) { return work.pulses.size() + work.frames.size(); }
+
+/// Hands what is taken to the archive, then to `work`, until `taken` is closed and empty, the
+/// archive refuses or `work` is closed.
+Expected<void> route(BoundedQueue<SampleBatch>& taken, Processor& processor, Archive& archive,
+                     BoundedQueue<PassInput>& work) {
+  for (auto batches = taken.take_all(); !batches.empty(); batches = taken.take_all()) {
     for (SampleBatch& batch : batches) {
-      if (auto stored = submit_all(archive, processor.take(std::move(batch))); !stored) {
-        queue.close();  // Nobody empties it any more: the taking thread must not wait for room.
+      Routed routed = processor.route(std::move(batch));
+      auto going = submit_all(archive, std::move(routed.samples));
+      bool wanted = going.has_value();
+      for (PassInput& input : routed.work) {
+        wanted = wanted && work.push(std::move(input));
+      }
+      if (!wanted) {
+        taken.close();  // Nobody empties it any more: the taking thread must not wait for room.
+        return going;
+      }
+    }
+  }
+  return {};
+}
+
+/// Works until `work` is closed and empty, or the archive refuses.
+Expected<void> compute(BoundedQueue<PassInput>& work, Processor& processor, Archive& archive) {
+  for (auto inputs = work.take_all(); !inputs.empty(); inputs = work.take_all()) {
+    for (const PassInput& input : inputs) {
+      if (auto stored = submit_all(archive, processor.compute(input)); !stored) {
+        work.close();  // Nobody empties it any more.
         return stored;
       }
     }
   }
   return {};
+}
+
+/// Both at once: samples reach the archive however long the mathematics takes.
+Expected<void> route_and_compute(BoundedQueue<SampleBatch>& taken, BoundedQueue<PassInput>& work,
+                                 Processor& processor, Archive& archive) {
+  Expected<void> computed;
+  std::thread computing{[&] { computed = compute(work, processor, archive); }};
+  const auto routed = route(taken, processor, archive, work);
+  work.close();
+  computing.join();
+  return routed ? computed : routed;
 }
 
 /// While writing fails, submitting waits. A service that is told to stop does not wait for ever: it
@@ -78,6 +114,7 @@ void give_up_when_stuck(const std::stop_token& done, const std::atomic<bool>& st
 Expected<void> run(const bus::Participant& participant, const ResultPublisher& publisher,
                    Processor& processor, Archive& archive, StopSignal& stop_signal) {
   BoundedQueue<SampleBatch> queue{kTakenBatches};
+  BoundedQueue<PassInput> work{kSamplesToCompute, sample_count};
   auto started = TelemetrySubscriber::start(participant, queue);
   if (!started) {
     return Unexpected{started.error()};
@@ -93,11 +130,14 @@ Expected<void> run(const bus::Participant& participant, const ResultPublisher& p
       [&](const std::stop_token& done) { give_up_when_stuck(done, stopping, queue, archive); }};
   Expected<void> worked;
   {
-    const Heartbeat heartbeat{
-        {.subscriber = subscriber, .queue = queue, .archive = archive, .publisher = publisher},
-        &StopSignal::raise};
+    const Heartbeat heartbeat{{.subscriber = subscriber,
+                               .taken = queue,
+                               .work = work,
+                               .archive = archive,
+                               .publisher = publisher},
+                              &StopSignal::raise};
     spdlog::info("ready");
-    worked = work(queue, processor, archive);
+    worked = route_and_compute(queue, work, processor, archive);
   }
   if (!worked) {
     StopSignal::raise();
@@ -155,7 +195,8 @@ Expected<void> serve(const ServeOptions& options) {
   }
   spdlog::info("archive {}", options.db.string());
 
-  auto done = submit_all(**archive, processor->begin());
+  auto done = processor->go_on(
+      options.db, [&](ArchiveBatch batch) { return (*archive)->submit(std::move(batch)); });
   if (done) {
     done = run(*participant, *publisher, *processor, **archive, stop_signal);
   }

@@ -97,7 +97,7 @@ class ArchiveFailure : public testing::ArchiveFixture {
   std::unique_ptr<Archive> open_watched(OnWriteFailure policy, std::promise<Error>& failed) const {
     ArchiveOptions options;
     options.on_write_failure = policy;
-    options.queue_capacity = 4;
+    options.queue_rows = 4 * kPulsesPerBatch;
     options.on_failure = first_into(failed);
     auto archive = open(options);
     EXPECT_TRUE(archive->submit(start_of("run-1")));

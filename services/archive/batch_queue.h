@@ -1,0 +1,53 @@
+/// @file
+/// Batches on their way to the writer thread: samples first.
+
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <mutex>
+#include <vector>
+
+#include "services/archive/records.h"
+
+namespace spindrift {
+
+/// Many submitters, one writer. Samples cannot be had again, products can be computed again: while
+/// samples press, products wait, and their submitter with them. A batch with products never
+/// overtakes one that was pushed before it, so a product is never taken before its samples.
+///
+/// Bounded in rows, samples and products each for themselves: a full queue blocks `push`. After
+/// `close()` pushes are refused and what is queued can still be taken.
+class BatchQueue {
+ public:
+  explicit BatchQueue(std::size_t capacity_rows) : capacity_rows_{capacity_rows} {}
+
+  /// Waits for room. @return false when the queue is closed: `batch` was not taken.
+  bool push(ArchiveBatch batch);
+
+  /// Waits for at least one batch. Takes all the samples and, unless they are many, products; empty
+  /// only when closed and drained.
+  std::vector<ArchiveBatch> take();
+
+  void close();
+
+  std::size_t size() const;
+
+ private:
+  struct Lane {
+    std::deque<ArchiveBatch> batches;
+    std::size_t rows = 0;
+  };
+  static void move_first(Lane& lane, std::vector<ArchiveBatch>& taken);
+
+  const std::size_t capacity_rows_;
+  mutable std::mutex mutex_;
+  std::condition_variable room_;
+  std::condition_variable filled_;
+  Lane samples_;
+  Lane products_;
+  bool closed_ = false;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,137 @@
+#include "services/archive/stored_pass.h"
+
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Statement.h>
+
+#include <algorithm>
+
+#include "services/archive/connection.h"
+
+namespace spindrift {
+namespace {
+
+std::optional<TaiTime> time_of(const SQLite::Column& column) {
+  return column.isNull() ? std::nullopt : std::optional{tai_from_ns(column.getInt64())};
+}
+
+std::optional<double> real_of(const SQLite::Column& column) {
+  return column.isNull() ? std::nullopt : std::optional{column.getDouble()};
+}
+
+std::optional<StoredPass> find_run(const SQLite::Database& database,
+                                   const std::string& spacecraft_id, const RunStart& start) {
+  SQLite::Statement query{
+      database,
+      "SELECT run_id, first_arrival, first_tai_ns,"
+      " (SELECT t_tai_ns FROM revolution WHERE revolution.run_id = run.run_id"
+      "  ORDER BY revolution DESC LIMIT 1),"
+      " (SELECT count(*) FROM rejected_input WHERE rejected_input.run_id = run.run_id)"
+      " FROM run WHERE spacecraft_id = ? AND mode = ? AND telemetry = ? AND software_version = ?"
+      " AND config_sha256 = ? AND orbit_sha256 IS ? AND first_arrival IS NOT NULL"
+      " ORDER BY first_arrival DESC LIMIT 1"};
+  query.bind(1, spacecraft_id);
+  query.bind(2, start.mode);
+  query.bind(3, start.telemetry);
+  query.bind(4, start.software_version);
+  query.bind(5, start.config_sha256);
+  if (start.orbit_sha256) {
+    query.bind(6, *start.orbit_sha256);
+  }
+  if (!query.executeStep()) {
+    return std::nullopt;
+  }
+  return StoredPass{.run_id = query.getColumn(0).getString(),
+                    .first_arrival = query.getColumn(1).getInt64(),
+                    .earliest = time_of(query.getColumn(2)),
+                    .last_revolution = time_of(query.getColumn(3)),
+                    .rejected_inputs = query.getColumn(4).getInt64(),
+                    .source_counts = {},
+                    .pulses = {},
+                    .frames = {}};
+}
+
+void read_source_counts(const SQLite::Database& database, StoredPass& pass) {
+  SQLite::Statement query{
+      database,
+      "SELECT source, received, gaps, duplicates, disordered FROM source_count WHERE run_id = ?"};
+  query.bind(1, pass.run_id);
+  while (query.executeStep()) {
+    pass.source_counts.push_back({.source = query.getColumn(0).getString(),
+                                  .received = query.getColumn(1).getInt64(),
+                                  .gaps = query.getColumn(2).getInt64(),
+                                  .duplicates = query.getColumn(3).getInt64(),
+                                  .disordered = query.getColumn(4).getInt64()});
+  }
+}
+
+void bind_extent(SQLite::Statement& query, const std::string& spacecraft_id,
+                 const StoredPass& pass) {
+  query.bind(1, spacecraft_id);
+  query.bind(2, tai_ns(*pass.earliest));
+  query.bind(3, pass.first_arrival);
+}
+
+void read_pulses(const SQLite::Database& database, const std::string& spacecraft_id,
+                 StoredPass& pass) {
+  SQLite::Statement query{database,
+                          "SELECT arrival, t_tai_ns, channel FROM pulse"
+                          " WHERE spacecraft_id = ? AND t_tai_ns >= ? AND arrival >= ?"};
+  bind_extent(query, spacecraft_id, pass);
+  while (query.executeStep()) {
+    // The schema allows no other names.
+    const auto channel = pulse_channel_from(query.getColumn(2).getText()).value();
+    pass.pulses.push_back(
+        {.arrival = query.getColumn(0).getInt64(),
+         .pulse = {.t = tai_from_ns(query.getColumn(1).getInt64()), .channel = channel}});
+  }
+  std::sort(pass.pulses.begin(), pass.pulses.end(),
+            [](const StoredPulse& a, const StoredPulse& b) { return a.arrival < b.arrival; });
+}
+
+void read_frames(const SQLite::Database& database, const std::string& spacecraft_id,
+                 StoredPass& pass) {
+  SQLite::Statement query{database,
+                          "SELECT arrival, t_tai_ns, period_s, sun2_s, north_in_s, north_out_s,"
+                          " south_in_s, south_out_s FROM coded_frame"
+                          " WHERE spacecraft_id = ? AND t_tai_ns >= ? AND arrival >= ?"};
+  bind_extent(query, spacecraft_id, pass);
+  while (query.executeStep()) {
+    StoredFrame stored{.arrival = query.getColumn(0).getInt64(),
+                       .frame = {.t = tai_from_ns(query.getColumn(1).getInt64()),
+                                 .period_s = real_of(query.getColumn(2)),
+                                 .delay_s = {}}};
+    // sun2 to south_out stand in the order of their channels.
+    for (std::size_t channel = 1; channel < kPulseChannels; ++channel) {
+      stored.frame.delay_s.at(channel) = real_of(query.getColumn(static_cast<int>(channel) + 2));
+    }
+    pass.frames.push_back(stored);
+  }
+  std::sort(pass.frames.begin(), pass.frames.end(),
+            [](const StoredFrame& a, const StoredFrame& b) { return a.arrival < b.arrival; });
+}
+
+}  // namespace
+
+Expected<std::optional<StoredPass>> find_stored_pass(const std::filesystem::path& archive,
+                                                     const std::string& spacecraft_id,
+                                                     const RunStart& start) {
+  const auto database = open_for_reading(archive);
+  if (!database) {
+    return Unexpected{database.error()};
+  }
+  try {
+    auto pass = find_run(*database, spacecraft_id, start);
+    if (pass) {
+      read_source_counts(*database, *pass);
+    }
+    if (pass && pass->earliest) {
+      read_pulses(*database, spacecraft_id, *pass);
+      read_frames(*database, spacecraft_id, *pass);
+    }
+    return pass;
+  } catch (const SQLite::Exception& exception) {
+    return Unexpected{archive_error(archive.string(), exception)};
+  }
+}
+
+}  // namespace spindrift

@@ -1,0 +1,45 @@
+/// @file
+/// What the archive holds of a run that may go on: its telemetry in the order of arrival.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "services/archive/records.h"
+
+namespace spindrift {
+
+struct StoredPulse {
+  std::int64_t arrival;
+  Pulse pulse;
+};
+
+struct StoredFrame {
+  std::int64_t arrival;
+  CodedFrame frame;
+};
+
+struct StoredPass {
+  std::string run_id;
+  std::int64_t first_arrival;
+  std::optional<TaiTime> earliest;         ///< Of its samples; empty: it has none.
+  std::optional<TaiTime> last_revolution;  ///< The last one it has stored began then.
+  std::int64_t rejected_inputs;
+  std::vector<SourceCount> source_counts;
+  std::vector<StoredPulse> pulses;  ///< In order of arrival; so are the frames.
+  std::vector<StoredFrame> frames;
+};
+
+/// The newest run of `spacecraft_id` that was made as `start` says: same mode, telemetry, program,
+/// mission file and orbit. Reads by a connection of its own.
+/// @return empty when there is none; as open_for_reading; Unavailable when reading fails.
+Expected<std::optional<StoredPass>> find_stored_pass(const std::filesystem::path& archive,
+                                                     const std::string& spacecraft_id,
+                                                     const RunStart& start);
+
+}  // namespace spindrift
