@@ -40,8 +40,13 @@ double earth_wander_turns(PulseChannel channel, double period_s) {
              : kEarthWander_rad_s2 * period_s * period_s / (2.0 * std::numbers::pi);
 }
 
+ExpectedPhases::ExpectedPhases(const SpinConfig& config)
+    : noise_{config.noise},
+      gate_sigma_{config.screening.sigma},
+      slit_separation_turns_{config.sun_sensor.slit_separation_rad / (2.0 * std::numbers::pi)} {}
+
 double ExpectedPhases::noise_turns(PulseChannel channel) const {
-  return noise_of(config_.noise, channel) / period_s_;
+  return noise_of(noise_, channel) / period_s_;
 }
 
 double ExpectedPhases::most_drift(PulseChannel channel) const {
@@ -96,8 +101,8 @@ bool ExpectedPhases::follow(PulseChannel channel, std::int64_t turn, double phas
   Channel& own = of(channel);
   const DriftNoise noise{.measured = std::hypot(noise_turns(channel), clock_sigma_turns),
                          .wander = wander(channel)};
-  const bool accepted = own.phase->follow(
-      turn, phase_turns, noise, {.sigma = config_.screening.sigma, .most = gate_turns(channel)});
+  const bool accepted = own.phase->follow(turn, phase_turns, noise,
+                                          {.sigma = gate_sigma_, .most = gate_turns(channel)});
   if (accepted) {
     own.strays.clear();
     ++own.accepted;
@@ -126,7 +131,7 @@ bool ExpectedPhases::stray(PulseChannel channel, double count) {
   }
   const double noise = own.phase->scale() * noise_turns(channel);
   const auto line = fit_phase_line(points, noise, most_drift(channel));
-  const bool agree = line->scatter <= config_.screening.sigma * noise &&
+  const bool agree = line->scatter <= gate_sigma_ * noise &&
                      line->agreeing.size() >= static_cast<std::size_t>(needed) &&
                      line->agreeing.back().phase == points.back().phase;
   if (agree) {
@@ -183,7 +188,7 @@ double ExpectedPhases::unwrapped(PulseChannel channel, double phase_turns, doubl
     case Sun1:
       return std::remainder(phase_turns, 1.0);
     case Sun2: {
-      const double centre = config_.sun_sensor.slit_separation_rad / (2.0 * std::numbers::pi);
+      const double centre = slit_separation_turns_;
       return centre + std::remainder(phase_turns - centre, 1.0);
     }
     case NorthIn:

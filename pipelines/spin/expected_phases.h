@@ -36,7 +36,7 @@ double earth_wander_turns(PulseChannel channel, double period_s);
 /// One tracker for each channel. Phases are in turns behind phase 0 of the spin clock.
 class ExpectedPhases {
  public:
-  explicit ExpectedPhases(const SpinConfig& config) : config_{config} {}
+  explicit ExpectedPhases(const SpinConfig& config);
 
   /// The spin period in force: noise is stated in seconds.
   void set_period(double period_s) { period_s_ = period_s; }
@@ -89,7 +89,9 @@ class ExpectedPhases {
   double most_drift(PulseChannel channel) const;
   double wander(PulseChannel channel) const;
 
-  SpinConfig config_;
+  PulseNoise noise_;
+  double gate_sigma_;
+  double slit_separation_turns_;
   double period_s_ = 1.0;
   PulseChannel reference_ = PulseChannel::Sun1;
   std::array<Channel, kPulseChannels> channels_;

@@ -111,7 +111,9 @@ std::optional<Comb> find_comb(std::span<const TaiTime> edges, double noise_s, st
   std::vector<double> edges_s(edges.size());
   std::transform(edges.begin(), edges.end(), edges_s.begin(),
                  [&](TaiTime t) { return elapsed_s(edges.front(), t); });
-  const auto [period_s, teeth] = best_teeth(edges_s);
+  const Found found = best_teeth(edges_s);
+  const double period_s = found.period_s;
+  const Teeth& teeth = found.teeth;
   const auto share = static_cast<double>(teeth.size()) / static_cast<double>(edges.size());
   if (teeth.size() < fewest || share < kLeastShare ||
       static_cast<double>(teeth.size()) < kLeastFilled * turns_heard(teeth)) {

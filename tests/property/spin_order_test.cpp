@@ -21,7 +21,7 @@ using testing::texts_of;
 
 /// Every pulse delayed at random, by less than the window.
 std::vector<Pulse> shuffled(const std::vector<Pulse>& pulses, std::mt19937_64& rng) {
-  std::uniform_int_distribution<std::int64_t> delay_ns{0, ReorderWindow::kReorder.count() - 1};
+  std::uniform_int_distribution<std::int64_t> delay_ns{0, reorder_horizon(Pulse{}).count() - 1};
   std::vector<std::pair<std::int64_t, Pulse>> arrivals(pulses.size());
   std::transform(pulses.begin(), pulses.end(), arrivals.begin(), [&](const Pulse& pulse) {
     return std::pair{tai_ns(pulse.t) + delay_ns(rng), pulse};

@@ -139,7 +139,7 @@ TEST(CodedFrame, AWrongPeriodOfTheFirstFrameIsOutvoted) {
 
 TEST(CodedFrame, ARecordedPassIsWhole) {
   const std::vector<CodedFrame> frames = recorded_frames();
-  ASSERT_EQ(frames.size(), 300U);
+  ASSERT_EQ(frames.size(), 299U);
   const Association all = associate(frames);
   ASSERT_EQ(all.closed.size(), frames.size());
   EXPECT_TRUE(all.left_over.empty());
@@ -151,7 +151,7 @@ TEST(CodedFrame, ARecordedPassIsWhole) {
       rejected += rejection ? 1U : 0U;
     }
   }
-  EXPECT_LE(rejected, 18U);  // 1 % of 1800: at three sigma 0.27 % are expected.
+  EXPECT_LE(rejected, 18U);  // 1 % of 1794: at three sigma 0.27 % are expected.
 }
 
 TEST(FrameReorderWindow, SortsFramesTwoTurnsOutOfOrder) {
