@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "pipelines/frames/celestial.h"
@@ -20,11 +21,13 @@ constexpr double kPoorestFix_rad = 10.0 * kDegree_rad;
 // Across a silence in which the phase became this uncertain, whole turns can no longer be counted:
 // phase and rate start anew.
 constexpr double kPhaseLost_rad = 0.3;
-// Weight of one edge in the share of gated ones, and in the mean innovation.
-constexpr double kRecent = 1.0 / 60.0;
+// Weight of one edge, or of one revolution, in the share of gated ones.
+constexpr double kRecentEdge = 1.0 / 60.0;
+constexpr double kRecentRevolution = 0.1;
 constexpr double kMostGated = 0.5;
 // A candidate is out when the edges are e^20 times likelier under another one, which must fit them
-// itself: the mean of its squared innovations is 1 +/- 0.2 (kRecent) when it is true.
+// itself: the mean of its squared innovations is 1 when it is true, and one edge in twenty that is
+// spurious adds 0.8.
 constexpr double kBeyondDoubt = 20.0;
 constexpr double kWorstFit = 2.0;
 // A fix contradicts the filter beyond so many sigmas of both, and beyond what may be wrong with
@@ -162,6 +165,7 @@ void SequentialEstimator::start(const SpinFix& fix, const Revolution& revolution
     revolutions_ = 0;
     gated_ = 0;
     gated_share_ = 0.0;
+    channel_gated_share_ = {};
     contradicted_ = 0;
   }
 }
@@ -192,15 +196,12 @@ void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) 
       hypothesis.tally = filter.update(config_, sky, edges.span());
     }
     const EdgeTally& tally = hypothesis.tally;
+    hypothesis.edges += static_cast<double>(tally.accepted.count() + tally.gated.count());
     hypothesis.log_likelihood += tally.log_likelihood;
-    hypothesis.squared_innovation +=
-        kRecent * (tally.squared_innovations - tally.accepted * hypothesis.squared_innovation);
+    hypothesis.squared_innovations += tally.squared_innovations;
   }
   drop_the_beaten();
-  const EdgeTally& tally = hypotheses_.front().tally;
-  gated_share_ += kRecent * (tally.gated - (tally.accepted + tally.gated) * gated_share_);
-  gated_ += tally.gated;
-  ++revolutions_;
+  count(hypotheses_.front().tally);
 }
 
 void SequentialEstimator::drop_the_beaten() {
@@ -208,13 +209,25 @@ void SequentialEstimator::drop_the_beaten() {
     return a.log_likelihood > b.log_likelihood;
   });
   const Hypothesis best = hypotheses_.front();
+  const bool fits = best.squared_innovations < kWorstFit * best.edges;
   const auto beaten = [&](const Hypothesis& other) {
     return agree(best.filter, other.filter) ||
-           (best.squared_innovation < kWorstFit &&
-            best.log_likelihood - other.log_likelihood > kBeyondDoubt);
+           (fits && best.log_likelihood - other.log_likelihood > kBeyondDoubt);
   };
   hypotheses_.erase(std::remove_if(hypotheses_.begin() + 1, hypotheses_.end(), beaten),
                     hypotheses_.end());
+}
+
+void SequentialEstimator::count(const EdgeTally& tally) {
+  const auto gated = static_cast<double>(tally.gated.count());
+  const double edges = gated + static_cast<double>(tally.accepted.count());
+  gated_share_ += kRecentEdge * (gated - edges * gated_share_);
+  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+    double& share = channel_gated_share_.at(channel);
+    share += kRecentRevolution * ((tally.gated.test(channel) ? 1.0 : 0.0) - share);
+  }
+  gated_ += static_cast<std::int64_t>(tally.gated.count());
+  ++revolutions_;
 }
 
 std::string SequentialEstimator::status() const {
@@ -225,6 +238,14 @@ std::string SequentialEstimator::status() const {
     const RaDec other = ra_dec_of(hypotheses_[1].filter.axis_icrf());
     return fmt::format("AMBIGUOUS, or ra {:.2f} dec {:.2f} deg, {} revolutions",
                        other.ra_rad / kDegree_rad, other.dec_rad / kDegree_rad, revolutions_);
+  }
+  const auto* const worst =
+      std::max_element(channel_gated_share_.begin(), channel_gated_share_.end());
+  if (*worst > kMostGated) {
+    return fmt::format("DOUBTFUL, most {} edges gated, {} revolutions",
+                       kPulseChannelNames.at(static_cast<std::size_t>(
+                           std::distance(channel_gated_share_.begin(), worst))),
+                       revolutions_);
   }
   const std::string counts =
       fmt::format("OK, {} revolutions, {} edges gated", revolutions_, gated_);

@@ -4,11 +4,18 @@
 /// A fix starts it. Where the fix is AMBIGUOUS one filter starts at each of its candidates; all see
 /// the same edges, the likeliest is published, and the others are dropped when a later fix settles
 /// the matter or the edges themselves do. A filter that finds most edges where it does not expect
-/// them, or whose fixes name another axis, starts again, and says so.
+/// them, or whose fixes name another axis, starts again at the next accepted fix, and says so.
+///
+/// The status begins with
+///     OK         all is well
+///     AMBIGUOUS  another axis, named, fits as well or nearly so
+///     DOUBTFUL   most edges of the channel named are not where this axis has them
+///     LOST       most edges are not: the axis is no longer, or never was, the true one
 
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -38,9 +45,11 @@ class SequentialEstimator {
   /// One candidate for the axis and what speaks for it.
   struct Hypothesis {
     SpinFilter filter;
-    double log_likelihood = 0.0;
-    double squared_innovation = 1.0;  ///< Running mean of the normalised ones, 1 when all is well.
-    EdgeTally tally = {};             ///< Of the last revolution.
+    double edges = 0.0;
+    double log_likelihood = 0.0;  ///< Of them.
+    double squared_innovations =
+        0.0;               ///< Normalised, their sum: as many as edges when all is well.
+    EdgeTally tally = {};  ///< Of the last revolution.
   };
 
   void start(const SpinFix& fix, const Revolution& revolution, const Sky& sky);
@@ -48,13 +57,16 @@ class SequentialEstimator {
   void take_side(const SpinFix& fix);
   void work_in(const Revolution& revolution, const Sky& sky);
   void drop_the_beaten();
+  void count(const EdgeTally& tally);
   std::string status() const;
 
   SpinConfig config_;
   std::vector<Hypothesis> hypotheses_;  ///< The likeliest first; empty before the first fix.
   std::int64_t revolutions_ = 0;        ///< Since the start; likewise the following.
   std::int64_t gated_ = 0;
-  double gated_share_ = 0.0;    ///< Of the recent edges.
+  double gated_share_ = 0.0;  ///< Of the recent edges.
+  /// Of the recent revolutions, those in which the channel's edge was gated.
+  std::array<double, kPulseChannels> channel_gated_share_ = {};
   int contradicted_ = 0;        ///< Fixes against the axis, less those for it.
   std::string_view restarted_;  ///< Why; empty: never.
 };

@@ -126,11 +126,15 @@ Eigen::Vector4d SpinFilter::update_linearised_here(const SpinFilter& prior,
   tally = {};
   covariance_ = prior.covariance_;
   Eigen::Vector4d error = error_of(prior);
+  const auto gate = [&tally](const Pulse& edge) {
+    tally.gated.set(index_of(edge.channel));
+    tally.log_likelihood += kLogSpurious;
+    tally.squared_innovations += square(kGateSigmas);
+  };
   for (const Pulse& edge : edges) {
     const auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
     if (!predicted) {
-      tally.log_likelihood += kLogSpurious;
-      ++tally.gated;
+      gate(edge);
       continue;
     }
     const double dt_s = seconds_between(t_, edge.t);
@@ -143,15 +147,14 @@ Eigen::Vector4d SpinFilter::update_linearised_here(const SpinFilter& prior,
         wrapped_rad(phase_rad_ + rate_rad_s_ * dt_s - predicted->phase_rad - slope.dot(error));
     const double squared_innovation = square(innovation) / variance;
     if (squared_innovation > square(kGateSigmas)) {
-      tally.log_likelihood += kLogSpurious;
-      ++tally.gated;
+      gate(edge);
       continue;
     }
     error += gain_unscaled * (innovation / variance);
     covariance_ -= gain_unscaled * gain_unscaled.transpose() / variance;
+    tally.accepted.set(index_of(edge.channel));
     tally.log_likelihood += log_normal_density(squared_innovation, variance);
     tally.squared_innovations += squared_innovation;
-    ++tally.accepted;
   }
   correct(error);
   return error;

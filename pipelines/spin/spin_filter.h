@@ -16,6 +16,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -28,13 +29,15 @@
 
 namespace spindrift {
 
+using ChannelSet = std::bitset<kPulseChannels>;
+
 /// What became of the edges of one revolution.
 struct EdgeTally {
-  int accepted = 0;
-  int gated = 0;  ///< Too far from where they were predicted, or predicted not to be.
+  ChannelSet accepted;
+  ChannelSet gated;  ///< Too far from where they were predicted, or predicted not to be.
   /// Natural logarithm of the edges' probability density, 1/rad each, gated ones as spurious.
   double log_likelihood = 0.0;
-  double squared_innovations = 0.0;  ///< Normalised, of the accepted ones.
+  double squared_innovations = 0.0;  ///< Normalised, their sum; gated ones as at the gate.
 };
 
 class SpinFilter {

@@ -10,7 +10,7 @@
 
 #include "services/bus/participant.h"
 #include "services/progress/progress_bar.h"
-#include "services/publisher/pulse_publisher.h"
+#include "services/publisher/telemetry_publisher.h"
 #include "services/scenario/pass_files.h"
 #include "services/scenario/scenario.h"
 #include "services/scenario/simulated_pass.h"
