@@ -141,7 +141,7 @@ Expected<std::vector<std::filesystem::path>> write_pass(const std::filesystem::p
                                    {"truth.json", &*truth},
                                    {"mission.toml", &scenario.mission_toml}}) {
     paths.push_back(folder / name);
-    written = written.and_then([&] { return write_file(paths.back(), *text); });
+    written = written.and_then([&, whole = text] { return write_file(paths.back(), *whole); });
   }
   return written.map([&] { return std::move(paths); });
 }
