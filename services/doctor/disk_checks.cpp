@@ -46,7 +46,7 @@ Check check_space(const DiskFacts& facts, std::size_t spacecraft) {
 
 Check check_file_system(const DiskFacts& facts) {
   const std::string name = "file system";
-  const auto bad =
+  const auto* const bad =
       std::find_if(kNetworkFileSystems.begin(), kNetworkFileSystems.end(),
                    [&](const FileSystem& system) { return system.magic == facts.file_system; });
   if (bad != kNetworkFileSystems.end()) {
