@@ -135,6 +135,7 @@ SpinPass::SpinPass(const SpinConfig& config, Orbit orbit)
       orbit_{std::move(orbit)},
       associator_{config},
       screening_{config.screening},
+      disambiguator_{config},
       recent_axes_{static_cast<std::size_t>(config.screening.window)} {}
 
 SpinOutput SpinPass::push(const Pulse& pulse) {
@@ -236,8 +237,8 @@ void SpinPass::settle_first(SpinOutput& out) {
     if (!candidate.sightlines) {
       continue;
     }
-    if (const auto solution = solve_axis(config_, candidate.measured, *candidate.sightlines)) {
-      axes_icrf.push_back(solution->axis_icrf);
+    if (const auto found = axis_candidates(config_, candidate.measured, *candidate.sightlines)) {
+      axes_icrf.push_back(found->candidates.front().axis_icrf);
     }
   }
   if (!axes_icrf.empty()) {
@@ -263,12 +264,11 @@ void SpinPass::predict(Candidate& candidate, const Eigen::Vector3d& axis_icrf) {
 void SpinPass::settle(Candidate& candidate, SpinOutput& out) {
   const Revolution& revolution = candidate.revolution;
   std::vector<Verdict> verdicts;
-  std::set<SpinQuantity> left_out;
   const auto add = [&](SpinQuantity quantity, double value, double sigma,
                        std::optional<Rejection> rejected_by) {
     verdicts.push_back({.quantity = quantity, .rejected_by = rejected_by});
     if (rejected_by) {
-      left_out.insert(quantity);
+      reject(candidate.measured, quantity, *rejected_by);
     }
     out.products.emplace_back(SpinMeasurement{.revolution = revolution.number,
                                               .quantity = quantity,
@@ -286,19 +286,18 @@ void SpinPass::settle(Candidate& candidate, SpinOutput& out) {
     add(SpinQuantity::Period, period->period_s, period->sigma_s,
         period->accepted ? std::nullopt : std::optional{Rejection::Period});
   }
-  using enum SpinQuantity;
-  for (const SpinQuantity quantity :
-       {SunAngle, NorthChord, SouthChord, NorthDihedral, SouthDihedral}) {
+  for (const SpinQuantity quantity : kMeasuredAngles) {
     const auto measured = value_of(candidate.measured, quantity);
     if (!measured) {
       continue;
     }
     const auto residual = std::find_if(candidate.residuals.begin(), candidate.residuals.end(),
                                        [&](const Residual& r) { return r.quantity == quantity; });
-    std::optional<Rejection> rejected_by;
-    if (!candidate.sightlines) {
+    std::optional<Rejection> rejected_by = measured->rejected_by;
+    if (!rejected_by && !candidate.sightlines) {
       rejected_by = Rejection::NoOrbit;
-    } else if (residual != candidate.residuals.end() && !screening_.keeps(*residual)) {
+    } else if (!rejected_by && residual != candidate.residuals.end() &&
+               !screening_.keeps(*residual)) {
       rejected_by = rejection_of(quantity);
     }
     add(quantity, measured->value_rad, measured->sigma_rad, rejected_by);
@@ -309,15 +308,14 @@ void SpinPass::settle(Candidate& candidate, SpinOutput& out) {
           use_of(config_, revolution, static_cast<PulseChannel>(channel), verdicts));
     }
   }
-  announce_axis(candidate, left_out, out);
+  announce_axis(candidate, out);
 }
 
-void SpinPass::announce_axis(const Candidate& candidate, const std::set<SpinQuantity>& left_out,
-                             SpinOutput& out) {
+void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   if (!candidate.sightlines) {
     return;
   }
-  const auto found = fix(config_, candidate.revolution, left_out, *candidate.sightlines);
+  const auto found = axis_candidates(config_, candidate.measured, *candidate.sightlines);
   if (!found) {
     // The measurements stand; this revolution alone gives no axis.
     if (!std::exchange(fix_missed_, true)) {
@@ -326,7 +324,18 @@ void SpinPass::announce_axis(const Candidate& candidate, const std::set<SpinQuan
     }
     return;
   }
-  if (!found->accepted && found->resolution != Resolution::Ambiguous) {
+  const auto& edges = candidate.revolution.edges;
+  const TaiTime first_edge =
+      **std::find_if(edges.begin(), edges.end(), [](const auto& edge) { return edge.has_value(); });
+  for (const SpinFix& fix : disambiguator_.settle(
+           candidate.revolution.number, candidate.measured.t_sun1.value_or(first_edge),
+           candidate.measured, *candidate.sightlines, *found, std::nullopt)) {
+    announce(candidate, fix, out);
+  }
+}
+
+void SpinPass::announce(const Candidate& candidate, const SpinFix& found, SpinOutput& out) {
+  if (!found.accepted && found.resolution != Resolution::Ambiguous) {
     say_once(
         "measurements contradict each other, their fixes are not accepted: the length of the "
         "axis or the size of the Earth's disc comes out wrong; check the mission's mounting "
@@ -334,22 +343,22 @@ void SpinPass::announce_axis(const Candidate& candidate, const std::set<SpinQuan
         out);
   }
   const Eigen::Matrix2d horizon_rad2 = horizon_error_rad2(config_, candidate.sightlines->disc_rad);
-  SpinFix announced = *found;
+  SpinFix announced = found;
   announced.covariance_rad2 += horizon_rad2;
   out.products.emplace_back(announced);
-  if (found->accepted) {
-    recent_axes_.add(found->axis_icrf);
-    mean_axis_.add(*found);
-    SpinEstimate mean = mean_estimate(candidate);
+  if (found.accepted) {
+    recent_axes_.add(found.axis_icrf);
+    mean_axis_.add(found);
+    SpinEstimate mean = mean_estimate(candidate, found.t);
     mean.covariance_rad2 += horizon_rad2;
     out.products.emplace_back(std::move(mean));
   }
 }
 
-SpinEstimate SpinPass::mean_estimate(const Candidate& candidate) const {
+SpinEstimate SpinPass::mean_estimate(const Candidate& candidate, TaiTime t) const {
   const SpinPeriod& period = candidate.revolution.period;
   const double rate_rad_s = 2.0 * std::numbers::pi / period.period_s;
-  return {.t = *candidate.measured.t_sun1,
+  return {.t = t,
           .estimator = SpinEstimator::Mean,
           .axis_icrf = mean_axis_.axis_icrf(),
           .covariance_rad2 = mean_axis_.covariance_rad2(),

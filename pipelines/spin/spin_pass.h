@@ -21,7 +21,7 @@
 #include "pipelines/spin/association.h"
 #include "pipelines/spin/coded_frame.h"
 #include "pipelines/spin/config.h"
-#include "pipelines/spin/fix.h"
+#include "pipelines/spin/disambiguation.h"
 #include "pipelines/spin/mean_axis.h"
 #include "pipelines/spin/measurement.h"
 #include "pipelines/spin/products.h"
@@ -66,14 +66,14 @@ class SpinPass {
   void consider(const Revolution& revolution, SpinOutput& out);
   void settle_first(SpinOutput& out);
   void settle(Candidate& candidate, SpinOutput& out);
-  void announce_axis(const Candidate& candidate, const std::set<SpinQuantity>& left_out,
-                     SpinOutput& out);
+  void announce_axis(const Candidate& candidate, SpinOutput& out);
+  void announce(const Candidate& candidate, const SpinFix& found, SpinOutput& out);
   void predict(Candidate& candidate, const Eigen::Vector3d& axis_icrf);
   std::optional<Sightlines> sightlines_of(const RevolutionMeasurements& measured, TaiTime t,
                                           SpinOutput& out);
   static void leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out);
   void say_once(const std::string& notice, SpinOutput& out);
-  SpinEstimate mean_estimate(const Candidate& candidate) const;
+  SpinEstimate mean_estimate(const Candidate& candidate, TaiTime t) const;
 
   SpinConfig config_;
   Orbit orbit_;
@@ -83,6 +83,7 @@ class SpinPass {
   std::vector<Candidate> first_;  ///< Held back; empty once settled.
   bool started_ = false;
   ScreeningWindow screening_;
+  Disambiguator disambiguator_;
   AxisWindow recent_axes_;
   MeanAxis mean_axis_;
   bool orbit_missed_ = false;
