@@ -1,10 +1,15 @@
 /// @file
 /// The spherical geometry of spin axis, Sun and Earth (spin.md, "Earth angle" and "Attitude").
 /// Angles in radians, directions are unit vectors in ICRF.
+///
+/// What a fix is solved with is written for any scalar, so that its derivatives come with it.
 
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -16,55 +21,133 @@ namespace spindrift {
 /// @return Unobservable when the spacecraft is not above that sphere, or beyond a million km.
 Expected<double> earth_disc_half_angle_rad(double range_km, double co2_altitude_km);
 
-/// A chord across the Earth's disc, and the mounting angle of the beam that drew it.
-struct Chord {
-  double mount_angle_rad;  ///< gamma
-  double chord_rad;        ///< Phi
-};
-
 /// How far an oblate Earth's limb lies from that of the sphere, at most: the seat of what the
 /// spherical horizon leaves out. @param disc_rad rho.
 double oblateness_rad(double disc_rad);
 
-/// theta_e from both chords, which needs no rho.
-/// @return Unobservable when the two equations are nearly the same (mounting angles alike).
-Expected<double> earth_angle_from_two_chords(const Chord& north, const Chord& south);
+/// A chord across the Earth's disc, and the mounting angle of the beam that drew it.
+template <class T>
+struct ChordOf {
+  double mount_angle_rad;  ///< gamma
+  T chord_rad;             ///< Phi
+};
+using Chord = ChordOf<double>;
 
-/// rho as one chord shows it from a known theta_e: the check that two chords leave over.
-double disc_seen_rad(const Chord& chord, double earth_angle_rad);
+/// Beams whose mounting angles' cosines differ by less than 0.01 (0.6 deg near the equator) draw
+/// one chord twice.
+bool mounted_alike(double one_rad, double other_rad);
+
+/// theta_e in (0, pi) from both chords, which needs no rho. Beams mounted alike leave it to the
+/// noise (the caller tests it).
+template <class T>
+T earth_angle_from_two_chords(const ChordOf<T>& north, const ChordOf<T>& south) {
+  using std::atan2, std::cos;
+  const double sine = std::cos(north.mount_angle_rad) - std::cos(south.mount_angle_rad);
+  const T cosine = std::sin(south.mount_angle_rad) * T{cos(0.5 * south.chord_rad)} -
+                   std::sin(north.mount_angle_rad) * T{cos(0.5 * north.chord_rad)};
+  // The sine of theta_e is positive whichever beam stands nearer the axis.
+  return atan2(T{std::abs(sine)}, T{std::copysign(1.0, sine) * cosine});
+}
+
+/// cos(rho) as one chord shows it from a known theta_e: the check that two chords leave over.
+template <class T>
+T cos_disc_seen(const ChordOf<T>& chord, const T& earth_angle_rad) {
+  using std::cos, std::sin;
+  return std::cos(chord.mount_angle_rad) * T{cos(earth_angle_rad)} +
+         std::sin(chord.mount_angle_rad) * T{sin(earth_angle_rad)} * T{cos(0.5 * chord.chord_rad)};
+}
 
 /// The right-hand sides of the one-chord equations.
-struct OneChordInput {
-  Chord chord;
-  double sun_angle_rad;
-  double dihedral_rad;
+template <class T>
+struct OneChordInputOf {
+  ChordOf<T> chord;
+  T sun_angle_rad;
+  T dihedral_rad;
   double sun_earth_rad;  ///< theta_se
-  double disc_rad;       ///< rho
+  T disc_rad;            ///< rho
 };
+using OneChordInput = OneChordInputOf<double>;
 
 /// Delta = cos g sin(theta_s) cos(lambda) - cos(theta_s) sin g cos(Phi/2): the smaller, the less
 /// the two linear equations for theta_e differ.
 double determinant(const OneChordInput& input);
 
 /// theta_e of the linear solution; good where |Delta| is large.
-double earth_angle_linear(const OneChordInput& input);
+template <class T>
+T earth_angle_linear(const OneChordInputOf<T>& input) {
+  using std::atan2, std::cos, std::sin;
+  const double cos_mount = std::cos(input.chord.mount_angle_rad);
+  const T chord_sine =
+      std::sin(input.chord.mount_angle_rad) * T{cos(0.5 * input.chord.chord_rad)};
+  const T cos_sun = cos(input.sun_angle_rad);
+  const T sun_sine = T{sin(input.sun_angle_rad)} * T{cos(input.dihedral_rad)};
+  const T cos_disc = cos(input.disc_rad);
+  const double cos_sun_earth = std::cos(input.sun_earth_rad);
+  const T cosine = cos_disc * sun_sine - cos_sun_earth * chord_sine;
+  const T sine = cos_mount * cos_sun_earth - cos_sun * cos_disc;
+  const double sign = cos_mount * sun_sine > cos_sun * chord_sine ? 1.0 : -1.0;
+  return atan2(T{sign * sine}, T{sign * cosine});
+}
 
-/// Both roots of the chord equation that lie in (0, pi), the one that fits theta_se better first.
-/// @return Unobservable when the chord is wider than the disc allows.
-Expected<std::vector<double>> earth_angle_roots(const OneChordInput& input);
+/// The angles x in (0, pi) with a cos x + b sin x = c, the lesser first.
+template <class T>
+struct ConeRootsOf {
+  std::vector<T> angles_rad;
+  T excess;  ///< |c| / hypot(a, b) - 1: from zero on there is no angle.
+};
+
+/// Where one cone meets another: a chord the Earth's disc (x = theta_e), or a dihedral the angle
+/// between Sun and Earth (x = theta_s).
+template <class T>
+ConeRootsOf<T> cone_roots(const T& a, const T& b, const T& c) {
+  using std::acos, std::atan2, std::sqrt;
+  const T cosine = c / T{sqrt(T{a * a + b * b})};
+  ConeRootsOf<T> roots{.angles_rad = {}, .excess = cosine < 0.0 ? T{-cosine - 1.0} : T{cosine - 1.0}};
+  if (!(roots.excess < 0.0)) {
+    return roots;
+  }
+  const T centre_rad = atan2(b, a);
+  const T apart_rad = acos(cosine);
+  for (const T& root : {T{centre_rad - apart_rad}, T{centre_rad + apart_rad}}) {
+    if (root > 0.0 && root < std::numbers::pi) {
+      roots.angles_rad.push_back(root);
+    }
+  }
+  return roots;
+}
 
 /// The axis that has the given angles to Sun and Earth, and the dihedral between them.
-struct AxisInput {
+template <class T>
+struct AxisInputOf {
   Eigen::Vector3d sun_icrf;
   Eigen::Vector3d earth_icrf;
-  double sun_angle_rad;
-  double earth_angle_rad;
-  double dihedral_rad;
+  T sun_angle_rad;
+  T earth_angle_rad;
+  T dihedral_rad;
 };
+using AxisInput = AxisInputOf<double>;
 
 /// P from P.S, P.E and P.(S x E), not normalised: its length is 1 when the three agree.
 /// Sun and Earth must not be in line (the caller tests it).
-Eigen::Vector3d axis_icrf(const AxisInput& input);
+template <class T>
+Eigen::Matrix<T, 3, 1> axis_icrf(const AxisInputOf<T>& input) {
+  using std::cos, std::sin;
+  const Eigen::Vector3d normal = input.sun_icrf.cross(input.earth_icrf);
+  const double cos_sun_earth = input.sun_icrf.dot(input.earth_icrf);
+  const T cos_sun = cos(input.sun_angle_rad);
+  const T cos_earth = cos(input.earth_angle_rad);
+  const T along_sun = cos_sun - cos_sun_earth * cos_earth;
+  const T along_earth = cos_earth - cos_sun_earth * cos_sun;
+  const T triple =
+      T{sin(input.sun_angle_rad)} * T{sin(input.earth_angle_rad)} * T{sin(input.dihedral_rad)};
+  Eigen::Matrix<T, 3, 1> axis;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    axis[i] = (along_sun * input.sun_icrf[i] + along_earth * input.earth_icrf[i] +
+               triple * normal[i]) /
+              normal.squaredNorm();
+  }
+  return axis;
+}
 
 /// What a revolution should measure if the axis were `axis_icrf`.
 struct PredictedAngles {

@@ -1,19 +1,52 @@
 #include "pipelines/spin/measurement.h"
 
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
+#include <vector>
 
 #include "pipelines/frames/celestial.h"
 
 namespace spindrift {
 namespace {
 
+using enum PulseChannel;
+
+Measured measured_from(double value_rad, const EdgeNoise& noise_rad) {
+  return {.value_rad = value_rad, .sigma_rad = noise_rad.norm(), .noise_rad = noise_rad};
+}
+
+/// Why what rests on these edges is not to be used.
+std::optional<Rejection> rejection_of(const Revolution& revolution,
+                                      std::initializer_list<PulseChannel> edges) {
+  for (const PulseChannel channel : edges) {
+    if (const auto& rejected_by = revolution.edge_rejections.at(index_of(channel))) {
+      return rejected_by;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Azimuth of a crossing's middle behind a sun slit's pulse, less that of the beam.
+Measured azimuth_behind(PulseChannel slit, TaiTime t_slit, Side side, TaiTime t_in, double width_s,
+                        double rate_rad_s, const SpinConfig& config) {
+  const double delay_s = seconds_between(t_slit, t_in) + 0.5 * width_s;
+  EdgeNoise noise_rad = EdgeNoise::Zero();
+  noise_rad(static_cast<Eigen::Index>(slit)) = -rate_rad_s * config.noise.sun_s;
+  for (const PulseChannel channel : {kInChannels.at(index_of(side)), kOutChannels.at(index_of(side))}) {
+    noise_rad(static_cast<Eigen::Index>(channel)) = 0.5 * rate_rad_s * config.noise.infrared_s;
+  }
+  return measured_from(
+      wrapped_rad(rate_rad_s * delay_s - sensor_of(config, side)->azimuth_rad), noise_rad);
+}
+
 std::optional<EarthCrossing> crossing_of(const SpinConfig& config, const Revolution& revolution,
                                          Side side, double rate_rad_s) {
-  const std::optional<InfraredSensor>& sensor = sensor_of(config, side);
-  const std::optional<TaiTime>& in = revolution.edge(kInChannels.at(index_of(side)));
-  const std::optional<TaiTime>& out = revolution.edge(kOutChannels.at(index_of(side)));
-  if (!sensor || !in || !out) {
+  const PulseChannel in_channel = kInChannels.at(index_of(side));
+  const PulseChannel out_channel = kOutChannels.at(index_of(side));
+  const std::optional<TaiTime>& in = revolution.edge(in_channel);
+  const std::optional<TaiTime>& out = revolution.edge(out_channel);
+  if (!sensor_of(config, side) || !in || !out) {
     return std::nullopt;
   }
   const double width_s = seconds_between(*in, *out);
@@ -21,25 +54,89 @@ std::optional<EarthCrossing> crossing_of(const SpinConfig& config, const Revolut
   if (!(chord_rad > 0.0 && chord_rad < std::numbers::pi)) {
     return std::nullopt;
   }
-  const double infrared_s = config.noise.infrared_s;
-  EarthCrossing crossing{
-      .t_mid = *in + (*out - *in) / 2,
-      .chord = Measured{.value_rad = chord_rad,
-                        .sigma_rad = rate_rad_s * std::numbers::sqrt2 * infrared_s},
-      .dihedral = {}};
-  if (const std::optional<TaiTime>& sun1 = revolution.edge(PulseChannel::Sun1)) {
-    const double delay_s = seconds_between(*sun1, *in) + 0.5 * width_s;
-    crossing.dihedral = Measured{
-        .value_rad = wrapped_rad(rate_rad_s * delay_s - sensor->azimuth_rad),
-        .sigma_rad = rate_rad_s * std::hypot(config.noise.sun_s, infrared_s / std::numbers::sqrt2)};
+  EdgeNoise noise_rad = EdgeNoise::Zero();
+  noise_rad(static_cast<Eigen::Index>(in_channel)) = -rate_rad_s * config.noise.infrared_s;
+  noise_rad(static_cast<Eigen::Index>(out_channel)) = rate_rad_s * config.noise.infrared_s;
+  EarthCrossing crossing{.t_mid = *in + (*out - *in) / 2,
+                         .chord = measured_from(chord_rad, noise_rad),
+                         .dihedral = {}};
+  crossing.chord->rejected_by = rejection_of(revolution, {in_channel, out_channel});
+  if (const std::optional<TaiTime>& sun1 = revolution.edge(Sun1)) {
+    crossing.dihedral = azimuth_behind(Sun1, *sun1, side, *in, width_s, rate_rad_s, config);
+    crossing.dihedral->rejected_by = rejection_of(revolution, {Sun1, in_channel, out_channel});
   }
   return crossing;
+}
+
+/// The sensors whose crossing may be used; where there is none, those that have one at all.
+std::vector<Side> sides_to_use(const RevolutionMeasurements& measured) {
+  std::vector<Side> good;
+  std::vector<Side> all;
+  for (const Side side : kSides) {
+    if (const auto& crossing = measured.crossing(side)) {
+      all.push_back(side);
+      if (!crossing->chord->rejected_by) {
+        good.push_back(side);
+      }
+    }
+  }
+  return good.empty() ? all : good;
+}
+
+std::optional<Measured> mixed_azimuth_of(const SpinConfig& config, const Revolution& revolution,
+                                         const RevolutionMeasurements& measured,
+                                         double rate_rad_s) {
+  const std::optional<TaiTime>& sun2 = revolution.edge(Sun2);
+  const std::vector<Side> sides = sides_to_use(measured);
+  if (!sun2 || sides.empty()) {
+    return std::nullopt;
+  }
+  std::vector<Measured> found;
+  for (const Side side : sides) {
+    const PulseChannel in_channel = kInChannels.at(index_of(side));
+    const PulseChannel out_channel = kOutChannels.at(index_of(side));
+    const TaiTime t_in = *revolution.edge(in_channel);
+    found.push_back(azimuth_behind(Sun2, *sun2, side, t_in,
+                                   seconds_between(t_in, *revolution.edge(out_channel)), rate_rad_s,
+                                   config));
+    found.back().rejected_by = rejection_of(revolution, {Sun2, in_channel, out_channel});
+  }
+  Measured mean = mean_round_the_circle(found.front(), found.back());
+  mean.rejected_by = found.front().rejected_by;
+  return mean;
+}
+
+/// Where a quantity is kept; null where it is not.
+template <class Measurements>
+auto slot_of(Measurements& measured, SpinQuantity quantity) -> decltype(&measured.sun_angle) {
+  if (quantity == SpinQuantity::SunAngle) {
+    return &measured.sun_angle;
+  }
+  if (quantity == SpinQuantity::MixedAzimuth) {
+    return &measured.mixed_azimuth;
+  }
+  for (const Side side : kSides) {
+    auto& crossing = measured.crossings.at(index_of(side));
+    if (crossing && quantity == kChords.at(index_of(side))) {
+      return &crossing->chord;
+    }
+    if (crossing && quantity == kDihedrals.at(index_of(side))) {
+      return &crossing->dihedral;
+    }
+  }
+  return nullptr;
 }
 
 }  // namespace
 
 const std::optional<InfraredSensor>& sensor_of(const SpinConfig& config, Side side) {
   return side == Side::North ? config.north : config.south;
+}
+
+Measured mean_round_the_circle(const Measured& one, const Measured& other) {
+  return measured_from(
+      wrapped_rad(one.value_rad + 0.5 * wrapped_rad(other.value_rad - one.value_rad)),
+      0.5 * (one.noise_rad + other.noise_rad));
 }
 
 std::optional<Measured> sun_angle(const SunSensor& sensor, double delay_s, double rate_rad_s,
@@ -51,55 +148,55 @@ std::optional<Measured> sun_angle(const SunSensor& sensor, double delay_s, doubl
   const double tan_cant = std::tan(sensor.slit_cant_rad);
   const double sin_lag = std::sin(lag_rad);
   // d(theta_s)/d(lag) = -tan I cos(lag) / (tan^2 I + sin^2(lag)).
-  const double slope = tan_cant * std::cos(lag_rad) / (tan_cant * tan_cant + sin_lag * sin_lag);
-  return Measured{.value_rad = std::atan2(tan_cant, sin_lag),
-                  .sigma_rad = slope * rate_rad_s * std::numbers::sqrt2 * sun_pulse_sigma_s};
+  const double slope = -tan_cant * std::cos(lag_rad) / (tan_cant * tan_cant + sin_lag * sin_lag);
+  EdgeNoise noise_rad = EdgeNoise::Zero();
+  noise_rad(static_cast<Eigen::Index>(Sun1)) = -slope * rate_rad_s * sun_pulse_sigma_s;
+  noise_rad(static_cast<Eigen::Index>(Sun2)) = slope * rate_rad_s * sun_pulse_sigma_s;
+  return measured_from(std::atan2(tan_cant, sin_lag), noise_rad);
 }
 
 std::optional<Measured> value_of(const RevolutionMeasurements& measured, SpinQuantity quantity) {
-  if (quantity == SpinQuantity::SunAngle) {
-    return measured.sun_angle;
-  }
-  for (const Side side : kSides) {
-    if (const auto& crossing = measured.crossing(side)) {
-      if (quantity == kChords.at(index_of(side))) {
-        return crossing->chord;
-      }
-      if (quantity == kDihedrals.at(index_of(side))) {
-        return crossing->dihedral;
-      }
-    }
-  }
-  return std::nullopt;
+  const std::optional<Measured>* const slot = slot_of(measured, quantity);
+  return slot != nullptr ? *slot : std::nullopt;
 }
 
-void remove(RevolutionMeasurements& measured, SpinQuantity quantity) {
-  if (quantity == SpinQuantity::SunAngle) {
-    measured.sun_angle.reset();
-  }
-  for (const Side side : kSides) {
-    if (auto& crossing = measured.crossings.at(index_of(side))) {
-      if (quantity == kChords.at(index_of(side))) {
-        crossing->chord.reset();
-      }
-      if (quantity == kDihedrals.at(index_of(side))) {
-        crossing->dihedral.reset();
-      }
-    }
+std::optional<Measured> good_value_of(const RevolutionMeasurements& measured,
+                                      SpinQuantity quantity) {
+  const std::optional<Measured> found = value_of(measured, quantity);
+  return found && !found->rejected_by ? found : std::nullopt;
+}
+
+void reject(RevolutionMeasurements& measured, SpinQuantity quantity, Rejection why) {
+  std::optional<Measured>* const slot = slot_of(measured, quantity);
+  if (slot != nullptr && *slot && !(*slot)->rejected_by) {
+    (*slot)->rejected_by = why;
   }
 }
 
 RevolutionMeasurements measure(const SpinConfig& config, const Revolution& revolution) {
   const double rate_rad_s = 2.0 * std::numbers::pi / revolution.period.period_s;
   RevolutionMeasurements measured{
-      .t_sun1 = revolution.edge(PulseChannel::Sun1), .sun_angle = {}, .crossings = {}};
-  const std::optional<TaiTime>& sun2 = revolution.edge(PulseChannel::Sun2);
-  if (measured.t_sun1 && sun2) {
-    measured.sun_angle = sun_angle(config.sun_sensor, seconds_between(*measured.t_sun1, *sun2),
-                                   rate_rad_s, config.noise.sun_s);
+      .t_sun1 = revolution.good_edge(Sun1),
+      .sun_angle = {},
+      .mixed_azimuth = {},
+      .crossings = {},
+      .silent = {}};
+  const std::optional<TaiTime>& sun1 = revolution.edge(Sun1);
+  const std::optional<TaiTime>& sun2 = revolution.edge(Sun2);
+  if (sun1 && sun2) {
+    measured.sun_angle = sun_angle(config.sun_sensor, seconds_between(*sun1, *sun2), rate_rad_s,
+                                   config.noise.sun_s);
+    if (measured.sun_angle) {
+      measured.sun_angle->rejected_by = rejection_of(revolution, {Sun1, Sun2});
+    }
   }
   for (const Side side : kSides) {
     measured.crossings.at(index_of(side)) = crossing_of(config, revolution, side, rate_rad_s);
+    measured.silent.at(index_of(side)) = !revolution.edge(kInChannels.at(index_of(side))) &&
+                                         !revolution.edge(kOutChannels.at(index_of(side)));
+  }
+  if (!measured.t_sun1) {
+    measured.mixed_azimuth = mixed_azimuth_of(config, revolution, measured, rate_rad_s);
   }
   return measured;
 }

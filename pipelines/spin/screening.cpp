@@ -2,49 +2,64 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/geometry.h"
+#include "pipelines/spin/mixed_azimuth.h"
 
 namespace spindrift {
+namespace {
+
+/// What a quantity should be if the axis were the one that `angles` belong to.
+std::optional<double> predicted_rad(const SpinConfig& config, const PredictedAngles& angles,
+                                    double disc_rad, SpinQuantity quantity) {
+  using enum SpinQuantity;
+  switch (quantity) {
+    case SunAngle:
+      return angles.sun_angle_rad;
+    case NorthChord:
+      return predict_chord_rad(config.north->mount_angle_rad, angles.earth_angle_rad, disc_rad);
+    case SouthChord:
+      return predict_chord_rad(config.south->mount_angle_rad, angles.earth_angle_rad, disc_rad);
+    case NorthDihedral:
+    case SouthDihedral:
+      return angles.dihedral_rad;
+    case MixedAzimuth:
+      return predict_mixed_azimuth_rad(config.sun_sensor, angles.sun_angle_rad,
+                                       angles.dihedral_rad);
+    case Period:
+      break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 std::vector<Residual> residuals(const SpinConfig& config, const RevolutionMeasurements& measured,
                                 const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf) {
-  const PredictedAngles predicted =
+  const PredictedAngles angles =
       predict_angles(axis_icrf, sightlines.sun_icrf, sightlines.earth_icrf);
   std::vector<Residual> found;
-  if (measured.sun_angle) {
-    found.push_back({.quantity = SpinQuantity::SunAngle,
-                     .value_rad = measured.sun_angle->value_rad - predicted.sun_angle_rad,
-                     .sigma_rad = measured.sun_angle->sigma_rad});
-  }
-  for (const Side side : kSides) {
-    const auto& crossing = measured.crossing(side);
-    if (!crossing) {
+  for (const SpinQuantity quantity : kMeasuredAngles) {
+    const auto value = good_value_of(measured, quantity);
+    if (!value) {
       continue;
     }
-    const auto chord_rad = predict_chord_rad(sensor_of(config, side)->mount_angle_rad,
-                                             predicted.earth_angle_rad, sightlines.disc_rad);
-    if (crossing->chord && chord_rad) {
-      found.push_back({.quantity = kChords.at(index_of(side)),
-                       .value_rad = crossing->chord->value_rad - *chord_rad,
-                       .sigma_rad = crossing->chord->sigma_rad});
-    }
-    if (crossing->dihedral) {
-      found.push_back(
-          {.quantity = kDihedrals.at(index_of(side)),
-           .value_rad = wrapped_rad(crossing->dihedral->value_rad - predicted.dihedral_rad),
-           .sigma_rad = crossing->dihedral->sigma_rad});
+    if (const auto predicted = predicted_rad(config, angles, sightlines.disc_rad, quantity)) {
+      found.push_back({.quantity = quantity,
+                       .value_rad = wrapped_rad(value->value_rad - *predicted),
+                       .sigma_rad = value->sigma_rad});
     }
   }
   return found;
 }
 
+ScreeningWindow::ScreeningWindow(const SpinScreening& screening)
+    : sigma_{screening.sigma},
+      channels_(kSpinQuantities,
+                {.values_rad = SlidingRobustMean{static_cast<std::size_t>(screening.window)}}) {}
+
 void ScreeningWindow::add(const Residual& residual) {
   Channel& channel = channels_.at(static_cast<std::size_t>(residual.quantity));
-  channel.values_rad.push_back(residual.value_rad);
-  if (channel.values_rad.size() > static_cast<std::size_t>(screening_.window)) {
-    channel.values_rad.pop_front();
-  }
-  const std::vector<double> values(channel.values_rad.begin(), channel.values_rad.end());
-  channel.mean = robust_mean(values, {.sigma = screening_.sigma, .stated = residual.sigma_rad});
+  channel.values_rad.add(residual.value_rad);
+  channel.mean = channel.values_rad.mean({.sigma = sigma_, .stated = residual.sigma_rad});
 }
 
 bool ScreeningWindow::keeps(const Residual& residual) const {

@@ -3,17 +3,14 @@
 
 #pragma once
 
-#include <array>
-#include <deque>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "pipelines/spin/config.h"
-#include "pipelines/spin/fix.h"
 #include "pipelines/spin/measurement.h"
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/robust_mean.h"
+#include "pipelines/spin/sightlines.h"
 
 namespace spindrift {
 
@@ -24,8 +21,9 @@ struct Residual {
   double sigma_rad;
 };
 
-/// One residual per measurement. A chord that the axis says is impossible has none: it is left to
-/// the other quantities to decide.
+/// One residual per good measurement. One that the axis says is impossible (a chord of a beam that
+/// misses the Earth, a pulse of a slit that cannot see the Sun) has none: it is left to the other
+/// quantities to decide.
 std::vector<Residual> residuals(const SpinConfig& config, const RevolutionMeasurements& measured,
                                 const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf);
 
@@ -35,7 +33,7 @@ std::vector<Residual> residuals(const SpinConfig& config, const RevolutionMeasur
 /// changes.
 class ScreeningWindow {
  public:
-  explicit ScreeningWindow(const SpinScreening& screening) : screening_{screening} {}
+  explicit ScreeningWindow(const SpinScreening& screening);
 
   void add(const Residual& residual);
   /// Of a residual that was added.
@@ -43,12 +41,12 @@ class ScreeningWindow {
 
  private:
   struct Channel {
-    std::deque<double> values_rad;
-    std::optional<RobustMean> mean;
+    SlidingRobustMean values_rad;
+    std::optional<RobustMean> mean = {};  ///< After the last value.
   };
 
-  SpinScreening screening_;
-  std::array<Channel, kSpinQuantities> channels_;
+  double sigma_;
+  std::vector<Channel> channels_;  ///< By SpinQuantity.
 };
 
 }  // namespace spindrift

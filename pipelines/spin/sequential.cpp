@@ -69,18 +69,6 @@ const SpinFix* last_ambiguous(std::span<const SpinFix> fixes) {
   return found == fixes.rend() ? nullptr : &*found;
 }
 
-/// Its sun1 edge, or the first there is.
-TaiTime start_of(const Revolution& revolution, const Sky& sky) {
-  const GoodEdges good{revolution};
-  const std::span<const Pulse> edges = good.span();
-  if (edges.empty()) {
-    return sky.t;
-  }
-  return edges.front().channel == PulseChannel::Sun1
-             ? edges.front().t
-             : std::min_element(edges.begin(), edges.end())->t;
-}
-
 }  // namespace
 
 std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolution,
@@ -103,7 +91,7 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
     return std::nullopt;
   }
   const SpinFilter& best = hypotheses_.front().filter;
-  return SpinEstimate{.t = start_of(revolution, sky),
+  return SpinEstimate{.t = revolution.t_start,
                       .estimator = SpinEstimator::Sequential,
                       .axis_icrf = best.axis_icrf(),
                       .covariance_rad2 = best.axis_covariance_rad2(),
@@ -186,7 +174,7 @@ void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) 
   const GoodEdges edges{revolution};
   for (Hypothesis& hypothesis : hypotheses_) {
     SpinFilter& filter = hypothesis.filter;
-    filter.predict(start_of(revolution, sky));
+    filter.predict(revolution.t_start);
     if (filter.phase_sigma_rad() > kPhaseLost_rad) {
       filter = SpinFilter::about(filter.axis_icrf(), filter.axis_covariance_rad2(), config_,
                                  revolution, sky)

@@ -9,78 +9,18 @@
 #include <utility>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/axis_candidates.h"
+#include "pipelines/spin/edge_use.h"
 #include "pipelines/spin/geometry.h"
 
 namespace spindrift {
 namespace {
 
-/// What became of one measurement.
-struct Verdict {
-  SpinQuantity quantity;
-  std::optional<Rejection> rejected_by;
-};
-
-/// The measurements that each channel's edge goes into.
-bool uses(SpinQuantity quantity, PulseChannel channel) {
-  using enum SpinQuantity;
-  switch (channel) {
-    case PulseChannel::Sun1:
-      return quantity == Period || quantity == SunAngle || quantity == NorthDihedral ||
-             quantity == SouthDihedral;
-    case PulseChannel::Sun2:
-      return quantity == SunAngle;
-    case PulseChannel::NorthIn:
-    case PulseChannel::NorthOut:
-      return quantity == NorthChord || quantity == NorthDihedral;
-    case PulseChannel::SouthIn:
-    case PulseChannel::SouthOut:
-      return quantity == SouthChord || quantity == SouthDihedral;
-  }
-  return false;
-}
-
-/// The other edge that makes a pair with this one.
-PulseChannel partner_of(PulseChannel channel) {
-  static constexpr std::array<PulseChannel, kPulseChannels> kPartners = {
-      PulseChannel::Sun2,    PulseChannel::Sun1,     PulseChannel::NorthOut,
-      PulseChannel::NorthIn, PulseChannel::SouthOut, PulseChannel::SouthIn};
-  return kPartners.at(index_of(channel));
-}
-
-/// Why an edge went into no measurement at all.
-Rejection without_use(const SpinConfig& config, const Revolution& revolution,
-                      PulseChannel channel) {
-  for (const Side side : kSides) {
-    const bool of_side =
-        channel == kInChannels.at(index_of(side)) || channel == kOutChannels.at(index_of(side));
-    if (of_side && !sensor_of(config, side)) {
-      return Rejection::NoSensor;
-    }
-  }
-  return revolution.edge(partner_of(channel)) ? Rejection::Geometry : Rejection::Unpaired;
-}
-
-/// An edge is good when any measurement it went into is.
-PulseUse use_of(const SpinConfig& config, const Revolution& revolution, PulseChannel channel,
-                const std::vector<Verdict>& verdicts) {
-  PulseUse use{.pulse = {.t = *revolution.edge(channel), .channel = channel},
-               .revolution = revolution.number,
-               .rejected_by = without_use(config, revolution, channel)};
-  bool first = true;
-  for (const Verdict& verdict : verdicts) {
-    if (!uses(verdict.quantity, channel)) {
-      continue;
-    }
-    if (!verdict.rejected_by) {
-      use.rejected_by.reset();
-      return use;
-    }
-    if (std::exchange(first, false)) {
-      use.rejected_by = verdict.rejected_by;
-    }
-  }
-  return use;
-}
+// So many fixes must agree on an axis before it speaks for or against a candidate.
+constexpr std::size_t kEstablishedFixes = 10;
+// What the geometry leaves out (the Earth's shape, a sensor off its drawing) may part fixes of
+// different cases by so much.
+constexpr double kModel_rad = 0.5 * std::numbers::pi / 180.0;
 
 /// What the spherical horizon leaves out of an oblate Earth, as a covariance: taken as anywhere
 /// between none and the whole displacement of the limb, in any direction. Unlike the noise of the
@@ -106,42 +46,123 @@ Eigen::Vector3d median_axis(const std::vector<Eigen::Vector3d>& axes) {
   return median.normalized();
 }
 
+std::vector<Verdict> verdicts_on(const Revolution& revolution,
+                                 const RevolutionMeasurements& measured) {
+  std::vector<Verdict> verdicts;
+  if (const auto& period = revolution.period_candidate) {
+    verdicts.push_back(
+        {.quantity = SpinQuantity::Period,
+         .rejected_by = period->accepted ? std::nullopt : std::optional{Rejection::Period}});
+  }
+  for (const SpinQuantity quantity : kMeasuredAngles) {
+    if (const auto value = value_of(measured, quantity)) {
+      verdicts.push_back({.quantity = quantity, .rejected_by = value->rejected_by});
+    }
+  }
+  return verdicts;
+}
+
+SpinMeasurement measurement_of(const Revolution& revolution, const RevolutionMeasurements& measured,
+                               const Verdict& verdict) {
+  SpinMeasurement product{.revolution = revolution.number,
+                          .quantity = verdict.quantity,
+                          .value = 0.0,
+                          .sigma = 0.0,
+                          .rejected_by = verdict.rejected_by};
+  if (verdict.quantity == SpinQuantity::Period) {
+    product.value = revolution.period_candidate->period_s;
+    product.sigma = revolution.period_candidate->sigma_s;
+  } else {
+    const Measured value = *value_of(measured, verdict.quantity);
+    product.value = value.value_rad;
+    product.sigma = value.sigma_rad;
+  }
+  return product;
+}
+
 }  // namespace
 
 std::vector<std::string> settings_without_effect(const SpinConfig& config) {
-  std::vector<std::string> settings;
-  if (config.horizon.model == HorizonModel::Ellipsoid) {
-    settings.emplace_back(
-        "spin.horizon.model = \"ellipsoid\": the spherical horizon is used; sigma "
-        "includes what that leaves out");
+  if (config.horizon.model == HorizonModel::Sphere) {
+    return {};
   }
-  if (config.screening.interference_s > 0.0) {
-    settings.emplace_back("spin.screening.interference_s has no effect yet");
-  }
-  if (config.prior) {
-    settings.emplace_back("spin.prior has no effect yet: an ambiguous fix stays ambiguous");
-  }
-  for (const Side side : kSides) {
-    if (const auto& sensor = sensor_of(config, side); sensor && sensor->healthy) {
-      settings.emplace_back(fmt::format("spin.ir.{}.healthy has no effect yet",
-                                        side == Side::North ? "north" : "south"));
-    }
-  }
-  return settings;
+  return {
+      "spin.horizon.model = \"ellipsoid\": the estimator 'sequential' uses it; fixes and their "
+      "mean use the spherical horizon, and their sigma includes what that leaves out"};
 }
 
 SpinPass::SpinPass(const SpinConfig& config, Orbit orbit)
     : config_{config},
-      orbit_{std::move(orbit)},
+      surroundings_{std::move(orbit), config.horizon.co2_altitude_km},
+      interference_{config.screening.interference_s},
       associator_{config},
       screening_{config.screening},
-      recent_axes_{static_cast<std::size_t>(config.screening.window)} {}
+      recent_axes_{static_cast<std::size_t>(config.screening.window)},
+      disambiguator_{config},
+      sequential_{config} {}
 
 SpinOutput SpinPass::push(const Pulse& pulse) {
   SpinOutput out;
+  take(pulse, out);
+  return out;
+}
+
+SpinOutput SpinPass::push(const CodedFrame& frame) {
+  SpinOutput out;
+  switch (frames_.add(frame)) {
+    case FrameReorderWindow::Verdict::Held:
+      for (const CodedFrame& due : frames_.release()) {
+        take(due, out);
+      }
+      break;
+    case FrameReorderWindow::Verdict::Late:
+    case FrameReorderWindow::Verdict::OutOfTime:
+      // As edges they are late or out of time as well, and are left out as such.
+      for (const Pulse& edge : edges_of(frame)) {
+        take(edge, out);
+      }
+      break;
+    case FrameReorderWindow::Verdict::Duplicate:
+      break;
+  }
+  return out;
+}
+
+SpinOutput SpinPass::finish() {
+  SpinOutput out;
+  const FrameReorderWindow::Rest frames = frames_.release_all();
+  for (const std::vector<CodedFrame>& some : {frames.in_time, frames.out_of_time}) {
+    for (const CodedFrame& frame : some) {
+      take(frame, out);
+    }
+  }
+  const ReorderWindow::Rest rest = reorder_.release_all();
+  sort_out(rest.in_time, out);
+  associate(interference_.finish(), out);
+  collect(associator_.finish(), out);
+  if (!started_) {
+    settle_first(out);
+  }
+  for (const Pulse& pulse : rest.out_of_time) {
+    leave_out(pulse, Rejection::OutOfTime, out);
+    say_once("pulses stamped far ahead of all others are left out: a sender's clock is wrong", out);
+  }
+  return out;
+}
+
+void SpinPass::take(const CodedFrame& frame, SpinOutput& out) {
+  if (frame.period_s) {
+    associator_.note_period(frame.t, *frame.period_s);
+  }
+  for (const Pulse& edge : edges_of(frame)) {
+    take(edge, out);
+  }
+}
+
+void SpinPass::take(const Pulse& pulse, SpinOutput& out) {
   switch (reorder_.add(pulse)) {
     case ReorderWindow::Verdict::Held:
-      associate(reorder_.release(), out);
+      sort_out(reorder_.release(), out);
       break;
     case ReorderWindow::Verdict::Late:
       leave_out(pulse, Rejection::Late, out);
@@ -153,35 +174,6 @@ SpinOutput SpinPass::push(const Pulse& pulse) {
     case ReorderWindow::Verdict::Duplicate:
       break;  // The same edge once more: what becomes of it is said once.
   }
-  return out;
-}
-
-SpinOutput SpinPass::push(const CodedFrame& frame) {
-  SpinOutput out = push(Pulse{.t = frame.t, .channel = PulseChannel::Sun1});
-  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
-    if (const auto& delay_s = frame.delay_s.at(channel)) {
-      SpinOutput more = push(
-          Pulse{.t = shifted(frame.t, *delay_s), .channel = static_cast<PulseChannel>(channel)});
-      std::move(more.products.begin(), more.products.end(), std::back_inserter(out.products));
-      std::move(more.notices.begin(), more.notices.end(), std::back_inserter(out.notices));
-    }
-  }
-  return out;
-}
-
-SpinOutput SpinPass::finish() {
-  SpinOutput out;
-  const ReorderWindow::Rest rest = reorder_.release_all();
-  associate(rest.in_time, out);
-  take(associator_.finish(), out);
-  if (!started_) {
-    settle_first(out);
-  }
-  for (const Pulse& pulse : rest.out_of_time) {
-    leave_out(pulse, Rejection::OutOfTime, out);
-    say_once("pulses stamped far ahead of all others are left out: a sender's clock is wrong", out);
-  }
-  return out;
 }
 
 void SpinPass::leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out) {
@@ -189,18 +181,32 @@ void SpinPass::leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& 
 }
 
 void SpinPass::say_once(const std::string& notice, SpinOutput& out) {
-  if (said_.insert(notice).second) {
+  say_first(notice, notice, out);
+}
+
+/// The first notice of its kind.
+void SpinPass::say_first(std::string_view kind, const std::string& notice, SpinOutput& out) {
+  if (said_.emplace(kind).second) {
     out.notices.push_back(notice);
   }
 }
 
-void SpinPass::associate(const std::vector<Pulse>& pulses, SpinOutput& out) {
-  for (const Pulse& pulse : pulses) {
-    take(associator_.push(pulse), out);
+void SpinPass::sort_out(const std::vector<Pulse>& in_time, SpinOutput& out) {
+  for (const Pulse& pulse : in_time) {
+    associate(interference_.push(pulse), out);
   }
 }
 
-void SpinPass::take(Association association, SpinOutput& out) {
+void SpinPass::associate(const InterferenceWindow::Sorted& sorted, SpinOutput& out) {
+  for (const Pulse& pulse : sorted.spoilt) {
+    leave_out(pulse, Rejection::Interference, out);
+  }
+  for (const Pulse& pulse : sorted.clean) {
+    collect(associator_.push(pulse), out);
+  }
+}
+
+void SpinPass::collect(Association association, SpinOutput& out) {
   std::move(association.left_over.begin(), association.left_over.end(),
             std::back_inserter(out.products));
   for (const Revolution& revolution : association.closed) {
@@ -213,9 +219,14 @@ void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
                       .measured = measure(config_, revolution),
                       .sightlines = {},
                       .residuals = {}};
-  const auto* const first_edge = std::find_if(revolution.edges.begin(), revolution.edges.end(),
-                                              [](const auto& edge) { return edge.has_value(); });
-  candidate.sightlines = sightlines_of(candidate.measured, **first_edge, out);
+  if (const auto sightlines = surroundings_.sightlines(candidate.measured, revolution.t_start)) {
+    candidate.sightlines = *sightlines;
+  } else {
+    say_first(
+        "orbit",
+        fmt::format("orbit: {}; revolutions outside it give no axis", sightlines.error().message),
+        out);
+  }
   if (!started_) {
     first_.push_back(std::move(candidate));
     if (first_.size() >= kFirstRevolutions) {
@@ -236,8 +247,9 @@ void SpinPass::settle_first(SpinOutput& out) {
     if (!candidate.sightlines) {
       continue;
     }
-    if (const auto solution = solve_axis(config_, candidate.measured, *candidate.sightlines)) {
-      axes_icrf.push_back(solution->axis_icrf);
+    const auto found = axis_candidates(config_, candidate.measured, *candidate.sightlines);
+    if (found && found->told_apart) {
+      axes_icrf.push_back(found->candidates.front().axis_icrf);
     }
   }
   if (!axes_icrf.empty()) {
@@ -260,130 +272,106 @@ void SpinPass::predict(Candidate& candidate, const Eigen::Vector3d& axis_icrf) {
   }
 }
 
-void SpinPass::settle(Candidate& candidate, SpinOutput& out) {
-  const Revolution& revolution = candidate.revolution;
-  std::vector<Verdict> verdicts;
-  std::set<SpinQuantity> left_out;
-  const auto add = [&](SpinQuantity quantity, double value, double sigma,
-                       std::optional<Rejection> rejected_by) {
-    verdicts.push_back({.quantity = quantity, .rejected_by = rejected_by});
-    if (rejected_by) {
-      left_out.insert(quantity);
+void SpinPass::screen(Candidate& candidate) const {
+  for (const Residual& residual : candidate.residuals) {
+    if (!screening_.keeps(residual)) {
+      reject(candidate.measured, residual.quantity, rejection_of(residual.quantity));
     }
-    out.products.emplace_back(SpinMeasurement{.revolution = revolution.number,
-                                              .quantity = quantity,
-                                              .value = value,
-                                              .sigma = sigma,
-                                              .rejected_by = rejected_by});
-  };
+  }
+  if (!candidate.sightlines) {
+    for (const SpinQuantity quantity : kMeasuredAngles) {
+      reject(candidate.measured, quantity, Rejection::NoOrbit);
+    }
+  }
+}
 
+void SpinPass::settle(Candidate& candidate, SpinOutput& out) {
+  screen(candidate);
+  const Revolution& revolution = candidate.revolution;
   if (candidate.measured.t_sun1) {
     out.products.emplace_back(RevolutionProduct{.revolution = revolution.number,
                                                 .t_sun1 = *candidate.measured.t_sun1,
                                                 .period_s = revolution.period.period_s});
   }
-  if (const auto& period = revolution.period_candidate) {
-    add(SpinQuantity::Period, period->period_s, period->sigma_s,
-        period->accepted ? std::nullopt : std::optional{Rejection::Period});
+  const std::vector<Verdict> verdicts = verdicts_on(revolution, candidate.measured);
+  for (const Verdict& verdict : verdicts) {
+    out.products.emplace_back(measurement_of(revolution, candidate.measured, verdict));
   }
-  using enum SpinQuantity;
-  for (const SpinQuantity quantity :
-       {SunAngle, NorthChord, SouthChord, NorthDihedral, SouthDihedral}) {
-    const auto measured = value_of(candidate.measured, quantity);
-    if (!measured) {
-      continue;
-    }
-    const auto residual = std::find_if(candidate.residuals.begin(), candidate.residuals.end(),
-                                       [&](const Residual& r) { return r.quantity == quantity; });
-    std::optional<Rejection> rejected_by;
-    if (!candidate.sightlines) {
-      rejected_by = Rejection::NoOrbit;
-    } else if (residual != candidate.residuals.end() && !screening_.keeps(*residual)) {
-      rejected_by = rejection_of(quantity);
-    }
-    add(quantity, measured->value_rad, measured->sigma_rad, rejected_by);
+  for (const PulseUse& use : edge_uses(config_, revolution, verdicts)) {
+    out.products.emplace_back(use);
   }
-  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
-    if (revolution.edges.at(channel)) {
-      out.products.emplace_back(
-          use_of(config_, revolution, static_cast<PulseChannel>(channel), verdicts));
-    }
+  if (candidate.sightlines) {
+    announce_axis(candidate, out);
   }
-  announce_axis(candidate, left_out, out);
 }
 
-void SpinPass::announce_axis(const Candidate& candidate, const std::set<SpinQuantity>& left_out,
-                             SpinOutput& out) {
-  if (!candidate.sightlines) {
-    return;
-  }
-  const auto found = fix(config_, candidate.revolution, left_out, *candidate.sightlines);
+std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate, SpinOutput& out) {
+  const Revolution& revolution = candidate.revolution;
+  const auto found = axis_candidates(config_, candidate.measured, *candidate.sightlines);
   if (!found) {
     // The measurements stand; this revolution alone gives no axis.
-    if (!std::exchange(fix_missed_, true)) {
-      out.notices.push_back(fmt::format("revolution {} is the first that gives no fix: {}",
-                                        candidate.revolution.number, found.error().message));
-    }
-    return;
+    say_first("fix",
+              fmt::format("revolution {} is the first that gives no fix: {}", revolution.number,
+                          found.error().message),
+              out);
+    return {};
   }
-  if (!found->accepted && found->resolution != Resolution::Ambiguous) {
-    say_once(
-        "measurements contradict each other, their fixes are not accepted: the length of the "
-        "axis or the size of the Earth's disc comes out wrong; check the mission's mounting "
-        "angles, azimuths and orbit",
-        out);
-  }
+  return disambiguator_.settle(revolution.number, revolution.t_start, candidate.measured,
+                               *candidate.sightlines, *found, established_axis());
+}
+
+void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
+  const std::vector<SpinFix> fixes = find_fixes(candidate, out);
   const Eigen::Matrix2d horizon_rad2 = horizon_error_rad2(config_, candidate.sightlines->disc_rad);
-  SpinFix announced = *found;
-  announced.covariance_rad2 += horizon_rad2;
-  out.products.emplace_back(announced);
-  if (found->accepted) {
-    recent_axes_.add(found->axis_icrf);
-    mean_axis_.add(*found);
+  bool mean_moved = false;
+  for (const SpinFix& fix : fixes) {
+    if (!fix.accepted && fix.resolution != Resolution::Ambiguous) {
+      say_once(
+          "measurements contradict each other, their fixes are not accepted: the length of the "
+          "axis or the size of the Earth's disc comes out wrong; check the mission's mounting "
+          "angles, azimuths and orbit",
+          out);
+    }
+    SpinFix announced = fix;
+    announced.covariance_rad2 += horizon_rad2;
+    out.products.emplace_back(std::move(announced));
+    if (fix.accepted) {
+      recent_axes_.add(fix.axis_icrf);
+      mean_axis_.add(fix);
+      mean_moved = true;
+    }
+  }
+  if (mean_moved) {
     SpinEstimate mean = mean_estimate(candidate);
     mean.covariance_rad2 += horizon_rad2;
     out.products.emplace_back(std::move(mean));
   }
+  if (const auto sky = surroundings_.sky(candidate.revolution.t_start)) {
+    if (auto estimate = sequential_.update(candidate.revolution, *sky, fixes)) {
+      out.products.emplace_back(std::move(*estimate));
+    }
+  }
+}
+
+std::optional<KnownAxis> SpinPass::established_axis() const {
+  if (mean_axis_.count() < kEstablishedFixes) {
+    return std::nullopt;
+  }
+  return KnownAxis{
+      .axis_icrf = mean_axis_.axis_icrf(),
+      .sigma_rad = std::hypot(std::sqrt(mean_axis_.covariance_rad2().trace()), kModel_rad)};
 }
 
 SpinEstimate SpinPass::mean_estimate(const Candidate& candidate) const {
   const SpinPeriod& period = candidate.revolution.period;
   const double rate_rad_s = 2.0 * std::numbers::pi / period.period_s;
-  return {.t = *candidate.measured.t_sun1,
+  return {.t = candidate.revolution.t_start,
           .estimator = SpinEstimator::Mean,
           .axis_icrf = mean_axis_.axis_icrf(),
           .covariance_rad2 = mean_axis_.covariance_rad2(),
           .spin_rate_rad_s = rate_rad_s,
           .spin_rate_sigma_rad_s = rate_rad_s / period.period_s * period.sigma_s,
           .status = fmt::format("{} fixes, spherical horizon", mean_axis_.count())};
-}
-
-std::optional<Sightlines> SpinPass::sightlines_of(const RevolutionMeasurements& measured, TaiTime t,
-                                                  SpinOutput& out) {
-  const TaiTime t_sun = measured.t_sun1.value_or(t);
-  std::vector<TaiTime> crossings;
-  for (const auto& crossing : measured.crossings) {
-    if (crossing) {
-      crossings.push_back(crossing->t_mid);
-    }
-  }
-  const TaiTime t_earth =
-      crossings.empty() ? t_sun : crossings.front() + (crossings.back() - crossings.front()) / 2;
-  const auto at_sun = orbit_.at(t_sun);
-  const auto at_earth = at_sun ? orbit_.at(t_earth) : at_sun;
-  const auto disc_rad = at_earth ? earth_disc_half_angle_rad(at_earth->position_icrf_km.norm(),
-                                                             config_.horizon.co2_altitude_km)
-                                 : Expected<double>{Unexpected{at_earth.error()}};
-  if (!disc_rad) {
-    if (!std::exchange(orbit_missed_, true)) {
-      out.notices.push_back(
-          fmt::format("orbit: {}; revolutions outside it give no axis", disc_rad.error().message));
-    }
-    return std::nullopt;
-  }
-  return Sightlines{.sun_icrf = sun_.direction_icrf(t_sun, *at_sun),
-                    .earth_icrf = -at_earth->position_icrf_km.normalized(),
-                    .disc_rad = *disc_rad};
 }
 
 }  // namespace spindrift

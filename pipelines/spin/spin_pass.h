@@ -1,8 +1,11 @@
 /// @file
-/// The pass of one spin-stabilised satellite: pulses in, products out. The one composition of the
+/// The pass of one spin-stabilised satellite: samples in, products out. The one composition of the
 /// spin pipeline, run alike live, offline and in replay.
 ///
-///     pulse -> order of time -> revolution -> period -> measurements -> screening -> fix -> mean
+///     frame -> order of time -> its edges -+
+///     pulse -------------------------------+-> order of time -> interference -> revolution, period
+///       -> measurements -> screening -> candidates for the axis -> fix -> mean
+///                                    -> good edges -------------------> sequential
 ///
 /// The first revolutions are held back until there are enough of them to tell an outlier from a
 /// level (kFirstRevolutions); from then on each is settled as it closes.
@@ -12,21 +15,23 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
-#include "pipelines/ephemeris/sun.h"
 #include "pipelines/spin/association.h"
 #include "pipelines/spin/coded_frame.h"
 #include "pipelines/spin/config.h"
-#include "pipelines/spin/fix.h"
+#include "pipelines/spin/disambiguation.h"
+#include "pipelines/spin/interference.h"
 #include "pipelines/spin/mean_axis.h"
 #include "pipelines/spin/measurement.h"
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/reorder_window.h"
 #include "pipelines/spin/screening.h"
+#include "pipelines/spin/sequential.h"
+#include "pipelines/spin/surroundings.h"
 
 namespace spindrift {
 
@@ -35,7 +40,8 @@ struct SpinOutput {
   std::vector<std::string> notices;   ///< What a person should know; each said once a pass.
 };
 
-/// What `config` asks for and this version does not do yet, in words: nothing is ignored silently.
+/// What `config` asks for and this version does not do in full, in words: nothing is ignored
+/// silently.
 std::vector<std::string> settings_without_effect(const SpinConfig& config);
 
 class SpinPass {
@@ -61,33 +67,38 @@ class SpinPass {
     std::vector<Residual> residuals;
   };
 
-  void associate(const std::vector<Pulse>& pulses, SpinOutput& out);
-  void take(Association association, SpinOutput& out);
+  void take(const Pulse& pulse, SpinOutput& out);
+  void take(const CodedFrame& frame, SpinOutput& out);
+  void sort_out(const std::vector<Pulse>& in_time, SpinOutput& out);
+  void associate(const InterferenceWindow::Sorted& sorted, SpinOutput& out);
+  void collect(Association association, SpinOutput& out);
   void consider(const Revolution& revolution, SpinOutput& out);
   void settle_first(SpinOutput& out);
   void settle(Candidate& candidate, SpinOutput& out);
-  void announce_axis(const Candidate& candidate, const std::set<SpinQuantity>& left_out,
-                     SpinOutput& out);
   void predict(Candidate& candidate, const Eigen::Vector3d& axis_icrf);
-  std::optional<Sightlines> sightlines_of(const RevolutionMeasurements& measured, TaiTime t,
-                                          SpinOutput& out);
+  void screen(Candidate& candidate) const;
+  std::vector<SpinFix> find_fixes(const Candidate& candidate, SpinOutput& out);
+  void announce_axis(const Candidate& candidate, SpinOutput& out);
+  std::optional<KnownAxis> established_axis() const;
+  SpinEstimate mean_estimate(const Candidate& candidate) const;
   static void leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out);
   void say_once(const std::string& notice, SpinOutput& out);
-  SpinEstimate mean_estimate(const Candidate& candidate) const;
+  void say_first(std::string_view kind, const std::string& notice, SpinOutput& out);
 
   SpinConfig config_;
-  Orbit orbit_;
-  ApparentSun sun_;
+  Surroundings surroundings_;
+  FrameReorderWindow frames_;
   ReorderWindow reorder_;
+  InterferenceWindow interference_;
   Associator associator_;
   std::vector<Candidate> first_;  ///< Held back; empty once settled.
   bool started_ = false;
   ScreeningWindow screening_;
   AxisWindow recent_axes_;
+  Disambiguator disambiguator_;
   MeanAxis mean_axis_;
-  bool orbit_missed_ = false;
-  bool fix_missed_ = false;
-  std::set<std::string> said_;
+  SequentialEstimator sequential_;
+  std::set<std::string, std::less<>> said_;
 };
 
 }  // namespace spindrift

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "pipelines/frames/celestial.h"
 #include "tests/support/spinning_body.h"
@@ -157,16 +158,114 @@ TEST(SpinMeasurements, AChordOfHalfATurnOrBackwardsHasNoMeaning) {
   EXPECT_FALSE(chord_of(-0.1));
 }
 
-TEST(SpinMeasurements, RemovingAQuantityLeavesTheOthers) {
+TEST(SpinMeasurements, RejectingAQuantityLeavesTheOthersGood) {
   const Scene scene;
   using enum SpinQuantity;
   constexpr std::array kAll = {SunAngle, NorthChord, SouthChord, NorthDihedral, SouthDihedral};
-  for (const SpinQuantity removed : kAll) {
+  for (const SpinQuantity rejected : kAll) {
     RevolutionMeasurements measured = measure(scene.config, seen(scene));
-    remove(measured, removed);
+    reject(measured, rejected, Rejection::SunAngle);
+    reject(measured, rejected, Rejection::Phase);
     for (const SpinQuantity quantity : kAll) {
-      EXPECT_EQ(value_of(measured, quantity).has_value(), quantity != removed)
-          << name_of(quantity) << " without " << name_of(removed);
+      ASSERT_TRUE(value_of(measured, quantity));
+      EXPECT_EQ(good_value_of(measured, quantity).has_value(), quantity != rejected)
+          << name_of(quantity) << " without " << name_of(rejected);
+    }
+    EXPECT_EQ(value_of(measured, rejected)->rejected_by, Rejection::SunAngle);
+  }
+}
+
+TEST(SpinMeasurements, WhatRestsOnARejectedEdgeIsThereAndRejected) {
+  const Scene scene;
+  using enum SpinQuantity;
+  const auto rejected_with = [&](PulseChannel channel) {
+    Revolution revolution = seen(scene);
+    revolution.edge_rejections.at(index_of(channel)) = Rejection::Phase;
+    const RevolutionMeasurements measured = measure(scene.config, revolution);
+    std::set<SpinQuantity> rejected;
+    for (const SpinQuantity quantity : kMeasuredAngles) {
+      const auto value = value_of(measured, quantity);
+      if (value && value->rejected_by) {
+        EXPECT_EQ(value->rejected_by, Rejection::Phase);
+        EXPECT_EQ(value->value_rad,
+                  value_of(measure(scene.config, seen(scene)), quantity)->value_rad);
+        rejected.insert(quantity);
+      }
+    }
+    return rejected;
+  };
+  EXPECT_EQ(rejected_with(Sun1), (std::set{SunAngle, NorthDihedral, SouthDihedral}));
+  EXPECT_EQ(rejected_with(Sun2), (std::set{SunAngle}));
+  EXPECT_EQ(rejected_with(NorthIn), (std::set{NorthChord, NorthDihedral}));
+  EXPECT_EQ(rejected_with(SouthOut), (std::set{SouthChord, SouthDihedral}));
+}
+
+TEST(SpinMeasurements, WithoutAGoodSun1TheEarthIsTimedFromSun2) {
+  for (double dihedral_rad = -3.1; dihedral_rad < 3.14; dihedral_rad += 0.2) {
+    const Scene scene{.dihedral_rad = dihedral_rad};
+    const Revolution whole = seen(scene);
+    const double slits_rad =
+        kRate_rad_s * seconds_between(whole.edge(Sun1).value(), whole.edge(Sun2).value());
+    Revolution missing = whole;
+    missing.edges.at(index_of(Sun1)).reset();
+    Revolution rejected = whole;
+    rejected.edge_rejections.at(index_of(Sun1)) = Rejection::Phase;
+    for (const Revolution& revolution : {missing, rejected}) {
+      const RevolutionMeasurements measured = measure(scene.config, revolution);
+      EXPECT_FALSE(measured.t_sun1);
+      ASSERT_TRUE(good_value_of(measured, SpinQuantity::MixedAzimuth));
+      EXPECT_NEAR(wrapped_rad(measured.mixed_azimuth->value_rad - (dihedral_rad - slits_rad)), 0.0,
+                  2.0 * kNanosecond_rad);
+    }
+    EXPECT_FALSE(measure(scene.config, whole).mixed_azimuth);
+  }
+}
+
+TEST(SpinMeasurements, ADoubtfulSensorStaysOutOfTheMixedAzimuth) {
+  const Scene scene;
+  Revolution revolution = seen(scene);
+  revolution.edges.at(index_of(Sun1)).reset();
+  const double whole_rad = measure(scene.config, revolution).mixed_azimuth->value_rad;
+  revolution.edges.at(index_of(NorthIn)) = shifted(*revolution.edge(NorthIn), -0.01);
+  EXPECT_GT(std::abs(measure(scene.config, revolution).mixed_azimuth->value_rad - whole_rad), 1e-3);
+  revolution.edge_rejections.at(index_of(NorthIn)) = Rejection::Phase;
+  const auto south_alone = measure(scene.config, revolution).mixed_azimuth;
+  EXPECT_NEAR(south_alone->value_rad, whole_rad, 2.0 * kNanosecond_rad);
+  EXPECT_FALSE(south_alone->rejected_by);
+  revolution.edge_rejections.at(index_of(SouthIn)) = Rejection::Phase;
+  EXPECT_EQ(measure(scene.config, revolution).mixed_azimuth->rejected_by, Rejection::Phase);
+}
+
+TEST(SpinMeasurements, NoiseIsWhatEachEdgeMovesThemBy) {
+  const Scene scene{.sun_angle_rad = 70.0 * kDegree_rad};
+  Revolution whole = seen(scene);
+  Revolution without_sun1 = whole;
+  without_sun1.edges.at(index_of(Sun1)).reset();
+  for (const Revolution& revolution : {whole, without_sun1}) {
+    const RevolutionMeasurements exact = measure(scene.config, revolution);
+    for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+      if (!revolution.edges.at(channel)) {
+        continue;
+      }
+      const double sigma_s =
+          channel < index_of(NorthIn) ? scene.config.noise.sun_s : scene.config.noise.infrared_s;
+      const auto moved_by = [&](double offset_s) {
+        Revolution moved = revolution;
+        moved.edges.at(channel) = shifted(*revolution.edges.at(channel), offset_s);
+        return measure(scene.config, moved);
+      };
+      const RevolutionMeasurements later = moved_by(sigma_s);
+      const RevolutionMeasurements earlier = moved_by(-sigma_s);
+      for (const SpinQuantity quantity : kMeasuredAngles) {
+        if (const auto value = value_of(exact, quantity)) {
+          // The nanosecond, and the third order of a sigma of 4e-4 rad.
+          EXPECT_NEAR(value->noise_rad(static_cast<Eigen::Index>(channel)),
+                      0.5 * wrapped_rad(value_of(later, quantity)->value_rad -
+                                        value_of(earlier, quantity)->value_rad),
+                      2.0 * kNanosecond_rad)
+              << name_of(quantity) << ' ' << channel;
+        }
+      }
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "pipelines/spin/fix.h"
+#include "pipelines/spin/axis_candidates.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/geometry.h"
+#include "tests/support/lone_fix.h"
 #include "tests/support/spinning_body.h"
 
 namespace spindrift {
@@ -42,7 +43,7 @@ struct Scene {
         testing::at_rest(sun_icrf, kRange_km * earth_icrf), kStart);
   }
   Expected<SpinFix> fix(const std::set<SpinQuantity>& left_out = {}) const {
-    return spindrift::fix(config, seen(), left_out, sightlines());
+    return testing::lone_fix(config, seen(), left_out, sightlines());
   }
 };
 
@@ -50,7 +51,7 @@ struct Scene {
 // 10 deg apart, 33 for one beam with |Delta| = 0.03).
 constexpr double kExact_rad = 1e-7;
 
-TEST(SpinFix, CaseOneHasBothChords) {
+TEST(AxisCandidates, CaseOneHasBothChords) {
   const Scene scene;
   const SpinFix fix = scene.fix().value();
   EXPECT_EQ(fix.geometry_case, 1);
@@ -62,7 +63,7 @@ TEST(SpinFix, CaseOneHasBothChords) {
   EXPECT_EQ(fix.t, scene.seen().edge(PulseChannel::Sun1));
 }
 
-TEST(SpinFix, CasesTwoAndThreeHaveOneChord) {
+TEST(AxisCandidates, CasesTwoAndThreeHaveOneChord) {
   const Scene scene;
   for (const auto& [left_out, geometry_case] :
        {std::pair{SouthChord, 2}, std::pair{NorthChord, 3}}) {
@@ -74,7 +75,7 @@ TEST(SpinFix, CasesTwoAndThreeHaveOneChord) {
   }
 }
 
-TEST(SpinFix, OneDihedralIsEnough) {
+TEST(AxisCandidates, OneDihedralIsEnough) {
   const Scene scene;
   for (const SpinQuantity left_out : {NorthDihedral, SouthDihedral}) {
     const SpinFix fix = scene.fix({left_out}).value();
@@ -83,24 +84,13 @@ TEST(SpinFix, OneDihedralIsEnough) {
   }
 }
 
-TEST(SpinFix, ASensorThatTheMissionDoesNotHaveMakesItCaseTwo) {
+TEST(AxisCandidates, ASensorThatTheMissionDoesNotHaveMakesItCaseTwo) {
   Scene scene;
   scene.config.south.reset();
   EXPECT_EQ(scene.fix().value().geometry_case, 2);
 }
 
-TEST(SpinFix, WithoutSunAngleOrChordOrDihedralThereIsNone) {
-  const Scene scene;
-  for (const std::set<SpinQuantity>& left_out :
-       {std::set{SunAngle}, std::set{NorthChord, SouthChord},
-        std::set{NorthDihedral, SouthDihedral}}) {
-    const auto fix = scene.fix(left_out);
-    ASSERT_FALSE(fix);
-    EXPECT_EQ(fix.error().code, ErrorCode::Unobservable);
-  }
-}
-
-TEST(SpinFix, DihedralsOnEitherSideOfPiAreAveragedThere) {
+TEST(AxisCandidates, DihedralsOnEitherSideOfPiAreAveragedThere) {
   // The Earth opposite the Sun about the axis; the dihedrals of both beams stand about pi.
   const Scene scene{.sun_icrf = Eigen::Vector3d{1.0, 0.0, 0.3}.normalized(),
                     .earth_icrf = Eigen::Vector3d::UnitX() * -1.0,
@@ -112,25 +102,25 @@ TEST(SpinFix, DihedralsOnEitherSideOfPiAreAveragedThere) {
   for (const PulseChannel channel : {PulseChannel::SouthIn, PulseChannel::SouthOut}) {
     revolution.edges.at(index_of(channel)) = shifted(*revolution.edge(channel), -1e-4);
   }
-  const SpinFix fix = spindrift::fix(scene.config, revolution, {}, scene.sightlines()).value();
+  const SpinFix fix = testing::lone_fix(scene.config, revolution, {}, scene.sightlines()).value();
   EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
 }
 
-TEST(SpinFix, SunAndEarthInLineLeaveTheAxisOpen) {
+TEST(AxisCandidates, SunAndEarthInLineLeaveTheAxisOpen) {
   const Eigen::Vector3d sun = Eigen::Vector3d{1.0, 0.2, 0.1}.normalized();
   const Eigen::Vector3d across = sun.unitOrthogonal();
   for (const double apart_deg : {0.0, 2.9, 177.1, 180.0}) {
     Scene scene{.sun_icrf = sun};
     scene.earth_icrf = Eigen::AngleAxisd{apart_deg * kDegree_rad, across} * sun;
     RevolutionMeasurements measured = measure(scene.config, Scene{}.seen());
-    const auto solution = solve_axis(scene.config, measured, scene.sightlines());
+    const auto solution = axis_candidates(scene.config, measured, scene.sightlines());
     ASSERT_FALSE(solution) << apart_deg;
     EXPECT_EQ(solution.error().code, ErrorCode::Unobservable);
     EXPECT_NE(solution.error().message.find("3 and 177 deg"), std::string::npos);
   }
 }
 
-TEST(SpinFix, BeamsMountedAlikeAreOneBeam) {
+TEST(AxisCandidates, BeamsMountedAlikeAreOneBeam) {
   Scene scene;
   for (const double apart_deg : {0.0, 0.3}) {
     scene.config.south->mount_angle_rad =
@@ -142,22 +132,22 @@ TEST(SpinFix, BeamsMountedAlikeAreOneBeam) {
   }
 }
 
-TEST(SpinFix, AWrongAzimuthContradictsTheAngleBetweenSunAndEarth) {
+TEST(AxisCandidates, AWrongAzimuthContradictsTheAngleBetweenSunAndEarth) {
   const Scene scene;
   SpinConfig wrong = scene.config;
   wrong.north->azimuth_rad -= 80.0 * kDegree_rad;
   wrong.south->azimuth_rad -= 80.0 * kDegree_rad;
-  const SpinFix fix = spindrift::fix(wrong, scene.seen(), {}, scene.sightlines()).value();
+  const SpinFix fix = testing::lone_fix(wrong, scene.seen(), {}, scene.sightlines()).value();
   EXPECT_FALSE(fix.accepted);
   EXPECT_GT(std::abs(fix.norm - 1.0), 0.1);
 }
 
-TEST(SpinFix, ChordsOfAnotherDiscContradictTheOrbit) {
+TEST(AxisCandidates, ChordsOfAnotherDiscContradictTheOrbit) {
   const Scene scene;
   for (const double range_factor : {0.8, 1.25}) {
     Sightlines sightlines = scene.sightlines();
     sightlines.disc_rad = std::asin(std::sin(sightlines.disc_rad) / range_factor);
-    const SpinFix fix = spindrift::fix(scene.config, scene.seen(), {}, sightlines).value();
+    const SpinFix fix = testing::lone_fix(scene.config, scene.seen(), {}, sightlines).value();
     EXPECT_FALSE(fix.accepted) << range_factor;
     // Two chords need no disc: the axis itself is right, and still nothing to rely on.
     EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
@@ -176,7 +166,7 @@ Scene scene_of_determinant(double determinant) {
   return scene;
 }
 
-TEST(SpinFix, ALargeDeterminantLeavesNoAlternate) {
+TEST(AxisCandidates, ALargeDeterminantLeavesNoAlternate) {
   for (const double delta : {0.0302, 0.05, -0.0302, -0.05}) {
     const Scene scene = scene_of_determinant(delta);
     const SpinFix fix = scene.fix().value();
@@ -186,7 +176,7 @@ TEST(SpinFix, ALargeDeterminantLeavesNoAlternate) {
   }
 }
 
-TEST(SpinFix, ASmallDeterminantLeavesTheOtherRootAsAlternate) {
+TEST(AxisCandidates, ASmallDeterminantLeavesTheOtherRootAsAlternate) {
   for (const double delta : {0.0298, 0.0102, -0.0102, -0.0298}) {
     const Scene scene = scene_of_determinant(delta);
     const SpinFix fix = scene.fix().value();
@@ -198,7 +188,7 @@ TEST(SpinFix, ASmallDeterminantLeavesTheOtherRootAsAlternate) {
   }
 }
 
-TEST(SpinFix, AVanishingDeterminantIsAmbiguousAndNotAccepted) {
+TEST(AxisCandidates, AVanishingDeterminantIsAmbiguousAndNotAccepted) {
   for (const double delta : {0.0098, 0.0, -0.0098}) {
     const Scene scene = scene_of_determinant(delta);
     const SpinFix fix = scene.fix().value();
@@ -214,7 +204,7 @@ TEST(SpinFix, AVanishingDeterminantIsAmbiguousAndNotAccepted) {
   }
 }
 
-TEST(SpinFix, LimitsOfTheDeterminantAreThoseOfTheMission) {
+TEST(AxisCandidates, LimitsOfTheDeterminantAreThoseOfTheMission) {
   Scene scene = scene_of_determinant(0.05);
   scene.config.geometry = {.determinant_usable = 0.08, .determinant_ambiguous = 0.06};
   EXPECT_EQ(scene.fix().value().resolution, Resolution::Ambiguous);
@@ -224,14 +214,16 @@ TEST(SpinFix, LimitsOfTheDeterminantAreThoseOfTheMission) {
   EXPECT_TRUE(scene.fix().value().alternate_axes_icrf.empty());
 }
 
-TEST(SpinFix, AChordWiderThanTheDiscIsRefused) {
+TEST(AxisCandidates, AChordWiderThanTheDiscIsRefusedWithItsMeasure) {
   Scene scene = scene_of_determinant(0.02);
   Revolution revolution = scene.seen();
   const TaiTime in = revolution.edge(PulseChannel::NorthIn).value();
   revolution.edges.at(index_of(PulseChannel::NorthOut)) = shifted(in, 0.9 / scene.rate_rad_s);
-  const auto fix = spindrift::fix(scene.config, revolution, {}, scene.sightlines());
+  const auto fix = testing::lone_fix(scene.config, revolution, {}, scene.sightlines());
   ASSERT_FALSE(fix);
   EXPECT_EQ(fix.error().code, ErrorCode::Unobservable);
+  EXPECT_NE(fix.error().message.find("chord 51.5662 deg"), std::string::npos)
+      << fix.error().message;
 }
 
 /// Sum over noisy copies of the revolution of the squared error, normalised by the covariance that
@@ -239,7 +231,7 @@ TEST(SpinFix, AChordWiderThanTheDiscIsRefused) {
 double squared_errors(const Scene& scene, const std::set<SpinQuantity>& left_out, int draws,
                       std::mt19937_64& rng) {
   const Revolution exact = scene.seen();
-  const SpinFix stated = spindrift::fix(scene.config, exact, left_out, scene.sightlines()).value();
+  const SpinFix stated = testing::lone_fix(scene.config, exact, left_out, scene.sightlines()).value();
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(stated.axis_icrf);
   std::normal_distribution<double> normal;
   double sum = 0.0;
@@ -250,14 +242,14 @@ double squared_errors(const Scene& scene, const std::set<SpinQuantity>& left_out
       const double sigma_s = sun ? scene.config.noise.sun_s : scene.config.noise.infrared_s;
       noisy.edges.at(channel) = shifted(exact.edges.at(channel).value(), sigma_s * normal(rng));
     }
-    const auto fix = spindrift::fix(scene.config, noisy, left_out, scene.sightlines());
+    const auto fix = testing::lone_fix(scene.config, noisy, left_out, scene.sightlines());
     const Eigen::Vector2d error_rad = basis.transpose() * fix.value().axis_icrf;
     sum += error_rad.dot(stated.covariance_rad2.ldlt().solve(error_rad));
   }
   return sum;
 }
 
-TEST(SpinFix, CovarianceIsTheScatterThatTheNoiseMakes) {
+TEST(AxisCandidates, CovarianceIsTheScatterThatTheNoiseMakes) {
   constexpr int kDraws = 3000;
   std::mt19937_64 rng{91};
   // Noise small enough that the geometry is linear within it: 1e-4 rad of spin phase at most.
@@ -273,7 +265,7 @@ TEST(SpinFix, CovarianceIsTheScatterThatTheNoiseMakes) {
   }
 }
 
-TEST(SpinFix, CovarianceGrowsWithTheSquareOfTheNoise) {
+TEST(AxisCandidates, CovarianceGrowsWithTheSquareOfTheNoise) {
   Scene scene;
   scene.config.noise = {.sun_s = 1e-5, .infrared_s = 5e-5};
   const Eigen::Matrix2d once = scene.fix().value().covariance_rad2;
@@ -283,8 +275,8 @@ TEST(SpinFix, CovarianceGrowsWithTheSquareOfTheNoise) {
   EXPECT_LT((twice - 4.0 * once).norm(), 4e-4 * twice.norm());
 }
 
-TEST(SpinFix, ASolutionThatOneSigmaDestroysIsRefused) {
-  // At its widest the chord has a double root; one sigma wider and there is none.
+TEST(AxisCandidates, ASolutionThatTheNoiseDestroysIsRefused) {
+  // At its widest the chord has a double root, which every edge moves without bound.
   Scene scene = scene_of_determinant(0.02);
   scene.earth_icrf = direction_icrf(
       {.ra_rad = std::acos(0.02 / std::cos(85.0 * kDegree_rad)), .dec_rad = 5.0 * kDegree_rad});
@@ -292,7 +284,6 @@ TEST(SpinFix, ASolutionThatOneSigmaDestroysIsRefused) {
   const auto fix = scene.fix();
   ASSERT_FALSE(fix);
   EXPECT_EQ(fix.error().code, ErrorCode::Unobservable);
-  EXPECT_NE(fix.error().message.find("within one sigma"), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,74 @@
+/// @file
+/// True or false solution (spin.md): which of a revolution's candidates the axis is.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "pipelines/spin/axis_candidates.h"
+#include "pipelines/spin/config.h"
+#include "pipelines/spin/dispersion.h"
+#include "pipelines/spin/measurement.h"
+#include "pipelines/spin/products.h"
+#include "pipelines/spin/sightlines.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+struct KnownAxis {
+  Eigen::Vector3d axis_icrf;  ///< Unit.
+  double sigma_rad;
+};
+
+/// Asks in this order, and the first that answers settles it:
+///   GEOMETRY    the measurements themselves tell the candidates apart;
+///   CONSTRAINT  one candidate only is consistent, gives the chord that each beam saw, and does
+///               not show the Earth to a healthy beam that is silent, five revolutions running;
+///   PRIOR       one candidate is within three sigmas of the axis that is known already, and nearer
+///               to it than every other by more than a sigma (that of the candidates included);
+///   DISPERSION  one branch of candidates stays where it is while the others drift.
+/// Otherwise the fix is AMBIGUOUS and not accepted. When the dispersion settles, the AMBIGUOUS
+/// fixes of the window are given again; later ones are the candidates that continue that axis, as
+/// long as no other comes near it.
+class Disambiguator {
+ public:
+  explicit Disambiguator(const SpinConfig& config);
+
+  /// @param established The axis that the pass has already settled on; takes the place of the
+  ///        mission's prior.
+  /// @return Earlier fixes that this revolution settles, then its own.
+  std::vector<SpinFix> settle(std::int64_t revolution, TaiTime t,
+                              const RevolutionMeasurements& measured, const Sightlines& sightlines,
+                              const AxisCandidates& candidates,
+                              const std::optional<KnownAxis>& established);
+
+ private:
+  struct Pending {
+    std::int64_t revolution;
+    TaiTime t;
+    AxisCandidates found;
+    std::vector<std::size_t> possible;  ///< Those that break no constraint.
+  };
+
+  void note_silence(const RevolutionMeasurements& measured);
+  bool breaks_constraint(const RevolutionMeasurements& measured, const Sightlines& sightlines,
+                         const AxisCandidate& candidate) const;
+  std::vector<std::size_t> possible_of(const RevolutionMeasurements& measured,
+                                       const Sightlines& sightlines,
+                                       const AxisCandidates& found) const;
+  std::vector<SpinFix> settle_by_dispersion(Pending pending);
+  void follow(const Pending& pending, const std::optional<std::size_t>& chosen);
+
+  SpinConfig config_;
+  std::array<int, 2> silent_revolutions_{};
+  Dispersion dispersion_;
+  std::optional<SteadyAxis> steady_;
+  int contradictions_ = 0;       ///< Revolutions running that no candidate continued `steady_`.
+  std::deque<Pending> pending_;  ///< AMBIGUOUS so far.
+};
+
+}  // namespace spindrift

@@ -1,0 +1,257 @@
+/// Two cones meet in two axes. Over many passes with the dihedral withheld the true one is chosen,
+/// or AMBIGUOUS said.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/disambiguation.h"
+#include "pipelines/spin/geometry.h"
+#include "tests/support/lone_fix.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+using enum PulseChannel;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree_rad = kPi / 180.0;
+constexpr double kRate_rad_s = 2.0 * kPi;
+constexpr int kPasses = 200;
+const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+
+/// What is wrong with the model, in the way that a real pass shows it.
+struct Flaws {
+  double mounting_rad = 0.0;  ///< Of both beams.
+  double azimuth_rad = 0.0;
+  double limb_rad = 0.0;  ///< The oblate Earth's limb falls short of the sphere by up to this.
+};
+
+struct Pass {
+  Eigen::Vector3d axis_icrf;
+  Eigen::Vector3d sun_icrf;
+  Eigen::Vector3d earth_start_icrf;
+  Eigen::Vector3d orbit_normal_icrf;
+  double turn_rad;  ///< The Earth's direction turns by this from beginning to end.
+  double disc_start_rad;
+  double disc_end_rad;
+  int revolutions;
+
+  Sightlines at(double share) const {
+    return {.sun_icrf = sun_icrf,
+            .earth_icrf = Eigen::AngleAxisd{turn_rad * share, orbit_normal_icrf} * earth_start_icrf,
+            .disc_rad = disc_start_rad + (disc_end_rad - disc_start_rad) * share};
+  }
+  /// Both sensors see what they need, all through.
+  bool visible() const {
+    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const Sightlines there = at(share);
+      const double apart_rad = angle_between_rad(there.sun_icrf, there.earth_icrf);
+      const PredictedAngles angles = predict_angles(axis_icrf, there.sun_icrf, there.earth_icrf);
+      if (std::abs(angles.earth_angle_rad - 0.5 * kPi) > there.disc_rad - 8.0 * kDegree_rad ||
+          std::abs(angles.sun_angle_rad - 0.5 * kPi) > 40.0 * kDegree_rad ||
+          std::abs(apart_rad - 0.5 * kPi) > 75.0 * kDegree_rad) {
+        return false;
+      }
+    }
+    return true;
+  }
+};
+
+class Passes {
+ public:
+  explicit Passes(std::uint64_t seed) : rng_{seed} {}
+
+  Pass next(double turn_rad, int revolutions) {
+    while (true) {
+      Pass pass{.axis_icrf = direction(),
+                .sun_icrf = direction(),
+                .earth_start_icrf = direction(),
+                .orbit_normal_icrf = {},
+                .turn_rad = turn_rad,
+                .disc_start_rad = between(18.0, 35.0) * kDegree_rad,
+                .disc_end_rad = between(18.0, 35.0) * kDegree_rad,
+                .revolutions = revolutions};
+      pass.orbit_normal_icrf = pass.earth_start_icrf.cross(direction()).normalized();
+      if (pass.visible()) {
+        return pass;
+      }
+    }
+  }
+
+  /// One revolution's pulses, from the angles of the spherical triangles.
+  Revolution seen(const Pass& pass, int number, const SpinConfig& config, const Flaws& flaws) {
+    const Sightlines there = pass.at(static_cast<double>(number) / pass.revolutions);
+    const PredictedAngles angles =
+        predict_angles(pass.axis_icrf, there.sun_icrf, there.earth_icrf);
+    Revolution seen{.number = number,
+                    .edges = {},
+                    .period_candidate = {},
+                    .period = {.period_s = 2.0 * kPi / kRate_rad_s, .sigma_s = 0.0}};
+    const TaiTime t_sun1 = shifted(kStart, number * 2.0 * kPi / kRate_rad_s);
+    const auto put = [&](PulseChannel channel, double turn_rad) {
+      const double sigma_s =
+          channel == Sun1 || channel == Sun2 ? config.noise.sun_s : config.noise.infrared_s;
+      seen.edges.at(index_of(channel)) =
+          shifted(t_sun1, turn_rad / kRate_rad_s + sigma_s * normal_(rng_));
+    };
+    put(Sun1, 0.0);
+    put(Sun2, config.sun_sensor.slit_separation_rad +
+                  std::asin(std::tan(config.sun_sensor.slit_cant_rad) /
+                            std::tan(angles.sun_angle_rad)));
+    for (const Side side : kSides) {
+      const InfraredSensor& sensor = *sensor_of(config, side);
+      // The limb is lowest in the direction of the Earth's poles.
+      const double polar = 1.0 - std::pow(there.earth_icrf.z(), 2);
+      const double disc_rad =
+          there.disc_rad - flaws.limb_rad * polar * (side == Side::North ? 1.0 : 0.4);
+      const auto chord_rad = predict_chord_rad(sensor.mount_angle_rad + flaws.mounting_rad,
+                                               angles.earth_angle_rad, disc_rad);
+      if (chord_rad) {
+        const double middle_rad =
+            angles.dihedral_rad + sensor.azimuth_rad + flaws.azimuth_rad + 2.0 * kPi;
+        put(kInChannels.at(index_of(side)), middle_rad - 0.5 * *chord_rad);
+        put(kOutChannels.at(index_of(side)), middle_rad + 0.5 * *chord_rad);
+      }
+    }
+    return seen;
+  }
+
+  double between(double low, double high) { return low + (high - low) * uniform_(rng_); }
+
+ private:
+  Eigen::Vector3d direction() {
+    const double x = normal_(rng_);
+    const double y = normal_(rng_);
+    return Eigen::Vector3d{x, y, normal_(rng_)}.normalized();
+  }
+
+  std::mt19937_64 rng_;
+  std::normal_distribution<double> normal_;
+  std::uniform_real_distribution<double> uniform_;
+};
+
+struct Outcome {
+  int chosen = 0;  ///< Fixes that are accepted at the end of the pass.
+  int wrong = 0;   ///< Of these, those where another candidate is nearer to the truth.
+  int resolved_later = 0;
+};
+
+Outcome outcome_of(Passes& passes, const Pass& pass, const std::set<SpinQuantity>& left_out,
+                   const Flaws& flaws) {
+  const SpinConfig config = testing::usual_config();
+  Disambiguator disambiguator{config};
+  std::map<std::int64_t, SpinFix> last;
+  Outcome outcome;
+  for (int number = 0; number < pass.revolutions; ++number) {
+    const Revolution revolution = passes.seen(pass, number, config, flaws);
+    const RevolutionMeasurements measured =
+        testing::measured_without(config, revolution, left_out);
+    const Sightlines there = pass.at(static_cast<double>(number) / pass.revolutions);
+    const auto found = axis_candidates(config, measured, there);
+    if (!found) {
+      continue;
+    }
+    for (const SpinFix& fix : disambiguator.settle(number, *measured.t_sun1, measured, there,
+                                                   *found, std::nullopt)) {
+      outcome.resolved_later += fix.revolution != number ? 1 : 0;
+      last.insert_or_assign(fix.revolution, fix);
+    }
+  }
+  for (const auto& [number, fix] : last) {
+    if (!fix.accepted) {
+      continue;
+    }
+    ++outcome.chosen;
+    const double off_rad = angle_between_rad(fix.axis_icrf, pass.axis_icrf);
+    outcome.wrong += std::any_of(fix.alternate_axes_icrf.begin(), fix.alternate_axes_icrf.end(),
+                                 [&](const Eigen::Vector3d& other) {
+                                   return angle_between_rad(other, pass.axis_icrf) < off_rad;
+                                 })
+                         ? 1
+                         : 0;
+  }
+  return outcome;
+}
+
+const std::set<SpinQuantity> kDihedralWithheld = {SpinQuantity::NorthDihedral,
+                                                  SpinQuantity::SouthDihedral};
+
+TEST(DualSolutions, TheTrueAxisIsChosenOrAmbiguousSaid) {
+  Passes passes{201};
+  int turning = 0;
+  int chosen = 0;
+  int chosen_at_all = 0;
+  for (int trial = 0; trial < kPasses; ++trial) {
+    SCOPED_TRACE(trial);
+    const double turn_rad = passes.between(0.0, 30.0) * kDegree_rad;
+    const Pass pass = passes.next(turn_rad, 400);
+    const Outcome outcome = outcome_of(passes, pass, kDihedralWithheld, {});
+    EXPECT_EQ(outcome.wrong, 0) << outcome.chosen << " chosen, turn " << turn_rad / kDegree_rad;
+    chosen_at_all += outcome.chosen > 0 ? 1 : 0;
+    if (turn_rad >= 10.0 * kDegree_rad) {
+      ++turning;
+      chosen += outcome.chosen > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(chosen, 0.9 * turning);
+  RecordProperty("turning", turning);
+  RecordProperty("chosen", chosen);
+  RecordProperty("chosen_at_all", chosen_at_all);
+}
+
+TEST(DualSolutions, AFlawedModelNeverMakesItChooseTheFalseAxis) {
+  Passes passes{202};
+  int chosen = 0;
+  for (int trial = 0; trial < kPasses; ++trial) {
+    SCOPED_TRACE(trial);
+    const Flaws flaws{.mounting_rad = passes.between(-0.1, 0.1) * kDegree_rad,
+                      .azimuth_rad = passes.between(-0.1, 0.1) * kDegree_rad,
+                      .limb_rad = passes.between(0.0, 0.12) * kDegree_rad};
+    const Pass pass = passes.next(passes.between(0.0, 30.0) * kDegree_rad, 400);
+    const Outcome outcome = outcome_of(passes, pass, kDihedralWithheld, flaws);
+    EXPECT_EQ(outcome.wrong, 0) << outcome.chosen << " chosen";
+    chosen += outcome.chosen > 0 ? 1 : 0;
+  }
+  EXPECT_GT(chosen, kPasses / 2);
+  RecordProperty("chosen", chosen);
+}
+
+TEST(DualSolutions, OneChordAloneNeverMakesItChooseAFalseAxis) {
+  Passes passes{203};
+  std::set<SpinQuantity> left_out = kDihedralWithheld;
+  left_out.insert(SpinQuantity::SouthChord);
+  int chosen = 0;
+  for (int trial = 0; trial < kPasses; ++trial) {
+    SCOPED_TRACE(trial);
+    const Pass pass = passes.next(passes.between(0.0, 30.0) * kDegree_rad, 400);
+    const Outcome outcome = outcome_of(passes, pass, left_out, {});
+    EXPECT_EQ(outcome.wrong, 0) << outcome.chosen << " chosen";
+    chosen += outcome.chosen > 0 ? 1 : 0;
+  }
+  RecordProperty("chosen", chosen);
+}
+
+TEST(DualSolutions, WithoutASunAngleNoFalseAxisIsChosen) {
+  Passes passes{204};
+  int chosen = 0;
+  for (int trial = 0; trial < kPasses; ++trial) {
+    SCOPED_TRACE(trial);
+    const Pass pass = passes.next(passes.between(0.0, 30.0) * kDegree_rad, 400);
+    const Outcome outcome = outcome_of(passes, pass, {SpinQuantity::SunAngle}, {});
+    EXPECT_EQ(outcome.wrong, 0) << outcome.chosen << " chosen";
+    chosen += outcome.chosen > 0 ? 1 : 0;
+  }
+  EXPECT_GT(chosen, kPasses / 4);
+  RecordProperty("chosen", chosen);
+}
+
+}  // namespace
+}  // namespace spindrift

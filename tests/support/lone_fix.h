@@ -1,0 +1,41 @@
+/// @file
+/// The fix of one revolution that nothing is known about beforehand.
+
+#pragma once
+
+#include <optional>
+#include <set>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/spin/axis_candidates.h"
+#include "pipelines/spin/disambiguation.h"
+#include "pipelines/spin/measurement.h"
+
+namespace spindrift::testing {
+
+/// The revolution's measurements, some of them rejected.
+inline RevolutionMeasurements measured_without(const SpinConfig& config,
+                                               const Revolution& revolution,
+                                               const std::set<SpinQuantity>& left_out) {
+  RevolutionMeasurements measured = measure(config, revolution);
+  for (const SpinQuantity quantity : left_out) {
+    reject(measured, quantity, rejection_of(quantity));
+  }
+  return measured;
+}
+
+inline Expected<SpinFix> lone_fix(const SpinConfig& config, const Revolution& revolution,
+                                  const std::set<SpinQuantity>& left_out,
+                                  const Sightlines& sightlines) {
+  const RevolutionMeasurements measured = measured_without(config, revolution, left_out);
+  const auto found = axis_candidates(config, measured, sightlines);
+  if (!found) {
+    return Unexpected{found.error()};
+  }
+  return Disambiguator{config}
+      .settle(revolution.number, *revolution.edge(PulseChannel::Sun1), measured, sightlines, *found,
+              std::nullopt)
+      .back();
+}
+
+}  // namespace spindrift::testing

@@ -1,0 +1,223 @@
+#include "pipelines/spin/dispersion.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+constexpr double kSigma_rad = 0.3 * kDegree_rad;
+
+TEST(VarianceRatio, TailIsThatOfThePublishedTables) {
+  // Upper points of F, Abramowitz and Stegun table 26.9.
+  struct Entry {
+    int freedom_above;
+    int freedom_below;
+    double level;
+    double ratio;
+  };
+  for (const Entry& entry : {Entry{2, 2, 0.01, 99.00}, Entry{10, 10, 0.05, 2.98},
+                             Entry{10, 10, 0.01, 4.85}, Entry{4, 20, 0.05, 2.87},
+                             Entry{20, 20, 0.05, 2.12}, Entry{20, 10, 0.01, 4.41},
+                             Entry{120, 120, 0.05, 1.35}, Entry{120, 120, 0.01, 1.53}}) {
+    // Half a unit of the last digit printed.
+    EXPECT_GE(variance_ratio_tail(entry.freedom_above / 2, entry.freedom_below / 2,
+                                  entry.ratio - 0.005),
+              entry.level);
+    EXPECT_LE(variance_ratio_tail(entry.freedom_above / 2, entry.freedom_below / 2,
+                                  entry.ratio + 0.005),
+              entry.level);
+  }
+}
+
+TEST(VarianceRatio, TailIsThatOfTheClosedFormForTwoDegreesAbove) {
+  for (const int b : {1, 2, 10, 99}) {
+    for (const double ratio : {0.1, 1.0, 3.0, 30.0}) {
+      const double expected = std::pow(1.0 + ratio / b, -b);
+      EXPECT_NEAR(variance_ratio_tail(1, b, ratio) / expected, 1.0, 1e-11);
+    }
+  }
+  EXPECT_EQ(variance_ratio_tail(3, 4, 0.0), 1.0);
+}
+
+TEST(VarianceRatio, TailsOfARatioAndItsInverseAddUpToOne) {
+  for (const double ratio : {0.5, 0.9, 1.7}) {
+    EXPECT_NEAR(variance_ratio_tail(99, 42, ratio) + variance_ratio_tail(42, 99, 1.0 / ratio), 1.0,
+                1e-12);
+  }
+}
+
+/// Axes with noise: one that stays, others that drift at a rate.
+class Sky {
+ public:
+  explicit Sky(std::uint64_t seed) : rng_{seed} {}
+
+  AxisCandidate seen(const Eigen::Vector3d& axis_icrf, double sigma_rad = kSigma_rad) {
+    const Eigen::Vector2d off_rad{sigma_rad * normal_(rng_), sigma_rad * normal_(rng_)};
+    return {.axis_icrf = (axis_icrf + tangent_basis(axis_icrf) * off_rad).normalized(),
+            .covariance_rad2 = sigma_rad * sigma_rad * Eigen::Matrix2d::Identity(),
+            .norm = 1.0,
+            .consistent = true,
+            .model_shift_icrf = Eigen::Matrix<double, 3, kModelErrors>::Zero()};
+  }
+
+ private:
+  std::mt19937_64 rng_;
+  std::normal_distribution<double> normal_;
+};
+
+const Eigen::Vector3d kTrue_icrf = Eigen::Vector3d{0.1, -0.05, 1.0}.normalized();
+
+/// 40 deg off the true axis, and moving across.
+Eigen::Vector3d drifting(double moved_rad) {
+  const Eigen::Vector3d start =
+      Eigen::AngleAxisd{40.0 * kDegree_rad, Eigen::Vector3d::UnitY()} * kTrue_icrf;
+  return Eigen::AngleAxisd{moved_rad, Eigen::Vector3d::UnitX()} * start;
+}
+
+TEST(Dispersion, TheBranchThatStaysIsFound) {
+  Sky sky{61};
+  Dispersion dispersion{100};
+  std::optional<SteadyAxis> found;
+  int revolution = 0;
+  for (; revolution < 200 && !found; ++revolution) {
+    const std::array candidates{sky.seen(drifting(0.1 * kDegree_rad * revolution)),
+                                sky.seen(kTrue_icrf)};
+    found = dispersion.add(candidates);
+  }
+  ASSERT_TRUE(found);
+  EXPECT_LT(angle_between_rad(found->axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+  EXPECT_EQ(found->count, revolution);
+}
+
+TEST(Dispersion, TheOrderOfTheCandidatesDoesNotMatter) {
+  Sky sky{62};
+  Dispersion dispersion{100};
+  std::optional<SteadyAxis> found;
+  for (int revolution = 0; revolution < 200 && !found; ++revolution) {
+    std::vector candidates{sky.seen(drifting(0.1 * kDegree_rad * revolution)),
+                           sky.seen(kTrue_icrf)};
+    if (revolution % 3 == 0) {
+      std::swap(candidates[0], candidates[1]);
+    }
+    found = dispersion.add(candidates);
+  }
+  ASSERT_TRUE(found);
+  EXPECT_LT(angle_between_rad(found->axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+}
+
+TEST(Dispersion, ADriftTooSlowForTheWindowShowsInALongPass) {
+  // 0.3 deg in a hundred revolutions: a tenth of what their scatter could hide; 9 deg in all.
+  Sky sky{63};
+  Dispersion dispersion{100};
+  std::optional<SteadyAxis> found;
+  for (int revolution = 0; revolution < 3000 && !found; ++revolution) {
+    const std::array candidates{sky.seen(kTrue_icrf),
+                                sky.seen(drifting(0.003 * kDegree_rad * revolution))};
+    found = dispersion.add(candidates);
+  }
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->count, 100.0);
+  EXPECT_LT(angle_between_rad(found->axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+}
+
+TEST(Dispersion, NoiseAloneSettlesNothing) {
+  // Two hundred passes of two axes at rest, one of them twice as noisy, which its covariance says.
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Sky sky{1000 + seed};
+    Dispersion dispersion{100};
+    for (int revolution = 0; revolution < 300; ++revolution) {
+      const std::array candidates{sky.seen(kTrue_icrf), sky.seen(drifting(0.0), 2.0 * kSigma_rad)};
+      ASSERT_FALSE(dispersion.add(candidates)) << seed;
+    }
+  }
+}
+
+TEST(Dispersion, WhereAllBranchesDriftNoneIsSteady) {
+  Sky sky{64};
+  Dispersion dispersion{100};
+  for (int revolution = 0; revolution < 400; ++revolution) {
+    const Eigen::Vector3d slow =
+        Eigen::AngleAxisd{0.05 * kDegree_rad * revolution, Eigen::Vector3d::UnitX()} * kTrue_icrf;
+    const std::array candidates{sky.seen(slow, 0.05 * kDegree_rad),
+                                sky.seen(drifting(0.1 * kDegree_rad * revolution))};
+    const auto found = dispersion.add(candidates);
+    ASSERT_FALSE(found && revolution > 50) << revolution;
+  }
+}
+
+TEST(Dispersion, OutliersAndDropOutsAreSurvived) {
+  Sky sky{65};
+  Dispersion dispersion{100};
+  std::optional<SteadyAxis> found;
+  for (int revolution = 0; revolution < 300 && !found; ++revolution) {
+    const double moved_rad = 0.08 * kDegree_rad * revolution;
+    std::vector candidates{sky.seen(drifting(moved_rad)), sky.seen(kTrue_icrf)};
+    if (revolution % 7 == 3) {
+      candidates.pop_back();
+    }
+    if (revolution % 11 == 5) {  // A spoilt edge moves both.
+      candidates = {sky.seen(drifting(moved_rad + 0.2)), sky.seen(drifting(-0.4))};
+    }
+    found = dispersion.add(candidates);
+  }
+  ASSERT_TRUE(found);
+  EXPECT_LT(angle_between_rad(found->axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+}
+
+TEST(Dispersion, AfterASilenceTheTrueBranchIsWhereItWas) {
+  Sky sky{66};
+  Dispersion dispersion{100};
+  std::optional<SteadyAxis> found;
+  for (int revolution = 0; revolution < 60 && !found; ++revolution) {
+    const double silence_rad = revolution < 20 ? 0.0 : 15.0 * kDegree_rad;
+    const std::array candidates{sky.seen(kTrue_icrf), sky.seen(drifting(silence_rad))};
+    found = dispersion.add(candidates);
+  }
+  ASSERT_TRUE(found);
+  EXPECT_LT(angle_between_rad(found->axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+}
+
+TEST(Dispersion, WhatIsKnownBeforeACrossingIsGivenUp) {
+  // The false branch passes through the true one; before and after there is too little to decide.
+  Sky sky{67};
+  Dispersion dispersion{100};
+  const auto crossing = [&](double off_rad) -> Eigen::Vector3d {
+    return Eigen::AngleAxisd{off_rad, Eigen::Vector3d::UnitY()} * kTrue_icrf;
+  };
+  for (int revolution = 0; revolution < 40; ++revolution) {
+    const double off_rad = 0.2 * kDegree_rad * (revolution - 20);
+    const std::array candidates{sky.seen(kTrue_icrf), sky.seen(crossing(off_rad))};
+    ASSERT_FALSE(dispersion.add(candidates)) << revolution;
+  }
+}
+
+TEST(Dispersion, AnErrorOfTheModelIsNoDrift) {
+  // Both branches move by what a constant mounting error of 0.15 deg does while its leverage grows.
+  Sky sky{68};
+  Dispersion dispersion{100};
+  for (int revolution = 0; revolution < 1000; ++revolution) {
+    const double leverage = 3.0 + 3e-3 * revolution;
+    const auto moved = [&](const Eigen::Vector3d& axis, double share) {
+      const Eigen::Matrix<double, 3, 2> basis = tangent_basis(axis);
+      AxisCandidate candidate = sky.seen(
+          (axis + basis.col(0) * (0.15 * kDegree_rad * leverage * share)).normalized());
+      candidate.model_shift_icrf.col(0) = basis.col(0) * leverage * share;
+      return candidate;
+    };
+    const std::array candidates{moved(kTrue_icrf, 1.0), moved(drifting(0.0), 0.2)};
+    ASSERT_FALSE(dispersion.add(candidates)) << revolution;
+  }
+}
+
+}  // namespace
+}  // namespace spindrift
