@@ -99,7 +99,7 @@ Expected<CodedSample> from_idl(const spindrift_CodedFrame& frame) {
   return sample;
 }
 
-RejectedInput rejected_from_idl(Origin origin, std::string reason) {
+RejectedInput rejected_from_idl(const Origin& origin, std::string reason) {
   return {.source = printable(origin.source),
           .line = static_cast<std::int64_t>(origin.seq),
           .reason = std::move(reason),

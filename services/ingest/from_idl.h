@@ -27,6 +27,6 @@ Expected<PulseSample> from_idl(const spindrift_Pulse& pulse);
 Expected<CodedSample> from_idl(const spindrift_CodedFrame& frame);
 
 /// What is stored in the place of a telemetry sample of `origin`.
-RejectedInput rejected_from_idl(Origin origin, std::string reason);
+RejectedInput rejected_from_idl(const Origin& origin, std::string reason);
 
 }  // namespace spindrift

@@ -13,7 +13,7 @@
 
 namespace spindrift {
 
-/// Each kind in order of arrival; all together are everything that arrived.
+/// Samples of one kind in order of arrival; all batches together are everything that arrived.
 struct SampleBatch {
   std::vector<PulseSample> pulses = {};
   std::vector<CodedSample> coded = {};

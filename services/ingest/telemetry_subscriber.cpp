@@ -131,12 +131,15 @@ Expected<void> TelemetrySubscriber::take_what_is_left() {
 
 // False: there was nothing to take.
 Expected<bool> TelemetrySubscriber::hand_over_batches() {
-  const auto pulses = hand_over_batch<0>();
+  auto pulses = hand_over_batch<0>();
   if (!pulses) {
     return pulses;
   }
-  const auto coded = hand_over_batch<1>();
-  return coded ? *pulses || *coded : coded;
+  auto coded = hand_over_batch<1>();
+  if (coded) {
+    *coded = *coded || *pulses;
+  }
+  return coded;
 }
 
 template <std::size_t topic>
@@ -163,10 +166,9 @@ Expected<SampleBatch> TelemetrySubscriber::take_batch() {
           tracker_.record(sample->origin, sample->spacecraft, topic);
           keep(std::move(*sample), batch);
         } else {
-          Origin origin = origin_from_idl(taken);
+          const Origin origin = origin_from_idl(taken);
           tracker_.record(origin, taken.spacecraft, topic);
-          batch.rejected.push_back(
-              rejected_from_idl(std::move(origin), std::move(sample.error().message)));
+          batch.rejected.push_back(rejected_from_idl(origin, std::move(sample.error().message)));
         }
       })
       .map([this, &batch](std::size_t /*taken*/) {

@@ -75,7 +75,7 @@ Expected<CsvLines> CsvLines::open(const std::filesystem::path& path) {
 
 Expected<bool> CsvLines::next(CsvLine& line) {
   do {
-    const auto there = next_raw(line);
+    auto there = next_raw(line);
     if (!there || !*there) {
       return there;
     }

@@ -99,7 +99,9 @@ Expected<TelemetryStream> TelemetryStream::open(std::span<const TelemetryFile> f
   std::uint64_t bytes_total = 0;
   for (const Opening& opening : openings) {
     Expected<void> added;
-    const auto add = [&open_files](auto&& rows) { open_files.emplace_back(std::move(rows)); };
+    const auto add = [&open_files](auto&& rows) {
+      open_files.emplace_back(std::forward<decltype(rows)>(rows));
+    };
     if (opening.file.kind == TelemetryKind::Pulses) {
       added = opened<Pulse>(opening, spacecraft).map(add);
     } else {
@@ -153,7 +155,7 @@ Expected<SampleBatch> TelemetryStream::next() {
 Expected<bool> TelemetryStream::find_heads(SampleBatch& batch) {
   while (!without_head_.empty()) {
     const std::size_t file = without_head_.back();
-    const auto filled =
+    auto filled =
         std::visit([&](auto& rows) { return rows.fill(batch.rejected, kBatch); }, files_[file]);
     if (!filled || !*filled) {
       return filled;

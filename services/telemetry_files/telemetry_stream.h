@@ -30,8 +30,8 @@ class TelemetryStream {
  public:
   /// Room for four million pulses.
   static constexpr std::size_t kBufferBytes = std::size_t{96} * 1024 * 1024;
-  /// Samples a batch: large enough that a commit costs nothing, small enough to stay in the cache.
-  static constexpr std::size_t kBatch = 4096;
+  /// Samples a batch, as many as come from the bus at a time: queues count batches.
+  static constexpr std::size_t kBatch = 256;
 
   /// @param spacecraft  Of the rows, where a file does not say.
   /// @return InvalidConfiguration for what is not a readable file of its kind.

@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -71,7 +72,9 @@ class Program {
   /// Waits for its end. @return -1 when it did not end by itself.
   int exit_status() {
     int status = 0;
-    const bool ended = waitpid(std::exchange(pid_, 0), &status, 0) > 0 && WIFEXITED(status);
+    rusage used{};
+    const bool ended = wait4(std::exchange(pid_, 0), &status, 0, &used) > 0 && WIFEXITED(status);
+    peak_kib_ = used.ru_maxrss;
     return ended ? WEXITSTATUS(status) : -1;
   }
 
@@ -87,6 +90,9 @@ class Program {
     return false;
   }
 
+  /// Memory that it had at most, once it has ended.
+  long peak_kib() const { return peak_kib_; }
+
   std::string out() const { return text_of(out_path_); }
   std::string log() const { return text_of(log_path()); }
 
@@ -96,6 +102,7 @@ class Program {
   TemporaryFolder folder_;
   std::string out_path_;
   pid_t pid_ = 0;
+  long peak_kib_ = 0;
 };
 
 }  // namespace spindrift

@@ -270,6 +270,141 @@ TEST(Process, RefusesTelemetryWithoutARow) {
   EXPECT_THAT(program.log(), HasSubstr("no row of pulses"));
 }
 
+TEST(Process, RefusesAnEmptyTelemetryFile) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("empty.csv", "");
+  Program program{pass.arguments_here()};
+  EXPECT_EQ(program.exit_status(), 2);
+  EXPECT_THAT(program.log(), HasSubstr("empty.csv: is empty: must begin with a header line"));
+  EXPECT_FALSE(std::filesystem::exists(pass.db));
+}
+
+TEST(Process, CountsEveryKindOfImpossibleRowAndKeepsTheRest) {
+  const PassCopy pass{"nominal"};
+  const std::vector<std::string> rows = {
+      "-8520336000000000000,sun1",       // The year 1700.
+      "19880899200000000000,sun1",       // The year 2600, beyond 64 bits.
+      "9223372036854775807,sun1",        // The year 2262.
+      "-9223372036854775808,sun1",       //
+      "nan,sun1",                        //
+      "inf,sun2",                        //
+      "-inf,sun2",                       //
+      "noon,north_in",                   //
+      "1795143637568806257,sun3",        //
+      "1795143637568806257,",            //
+      "1795143637568806257",             //
+      "17951436375",                     // Cut in half.
+      "1795143637568806257,sun1,sun2"};  //
+  std::string text = "t_tai_ns,channel\r\n";
+  for (const std::string& row : rows) {
+    text += row + "\r\n";
+  }
+  pass.folder.write("bad.csv", text);
+  Program program{pass.arguments_here()};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  EXPECT_EQ(nlohmann::json::parse(program.out())["runs"][0]["input_rejected"], rows.size());
+  EXPECT_EQ(
+      number_of(pass.db,
+                "SELECT count(DISTINCT line) FROM rejected_input WHERE source LIKE '%/bad.csv'"
+                " AND reason != '' AND line BETWEEN 2 AND 14"),
+      static_cast<std::int64_t>(rows.size()));
+  EXPECT_THAT(program.log(), HasSubstr("13 bad rows of telemetry"));
+  const auto clean = pass.folder.path() / "clean.db";
+  Program without_bad_rows{arguments("nominal", clean)};
+  ASSERT_EQ(without_bad_rows.exit_status(), 0) << without_bad_rows.log();
+  EXPECT_EQ(product_rows(pass.db), product_rows(clean));
+}
+
+TEST(Process, CountsImpossibleCodedFrames) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("coded.csv",
+                    "t_tai_ns,period_s,sun2_s,north_in_s,north_out_s,south_in_s,south_out_s\n"
+                    "1795143637568985513,nan,0.07932,,,,\n"
+                    "1795143637568985513,1.0,inf,,,,\n"
+                    "1795143637568985513,-1.0,,,,,\n"
+                    "1795143637568985513,1.0,1.5,,,,\n"
+                    "1795143637568985513,1.0,0.07\n");
+  Program program{pass.arguments_here()};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  EXPECT_THAT(rows_of(pass.db, "SELECT reason FROM rejected_input ORDER BY line"),
+              ::testing::ElementsAre(HasSubstr("period_s = \"nan\""), HasSubstr("sun2_s = \"inf\""),
+                                     HasSubstr("period_s = -1"), HasSubstr("sun2_s = 1.5"),
+                                     HasSubstr("has 3 columns, must have 7")));
+}
+
+/// The lines of `csv` but those of `channel`.
+std::string without(const std::string& channel, const std::string& csv) {
+  std::istringstream lines{csv};
+  std::string kept;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find(channel) == std::string::npos) {
+      kept += line + "\n";
+    }
+  }
+  return kept;
+}
+
+TEST(Process, StoresWhatThereIsWhenAChannelIsMissingAltogether) {
+  for (const std::string channel : {"sun1", "sun2", "north_in", "south_out"}) {
+    SCOPED_TRACE(channel);
+    const PassCopy pass{"nominal"};
+    const auto path = pass.folder.path() / "pulses.csv";
+    pass.folder.write("pulses.csv", without("," + channel, text_of(path)));
+    Program program{pass.arguments_here()};
+    ASSERT_EQ(program.exit_status(), 0) << program.log();
+    EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3000);
+    EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse_use"), 3000);
+    if (number_of(pass.db, "SELECT count(*) FROM spin_estimate WHERE estimator = 'mean'") > 0) {
+      EXPECT_LT(error_deg(pass.db, truth_of("nominal")), 1.0);
+    }
+  }
+}
+
+TEST(Process, GivesTheSameRowsWhateverFilesThePulsesStandIn) {
+  const PassCopy pass{"north-only"};
+  std::istringstream csv{text_of(pass.folder.path() / "pulses.csv")};
+  std::string header;
+  std::getline(csv, header);
+  std::vector<std::string> files(3, header + "\n");
+  std::mt19937 random{20261121};
+  for (std::string line; std::getline(csv, line);) {
+    files.at(random() % 3) += line + "\n";
+  }
+  std::filesystem::remove(pass.folder.path() / "pulses.csv");
+  std::vector<std::string> command =
+      arguments(pass.mission(), pass.folder.write("c.csv", files[0]), pass.db);
+  const auto telemetry = std::find(command.begin(), command.end(), "--telemetry") + 1;
+  command.insert(telemetry, {pass.folder.write("a.csv", files[1]).string(),
+                             pass.folder.write("b.csv", files[2]).string()});
+  const auto in_order = pass.folder.path() / "in_order.db";
+  Program first{arguments("north-only", in_order)};
+  Program second{command};
+  ASSERT_EQ(first.exit_status(), 0) << first.log();
+  ASSERT_EQ(second.exit_status(), 0) << second.log();
+  EXPECT_EQ(product_rows(in_order), product_rows(pass.db));
+}
+
+TEST(Process, ReadsALargeFileInBoundedMemory) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need memory of their own";
+#endif
+  // 60 MB: another spacecraft's pulses, which are counted only, around those of ours.
+  const PassCopy pass{"nominal"};
+  constexpr std::int64_t kOthers = 1'800'000;
+  std::string text = "t_tai_ns,channel,spacecraft\n";
+  for (std::int64_t i = 0; i < kOthers; ++i) {
+    text += std::to_string(1795143637000000000 + i * 300'000) + ",north_out,OTHER\n";
+  }
+  ASSERT_GT(text.size(), 60'000'000U);
+  pass.folder.write("other.csv", text);
+  Program program{pass.arguments_here()};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  EXPECT_LT(program.peak_kib(), 256 * 1024);
+  EXPECT_EQ(nlohmann::json::parse(program.out())["other_spacecraft"]["OTHER"], kOthers);
+  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3600);
+  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse_use WHERE rejected_by = 'late'"), 0);
+}
+
 TEST(Process, RefusesTelemetryWithAnUnknownHeader) {
   const PassCopy pass{"nominal"};
   pass.folder.write("notes.csv", "when,what\n1,2\n");

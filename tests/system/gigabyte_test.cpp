@@ -1,0 +1,54 @@
+// A telemetry file of 1 GB through `spindrift process`.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/program.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Pulses of 100 rpm of another spacecraft, every block of a thousand backwards: what is counted
+/// only takes the program minutes less than what is stored, and is read and sorted alike.
+void write_gigabyte(const std::filesystem::path& path, std::int64_t rows) {
+  std::ofstream file{path, std::ios::binary};
+  file << "t_tai_ns,channel,spacecraft\n";
+  fmt::memory_buffer text;
+  for (std::int64_t i = 0; i < rows; ++i) {
+    const std::int64_t place = i - i % 1000 + 999 - i % 1000;
+    fmt::format_to(fmt::appender{text}, "{},north_out,OTHER\n",
+                   1795143637000000000 + place * 100'000'000);
+    if (i % 1000 == 999) {
+      file.write(text.data(), static_cast<std::streamsize>(text.size()));
+      text.clear();
+    }
+  }
+}
+
+TEST(Process, ReadsAGigabyteBelow400MiB) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need memory of their own";
+#endif
+  const auto nominal = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin" / "nominal";
+  const TemporaryFolder folder;
+  constexpr std::int64_t kRows = 28'000'000;
+  const auto large = folder.path() / "large.csv";
+  write_gigabyte(large, kRows);
+  ASSERT_GT(std::filesystem::file_size(large), 1'000'000'000U);
+  Program program{{"process", "--mission", (nominal / "mission.toml").string(), "--telemetry",
+                   large.string(), (nominal / "pulses.csv").string(), "--db",
+                   (folder.path() / "out.db").string(), "--json"}};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  EXPECT_LT(program.peak_kib(), 400 * 1024);
+  EXPECT_THAT(program.out(),
+              HasSubstr(fmt::format("\"other_spacecraft\":{{\"OTHER\":{}}}", kRows)));
+  EXPECT_THAT(program.out(), HasSubstr("\"edges_received\":3600"));
+}
+
+}  // namespace
+}  // namespace spindrift
