@@ -19,10 +19,6 @@ namespace spindrift {
 /// binomial terms.
 double variance_ratio_tail(int a, int b, double ratio);
 
-/// What a constant error of each kind in the model may amount to, one standard deviation: mounting,
-/// and the Earth's shape.
-inline constexpr double kModelError_rad = 0.2 * 0.017453292519943295;
-
 /// Squared distance between an axis and a candidate, in standard deviations of the candidate.
 /// @param mean_of How many such candidates `axis_icrf` is the mean of.
 double squared_distance(const Eigen::Vector3d& axis_icrf, const AxisCandidate& candidate,
