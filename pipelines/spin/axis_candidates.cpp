@@ -24,7 +24,7 @@ constexpr double kInLine_rad = 3.0 * std::numbers::pi / 180.0;
 // model leaves out (oblateness 0.2 deg, height and brightness of the CO2 layer likewise).
 constexpr double kContradictionSigmas = 5.0;
 constexpr double kModel_rad = 0.5 * std::numbers::pi / 180.0;
-constexpr double kGrazingSigmas = 4.0;
+constexpr double kGrazingSigmas = 3.0;
 
 /// An angle, or a function of angles, with its derivatives: to each edge for one standard deviation
 /// of its time, then to each error of the model for a radian of it.

@@ -12,9 +12,9 @@
 namespace spindrift {
 namespace {
 
-constexpr double kLevel = 1e-9;
-// A branch whose scatter is more than twice that of its noise does not stay where it is.
-constexpr double kSteadyVariance = 4.0;
+constexpr double kLevel = 1e-8;
+// A branch whose scatter is much more than that of its noise does not stay where it is.
+constexpr double kSteadyVariance = 2.5;
 constexpr std::size_t kFewestBlocks = 3;
 constexpr std::size_t kMostBranches = 4;
 // The mean that a branch's next candidate is compared with.

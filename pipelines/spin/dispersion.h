@@ -37,7 +37,7 @@ struct SteadyAxis {
 /// The scatter of a branch's blocks is taken about the best constant axis with constant errors of
 /// the model, normalised by the candidates' own covariances, so that branches of unequal noise
 /// compare. It is steady when its scatter is that of noise, and less than that of every other
-/// branch at a level of 1e-9: with some thousand looks at a pass, a false choice is one in a
+/// branch at a level of 1e-8: with some hundred looks at a pass, a false choice is one in a
 /// million.
 class Dispersion {
  public:

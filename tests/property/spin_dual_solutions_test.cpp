@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/disambiguation.h"
@@ -170,13 +171,6 @@ Outcome outcome_of(Passes& passes, const Pass& pass, const std::set<SpinQuantity
       continue;
     }
     ++outcome.chosen;
-    if (getenv("DBG") && !fix.alternate_axes_icrf.empty()) {
-      const Sightlines there = pass.at(static_cast<double>(number) / pass.revolutions);
-      const auto t = predict_angles(pass.axis_icrf, there.sun_icrf, there.earth_icrf);
-      printf("%ld off %.3f sig %.3f truth te %.3f lam %.3f ts %.3f res %d alts", number, angle_between_rad(fix.axis_icrf, pass.axis_icrf)/kDegree_rad, std::sqrt(fix.covariance_rad2.trace())/kDegree_rad, t.earth_angle_rad/kDegree_rad, t.dihedral_rad/kDegree_rad, t.sun_angle_rad/kDegree_rad, int(fix.resolution));
-      for (auto&a: fix.alternate_axes_icrf) printf(" %.3f", angle_between_rad(a, pass.axis_icrf)/kDegree_rad);
-      printf("\n");
-    }
     const double off_rad = angle_between_rad(fix.axis_icrf, pass.axis_icrf);
     outcome.wrong += std::any_of(fix.alternate_axes_icrf.begin(), fix.alternate_axes_icrf.end(),
                                  [&](const Eigen::Vector3d& other) {
@@ -198,7 +192,6 @@ TEST(DualSolutions, TheTrueAxisIsChosenOrAmbiguousSaid) {
   int chosen_at_all = 0;
   for (int trial = 0; trial < kPasses; ++trial) {
     SCOPED_TRACE(trial);
-    if (getenv("DBG")) printf("trial %d\n", trial);
     const double turn_rad = passes.between(0.0, 30.0) * kDegree_rad;
     const Pass pass = passes.next(turn_rad, 400);
     const Outcome outcome = outcome_of(passes, pass, kDihedralWithheld, {});
@@ -220,7 +213,6 @@ TEST(DualSolutions, AFlawedModelNeverMakesItChooseTheFalseAxis) {
   int chosen = 0;
   for (int trial = 0; trial < kPasses; ++trial) {
     SCOPED_TRACE(trial);
-    if (getenv("DBG")) printf("trial %d\n", trial);
     const Flaws flaws{.mounting_rad = passes.between(-0.1, 0.1) * kDegree_rad,
                       .azimuth_rad = passes.between(-0.1, 0.1) * kDegree_rad,
                       .limb_rad = passes.between(0.0, 0.12) * kDegree_rad};
@@ -240,7 +232,6 @@ TEST(DualSolutions, OneChordAloneNeverMakesItChooseAFalseAxis) {
   int chosen = 0;
   for (int trial = 0; trial < kPasses; ++trial) {
     SCOPED_TRACE(trial);
-    if (getenv("DBG")) printf("trial %d\n", trial);
     const Pass pass = passes.next(passes.between(0.0, 30.0) * kDegree_rad, 400);
     const Outcome outcome = outcome_of(passes, pass, left_out, {});
     EXPECT_EQ(outcome.wrong, 0) << outcome.chosen << " chosen";
@@ -254,7 +245,6 @@ TEST(DualSolutions, WithoutASunAngleNoFalseAxisIsChosen) {
   int chosen = 0;
   for (int trial = 0; trial < kPasses; ++trial) {
     SCOPED_TRACE(trial);
-    if (getenv("DBG")) printf("trial %d\n", trial);
     const Pass pass = passes.next(passes.between(0.0, 30.0) * kDegree_rad, 400);
     const Outcome outcome = outcome_of(passes, pass, {SpinQuantity::SunAngle}, {});
     EXPECT_EQ(outcome.wrong, 0) << outcome.chosen << " chosen";
