@@ -24,6 +24,7 @@ constexpr double kInLine_rad = 3.0 * std::numbers::pi / 180.0;
 // model leaves out (oblateness 0.2 deg, height and brightness of the CO2 layer likewise).
 constexpr double kContradictionSigmas = 5.0;
 constexpr double kModel_rad = 0.5 * std::numbers::pi / 180.0;
+constexpr double kGrazingSigmas = 3.0;
 
 /// An angle, or a function of angles, with its derivatives: to each edge for one standard deviation
 /// of its time, then to each error of the model for a radian of it.
@@ -82,6 +83,7 @@ struct Place {
 struct Solutions {
   std::vector<Place> places;  ///< Best first.
   bool told_apart = true;
+  bool grazing = false;
   std::string reason;  ///< Why there is none.
 };
 
@@ -91,11 +93,15 @@ Unexpected unobservable(std::string message) {
 
 double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
 
-/// A cone that misses another by no more than noise and model account for: the roots that are
-/// missing may be the true ones.
-bool grazes(const Value& excess) {
-  return excess.value() >= 0.0 &&
-         excess.value() <= kContradictionSigmas * noise_of(excess) + kModel_rad;
+/// Cones that touch within noise and model. Where they miss each other by so little, the roots that
+/// are missing may be the true ones.
+/// @param excess By how much they miss each other, as a cosine; negative where they cross.
+void note_grazing(const Value& excess, Solutions& found) {
+  const double model = excess.derivatives().tail<kModelErrors>().norm() * kModelError_rad;
+  const bool grazing =
+      std::abs(excess.value()) <= kGrazingSigmas * std::hypot(noise_of(excess), model);
+  found.grazing = found.grazing || grazing;
+  found.told_apart = found.told_apart && !grazing;
 }
 
 std::optional<Value> dihedral_of(const RevolutionMeasurements& measured) {
@@ -167,6 +173,7 @@ std::vector<Value> earth_angles_from_one(const Input& input, Solutions& found) {
   const Value a = constant(std::cos(chord.mount_angle_rad));
   const Value b = std::sin(chord.mount_angle_rad) * Value{cos(0.5 * chord.chord_rad)};
   ConeRootsOf<Value> roots = cone_roots(a, b, Value{cos(input.lone_disc_rad())});
+  note_grazing(roots.excess, found);
   if (!(roots.excess.value() < 0.0)) {
     found.reason = fmt::format(
         "chord {:.4f} deg is wider than the Earth's disc of half-angle {:.4f} deg allows at "
@@ -236,9 +243,9 @@ void meet(const Input& input, const Value& earth_angle_rad, Solutions& found) {
   const Value cosine = (std::cos(input.sun_earth_rad) -
                         Value{cos(sun_angle_rad)} * Value{cos(earth_angle_rad)}) /
                        Value{Value{sin(sun_angle_rad)} * Value{sin(earth_angle_rad)}};
-  if (!(std::abs(cosine.value()) < 1.0)) {
-    const Value excess = cosine.value() < 0.0 ? Value{-cosine - 1.0} : Value{cosine - 1.0};
-    found.told_apart = found.told_apart && !grazes(excess);
+  const Value excess = cosine.value() < 0.0 ? Value{-cosine - 1.0} : Value{cosine - 1.0};
+  note_grazing(excess, found);
+  if (!(excess.value() < 0.0)) {
     found.reason = fmt::format(
         "the cones of {:.4f} deg about the Sun and {:.4f} deg about the Earth do not meet, which "
         "stand {:.4f} deg apart",
@@ -256,8 +263,8 @@ void find_sun_angles(const Input& input, const Value& earth_angle_rad, Solutions
   const Value b = Value{sin(earth_angle_rad)} * Value{cos(*input.dihedral)};
   const ConeRootsOf<Value> roots =
       cone_roots(Value{cos(earth_angle_rad)}, b, constant(std::cos(input.sun_earth_rad)));
+  note_grazing(roots.excess, found);
   if (roots.angles_rad.empty()) {
-    found.told_apart = found.told_apart && !grazes(roots.excess);
     found.reason = "no sun angle in (0, 180) deg fits the measured earth angle and dihedral";
   }
   for (const Value& sun_angle_rad : roots.angles_rad) {
@@ -273,9 +280,11 @@ void unmix(const Input& input, const Value& earth_angle_rad, Solutions& found) {
                            .earth_angle_rad = earth_angle_rad.value(),
                            .sun_earth_rad = input.sun_earth_rad};
   const SlitLags slit = slit_lags(mixed);
-  const double noise = std::hypot(noise_of(earth_angle_rad), noise_of(*input.mixed_azimuth));
-  found.told_apart =
-      found.told_apart && slit.nearest_miss > kContradictionSigmas * noise + kModel_rad;
+  // Neither angle moves the misfit by more than itself.
+  Value miss = constant(slit.nearest_miss);
+  miss.derivatives() =
+      earth_angle_rad.derivatives().cwiseAbs() + input.mixed_azimuth->derivatives().cwiseAbs();
+  note_grazing(miss, found);
   if (slit.lags.empty()) {
     found.reason = "no sun angle that sun slit 2 can see fits the measured earth angle and azimuth";
   }
@@ -403,7 +412,7 @@ Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
                                          const RevolutionMeasurements& measured,
                                          const Sightlines& sightlines) {
   AxisCandidates result{
-      .geometry_case = geometry_case_of(measured), .candidates = {}, .told_apart = false};
+      .geometry_case = geometry_case_of(measured), .candidates = {}, .told_apart = false, .grazing = false};
   if (result.geometry_case < 1 || result.geometry_case > 7) {
     return unobservable(cone_in_words(result.geometry_case));
   }
@@ -426,6 +435,7 @@ Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
     }
   }
   result.told_apart = found.told_apart;
+  result.grazing = found.grazing;
   if (!input.both_chords() && result.geometry_case % 3 == 1) {
     ++result.geometry_case;  // Both chords, of beams mounted alike: only north's is used.
   }

@@ -19,6 +19,8 @@ namespace spindrift {
 /// What is the same in every revolution and unlike noise does not average out: where the limb lies
 /// for the north and the south beam (its mounting angle included), sun angle, azimuth.
 inline constexpr int kModelErrors = 4;
+/// What each of them may amount to, one standard deviation.
+inline constexpr double kModelError_rad = 0.15 * 0.017453292519943295;
 
 struct AxisCandidate {
   Eigen::Vector3d axis_icrf;       ///< Unit.
@@ -36,6 +38,9 @@ struct AxisCandidates {
   int geometry_case;
   std::vector<AxisCandidate> candidates;  ///< Best first, never empty.
   bool told_apart;  ///< The geometry alone shows that the first is the true one.
+  /// Cones touch rather than cross, within noise and model: the candidates hardly differ, are not
+  /// linear in the noise, and their covariances too small.
+  bool grazing;
 };
 
 /// Which of the ten cases of spin.md the good measurements are; 0: none.

@@ -141,6 +141,9 @@ std::vector<SpinFix> Disambiguator::settle(std::int64_t revolution, TaiTime t,
       return {fix_of(revolution, t, candidates, *nearest, Resolution::Prior)};
     }
   }
+  if (candidates.grazing) {
+    return {fix_of(revolution, t, candidates, possible.front(), Resolution::Ambiguous)};
+  }
   return settle_by_dispersion(
       {.revolution = revolution, .t = t, .found = candidates, .possible = std::move(possible)});
 }

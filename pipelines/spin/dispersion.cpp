@@ -12,9 +12,9 @@
 namespace spindrift {
 namespace {
 
-constexpr double kLevel = 1e-9;
-// A branch whose scatter is more than twice that of its noise does not stay where it is.
-constexpr double kSteadyVariance = 4.0;
+constexpr double kLevel = 1e-8;
+// A branch whose scatter is much more than that of its noise does not stay where it is.
+constexpr double kSteadyVariance = 2.5;
 constexpr std::size_t kFewestBlocks = 3;
 constexpr std::size_t kMostBranches = 4;
 // The mean that a branch's next candidate is compared with.
@@ -102,7 +102,8 @@ std::optional<SteadyAxis> Dispersion::add(std::span<const AxisCandidate> candida
   return found;
 }
 
-/// Tries every way to link candidates and branches: there are four of either at most.
+/// Tries every way to link candidates and branches: there are four of either at most. The true one
+/// stays where it is, so that how far another has gone tells nothing: beyond the gate all cost alike.
 Dispersion::Matching Dispersion::match(std::span<const AxisCandidate> candidates) const {
   const std::size_t size = std::max(candidates.size(), branches_.size());
   std::vector<std::size_t> order(size);
@@ -123,7 +124,7 @@ Dispersion::Matching Dispersion::match(std::span<const AxisCandidate> candidates
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (order[i] < branches_.size()) {
         links[i] = order[i];
-        cost += distances.at(i).at(order[i]);
+        cost += std::min(distances.at(i).at(order[i]), kGate);
       } else {
         cost += kGate;
       }

@@ -19,10 +19,6 @@ namespace spindrift {
 /// binomial terms.
 double variance_ratio_tail(int a, int b, double ratio);
 
-/// What a constant error of each kind in the model may amount to, one standard deviation: mounting,
-/// and the Earth's shape.
-inline constexpr double kModelError_rad = 0.2 * 0.017453292519943295;
-
 /// Squared distance between an axis and a candidate, in standard deviations of the candidate.
 /// @param mean_of How many such candidates `axis_icrf` is the mean of.
 double squared_distance(const Eigen::Vector3d& axis_icrf, const AxisCandidate& candidate,
@@ -41,7 +37,7 @@ struct SteadyAxis {
 /// The scatter of a branch's blocks is taken about the best constant axis with constant errors of
 /// the model, normalised by the candidates' own covariances, so that branches of unequal noise
 /// compare. It is steady when its scatter is that of noise, and less than that of every other
-/// branch at a level of 1e-9: with some thousand looks at a pass, a false choice is one in a
+/// branch at a level of 1e-8: with some hundred looks at a pass, a false choice is one in a
 /// million.
 class Dispersion {
  public:

@@ -67,21 +67,21 @@ SlitLags slit_lags(const MixedAzimuth& mixed) {
     return std::numbers::pi * (static_cast<double>(step) / kSteps - 0.5);
   };
   double before = misfit_at(mixed, lag_at(0)).value;
-  bool approached = false;
+  double slope_before = 0.0;
   for (int step = 1; step <= kSteps; ++step) {
     const double now = misfit_at(mixed, lag_at(step)).value;
-    const bool crossed = (before < 0.0) != (now < 0.0);
-    const bool approaches = !crossed && std::abs(now) < std::abs(before);
-    if (crossed) {
+    const double slope = now - before;
+    if (slope * slope_before < 0.0) {  // It turns here, between two lags or short of a pair.
+      found.nearest_miss = std::min(found.nearest_miss, std::abs(before));
+    }
+    if ((before < 0.0) != (now < 0.0)) {
       const double lag_rad = zero_between(mixed, lag_at(step - 1), lag_at(step));
       const Misfit there = misfit_at(mixed, lag_rad);
       found.lags.push_back({.lag_rad = lag_rad,
                             .to_earth_angle = -there.by_earth_angle / there.by_lag,
                             .to_azimuth = -there.by_azimuth / there.by_lag});
-    } else if (approached && !approaches) {
-      found.nearest_miss = std::min(found.nearest_miss, std::abs(before));
     }
-    approached = approaches;
+    slope_before = slope;
     before = now;
   }
   return found;

@@ -32,8 +32,8 @@ struct SlitLag {
 
 struct SlitLags {
   std::vector<SlitLag> lags;  ///< The least first.
-  /// How near, as a cosine, another pair of lags came to agreeing; a pair of lags less than a
-  /// degree apart may be such.
+  /// How near two of the lags are to being one: as a cosine, what lies between them at most; or how
+  /// near another pair came to agreeing. A pair less than a degree apart may be such.
   double nearest_miss;
 };
 

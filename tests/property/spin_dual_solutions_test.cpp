@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/disambiguation.h"
