@@ -5,10 +5,14 @@
 namespace spindrift {
 namespace {
 
-// Rows of samples, from which on products wait.
-constexpr std::size_t kPressing = 2048;
+// So many rows of samples press: a burst, more than come during a commit at any live rate.
+constexpr std::size_t kPressing = 512;
 // Rows of products in one transaction, or one batch: as long do the next samples wait.
 constexpr std::size_t kProductsAtOnce = 8192;
+
+std::size_t most_products(std::size_t sample_rows) {
+  return sample_rows < kPressing ? kProductsAtOnce : sample_rows / 8;
+}
 
 bool has_products(const ArchiveBatch& batch) {
   return !batch.products.empty() || batch.continuation || batch.finished_utc;
@@ -36,12 +40,12 @@ std::vector<ArchiveBatch> BatchQueue::take() {
   filled_.wait(
       lock, [this] { return closed_ || !samples_.batches.empty() || !products_.batches.empty(); });
   std::vector<ArchiveBatch> taken;
-  const bool pressing = samples_.rows >= kPressing;
+  const std::size_t most = most_products(samples_.rows);
   while (!samples_.batches.empty()) {
     move_first(samples_, taken);
   }
   const std::size_t left = products_.rows;
-  while (!pressing && !products_.batches.empty() && left - products_.rows < kProductsAtOnce) {
+  while (!products_.batches.empty() && left - products_.rows < most) {
     move_first(products_, taken);
   }
   lock.unlock();
