@@ -6,7 +6,7 @@ namespace spindrift {
 namespace {
 
 // So many rows of samples press: a burst, more than come during a commit at any live rate.
-constexpr std::size_t kPressing = 512;
+constexpr std::size_t kPressing = 128;
 // Rows of products in one transaction, or one batch: as long do the next samples wait.
 constexpr std::size_t kProductsAtOnce = 8192;
 
