@@ -321,7 +321,9 @@ TEST_P(ServeRestart, IntoARunningPassGivesWhatNoRestartWouldHave) {
   }
   ASSERT_TRUE(service.ready()) << service.program().log();
   ASSERT_TRUE(front_end.send_until(1.0));
-  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NULL"), 1);
+  EXPECT_TRUE(eventually([&] {
+    return number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NULL") == 1;
+  }));
   ASSERT_EQ(service.stop(), 0) << service.program().log();
 
   EXPECT_THAT(service.program().log(), HasSubstr("continuing run"));
