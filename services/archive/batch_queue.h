@@ -26,8 +26,8 @@ class BatchQueue {
   /// Waits for room. @return false when the queue is closed: `batch` was not taken.
   bool push(ArchiveBatch batch);
 
-  /// Waits for at least one batch. Takes all the samples and, unless those are many, most products;
-  /// empty only when closed and drained.
+  /// Waits for at least one batch. Takes all the samples, and products: many, or in a
+  /// burst of samples a small share; empty only when closed and drained.
   std::vector<ArchiveBatch> take();
 
   void close();
@@ -47,6 +47,7 @@ class BatchQueue {
   std::condition_variable filled_;
   Lane samples_;
   Lane products_;
+  std::size_t allowance_rows_ = 0;  ///< Of products, saved up while samples press.
   bool closed_ = false;
 };
 
