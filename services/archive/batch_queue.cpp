@@ -5,10 +5,12 @@
 namespace spindrift {
 namespace {
 
-// Rows of samples, from which on products wait.
-constexpr std::size_t kPressing = 2048;
-// Rows of products in one transaction, or one batch: as long do the next samples wait.
+// So many rows of samples press: a burst, more than come during a commit at any live rate.
+constexpr std::size_t kPressing = 128;
+// Rows of products in one transaction: about as long do the next samples wait.
 constexpr std::size_t kProductsAtOnce = 8192;
+// Rows of samples for one of products while they press.
+constexpr std::size_t kSamplesAProduct = 8;
 
 bool has_products(const ArchiveBatch& batch) {
   return !batch.products.empty() || batch.continuation || batch.finished_utc;
@@ -36,13 +38,22 @@ std::vector<ArchiveBatch> BatchQueue::take() {
   filled_.wait(
       lock, [this] { return closed_ || !samples_.batches.empty() || !products_.batches.empty(); });
   std::vector<ArchiveBatch> taken;
-  const bool pressing = samples_.rows >= kPressing;
+  const std::size_t sample_rows = samples_.rows;
   while (!samples_.batches.empty()) {
     move_first(samples_, taken);
   }
-  const std::size_t left = products_.rows;
-  while (!pressing && !products_.batches.empty() && left - products_.rows < kProductsAtOnce) {
-    move_first(products_, taken);
+  if (sample_rows >= kPressing) {
+    allowance_rows_ += sample_rows / kSamplesAProduct;
+    while (!products_.batches.empty() && row_count(products_.batches.front()) <= allowance_rows_) {
+      allowance_rows_ -= row_count(products_.batches.front());
+      move_first(products_, taken);
+    }
+  } else {
+    allowance_rows_ = 0;
+    const std::size_t left = products_.rows;
+    while (!products_.batches.empty() && left - products_.rows < kProductsAtOnce) {
+      move_first(products_, taken);
+    }
   }
   lock.unlock();
   room_.notify_all();

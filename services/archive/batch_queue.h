@@ -14,7 +14,7 @@
 namespace spindrift {
 
 /// Many submitters, one writer. Samples cannot be had again, products can be computed again: while
-/// samples press, products wait, and their submitter with them. A batch with products never
+/// samples press, most products wait, and their submitter with them. A batch with products never
 /// overtakes one that was pushed before it, so a product is never taken before its samples.
 ///
 /// Bounded in rows, samples and products each for themselves: a full queue blocks `push`. After
@@ -26,8 +26,8 @@ class BatchQueue {
   /// Waits for room. @return false when the queue is closed: `batch` was not taken.
   bool push(ArchiveBatch batch);
 
-  /// Waits for at least one batch. Takes all the samples and, unless they are many, products; empty
-  /// only when closed and drained.
+  /// Waits for at least one batch. Takes all the samples, and products: many, or in a
+  /// burst of samples a small share; empty only when closed and drained.
   std::vector<ArchiveBatch> take();
 
   void close();
@@ -47,6 +47,7 @@ class BatchQueue {
   std::condition_variable filled_;
   Lane samples_;
   Lane products_;
+  std::size_t allowance_rows_ = 0;  ///< Of products, saved up while samples press.
   bool closed_ = false;
 };
 

@@ -321,7 +321,9 @@ TEST_P(ServeRestart, IntoARunningPassGivesWhatNoRestartWouldHave) {
   }
   ASSERT_TRUE(service.ready()) << service.program().log();
   ASSERT_TRUE(front_end.send_until(1.0));
-  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NULL"), 1);
+  EXPECT_TRUE(eventually([&] {
+    return number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NULL") == 1;
+  }));
   ASSERT_EQ(service.stop(), 0) << service.program().log();
 
   EXPECT_THAT(service.program().log(), HasSubstr("continuing run"));
@@ -416,6 +418,58 @@ TEST(Serve, RefusesTwoMissionsOfOneSpacecraft) {
       {"serve", "--mission", mission, mission, "--db", (folder.path() / "out.db").string()}};
   EXPECT_EQ(program.exit_status(), 2);
   EXPECT_THAT(program.log(), HasSubstr("SPINNER"));
+}
+
+TEST(Serve, TellsOfAllBadMissionFilesAtOnce) {
+  const TemporaryFolder folder;
+  const std::string good = (kPasses / "nominal" / "mission.toml").string();
+  const auto bad = folder.write("bad.toml", "[spacecraft]\nid = \"BAD\"\n");
+  const auto worse = folder.write("worse.toml", "not a mission file");
+  Program program{{"serve", "--mission", good, bad.string(), worse.string(), "--db",
+                   (folder.path() / "out.db").string()}};
+  EXPECT_EQ(program.exit_status(), 2);
+  EXPECT_THAT(program.log(), HasSubstr("bad.toml"));
+  EXPECT_THAT(program.log(), HasSubstr("worse.toml"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.db"));
+}
+
+TEST(Serve, GivesEachOfSeveralMissionsTheRowsOfItsOwnService) {
+  const TemporaryFolder folder;
+  const bus::BusConfig bus = bus_of_its_own();
+  const auto on_bus = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(),
+                     {"--domain", std::to_string(bus.domain), "--partition", bus.partition});
+    return arguments;
+  };
+  const std::vector<std::string> passes{"gms5", "nominal"};
+  const auto mission = [](const std::string& pass) {
+    return (kPasses / pass / "mission.toml").string();
+  };
+  const auto db = folder.path() / "all.db";
+  Program service{
+      on_bus({"serve", "--mission", mission(passes[0]), mission(passes[1]), "--db", db.string()})};
+  ASSERT_TRUE(service.says("ready")) << service.log();
+  for (const std::string& pass : passes) {
+    Program replay{on_bus({"replay", "--mission", mission(pass), "--telemetry",
+                           (kPasses / pass).string(), "--speed", "0"})};
+    ASSERT_EQ(replay.exit_status(), 0) << replay.log();
+  }
+  service.signal(SIGTERM);
+  ASSERT_EQ(service.exit_status(), 0) << service.log();
+
+  for (const std::string& pass : passes) {
+    const auto alone = folder.path() / (pass + ".db");
+    Program process{{"process", "--mission", mission(pass), "--telemetry",
+                     (kPasses / pass).string(), "--db", alone.string()}};
+    ASSERT_EQ(process.exit_status(), 0) << process.log();
+    const std::string spacecraft = rows_of(alone, "SELECT spacecraft_id FROM run").at(0);
+    const std::string query =
+        "SELECT t_tai_ns, ra_deg, dec_deg, sigma_deg, spin_rate_rpm FROM spin_estimate"
+        " JOIN run USING (run_id) WHERE spacecraft_id = '" +
+        spacecraft.substr(0, spacecraft.size() - 1) + "' ORDER BY 1, estimator";
+    EXPECT_GT(rows_of(alone, query).size(), 500U);
+    EXPECT_EQ(rows_of(db, query), rows_of(alone, query));
+  }
 }
 
 TEST(Serve, CountsASourceOnceForAllItsMissions) {

@@ -1,0 +1,235 @@
+// What the archive gives back to a service that goes on with a pass.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/archive/batch_queue.h"
+#include "services/archive/stored_pass.h"
+#include "tests/integration/archive_fixture.h"
+
+namespace spindrift {
+namespace {
+
+using testing::batch_of;
+using ::testing::ElementsAre;
+using testing::kRunStart;
+using testing::pulse_at;
+using testing::start_of;
+
+class ArchiveRestart : public testing::ArchiveFixture {
+ protected:
+  std::optional<StoredPass> stored(const RunStart& start = kRunStart) const {
+    return find_stored_pass(path(), "SPINNER", start).value();
+  }
+
+  static ArchiveBatch begun(const std::string& run_id, std::int64_t first_arrival) {
+    ArchiveBatch batch = start_of(run_id);
+    batch.start->first_arrival = first_arrival;
+    return batch;
+  }
+
+  static ArchiveBatch arrived(const std::string& run_id, std::int64_t arrival,
+                              std::vector<PulseSample> pulses) {
+    ArchiveBatch batch = batch_of(run_id);
+    batch.arrival = arrival;
+    batch.pulses = std::move(pulses);
+    batch.earliest = std::min_element(batch.pulses.begin(), batch.pulses.end(),
+                                      [](const PulseSample& a, const PulseSample& b) {
+                                        return a.pulse < b.pulse;
+                                      })
+                         ->pulse.t;
+    return batch;
+  }
+
+  static CodedSample frame_at(std::int64_t t_tai_ns, std::uint64_t seq) {
+    CodedFrame frame{.t = tai_from_ns(t_tai_ns), .period_s = 0.6, .delay_s = {}};
+    frame.delay_s.at(index_of(PulseChannel::SouthOut)) = 0.25;
+    return {.spacecraft = "SPINNER",
+            .origin = {.source = "station", .session = 7, .seq = seq},
+            .frame = frame};
+  }
+};
+
+std::vector<std::int64_t> times_of(const std::vector<StoredPulse>& pulses) {
+  std::vector<std::int64_t> times;
+  for (const StoredPulse& stored : pulses) {
+    times.push_back(tai_ns(stored.pulse.t));
+  }
+  return times;
+}
+
+TEST_F(ArchiveRestart, CodedFrameThatArrivesTwiceIsStoredOnceWithItsFirstOrigin) {
+  const auto archive = open();
+  ArchiveBatch batch = start_of("run-1");
+  batch.coded = {frame_at(5, 1), frame_at(6, 2), frame_at(5, 3)};
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+
+  EXPECT_EQ(text("SELECT group_concat(format('%d %.2f %s %.2f %s %d', t_tai_ns, period_s,"
+                 " ifnull(sun2_s, '-'), south_out_s, source, seq), '; ') FROM coded_frame"),
+            "5 0.60 - 0.25 station 1; 6 0.60 - 0.25 station 2");
+  EXPECT_EQ(archive->statistics().samples_committed, 3U);
+}
+
+TEST_F(ArchiveRestart, SamplesComeBackInTheOrderTheyArrivedIn) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(begun("run-1", 100)));
+  ASSERT_TRUE(archive->submit(arrived("run-1", 100, {pulse_at(50), pulse_at(70)})));
+  ArchiveBatch late = arrived("run-1", 102, {pulse_at(40)});
+  late.coded = {frame_at(60, 9)};
+  ASSERT_TRUE(archive->submit(late));
+  ASSERT_TRUE(archive->flush());
+
+  const auto pass = stored();
+  ASSERT_TRUE(pass);
+  EXPECT_EQ(pass->run_id, "run-1");
+  EXPECT_EQ(pass->earliest, tai_from_ns(40));
+  EXPECT_THAT(times_of(pass->pulses), ElementsAre(50, 70, 40));
+  ASSERT_EQ(pass->frames.size(), 1U);
+  EXPECT_EQ(pass->frames[0].arrival, 103);
+  EXPECT_EQ(pass->frames[0].frame.period_s, 0.6);
+  EXPECT_EQ(pass->frames[0].frame.delay_s, frame_at(60, 9).frame.delay_s);
+}
+
+TEST_F(ArchiveRestart, SamplesOfARunThatAnEarlierOneHasStoredAreItsOwnToo) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(begun("run-1", 100)));
+  ASSERT_TRUE(archive->submit(arrived("run-1", 100, {pulse_at(10), pulse_at(20), pulse_at(30)})));
+  ASSERT_TRUE(archive->submit(begun("run-2", 200)));
+  ASSERT_TRUE(archive->submit(arrived("run-2", 200, {pulse_at(30), pulse_at(20), pulse_at(40)})));
+  ASSERT_TRUE(archive->submit(arrived("run-2", 203, {pulse_at(30)})));
+  ASSERT_TRUE(archive->flush());
+
+  const auto pass = stored();
+  ASSERT_TRUE(pass);
+  EXPECT_EQ(pass->run_id, "run-2");
+  EXPECT_THAT(times_of(pass->pulses), ElementsAre(30, 20, 40));
+}
+
+TEST_F(ArchiveRestart, OnlyARunThatWasMadeTheSameWayIsContinued) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(begun("run-1", 100)));
+  ASSERT_TRUE(archive->flush());
+  ASSERT_TRUE(stored());
+  EXPECT_FALSE(stored()->earliest);
+  for (std::string RunStart::*part : {&RunStart::mode, &RunStart::telemetry,
+                                      &RunStart::software_version, &RunStart::config_sha256}) {
+    RunStart other = kRunStart;
+    other.*part += "x";
+    EXPECT_FALSE(stored(other));
+  }
+  RunStart other = kRunStart;
+  other.orbit_sha256.reset();
+  EXPECT_FALSE(stored(other));
+  EXPECT_FALSE(find_stored_pass(path(), "OTHER", kRunStart).value());
+}
+
+TEST_F(ArchiveRestart, RunThatGoesOnIsNotFinishedAndItsLastProductsAreWithdrawn) {
+  const auto archive = open();
+  const auto revolution = [](std::int64_t number) {
+    return RevolutionProduct{
+        .revolution = number, .t_sun1 = tai_from_ns(number * 10), .period_s = 0.6};
+  };
+  const auto period = [](std::int64_t number) {
+    return SpinMeasurement{.revolution = number,
+                           .quantity = SpinQuantity::Period,
+                           .value = 0.6,
+                           .sigma = 0.1,
+                           .rejected_by = std::nullopt};
+  };
+  const auto use = [](std::int64_t number) {
+    return PulseUse{.pulse = {.t = tai_from_ns(number * 10), .channel = PulseChannel::Sun1},
+                    .revolution = number,
+                    .rejected_by = std::nullopt};
+  };
+  ArchiveBatch whole = start_of("run-1");
+  for (std::int64_t number = 0; number < 5; ++number) {
+    whole.products.insert(whole.products.end(),
+                          {SpinProduct{revolution(number)}, period(number), use(number)});
+  }
+  whole.finished_utc = "2026-11-20T04:00:00Z";
+  ASSERT_TRUE(archive->submit(whole));
+  ArchiveBatch again = batch_of("run-1");
+  again.continuation = Continuation{.t = tai_from_ns(30)};
+  again.products = {revolution(3)};
+  ASSERT_TRUE(archive->submit(again));
+  ASSERT_TRUE(archive->flush());
+
+  EXPECT_EQ(number("SELECT count(*) FROM run WHERE finished_utc IS NULL"), 1);
+  EXPECT_EQ(text("SELECT group_concat(revolution, ' ') FROM revolution"), "0 1 2 3");
+  EXPECT_EQ(text("SELECT group_concat(revolution, ' ') FROM spin_measurement"), "0 1 2");
+  EXPECT_EQ(text("SELECT group_concat(revolution, ' ') FROM pulse_use"), "0 1 2");
+  EXPECT_EQ(stored()->last_revolution, tai_from_ns(30));
+}
+
+TEST_F(ArchiveRestart, WhatBecomesOfAnEdgeLaterStandsButNotThatItIsLate) {
+  const auto archive = open();
+  const Pulse pulse = pulse_at(5).pulse;
+  ArchiveBatch batch = start_of("run-1");
+  batch.products = {
+      PulseUse{.pulse = pulse, .revolution = {}, .rejected_by = Rejection::Unassociated},
+      PulseUse{.pulse = pulse, .revolution = 3, .rejected_by = std::nullopt},
+      PulseUse{.pulse = pulse, .revolution = {}, .rejected_by = Rejection::Late}};
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+  EXPECT_EQ(text("SELECT revolution || ' ' || accepted || ifnull(rejected_by, '') FROM pulse_use"),
+            "3 1");
+}
+
+ArchiveBatch samples(std::size_t count) {
+  ArchiveBatch batch = batch_of("samples");
+  batch.pulses.assign(count, pulse_at(1));
+  return batch;
+}
+
+ArchiveBatch products(std::size_t count) {
+  ArchiveBatch batch = batch_of("products");
+  batch.products.assign(
+      count, RevolutionProduct{.revolution = 1, .t_sun1 = tai_from_ns(1), .period_s = 1.0});
+  return batch;
+}
+
+std::vector<std::string> names_of(const std::vector<ArchiveBatch>& batches) {
+  std::vector<std::string> names;
+  for (const ArchiveBatch& batch : batches) {
+    names.push_back(batch.run_id);
+  }
+  return names;
+}
+
+TEST(BatchQueue, GivesSamplesFirstAndAllWhenThereAreFew) {
+  BatchQueue queue{1000};
+  ASSERT_TRUE(queue.push(products(10)));
+  ASSERT_TRUE(queue.push(samples(10)));
+  ASSERT_TRUE(queue.push(products(10)));
+  EXPECT_THAT(names_of(queue.take()), ElementsAre("samples", "products", "products"));
+}
+
+TEST(BatchQueue, LetsProductsWaitInABurstOfSamplesButNotForEver) {
+  BatchQueue queue{100'000};
+  ASSERT_TRUE(queue.push(products(500)));
+  ASSERT_TRUE(queue.push(products(500)));
+  ASSERT_TRUE(queue.push(samples(3200)));
+  EXPECT_THAT(names_of(queue.take()), ElementsAre("samples"));
+  ASSERT_TRUE(queue.push(samples(3200)));
+  EXPECT_THAT(names_of(queue.take()), ElementsAre("samples", "products"));
+  EXPECT_THAT(names_of(queue.take()), ElementsAre("products"));
+}
+
+TEST(BatchQueue, GivesWhatIsLeftOnceClosedAndThenNothing) {
+  BatchQueue queue{10};
+  ASSERT_TRUE(queue.push(products(10)));
+  queue.close();
+  EXPECT_FALSE(queue.push(samples(1)));
+  EXPECT_THAT(names_of(queue.take()), ElementsAre("products"));
+  EXPECT_TRUE(queue.take().empty());
+}
+
+}  // namespace
+}  // namespace spindrift
