@@ -3,30 +3,37 @@
 #include "pipelines/frames/celestial.h"
 
 namespace spindrift {
+namespace {
+
+/// Of a fix: 1/rad^2.
+double weight_of(const SpinFix& fix) { return 1.0 / fix.covariance_rad2.trace(); }
+
+}  // namespace
 
 void MeanAxis::add(const SpinFix& fix) {
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(fix.axis_icrf);
-  sum_icrf_ += fix.axis_icrf;
-  covariance_sum_rad2_ += basis * fix.covariance_rad2 * basis.transpose();
+  const double weight = weight_of(fix);
+  sum_icrf_ += weight * fix.axis_icrf;
+  covariance_sum_ += weight * weight * basis * fix.covariance_rad2 * basis.transpose();
+  weight_sum_ += weight;
   ++count_;
 }
 
 Eigen::Matrix2d MeanAxis::covariance_rad2() const {
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(axis_icrf());
-  const auto count = static_cast<double>(count_);
-  return basis.transpose() * covariance_sum_rad2_ * basis / (count * count);
+  return basis.transpose() * covariance_sum_ * basis / (weight_sum_ * weight_sum_);
 }
 
-void AxisWindow::add(const Eigen::Vector3d& axis_icrf) {
-  axes_icrf_.push_back(axis_icrf);
-  if (axes_icrf_.size() > length_) {
-    axes_icrf_.pop_front();
+void AxisWindow::add(const SpinFix& fix) {
+  weighted_icrf_.push_back(weight_of(fix) * fix.axis_icrf);
+  if (weighted_icrf_.size() > length_) {
+    weighted_icrf_.pop_front();
   }
 }
 
 std::optional<Eigen::Vector3d> AxisWindow::axis_icrf() const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& axis : axes_icrf_) {
+  for (const Eigen::Vector3d& axis : weighted_icrf_) {
     sum += axis;
   }
   const double length = sum.norm();

@@ -1,6 +1,7 @@
 /// @file
-/// Mean attitude: the normalised mean of unit vectors. (Averaging right ascensions breaks across
-/// 0 h and at the poles.)
+/// Mean attitude: the normalised mean of unit vectors, each weighted by its own accuracy, since
+/// fixes of different cases differ tenfold. (Averaging right ascensions breaks across 0 h and at
+/// the poles.)
 
 #pragma once
 
@@ -26,8 +27,9 @@ class MeanAxis {
   Eigen::Matrix2d covariance_rad2() const;
 
  private:
-  Eigen::Vector3d sum_icrf_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance_sum_rad2_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d sum_icrf_ = Eigen::Vector3d::Zero();  ///< Weighted, as the following.
+  Eigen::Matrix3d covariance_sum_ = Eigen::Matrix3d::Zero();
+  double weight_sum_ = 0.0;
   std::size_t count_ = 0;
 };
 
@@ -36,13 +38,13 @@ class AxisWindow {
  public:
   explicit AxisWindow(std::size_t length) : length_{length} {}
 
-  void add(const Eigen::Vector3d& axis_icrf);
+  void add(const SpinFix& fix);
   /// Unit; empty before the first fix, and where the fixes cancel.
   std::optional<Eigen::Vector3d> axis_icrf() const;
 
  private:
   std::size_t length_;
-  std::deque<Eigen::Vector3d> axes_icrf_;
+  std::deque<Eigen::Vector3d> weighted_icrf_;
 };
 
 }  // namespace spindrift

@@ -336,7 +336,7 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
     announced.covariance_rad2 += horizon_rad2;
     out.products.emplace_back(std::move(announced));
     if (fix.accepted) {
-      recent_axes_.add(fix.axis_icrf);
+      recent_axes_.add(fix);
       mean_axis_.add(fix);
       mean_moved = true;
     }

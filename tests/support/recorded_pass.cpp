@@ -54,7 +54,9 @@ SpinConfig config_in(const toml::table& mission) {
           .south = infrared(spin["ir"]["south"]),
           .noise = {.sun_s = number(spin["noise"]["sun_pulse_s"]),
                     .infrared_s = number(spin["noise"]["ir_pulse_s"])},
-          .horizon = {.model = HorizonModel::Sphere,
+          .horizon = {.model = spin["horizon"]["model"].value<std::string>() == "ellipsoid"
+                                   ? HorizonModel::Ellipsoid
+                                   : HorizonModel::Sphere,
                       .co2_altitude_km = number(spin["horizon"]["co2_altitude_km"])},
           .screening = {},
           .geometry = {},
