@@ -34,9 +34,7 @@ enum ModelError { NorthLimb, SouthLimb, SunAngleError, AzimuthError };
 
 double noise_of(const Value& value) { return value.derivatives().head<kEdges>().norm(); }
 
-Value constant(double value) {
-  return {value, Value::DerType::Zero()};
-}
+Value constant(double value) { return {value, Value::DerType::Zero()}; }
 
 Value value_of(const Measured& measured) {
   Value value = constant(measured.value_rad);
@@ -139,8 +137,8 @@ Input input_of(const SpinConfig& config, const RevolutionMeasurements& measured,
     const auto chord = good_value_of(measured, kChords.at(index_of(side)));
     const auto& sensor = sensor_of(config, side);
     if (chord && sensor) {
-      input.chords.at(index_of(side)) = ChordOf<Value>{.mount_angle_rad = sensor->mount_angle_rad,
-                                                       .chord_rad = value_of(*chord)};
+      input.chords.at(index_of(side)) =
+          ChordOf<Value>{.mount_angle_rad = sensor->mount_angle_rad, .chord_rad = value_of(*chord)};
     }
   }
   if (input.both_chords() &&
@@ -156,8 +154,7 @@ Value earth_angle_from_both(const Input& input) {
   Value earth = earth_angle_from_two_chords(*input.north(), *input.south());
   const auto slope_of = [&](const ChordOf<Value>& chord) {
     const double mount_rad = chord.mount_angle_rad;
-    return std::sin(mount_rad) * std::cos(0.5 * chord.chord_rad.value()) *
-               std::cos(earth.value()) -
+    return std::sin(mount_rad) * std::cos(0.5 * chord.chord_rad.value()) * std::cos(earth.value()) -
            std::cos(mount_rad) * std::sin(earth.value());
   };
   const double shift =
@@ -199,13 +196,12 @@ double misfit(const Input& input, const Place& place) {
 /// Cases 2 and 3 with the dihedral.
 Solutions from_one_chord(const Input& input) {
   const ChordOf<Value>& chord = input.lone_chord();
-  const double delta = std::abs(
-      determinant({.chord = {.mount_angle_rad = chord.mount_angle_rad,
-                             .chord_rad = chord.chord_rad.value()},
-                   .sun_angle_rad = input.sun_angle->value(),
-                   .dihedral_rad = input.dihedral->value(),
-                   .sun_earth_rad = input.sun_earth_rad,
-                   .disc_rad = input.sightlines.disc_rad}));
+  const double delta = std::abs(determinant(
+      {.chord = {.mount_angle_rad = chord.mount_angle_rad, .chord_rad = chord.chord_rad.value()},
+       .sun_angle_rad = input.sun_angle->value(),
+       .dihedral_rad = input.dihedral->value(),
+       .sun_earth_rad = input.sun_earth_rad,
+       .disc_rad = input.sightlines.disc_rad}));
   Solutions found;
   const auto add = [&](const Value& earth_angle_rad) {
     found.places.push_back({.sun_angle_rad = *input.sun_angle,
@@ -240,9 +236,9 @@ Solutions from_one_chord(const Input& input) {
 /// The dihedral withheld: cones about Sun and Earth meet in two axes.
 void meet(const Input& input, const Value& earth_angle_rad, Solutions& found) {
   const Value& sun_angle_rad = *input.sun_angle;
-  const Value cosine = (std::cos(input.sun_earth_rad) -
-                        Value{cos(sun_angle_rad)} * Value{cos(earth_angle_rad)}) /
-                       Value{Value{sin(sun_angle_rad)} * Value{sin(earth_angle_rad)}};
+  const Value cosine =
+      (std::cos(input.sun_earth_rad) - Value{cos(sun_angle_rad)} * Value{cos(earth_angle_rad)}) /
+      Value{Value{sin(sun_angle_rad)} * Value{sin(earth_angle_rad)}};
   const Value excess = cosine.value() < 0.0 ? Value{-cosine - 1.0} : Value{cosine - 1.0};
   note_grazing(excess, found);
   if (!(excess.value() < 0.0)) {
@@ -388,7 +384,9 @@ bool determined(const AxisCandidate& candidate) {
 
 int geometry_case_of(const RevolutionMeasurements& measured) {
   using enum SpinQuantity;
-  const auto has = [&](SpinQuantity quantity) { return good_value_of(measured, quantity).has_value(); };
+  const auto has = [&](SpinQuantity quantity) {
+    return good_value_of(measured, quantity).has_value();
+  };
   const bool north = has(NorthChord);
   const bool south = has(SouthChord);
   // Both, north, south: in this order of cases.
@@ -411,17 +409,19 @@ int geometry_case_of(const RevolutionMeasurements& measured) {
 Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
                                          const RevolutionMeasurements& measured,
                                          const Sightlines& sightlines) {
-  AxisCandidates result{
-      .geometry_case = geometry_case_of(measured), .candidates = {}, .told_apart = false, .grazing = false};
+  AxisCandidates result{.geometry_case = geometry_case_of(measured),
+                        .candidates = {},
+                        .told_apart = false,
+                        .grazing = false};
   if (result.geometry_case < 1 || result.geometry_case > 7) {
     return unobservable(cone_in_words(result.geometry_case));
   }
   const Input input = input_of(config, measured, sightlines);
   if (!(input.sun_earth_rad > kInLine_rad &&
         input.sun_earth_rad < std::numbers::pi - kInLine_rad)) {
-    return unobservable(fmt::format(
-        "Sun and Earth stand {:.3f} deg apart: the axis needs between 3 and 177 deg",
-        degrees(input.sun_earth_rad)));
+    return unobservable(
+        fmt::format("Sun and Earth stand {:.3f} deg apart: the axis needs between 3 and 177 deg",
+                    degrees(input.sun_earth_rad)));
   }
   const Solutions found = solve(input);
   if (found.places.empty()) {
@@ -430,8 +430,9 @@ Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
   for (const Place& place : found.places) {
     result.candidates.push_back(candidate_at(input, place));
     if (!determined(result.candidates.back())) {
-      return unobservable("the solution is lost in the noise of its edges: it exists only within "
-                          "one sigma of them, or no measurement fixes one of its directions");
+      return unobservable(
+          "the solution is lost in the noise of its edges: it exists only within "
+          "one sigma of them, or no measurement fixes one of its directions");
     }
   }
   result.told_apart = found.told_apart;

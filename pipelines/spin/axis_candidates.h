@@ -23,9 +23,9 @@ inline constexpr int kModelErrors = 4;
 inline constexpr double kModelError_rad = 0.15 * 0.017453292519943295;
 
 struct AxisCandidate {
-  Eigen::Vector3d axis_icrf;       ///< Unit.
-  Eigen::Matrix2d covariance_rad2; ///< From the edges' noise. Tangent plane: east, north.
-  double norm;                     ///< Length of the axis before normalising.
+  Eigen::Vector3d axis_icrf;        ///< Unit.
+  Eigen::Matrix2d covariance_rad2;  ///< From the edges' noise. Tangent plane: east, north.
+  double norm;                      ///< Length of the axis before normalising.
   /// The measurements agree: norm - 1 and, with both chords, the half-angle of the disc that they
   /// show minus rho are within five of their sigmas and half a degree, which is more than the
   /// Earth's shape and the height of its CO2 account for.

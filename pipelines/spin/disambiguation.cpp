@@ -42,9 +42,8 @@ ChordRange chords_from(const AxisCandidate& candidate, const Sightlines& sightli
   for (int place = -kPlaces; place <= kPlaces; ++place) {
     const double there_rad = std::abs(earth_rad + margin_rad * place / kPlaces);
     const bool misses = std::abs(there_rad - mount_angle_rad) > sightlines.disc_rad;
-    const double chord_rad =
-        predict_chord_rad(mount_angle_rad, there_rad, sightlines.disc_rad)
-            .value_or(misses ? 0.0 : 2.0 * std::numbers::pi);
+    const double chord_rad = predict_chord_rad(mount_angle_rad, there_rad, sightlines.disc_rad)
+                                 .value_or(misses ? 0.0 : 2.0 * std::numbers::pi);
     range.least_rad = std::min(range.least_rad, chord_rad);
     range.most_rad = std::max(range.most_rad, chord_rad);
   }
@@ -56,10 +55,9 @@ std::optional<std::size_t> nearest_to(const KnownAxis& known, const AxisCandidat
   const auto distance_rad = [&](std::size_t i) {
     return angle_between_rad(known.axis_icrf, found.candidates[i].axis_icrf);
   };
-  const auto nearest =
-      *std::min_element(possible.begin(), possible.end(), [&](std::size_t a, std::size_t b) {
-        return distance_rad(a) < distance_rad(b);
-      });
+  const auto nearest = *std::min_element(
+      possible.begin(), possible.end(),
+      [&](std::size_t a, std::size_t b) { return distance_rad(a) < distance_rad(b); });
   const double sigma_rad = std::hypot(known.sigma_rad, sigma_of(found.candidates[nearest]));
   if (distance_rad(nearest) > kPriorSigmas * sigma_rad) {
     return std::nullopt;
@@ -170,8 +168,7 @@ bool Disambiguator::breaks_constraint(const RevolutionMeasurements& measured,
              chord->value_rad > range.most_rad + tolerance_rad;
     }
     const bool silent = silent_revolutions_.at(index_of(side)) >= kSilentRevolutions;
-    const bool clearly_seen =
-        range.least_rad > 0.0 && range.most_rad < 2.0 * std::numbers::pi;
+    const bool clearly_seen = range.least_rad > 0.0 && range.most_rad < 2.0 * std::numbers::pi;
     return sensor->healthy && silent && clearly_seen;
   });
 }
@@ -201,14 +198,14 @@ std::vector<SpinFix> Disambiguator::settle_by_dispersion(Pending pending) {
   if (steady_) {
     for (const Pending& earlier : std::exchange(pending_, {})) {
       if (const auto chosen = continues(*steady_, earlier.found, earlier.possible)) {
-        fixes.push_back(fix_of(earlier.revolution, earlier.t, earlier.found, *chosen,
-                               Resolution::Dispersion));
+        fixes.push_back(
+            fix_of(earlier.revolution, earlier.t, earlier.found, *chosen, Resolution::Dispersion));
       }
     }
     if (const auto chosen = continues(*steady_, pending.found, pending.possible)) {
       follow(pending, chosen);
-      fixes.push_back(fix_of(pending.revolution, pending.t, pending.found, *chosen,
-                             Resolution::Dispersion));
+      fixes.push_back(
+          fix_of(pending.revolution, pending.t, pending.found, *chosen, Resolution::Dispersion));
       return fixes;
     }
     follow(pending, std::nullopt);
@@ -227,8 +224,7 @@ std::vector<SpinFix> Disambiguator::settle_by_dispersion(Pending pending) {
 void Disambiguator::follow(const Pending& pending, const std::optional<std::size_t>& chosen) {
   if (chosen) {
     contradictions_ = 0;
-    steady_->count =
-        std::min(steady_->count + 1.0, static_cast<double>(config_.screening.window));
+    steady_->count = std::min(steady_->count + 1.0, static_cast<double>(config_.screening.window));
     steady_->axis_icrf +=
         (pending.found.candidates[*chosen].axis_icrf - steady_->axis_icrf) / steady_->count;
     steady_->axis_icrf.normalize();

@@ -94,16 +94,18 @@ std::optional<SteadyAxis> Dispersion::add(std::span<const AxisCandidate> candida
   std::erase_if(branches_, [&](const Branch& branch) {
     return revolutions_ - branch.last_seen > static_cast<long>(window_);
   });
-  const bool block_closed = std::any_of(branches_.begin(), branches_.end(), [&](const auto& branch) {
-    return branch.last_seen == revolutions_ && branch.blocks.back().count == block_length_;
-  });
+  const bool block_closed =
+      std::any_of(branches_.begin(), branches_.end(), [&](const auto& branch) {
+        return branch.last_seen == revolutions_ && branch.blocks.back().count == block_length_;
+      });
   const auto found = block_closed ? steady() : std::nullopt;
   merge_blocks();
   return found;
 }
 
 /// Tries every way to link candidates and branches: there are four of either at most. The true one
-/// stays where it is, so that how far another has gone tells nothing: beyond the gate all cost alike.
+/// stays where it is, so that how far another has gone tells nothing: beyond the gate all cost
+/// alike.
 Dispersion::Matching Dispersion::match(std::span<const AxisCandidate> candidates) const {
   const std::size_t size = std::max(candidates.size(), branches_.size());
   std::vector<std::size_t> order(size);
@@ -275,19 +277,17 @@ std::optional<SteadyAxis> Dispersion::steady() const {
     scatters.push_back(scatter_of(blocks));
   }
   const auto variance = [](const Scatter& s) { return s.squares / (2.0 * s.half_freedom); };
-  const auto least =
-      std::min_element(scatters.begin(), scatters.end(), [&](const Scatter& a, const Scatter& b) {
-        return variance(a) < variance(b);
-      });
+  const auto least = std::min_element(
+      scatters.begin(), scatters.end(),
+      [&](const Scatter& a, const Scatter& b) { return variance(a) < variance(b); });
   if (variance(*least) > kSteadyVariance) {
     return std::nullopt;
   }
   // A scatter below that of the noise is the model's caution, and nothing to compare with.
   const double noise = std::max(variance(*least), 1.0);
   for (const Scatter& other : scatters) {
-    if (&other != &*least &&
-        !(variance_ratio_tail(other.half_freedom, least->half_freedom, variance(other) / noise) <
-          kLevel)) {
+    if (&other != &*least && !(variance_ratio_tail(other.half_freedom, least->half_freedom,
+                                                   variance(other) / noise) < kLevel)) {
       return std::nullopt;
     }
   }

@@ -77,8 +77,7 @@ template <class T>
 T earth_angle_linear(const OneChordInputOf<T>& input) {
   using std::atan2, std::cos, std::sin;
   const double cos_mount = std::cos(input.chord.mount_angle_rad);
-  const T chord_sine =
-      std::sin(input.chord.mount_angle_rad) * T{cos(0.5 * input.chord.chord_rad)};
+  const T chord_sine = std::sin(input.chord.mount_angle_rad) * T{cos(0.5 * input.chord.chord_rad)};
   const T cos_sun = cos(input.sun_angle_rad);
   const T sun_sine = T{sin(input.sun_angle_rad)} * T{cos(input.dihedral_rad)};
   const T cos_disc = cos(input.disc_rad);
@@ -102,7 +101,8 @@ template <class T>
 ConeRootsOf<T> cone_roots(const T& a, const T& b, const T& c) {
   using std::acos, std::atan2, std::sqrt;
   const T cosine = c / T{sqrt(T{a * a + b * b})};
-  ConeRootsOf<T> roots{.angles_rad = {}, .excess = cosine < 0.0 ? T{-cosine - 1.0} : T{cosine - 1.0}};
+  ConeRootsOf<T> roots{.angles_rad = {},
+                       .excess = cosine < 0.0 ? T{-cosine - 1.0} : T{cosine - 1.0}};
   if (!(roots.excess < 0.0)) {
     return roots;
   }
@@ -142,9 +142,9 @@ Eigen::Matrix<T, 3, 1> axis_icrf(const AxisInputOf<T>& input) {
       T{sin(input.sun_angle_rad)} * T{sin(input.earth_angle_rad)} * T{sin(input.dihedral_rad)};
   Eigen::Matrix<T, 3, 1> axis;
   for (Eigen::Index i = 0; i < 3; ++i) {
-    axis[i] = (along_sun * input.sun_icrf[i] + along_earth * input.earth_icrf[i] +
-               triple * normal[i]) /
-              normal.squaredNorm();
+    axis[i] =
+        (along_sun * input.sun_icrf[i] + along_earth * input.earth_icrf[i] + triple * normal[i]) /
+        normal.squaredNorm();
   }
   return axis;
 }

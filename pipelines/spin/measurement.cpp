@@ -33,11 +33,12 @@ Measured azimuth_behind(PulseChannel slit, TaiTime t_slit, Side side, TaiTime t_
   const double delay_s = seconds_between(t_slit, t_in) + 0.5 * width_s;
   EdgeNoise noise_rad = EdgeNoise::Zero();
   noise_rad(static_cast<Eigen::Index>(slit)) = -rate_rad_s * config.noise.sun_s;
-  for (const PulseChannel channel : {kInChannels.at(index_of(side)), kOutChannels.at(index_of(side))}) {
+  for (const PulseChannel channel :
+       {kInChannels.at(index_of(side)), kOutChannels.at(index_of(side))}) {
     noise_rad(static_cast<Eigen::Index>(channel)) = 0.5 * rate_rad_s * config.noise.infrared_s;
   }
-  return measured_from(
-      wrapped_rad(rate_rad_s * delay_s - sensor_of(config, side)->azimuth_rad), noise_rad);
+  return measured_from(wrapped_rad(rate_rad_s * delay_s - sensor_of(config, side)->azimuth_rad),
+                       noise_rad);
 }
 
 std::optional<EarthCrossing> crossing_of(const SpinConfig& config, const Revolution& revolution,
@@ -175,17 +176,16 @@ void reject(RevolutionMeasurements& measured, SpinQuantity quantity, Rejection w
 
 RevolutionMeasurements measure(const SpinConfig& config, const Revolution& revolution) {
   const double rate_rad_s = 2.0 * std::numbers::pi / revolution.period.period_s;
-  RevolutionMeasurements measured{
-      .t_sun1 = revolution.good_edge(Sun1),
-      .sun_angle = {},
-      .mixed_azimuth = {},
-      .crossings = {},
-      .silent = {}};
+  RevolutionMeasurements measured{.t_sun1 = revolution.good_edge(Sun1),
+                                  .sun_angle = {},
+                                  .mixed_azimuth = {},
+                                  .crossings = {},
+                                  .silent = {}};
   const std::optional<TaiTime>& sun1 = revolution.edge(Sun1);
   const std::optional<TaiTime>& sun2 = revolution.edge(Sun2);
   if (sun1 && sun2) {
-    measured.sun_angle = sun_angle(config.sun_sensor, seconds_between(*sun1, *sun2), rate_rad_s,
-                                   config.noise.sun_s);
+    measured.sun_angle =
+        sun_angle(config.sun_sensor, seconds_between(*sun1, *sun2), rate_rad_s, config.noise.sun_s);
     if (measured.sun_angle) {
       measured.sun_angle->rejected_by = rejection_of(revolution, {Sun1, Sun2});
     }

@@ -34,8 +34,8 @@ Misfit misfit_at(const MixedAzimuth& mixed, double lag_rad) {
   const double cos_dihedral = std::cos(dihedral_rad);
   const double by_dihedral = -sin_sun * sin_earth * std::sin(dihedral_rad);
   const double by_sun = cos_sun * sin_earth * cos_dihedral - sin_sun * cos_earth;
-  return {.value =
-              cos_sun * cos_earth + sin_sun * sin_earth * cos_dihedral - std::cos(mixed.sun_earth_rad),
+  return {.value = cos_sun * cos_earth + sin_sun * sin_earth * cos_dihedral -
+                   std::cos(mixed.sun_earth_rad),
           .by_lag = by_sun * sun_by_lag + by_dihedral,
           .by_earth_angle = sin_sun * cos_earth * cos_dihedral - cos_sun * sin_earth,
           .by_azimuth = by_dihedral};
