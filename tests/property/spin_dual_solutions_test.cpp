@@ -90,8 +90,7 @@ class Passes {
   /// One revolution's pulses, from the angles of the spherical triangles.
   Revolution seen(const Pass& pass, int number, const SpinConfig& config, const Flaws& flaws) {
     const Sightlines there = pass.at(static_cast<double>(number) / pass.revolutions);
-    const PredictedAngles angles =
-        predict_angles(pass.axis_icrf, there.sun_icrf, there.earth_icrf);
+    const PredictedAngles angles = predict_angles(pass.axis_icrf, there.sun_icrf, there.earth_icrf);
     Revolution seen{.number = number,
                     .edges = {},
                     .period_candidate = {},
@@ -104,9 +103,9 @@ class Passes {
           shifted(t_sun1, turn_rad / kRate_rad_s + sigma_s * normal_(rng_));
     };
     put(Sun1, 0.0);
-    put(Sun2, config.sun_sensor.slit_separation_rad +
-                  std::asin(std::tan(config.sun_sensor.slit_cant_rad) /
-                            std::tan(angles.sun_angle_rad)));
+    put(Sun2,
+        config.sun_sensor.slit_separation_rad +
+            std::asin(std::tan(config.sun_sensor.slit_cant_rad) / std::tan(angles.sun_angle_rad)));
     for (const Side side : kSides) {
       const InfraredSensor& sensor = *sensor_of(config, side);
       // The limb is lowest in the direction of the Earth's poles.
@@ -153,15 +152,14 @@ Outcome outcome_of(Passes& passes, const Pass& pass, const std::set<SpinQuantity
   Outcome outcome;
   for (int number = 0; number < pass.revolutions; ++number) {
     const Revolution revolution = passes.seen(pass, number, config, flaws);
-    const RevolutionMeasurements measured =
-        testing::measured_without(config, revolution, left_out);
+    const RevolutionMeasurements measured = testing::measured_without(config, revolution, left_out);
     const Sightlines there = pass.at(static_cast<double>(number) / pass.revolutions);
     const auto found = axis_candidates(config, measured, there);
     if (!found) {
       continue;
     }
-    for (const SpinFix& fix : disambiguator.settle(number, *measured.t_sun1, measured, there,
-                                                   *found, std::nullopt)) {
+    for (const SpinFix& fix :
+         disambiguator.settle(number, *measured.t_sun1, measured, there, *found, std::nullopt)) {
       outcome.resolved_later += fix.revolution != number ? 1 : 0;
       last.insert_or_assign(fix.revolution, fix);
     }

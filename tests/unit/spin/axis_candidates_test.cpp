@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/geometry.h"
@@ -231,7 +235,8 @@ TEST(AxisCandidates, AChordWiderThanTheDiscIsRefusedWithItsMeasure) {
 double squared_errors(const Scene& scene, const std::set<SpinQuantity>& left_out, int draws,
                       std::mt19937_64& rng) {
   const Revolution exact = scene.seen();
-  const SpinFix stated = testing::lone_fix(scene.config, exact, left_out, scene.sightlines()).value();
+  const SpinFix stated =
+      testing::lone_fix(scene.config, exact, left_out, scene.sightlines()).value();
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(stated.axis_icrf);
   std::normal_distribution<double> normal;
   double sum = 0.0;
@@ -284,6 +289,238 @@ TEST(AxisCandidates, ASolutionThatTheNoiseDestroysIsRefused) {
   const auto fix = scene.fix();
   ASSERT_FALSE(fix);
   EXPECT_EQ(fix.error().code, ErrorCode::Unobservable);
+}
+
+/// Measurements as if of an axis, without noise.
+RevolutionMeasurements measured_at(const SpinConfig& config, const PredictedAngles& angles,
+                                   double disc_rad) {
+  const auto exact = [](double value_rad) {
+    return Measured{.value_rad = value_rad, .sigma_rad = 0.0, .noise_rad = EdgeNoise::Zero()};
+  };
+  RevolutionMeasurements measured{.t_sun1 = kStart,
+                                  .sun_angle = exact(angles.sun_angle_rad),
+                                  .mixed_azimuth = {},
+                                  .crossings = {},
+                                  .silent = {}};
+  for (const Side side : kSides) {
+    measured.crossings.at(index_of(side)) =
+        EarthCrossing{.t_mid = kStart,
+                      .chord = exact(predict_chord_rad(sensor_of(config, side)->mount_angle_rad,
+                                                       angles.earth_angle_rad, disc_rad)
+                                         .value()),
+                      .dihedral = {}};
+  }
+  return measured;
+}
+
+TEST(AxisCandidates, TwoConesMeetInTheTrueAndTheFalseSolutionOfTheGoldenValues) {
+  // Worked out in 30 digits by mpmath, printed to 1e-9 deg.
+  const auto at_deg = [](double ra_deg, double dec_deg) {
+    return direction_icrf({.ra_rad = ra_deg * kDegree_rad, .dec_rad = dec_deg * kDegree_rad});
+  };
+  SpinConfig config = testing::usual_config();
+  config.north->mount_angle_rad = 120.0 * kDegree_rad;
+  config.south->mount_angle_rad = 145.0 * kDegree_rad;
+  const Sightlines sightlines{.sun_icrf = at_deg(10.0, 4.3),
+                              .earth_icrf = at_deg(80.0, -20.0),
+                              .disc_rad = 20.0 * kDegree_rad};
+  const PredictedAngles angles{.sun_angle_rad = 90.143759304 * kDegree_rad,
+                               .earth_angle_rad = 131.253314001 * kDegree_rad,
+                               .dihedral_rad = 67.046435278 * kDegree_rad};
+  const auto found =
+      axis_candidates(config, measured_at(config, angles, sightlines.disc_rad), sightlines).value();
+  EXPECT_EQ(found.geometry_case, 1);
+  EXPECT_FALSE(found.told_apart);
+  ASSERT_EQ(found.candidates.size(), 2U);
+  constexpr double kPrinted_rad = 4e-9 * kDegree_rad;
+  EXPECT_LT(angle_between_rad(found.candidates[0].axis_icrf, at_deg(268.625, 68.4485)),
+            kPrinted_rad);
+  EXPECT_LT(angle_between_rad(found.candidates[1].axis_icrf, at_deg(281.751608418, -23.899303556)),
+            kPrinted_rad);
+}
+
+/// What is missing, and the case that it leaves.
+struct Loss {
+  std::set<PulseChannel> edges;
+  std::set<SpinQuantity> quantities;
+  int geometry_case;
+};
+
+const std::vector<Loss>& losses() {
+  using enum PulseChannel;
+  static const std::vector<Loss> all = {
+      {{}, {}, 1},
+      {{SouthIn}, {}, 2},
+      {{NorthOut}, {}, 3},
+      {{}, {NorthDihedral, SouthDihedral}, 1},
+      {{SouthIn}, {NorthDihedral}, 2},
+      {{NorthIn}, {SouthDihedral}, 3},
+      {{Sun2}, {}, 4},
+      {{Sun2, SouthIn}, {}, 5},
+      {{Sun2, NorthIn}, {}, 6},
+      {{Sun1}, {}, 7},
+      {{Sun1, SouthOut}, {}, 5},
+      {{Sun1, NorthOut}, {}, 6},
+  };
+  return all;
+}
+
+Revolution without(Revolution revolution, const std::set<PulseChannel>& edges) {
+  for (const PulseChannel channel : edges) {
+    revolution.edges.at(index_of(channel)).reset();
+  }
+  return revolution;
+}
+
+/// A body anywhere, Sun and Earth where its sensors see them.
+Scene random_scene(std::mt19937_64& rng) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform{-1.0, 1.0};
+  const auto direction = [&]() -> Eigen::Vector3d {
+    const double x = normal(rng);
+    const double y = normal(rng);
+    return Eigen::Vector3d{x, y, normal(rng)}.normalized();
+  };
+  Scene scene;
+  scene.axis_icrf = direction();
+  const auto away = [&](double angle_deg) -> Eigen::Vector3d {
+    return Eigen::AngleAxisd{angle_deg * kDegree_rad,
+                             scene.axis_icrf.cross(direction()).normalized()} *
+           scene.axis_icrf;
+  };
+  scene.sun_icrf = away(90.0 + 35.0 * uniform(rng));
+  scene.earth_icrf = away(90.0 + 10.0 * uniform(rng));
+  // Small: what comes of it is linear, and stays above the nanosecond.
+  scene.config.noise = {.sun_s = 2e-6, .infrared_s = 2e-6};
+  return scene;
+}
+
+TEST(AxisCandidates, EveryCaseHasTheTrueAxisAmongItsCandidates) {
+  constexpr int kScenes = 200;
+  for (const Loss& loss : losses()) {
+    std::mt19937_64 rng{92};
+    int found_true = 0;
+    for (int trial = 0; trial < kScenes; ++trial) {
+      SCOPED_TRACE(loss.geometry_case * 1000 + trial);
+      const Scene scene = random_scene(rng);
+      const RevolutionMeasurements measured = testing::measured_without(
+          scene.config, without(scene.seen(), loss.edges), loss.quantities);
+      ASSERT_EQ(geometry_case_of(measured), loss.geometry_case);
+      const auto found = axis_candidates(scene.config, measured, scene.sightlines());
+      if (!found) {
+        ASSERT_EQ(found.error().code, ErrorCode::Unobservable);
+        continue;
+      }
+      ASSERT_LE(found->candidates.size(), 4U);
+      ASSERT_EQ(found->geometry_case, loss.geometry_case);
+      if (found->grazing) {
+        // Only what is left over of cases 2 and 3 tells such roots apart.
+        ASSERT_TRUE(!found->told_apart || loss.quantities.empty());
+        ASSERT_TRUE(!found->told_apart || loss.geometry_case < 4);
+        continue;
+      }
+      const auto nearest =
+          std::min_element(found->candidates.begin(), found->candidates.end(),
+                           [&](const AxisCandidate& a, const AxisCandidate& b) {
+                             return angle_between_rad(a.axis_icrf, scene.axis_icrf) <
+                                    angle_between_rad(b.axis_icrf, scene.axis_icrf);
+                           });
+      ASSERT_LT(angle_between_rad(nearest->axis_icrf, scene.axis_icrf), 1e-5);
+      ASSERT_TRUE(nearest->consistent);
+      ASSERT_TRUE(!found->told_apart || nearest == found->candidates.begin());
+      ++found_true;
+    }
+    EXPECT_GT(found_true, kScenes / 2) << loss.geometry_case;
+  }
+}
+
+TEST(AxisCandidates, CovariancesAreThoseOfCentralDifferencesInEveryCase) {
+  for (const Loss& loss : losses()) {
+    std::mt19937_64 rng{93};
+    int compared = 0;
+    for (int trial = 0; trial < 60; ++trial) {
+      SCOPED_TRACE(loss.geometry_case * 1000 + trial);
+      const Scene scene = random_scene(rng);
+      const Revolution revolution = without(scene.seen(), loss.edges);
+      const auto solve = [&](const Revolution& seen) {
+        return axis_candidates(scene.config,
+                               testing::measured_without(scene.config, seen, loss.quantities),
+                               scene.sightlines());
+      };
+      const auto found = solve(revolution);
+      if (!found || found->grazing) {
+        continue;
+      }
+      constexpr double kStep_s = 2e-6;
+      for (std::size_t i = 0; i < found->candidates.size(); ++i) {
+        const AxisCandidate& candidate = found->candidates[i];
+        // Where the geometry multiplies errors a hundredfold, differences are no measure.
+        if (candidate.covariance_rad2.trace() > std::pow(2e-4, 2)) {
+          continue;
+        }
+        const Eigen::Matrix<double, 3, 2> basis = tangent_basis(candidate.axis_icrf);
+        Eigen::Matrix2d expected = Eigen::Matrix2d::Zero();
+        for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+          if (!revolution.edges.at(channel)) {
+            continue;
+          }
+          Revolution later = revolution;
+          Revolution earlier = revolution;
+          later.edges.at(channel) = shifted(*revolution.edges.at(channel), kStep_s);
+          earlier.edges.at(channel) = shifted(*revolution.edges.at(channel), -kStep_s);
+          const Eigen::Vector2d moved = 0.5 * basis.transpose() *
+                                        (solve(later)->candidates.at(i).axis_icrf -
+                                         solve(earlier)->candidates.at(i).axis_icrf);
+          expected += moved * moved.transpose();
+        }
+        // Of the step's square 1e-3 is lost where edges move by whole nanoseconds.
+        ASSERT_LT((candidate.covariance_rad2 - expected).norm(), 3e-3 * expected.norm());
+        ++compared;
+      }
+    }
+    EXPECT_GT(compared, 30) << loss.geometry_case;
+  }
+}
+
+TEST(AxisCandidates, ConesAreNamedInWords) {
+  using enum PulseChannel;
+  const Scene scene;
+  const std::vector<std::pair<Loss, std::string>> cones = {
+      {{{Sun1, Sun2}, {}, 8}, "cone about the Earth only"},
+      {{{NorthIn, SouthIn}, {}, 9}, "cone about the Sun only"},
+      {{{Sun1, Sun2, NorthIn}, {}, 10}, "cones about the Earth only"},
+      {{{Sun1, Sun2, SouthIn}, {}, 10}, "cones about the Earth only"},
+      {{{Sun1, NorthIn, SouthIn}, {}, 0}, "no measurement"},
+      {{{Sun1, Sun2, NorthIn, SouthIn}, {}, 0}, "no measurement"}};
+  for (const auto& [loss, words] : cones) {
+    const RevolutionMeasurements measured =
+        measure(scene.config, without(scene.seen(), loss.edges));
+    EXPECT_EQ(geometry_case_of(measured), loss.geometry_case);
+    const auto found = axis_candidates(scene.config, measured, scene.sightlines());
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().code, ErrorCode::Unobservable);
+    EXPECT_NE(found.error().message.find(words), std::string::npos) << found.error().message;
+  }
+}
+
+TEST(AxisCandidates, ConesThatDoNotMeetAreRefused) {
+  const Scene scene;
+  RevolutionMeasurements measured =
+      testing::measured_without(scene.config, scene.seen(), {NorthDihedral, SouthDihedral});
+  measured.sun_angle->value_rad = 10.0 * kDegree_rad;
+  const auto found = axis_candidates(scene.config, measured, scene.sightlines());
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::Unobservable);
+  EXPECT_NE(found.error().message.find("do not meet"), std::string::npos);
+}
+
+TEST(AxisCandidates, WhatRestsOnARejectedEdgeIsNotUsed) {
+  const Scene scene;
+  Revolution revolution = scene.seen();
+  revolution.edge_rejections.at(index_of(PulseChannel::SouthOut)) = Rejection::Phase;
+  EXPECT_EQ(geometry_case_of(measure(scene.config, revolution)), 2);
+  revolution.edge_rejections.at(index_of(PulseChannel::Sun2)) = Rejection::Phase;
+  EXPECT_EQ(geometry_case_of(measure(scene.config, revolution)), 5);
 }
 
 }  // namespace

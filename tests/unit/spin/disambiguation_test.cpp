@@ -1,1 +1,197 @@
+#include "pipelines/spin/disambiguation.h"
+
 #include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "pipelines/frames/celestial.h"
+#include "tests/support/lone_fix.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+using enum SpinQuantity;
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+constexpr double kRange_km = 16000.0;
+const std::set<SpinQuantity> kDihedrals = {NorthDihedral, SouthDihedral};
+
+/// A body of one turn in six seconds under a Sun at rest; the Earth has turned by `turn_rad`.
+struct Scene {
+  SpinConfig config = testing::usual_config();
+  Eigen::Vector3d sun_icrf = Eigen::Vector3d{1.0, 0.2, 0.1}.normalized();
+  Eigen::Vector3d axis_icrf = Eigen::Vector3d{0.1, -0.05, 1.0}.normalized();
+
+  Eigen::Vector3d earth_icrf(double turn_rad) const {
+    return Eigen::AngleAxisd{turn_rad, Eigen::Vector3d::UnitX()} *
+           Eigen::Vector3d{0.3, 1.0, -0.02}.normalized();
+  }
+  Sightlines sightlines(double turn_rad = 0.0) const {
+    return {.sun_icrf = sun_icrf,
+            .earth_icrf = earth_icrf(turn_rad),
+            .disc_rad = std::asin(6418.137 / kRange_km)};
+  }
+  Revolution seen(double turn_rad = 0.0) const {
+    return testing::revolution_seen({.axis_icrf = axis_icrf,
+                                     .rate_rad_s = 2.0 * std::numbers::pi / 6.0,
+                                     .first_turn_rad = 0.1,
+                                     .config = config},
+                                    testing::at_rest(sun_icrf, kRange_km * earth_icrf(turn_rad)),
+                                    kStart);
+  }
+};
+
+std::vector<SpinFix> settle(Disambiguator& disambiguator, const Scene& scene,
+                            const Revolution& revolution, const std::set<SpinQuantity>& left_out,
+                            const std::optional<KnownAxis>& established = {},
+                            double turn_rad = 0.0) {
+  const auto measured = testing::measured_without(scene.config, revolution, left_out);
+  const Sightlines sightlines = scene.sightlines(turn_rad);
+  return disambiguator.settle(revolution.number, kStart, measured, sightlines,
+                              axis_candidates(scene.config, measured, sightlines).value(),
+                              established);
+}
+
+SpinFix settled(const Scene& scene, const Revolution& revolution,
+                const std::set<SpinQuantity>& left_out,
+                const std::optional<KnownAxis>& established = {}) {
+  Disambiguator disambiguator{scene.config};
+  return settle(disambiguator, scene, revolution, left_out, established).back();
+}
+
+TEST(Disambiguation, MeasurementsThatTellThemApartAreGeometry) {
+  const Scene scene;
+  const SpinFix fix = settled(scene, scene.seen(), {});
+  EXPECT_EQ(fix.resolution, Resolution::Geometry);
+  EXPECT_TRUE(fix.accepted);
+}
+
+TEST(Disambiguation, WithNothingToGoByItIsAmbiguousWithAllCandidates) {
+  const Scene scene;
+  const SpinFix fix = settled(scene, scene.seen(), kDihedrals);
+  EXPECT_EQ(fix.resolution, Resolution::Ambiguous);
+  EXPECT_FALSE(fix.accepted);
+  EXPECT_EQ(fix.alternate_axes_icrf.size(), 1U);
+}
+
+TEST(Disambiguation, ThePriorOfTheMissionChoosesTheNearest) {
+  Scene scene;
+  const Eigen::Vector3d off = (scene.axis_icrf + Eigen::Vector3d{0.03, 0.0, 0.0}).normalized();
+  scene.config.prior = SpinPrior{.axis_icrf = off, .sigma_rad = 2.0 * kDegree_rad};
+  const SpinFix fix = settled(scene, scene.seen(), kDihedrals);
+  EXPECT_EQ(fix.resolution, Resolution::Prior);
+  EXPECT_TRUE(fix.accepted);
+  EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 1e-6);
+}
+
+TEST(Disambiguation, APriorFarFromAllOrTooVagueChoosesNothing) {
+  Scene scene;
+  const Eigen::Vector3d far =
+      Eigen::AngleAxisd{20.0 * kDegree_rad, Eigen::Vector3d::UnitY()} * scene.axis_icrf;
+  scene.config.prior = SpinPrior{.axis_icrf = far, .sigma_rad = 2.0 * kDegree_rad};
+  EXPECT_EQ(settled(scene, scene.seen(), kDihedrals).resolution, Resolution::Ambiguous);
+  scene.config.prior = SpinPrior{.axis_icrf = scene.axis_icrf, .sigma_rad = 180.0 * kDegree_rad};
+  EXPECT_EQ(settled(scene, scene.seen(), kDihedrals).resolution, Resolution::Ambiguous);
+}
+
+TEST(Disambiguation, WhatThePassHasEstablishedTakesThePlaceOfThePrior) {
+  Scene scene;
+  scene.config.prior = SpinPrior{.axis_icrf = -scene.axis_icrf, .sigma_rad = 1.0 * kDegree_rad};
+  const KnownAxis known{.axis_icrf = scene.axis_icrf, .sigma_rad = 0.1 * kDegree_rad};
+  const SpinFix fix = settled(scene, scene.seen(), kDihedrals, known);
+  EXPECT_EQ(fix.resolution, Resolution::Prior);
+  EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 1e-6);
+}
+
+TEST(Disambiguation, AHealthyBeamThatIsSilentRulesOutTheAxisThatShowsItTheEarth) {
+  // The Earth 26 deg beyond the equator: the south beam, at 50 deg, cannot reach it. The other
+  // root of north's chord stands on the near side, in full view of that beam.
+  Scene scene;
+  scene.axis_icrf = Eigen::Vector3d::UnitZ();
+  scene.sun_icrf = Eigen::Vector3d{1.0, 0.6, 0.3}.normalized();
+  scene.config.south->mount_angle_rad = 70.0 * kDegree_rad;
+  const double earth_angle_rad = 100.0 * kDegree_rad;
+  const Eigen::Vector3d earth =
+      direction_icrf({.ra_rad = 1.9, .dec_rad = 0.5 * std::numbers::pi - earth_angle_rad});
+  const double turned_rad = 0.0;
+  const auto run = [&](bool healthy, int revolutions) {
+    scene.config.south->healthy = healthy;
+    const Sightlines sightlines{.sun_icrf = scene.sun_icrf,
+                                .earth_icrf = earth,
+                                .disc_rad = std::asin(6418.137 / kRange_km)};
+    Revolution revolution =
+        testing::revolution_seen({.axis_icrf = scene.axis_icrf,
+                                  .rate_rad_s = 1.0,
+                                  .first_turn_rad = turned_rad,
+                                  .config = scene.config},
+                                 testing::at_rest(scene.sun_icrf, kRange_km * earth), kStart);
+    EXPECT_FALSE(revolution.edge(PulseChannel::SouthIn));
+    revolution.edges.at(index_of(PulseChannel::Sun2)).reset();
+    const auto measured = measure(scene.config, revolution);
+    const auto found = axis_candidates(scene.config, measured, sightlines).value();
+    EXPECT_GT(found.candidates.size(), 1U);
+    Disambiguator disambiguator{scene.config};
+    SpinFix last{};
+    for (int i = 0; i < revolutions; ++i) {
+      last = disambiguator.settle(i, kStart, measured, sightlines, found, std::nullopt).back();
+    }
+    return last;
+  };
+  EXPECT_EQ(run(true, 4).resolution, Resolution::Ambiguous);
+  EXPECT_EQ(run(false, 8).resolution, Resolution::Ambiguous);
+  const SpinFix fix = run(true, 5);
+  EXPECT_EQ(fix.resolution, Resolution::Constraint);
+  EXPECT_TRUE(fix.accepted);
+  EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 1e-5);
+}
+
+TEST(Disambiguation, DispersionSettlesTheEarlierFixesOfItsWindowToo) {
+  const Scene scene;
+  Disambiguator disambiguator{scene.config};
+  std::set<std::int64_t> ambiguous;
+  bool settled_earlier = false;
+  for (int number = 0; number < 60; ++number) {
+    const double turn_rad = 0.25 * kDegree_rad * number;
+    Revolution revolution = scene.seen(turn_rad);
+    revolution.number = number;
+    const auto fixes = settle(disambiguator, scene, revolution, kDihedrals, {}, turn_rad);
+    ASSERT_EQ(fixes.back().revolution, number);
+    if (fixes.back().resolution == Resolution::Ambiguous) {
+      ASSERT_FALSE(settled_earlier) << number;
+      ambiguous.insert(number);
+      continue;
+    }
+    for (const SpinFix& fix : fixes) {
+      EXPECT_EQ(fix.resolution, Resolution::Dispersion);
+      EXPECT_TRUE(fix.accepted);
+      EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 1e-5);
+      ambiguous.erase(fix.revolution);
+    }
+    settled_earlier = settled_earlier || fixes.size() > 1;
+  }
+  EXPECT_TRUE(settled_earlier);
+  EXPECT_TRUE(ambiguous.empty());
+}
+
+TEST(Disambiguation, MeasurementsThatContradictEachOtherAreNeverAccepted) {
+  Scene scene;
+  scene.config.prior = SpinPrior{.axis_icrf = scene.axis_icrf, .sigma_rad = 2.0 * kDegree_rad};
+  const auto measured = testing::measured_without(scene.config, scene.seen(), kDihedrals);
+  Sightlines sightlines = scene.sightlines();
+  sightlines.disc_rad *= 1.25;
+  const auto found = axis_candidates(scene.config, measured, sightlines).value();
+  const SpinFix fix = Disambiguator{scene.config}
+                          .settle(0, kStart, measured, sightlines, found, std::nullopt)
+                          .back();
+  EXPECT_EQ(fix.resolution, Resolution::Ambiguous);
+  EXPECT_FALSE(fix.accepted);
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -25,17 +25,17 @@ TEST(VarianceRatio, TailIsThatOfThePublishedTables) {
     double level;
     double ratio;
   };
-  for (const Entry& entry : {Entry{2, 2, 0.01, 99.00}, Entry{10, 10, 0.05, 2.98},
-                             Entry{10, 10, 0.01, 4.85}, Entry{4, 20, 0.05, 2.87},
-                             Entry{20, 20, 0.05, 2.12}, Entry{20, 10, 0.01, 4.41},
-                             Entry{120, 120, 0.05, 1.35}, Entry{120, 120, 0.01, 1.53}}) {
+  for (const Entry& entry :
+       {Entry{2, 2, 0.01, 99.00}, Entry{10, 10, 0.05, 2.98}, Entry{10, 10, 0.01, 4.85},
+        Entry{4, 20, 0.05, 2.87}, Entry{20, 20, 0.05, 2.12}, Entry{20, 10, 0.01, 4.41},
+        Entry{120, 120, 0.05, 1.35}, Entry{120, 120, 0.01, 1.53}}) {
     // Half a unit of the last digit printed.
-    EXPECT_GE(variance_ratio_tail(entry.freedom_above / 2, entry.freedom_below / 2,
-                                  entry.ratio - 0.005),
-              entry.level);
-    EXPECT_LE(variance_ratio_tail(entry.freedom_above / 2, entry.freedom_below / 2,
-                                  entry.ratio + 0.005),
-              entry.level);
+    EXPECT_GE(
+        variance_ratio_tail(entry.freedom_above / 2, entry.freedom_below / 2, entry.ratio - 0.005),
+        entry.level);
+    EXPECT_LE(
+        variance_ratio_tail(entry.freedom_above / 2, entry.freedom_below / 2, entry.ratio + 0.005),
+        entry.level);
   }
 }
 
@@ -148,7 +148,8 @@ TEST(Dispersion, WhereAllBranchesDriftNoneIsSteady) {
   for (int revolution = 0; revolution < 400; ++revolution) {
     const Eigen::Vector3d slow =
         Eigen::AngleAxisd{0.1 * kDegree_rad * revolution, Eigen::Vector3d::UnitX()} * kTrue_icrf;
-    const std::array candidates{sky.seen(slow), sky.seen(drifting(0.15 * kDegree_rad * revolution))};
+    const std::array candidates{sky.seen(slow),
+                                sky.seen(drifting(0.15 * kDegree_rad * revolution))};
     ASSERT_FALSE(dispersion.add(candidates)) << revolution;
   }
 }
@@ -215,8 +216,8 @@ TEST(Dispersion, AnErrorOfTheModelIsNoDrift) {
     const double leverage = 3.0 + 3e-3 * revolution;
     const auto moved = [&](const Eigen::Vector3d& axis, double share) {
       const Eigen::Matrix<double, 3, 2> basis = tangent_basis(axis);
-      AxisCandidate candidate = sky.seen(
-          (axis + basis.col(0) * (0.15 * kDegree_rad * leverage * share)).normalized());
+      AxisCandidate candidate =
+          sky.seen((axis + basis.col(0) * (0.15 * kDegree_rad * leverage * share)).normalized());
       candidate.model_shift_icrf.col(0) = basis.col(0) * leverage * share;
       return candidate;
     };

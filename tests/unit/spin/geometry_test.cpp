@@ -49,20 +49,20 @@ TEST(SpinGeometry, TheFalseAxisHasTheSameConesAndTheOppositeDihedral) {
 
 TEST(SpinGeometry, RecoversAKnownAxis) {
   const Eigen::Vector3d axis = axis_icrf(AxisInput{.sun_icrf = kSun_icrf,
-                                          .earth_icrf = kEarth_icrf,
-                                          .sun_angle_rad = kSunAngle_rad,
-                                          .earth_angle_rad = kEarthAngle_rad,
-                                          .dihedral_rad = kDihedral_rad});
+                                                   .earth_icrf = kEarth_icrf,
+                                                   .sun_angle_rad = kSunAngle_rad,
+                                                   .earth_angle_rad = kEarthAngle_rad,
+                                                   .dihedral_rad = kDihedral_rad});
   EXPECT_NEAR(axis.norm(), 1.0, 4.0 * kPrinted_rad);
   EXPECT_LT(angle_between_rad(axis, kAxis_icrf), 4.0 * kPrinted_rad);
 }
 
 TEST(SpinGeometry, TheOppositeDihedralGivesTheMirrorImageInThePlaneOfSunAndEarth) {
   const Eigen::Vector3d axis = axis_icrf(AxisInput{.sun_icrf = kSun_icrf,
-                                          .earth_icrf = kEarth_icrf,
-                                          .sun_angle_rad = kSunAngle_rad,
-                                          .earth_angle_rad = kEarthAngle_rad,
-                                          .dihedral_rad = -kDihedral_rad});
+                                                   .earth_icrf = kEarth_icrf,
+                                                   .sun_angle_rad = kSunAngle_rad,
+                                                   .earth_angle_rad = kEarthAngle_rad,
+                                                   .dihedral_rad = -kDihedral_rad});
   EXPECT_LT(angle_between_rad(axis, kFalseAxis_icrf), 4.0 * kPrinted_rad);
   const Eigen::Vector3d normal = kSun_icrf.cross(kEarth_icrf).normalized();
   const Eigen::Vector3d mirrored = kAxis_icrf - 2.0 * normal.dot(kAxis_icrf) * normal;
@@ -74,10 +74,10 @@ TEST(SpinGeometry, AnglesThatContradictEachOtherShowInTheLengthOfTheAxis) {
   // 1/4 + 1/4 + (3/4 sin(lambda))^2, which is 1 for cos(lambda) = -1/3 only.
   const auto length_at = [](double dihedral_rad) {
     return axis_icrf(AxisInput{.sun_icrf = Eigen::Vector3d::UnitX(),
-                      .earth_icrf = Eigen::Vector3d::UnitY(),
-                      .sun_angle_rad = kPi / 3.0,
-                      .earth_angle_rad = kPi / 3.0,
-                      .dihedral_rad = dihedral_rad})
+                               .earth_icrf = Eigen::Vector3d::UnitY(),
+                               .sun_angle_rad = kPi / 3.0,
+                               .earth_angle_rad = kPi / 3.0,
+                               .dihedral_rad = dihedral_rad})
         .norm();
   };
   EXPECT_NEAR(length_at(std::acos(-1.0 / 3.0)), 1.0, kRounding);
@@ -110,8 +110,8 @@ TEST(SpinGeometry, TwoEqualChordsOfBeamsAboutTheEquatorMeanAnEarthOnTheEquator) 
 TEST(SpinGeometry, WhichBeamIsCalledNorthDoesNotMatter) {
   const Chord one{.mount_angle_rad = 85.0 * kDegree_rad, .chord_rad = 0.31};
   const Chord other{.mount_angle_rad = 97.0 * kDegree_rad, .chord_rad = 0.22};
-  EXPECT_NEAR(earth_angle_from_two_chords(one, other),
-              earth_angle_from_two_chords(other, one), kRounding);
+  EXPECT_NEAR(earth_angle_from_two_chords(one, other), earth_angle_from_two_chords(other, one),
+              kRounding);
 }
 
 TEST(SpinGeometry, BeamsLessThanAHundredthApartAreMountedAlike) {
@@ -154,8 +154,7 @@ TEST(SpinGeometry, BothRootsOfTheChordEquationGiveTheChordThatWasMeasured) {
   ASSERT_EQ(roots.size(), 2U);
   EXPECT_GT(std::abs(roots[0] - roots[1]), 1.0 * kDegree_rad);
   for (const double root : roots) {
-    EXPECT_NEAR(predict_chord_rad(mount_rad, root, disc_rad).value(), chord_rad,
-                100.0 * kRounding);
+    EXPECT_NEAR(predict_chord_rad(mount_rad, root, disc_rad).value(), chord_rad, 100.0 * kRounding);
   }
 }
 
@@ -278,9 +277,9 @@ TEST(SpinGeometry, EarthAngleOfTwoChordsIsThatOfTheOracle) {
     }
     const double angle_rad =
         earth_angle_from_two_chords(Chord{.mount_angle_rad = scene.config.north->mount_angle_rad,
-                                     .chord_rad = between(scene, NorthIn, NorthOut)},
+                                          .chord_rad = between(scene, NorthIn, NorthOut)},
                                     Chord{.mount_angle_rad = scene.config.south->mount_angle_rad,
-                                     .chord_rad = between(scene, SouthIn, SouthOut)});
+                                          .chord_rad = between(scene, SouthIn, SouthOut)});
     // d(theta_e) / d(chord) <= sin(g) / 2 / |cos gN - cos gS| = 2.9, for each chord.
     ASSERT_NEAR(angle_rad, angle_between_rad(scene.axis_icrf, scene.earth_icrf),
                 2.0 * 2.9 * kNanosecond_rad);

@@ -28,10 +28,11 @@ double sun_angle_at(double lag_rad) {
 }
 
 MixedAzimuth mixed_at(double lag_rad, double dihedral_rad, double earth_rad) {
-  return {.sensor = kSensor,
-          .azimuth_rad = dihedral_rad - kSensor.slit_separation_rad - lag_rad,
-          .earth_angle_rad = earth_rad,
-          .sun_earth_rad = std::acos(cos_sun_earth(sun_angle_at(lag_rad), earth_rad, dihedral_rad))};
+  return {
+      .sensor = kSensor,
+      .azimuth_rad = dihedral_rad - kSensor.slit_separation_rad - lag_rad,
+      .earth_angle_rad = earth_rad,
+      .sun_earth_rad = std::acos(cos_sun_earth(sun_angle_at(lag_rad), earth_rad, dihedral_rad))};
 }
 
 TEST(MixedAzimuth, EveryRootSatisfiesTheTriangleAndOneIsTheTruth) {

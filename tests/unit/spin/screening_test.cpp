@@ -84,6 +84,26 @@ TEST(Residuals, AreThereForWhatWasMeasuredOnly) {
   EXPECT_EQ(found[1].quantity, NorthDihedral);
 }
 
+TEST(Residuals, OfTheMixedAzimuthVanishAtTheTrueAxisToo) {
+  const SpinConfig config = testing::usual_config();
+  Revolution revolution = testing::revolution_seen(
+      {.axis_icrf = kAxis_icrf, .rate_rad_s = kRate_rad_s, .first_turn_rad = 0.0, .config = config},
+      testing::at_rest(kSun_icrf, kRange_km * kEarth_icrf), tai_from_ns(1'795'143'637'000'000'000));
+  revolution.edges.at(index_of(PulseChannel::Sun1)).reset();
+  const auto found = residuals(config, measure(config, revolution), kSightlines, kAxis_icrf);
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(found.back().quantity, MixedAzimuth);
+  EXPECT_NEAR(found.back().value_rad, 0.0, 2e-9 * kRate_rad_s);
+}
+
+TEST(Residuals, OfWhatIsRejectedAlreadyAreNotFormed) {
+  RevolutionMeasurements measured = seen();
+  reject(measured, SunAngle, Rejection::Phase);
+  const auto found = residuals(testing::usual_config(), measured, kSightlines, kAxis_icrf);
+  EXPECT_EQ(found.size(), 4U);
+  EXPECT_EQ(found.front().quantity, NorthChord);
+}
+
 TEST(Residuals, AChordThatTheAxisSaysIsImpossibleHasNone) {
   // The Earth 60 deg from the axis lies beyond the reach of both beams.
   const Eigen::Vector3d axis =
