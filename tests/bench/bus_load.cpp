@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "services/bus/participant.h"
-#include "services/publisher/pulse_publisher.h"
+#include "services/publisher/telemetry_publisher.h"
 #include "tests/bench/load_support.h"
 
 namespace spindrift {

@@ -28,7 +28,7 @@
 #include "services/bus/reader.h"
 #include "services/bus/wait_set.h"
 #include "services/mission/mission.h"
-#include "services/publisher/pulse_publisher.h"
+#include "services/publisher/telemetry_publisher.h"
 #include "tests/bench/load_support.h"
 
 namespace spindrift {

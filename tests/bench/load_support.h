@@ -6,11 +6,13 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "services/telemetry_files/telemetry_files.h"
 #include "services/telemetry_files/telemetry_stream.h"
 
 namespace spindrift::bench {
@@ -28,7 +30,9 @@ T or_exit(Expected<T> value) {
 
 /// The pulses of a file in order of time.
 inline std::vector<Pulse> read_pulses(const std::string& path) {
-  TelemetryStream stream = or_exit(TelemetryStream::open({path}, "LOAD"));
+  const std::vector<std::filesystem::path> paths{path};
+  const std::vector<TelemetryFile> files = or_exit(scan_telemetry(paths));
+  TelemetryStream stream = or_exit(TelemetryStream::open(files, "LOAD"));
   std::vector<Pulse> pulses;
   for (SampleBatch batch = or_exit(stream.next()); !batch.pulses.empty();
        batch = or_exit(stream.next())) {
