@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-#include "idl/spindrift.h"
+#include <spindrift.h>
 #include "pipelines/spin/spin_pass.h"
 #include "services/bus/participant.h"
 #include "services/bus/reader.h"
