@@ -25,7 +25,7 @@ constexpr double kGate = 36.0;
 constexpr double kClear = 25.0;
 constexpr int kSkippedInARow = 5;
 // What the errors of the model change by while the geometry turns: the oblate Earth's limb.
-constexpr double kModelChange = 0.3;
+constexpr double kModelChange = 0.2;
 // Rounding and what nobody thought of.
 constexpr double kFloor_rad = 0.02 * 0.017453292519943295;
 
@@ -98,7 +98,7 @@ std::optional<SteadyAxis> Dispersion::add(std::span<const AxisCandidate> candida
       std::any_of(branches_.begin(), branches_.end(), [&](const auto& branch) {
         return branch.last_seen == revolutions_ && branch.blocks.back().count == block_length_;
       });
-  const auto found = block_closed ? steady() : std::nullopt;
+  auto found = block_closed ? steady() : std::nullopt;
   merge_blocks();
   return found;
 }

@@ -88,7 +88,7 @@ T earth_angle_linear(const OneChordInputOf<T>& input) {
   return atan2(T{sign * sine}, T{sign * cosine});
 }
 
-/// The angles x in (0, pi) with a cos x + b sin x = c, the lesser first.
+/// The angles x in (0, pi) with a cos x + b sin x = c.
 template <class T>
 struct ConeRootsOf {
   std::vector<T> angles_rad;
@@ -108,10 +108,12 @@ ConeRootsOf<T> cone_roots(const T& a, const T& b, const T& c) {
   }
   const T centre_rad = atan2(b, a);
   const T apart_rad = acos(cosine);
-  for (const T& root : {T{centre_rad - apart_rad}, T{centre_rad + apart_rad}}) {
-    const T angle_rad = root < 0.0 ? T{root + 2.0 * std::numbers::pi} : root;
-    if (angle_rad > 0.0 && angle_rad < std::numbers::pi) {
-      roots.angles_rad.push_back(angle_rad);
+  for (T root : {T{centre_rad - apart_rad}, T{centre_rad + apart_rad}}) {
+    if (root <= -std::numbers::pi) {
+      root += 2.0 * std::numbers::pi;
+    }
+    if (root > 0.0 && root < std::numbers::pi) {
+      roots.angles_rad.push_back(root);
     }
   }
   return roots;

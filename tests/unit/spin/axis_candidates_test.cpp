@@ -413,19 +413,22 @@ TEST(AxisCandidates, EveryCaseHasTheTrueAxisAmongItsCandidates) {
       }
       ASSERT_LE(found->candidates.size(), 4U);
       ASSERT_EQ(found->geometry_case, loss.geometry_case);
-      if (found->grazing) {
-        // Only what is left over of cases 2 and 3 tells such roots apart.
-        ASSERT_TRUE(!found->told_apart || loss.quantities.empty());
-        ASSERT_TRUE(!found->told_apart || loss.geometry_case < 4);
-        continue;
-      }
       const auto nearest =
           std::min_element(found->candidates.begin(), found->candidates.end(),
                            [&](const AxisCandidate& a, const AxisCandidate& b) {
                              return angle_between_rad(a.axis_icrf, scene.axis_icrf) <
                                     angle_between_rad(b.axis_icrf, scene.axis_icrf);
                            });
-      ASSERT_LT(angle_between_rad(nearest->axis_icrf, scene.axis_icrf), 1e-5);
+      const double off_rad = angle_between_rad(nearest->axis_icrf, scene.axis_icrf);
+      if (found->grazing) {
+        // Only what is left over of cases 2 and 3 tells such roots apart.
+        ASSERT_TRUE(!found->told_apart || loss.quantities.empty());
+        ASSERT_TRUE(!found->told_apart || loss.geometry_case < 4);
+        // A double root takes the square root of a nanosecond.
+        found_true += off_rad < 1e-3 ? 1 : 0;
+        continue;
+      }
+      ASSERT_LT(off_rad, 1e-5);
       ASSERT_TRUE(nearest->consistent);
       ASSERT_TRUE(!found->told_apart || nearest == found->candidates.begin());
       ++found_true;

