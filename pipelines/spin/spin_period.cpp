@@ -2,11 +2,27 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <numbers>
 
 #include "pipelines/spin/time_span.h"
 
 namespace spindrift {
+namespace {
+
+/// Successive intervals together.
+struct Span {
+  double elapsed_s = 0.0;
+  double turns = 0.0;
+
+  void add(double period_s, double more_turns) {
+    elapsed_s += period_s * more_turns;
+    turns += more_turns;
+  }
+  double mean_s() const { return elapsed_s / turns; }
+};
+
+}  // namespace
 
 SpinPeriodWindow::SpinPeriodWindow(const SpinScreening& screening, double edge_sigma_s)
     : screening_{screening},
@@ -36,19 +52,45 @@ PeriodCandidate SpinPeriodWindow::add(double period_s, double turns) {
     entries_.pop_front();
   }
 
-  double interval_sum_s = 0.0;
-  double turn_sum = 0.0;
-  for (const Entry& entry : entries_) {
-    if (entry.accepted) {
-      interval_sum_s += entry.period_s * entry.turns;
-      turn_sum += entry.turns;
-    }
-  }
-  if (turn_sum > 0.0) {
-    period_ = SpinPeriod{.period_s = interval_sum_s / turn_sum,
-                         .sigma_s = std::max(mean.sigma, candidate_sigma_s) / turn_sum};
+  if (auto now = period_now(std::max(mean.sigma, candidate_sigma_s) / std::numbers::sqrt2)) {
+    period_ = now;
   }
   return {.period_s = period_s, .sigma_s = candidate_sigma_s / turns, .accepted = accepted};
+}
+
+/// @param edge_sigma_s Of one edge's time, as stated or as seen.
+std::optional<SpinPeriod> SpinPeriodWindow::period_now(double edge_sigma_s) const {
+  Span all;
+  std::size_t accepted = 0;
+  for (const Entry& entry : entries_) {
+    if (entry.accepted) {
+      all.add(entry.period_s, entry.turns);
+      ++accepted;
+    }
+  }
+  if (accepted == 0) {
+    return std::nullopt;
+  }
+  if (accepted < kTrendIntervals) {
+    return SpinPeriod{.period_s = all.mean_s(),
+                      .sigma_s = std::numbers::sqrt2 * edge_sigma_s / all.turns};
+  }
+  Span older;
+  Span newer;
+  for (const Entry& entry : entries_) {
+    if (entry.accepted) {
+      (2.0 * older.turns < all.turns ? older : newer).add(entry.period_s, entry.turns);
+    }
+  }
+  if (!(newer.turns > 0.0)) {
+    newer = older;  // One long silence at the end outweighs all before it: no trend to be seen.
+  }
+  const double carried = newer.turns / (older.turns + newer.turns);
+  // The three edges that are left: the first, the one between the halves, the last.
+  const double first = carried / older.turns;
+  const double last = (1.0 + carried) / newer.turns;
+  return SpinPeriod{.period_s = newer.mean_s() + carried * (newer.mean_s() - older.mean_s()),
+                    .sigma_s = edge_sigma_s * std::hypot(first, last, first + last)};
 }
 
 }  // namespace spindrift

@@ -42,11 +42,15 @@ class SpinPeriodWindow {
   /// An interval that ends at an edge known to be wrong: it is not added.
   PeriodCandidate refused(TaiTime from, TaiTime to, std::int64_t turns) const;
 
-  /// Sum of the intervals accepted over the sum of their turns. They follow one another from edge
-  /// to edge, so that the noise of the edges between cancels: what was accepted is not judged
-  /// again. Empty before the first candidate accepted.
+  /// At the end of the window: the mean of its intervals, carried on by the difference of its
+  /// halves, since a rate that drifts would leave the mean behind and the axis with it. The
+  /// accepted intervals follow one another from edge to edge, so that the noise of the edges
+  /// between cancels: what was accepted is not judged again. Below kTrendIntervals the mean alone.
+  /// Empty before the first candidate accepted.
   std::optional<SpinPeriod> period() const { return period_; }
   std::size_t size() const { return entries_.size(); }
+
+  static constexpr std::size_t kTrendIntervals = 20;
 
  private:
   struct Entry {
@@ -56,6 +60,7 @@ class SpinPeriodWindow {
   };
 
   PeriodCandidate add(double period_s, double turns);
+  std::optional<SpinPeriod> period_now(double edge_sigma_s) const;
 
   SpinScreening screening_;
   double edge_sigma_s_;

@@ -64,6 +64,16 @@ TEST(SpinPeriodWindow, AWrongIntervalIsRefusedAndLeavesThePeriodAlone) {
   EXPECT_NEAR(window.period().value().period_s, 1.0, kRounding_s);
 }
 
+TEST(SpinPeriodWindow, KeepsUpWithARateThatDrifts) {
+  SpinPeriodWindow window = window_of(100);
+  // Turn k takes 1 + 1e-6 k seconds.
+  const auto edge = [](double turn) { return after(turn + 0.5e-6 * turn * turn); };
+  for (int turn = 0; turn < 250; ++turn) {
+    window.add(edge(turn), edge(turn + 1), 1);
+  }
+  EXPECT_NEAR(window.period().value().period_s, 1.0 + 250e-6, 0.1e-6);
+}
+
 TEST(SpinPeriodWindow, ForgetsWhatLiesBeforeTheWindow) {
   SpinPeriodWindow window = window_of(20);
   double t_s = 0.0;
