@@ -266,6 +266,7 @@ void Associator::close_front(Association& out) {
   first_open_ = revolution.number + 1;
   judge_reference(revolution);
   judge_others(revolution);
+  judge_neighbours(revolution);
   judge_period(revolution);
   revolution.period = period_;
   revolution.t_start = t_start_of(revolution);
@@ -303,6 +304,31 @@ void Associator::judge_others(Revolution& revolution) {
     if (!phases_.follow(channel, revolution.number, count - turn, clock_sigma_turns) &&
         !phases_.stray(channel, count)) {
       revolution.edge_rejections.at(index_of(channel)) = Rejection::Phase;
+    }
+  }
+}
+
+/// Where channels are expected to interfere, the edges that escaped did so by their noise: all of
+/// them lie too far from each other, and their mean is wrong.
+void Associator::judge_neighbours(Revolution& revolution) {
+  if (!(config_.screening.interference_s > 0.0)) {
+    return;
+  }
+  const auto turn = static_cast<double>(revolution.number);
+  const auto interfere = [&](PulseChannel one, PulseChannel other) {
+    const double apart_s =
+        clock_->period_s() * std::remainder(phases_.at(one, turn) - phases_.at(other, turn), 1.0);
+    const double noise_s = std::hypot(noise_of(config_.noise, one), noise_of(config_.noise, other));
+    return std::abs(apart_s) < config_.screening.interference_s + config_.screening.sigma * noise_s;
+  };
+  for (const PulseChannel channel : kChannels) {
+    const bool spoilt = std::any_of(kChannels.begin(), kChannels.end(), [&](PulseChannel other) {
+      return channel != other && phases_.knows(channel) && phases_.knows(other) &&
+             interfere(channel, other);
+    });
+    std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
+    if (spoilt && revolution.edge(channel) && !rejection) {
+      rejection = Rejection::Interference;
     }
   }
 }

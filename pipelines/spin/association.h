@@ -94,6 +94,7 @@ class Associator {
   void close_front(Association& out);
   void judge_reference(Revolution& revolution);
   void judge_others(Revolution& revolution);
+  void judge_neighbours(Revolution& revolution);
   void judge_period(Revolution& revolution);
   std::optional<PeriodCandidate> noted_candidate(const Revolution& revolution);
   void count_silence(const Revolution& revolution);
