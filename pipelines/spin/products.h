@@ -85,6 +85,9 @@ struct SpinFix {
   Resolution resolution;
   double norm;    ///< |P| before normalising: 1 for measurements that agree.
   bool accepted;  ///< Neither AMBIGUOUS nor from measurements that contradict each other.
+  /// The candidates lie where they come together and vanish, within the noise: the covariance is
+  /// too small, and the true one may be missing.
+  bool grazing = false;
 };
 
 enum class SpinEstimator { Mean, Sequential, Batch };

@@ -52,8 +52,9 @@ bool contradicts(const SpinFix& fix, const SpinFilter& filter) {
 /// Both filters have come to one axis.
 bool agree(const SpinFilter& a, const SpinFilter& b) {
   const double apart_rad = angle_between_rad(a.axis_icrf(), b.axis_icrf());
-  return apart_rad * apart_rad <
-         std::min(a.axis_covariance_rad2().trace(), b.axis_covariance_rad2().trace());
+  return apart_rad < kModel_rad &&
+         apart_rad * apart_rad <
+             std::min(a.axis_covariance_rad2().trace(), b.axis_covariance_rad2().trace());
 }
 
 const SpinFix* last_accepted(std::span<const SpinFix> fixes) {
@@ -64,7 +65,7 @@ const SpinFix* last_accepted(std::span<const SpinFix> fixes) {
 
 const SpinFix* last_ambiguous(std::span<const SpinFix> fixes) {
   const auto found = std::find_if(fixes.rbegin(), fixes.rend(), [](const SpinFix& fix) {
-    return fix.resolution == Resolution::Ambiguous;
+    return fix.resolution == Resolution::Ambiguous && !fix.grazing;
   });
   return found == fixes.rend() ? nullptr : &*found;
 }
