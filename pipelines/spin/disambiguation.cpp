@@ -105,6 +105,7 @@ SpinFix fix_of(std::int64_t revolution, TaiTime t, const AxisCandidates& found, 
   for (std::size_t i = 0; i < found.candidates.size(); ++i) {
     if (i != chosen) {
       fix.alternate_axes_icrf.push_back(found.candidates[i].axis_icrf);
+      fix.alternate_covariances_rad2.push_back(found.candidates[i].covariance_rad2);
     }
   }
   return fix;

@@ -88,6 +88,8 @@ struct SpinFix {
   /// The candidates lie where they come together and vanish, within the noise: the covariance is
   /// too small, and the true one may be missing.
   bool grazing = false;
+  /// Of the alternates, each in its own tangent plane.
+  std::vector<Eigen::Matrix2d> alternate_covariances_rad2 = {};
 };
 
 enum class SpinEstimator { Mean, Sequential, Batch };
