@@ -100,10 +100,12 @@ SpinFix fix_of(std::int64_t revolution, TaiTime t, const AxisCandidates& found, 
               .alternate_axes_icrf = {},
               .resolution = resolution,
               .norm = candidate.norm,
-              .accepted = candidate.consistent && resolution != Resolution::Ambiguous};
+              .accepted = candidate.consistent && resolution != Resolution::Ambiguous,
+              .grazing = found.grazing};
   for (std::size_t i = 0; i < found.candidates.size(); ++i) {
     if (i != chosen) {
       fix.alternate_axes_icrf.push_back(found.candidates[i].axis_icrf);
+      fix.alternate_covariances_rad2.push_back(found.candidates[i].covariance_rad2);
     }
   }
   return fix;
@@ -127,7 +129,7 @@ std::vector<SpinFix> Disambiguator::settle(std::int64_t revolution, TaiTime t,
   if (possible.empty()) {
     return {fix_of(revolution, t, candidates, 0, Resolution::Ambiguous)};
   }
-  if (possible.size() == 1 && candidates.candidates.size() > 1) {
+  if (possible.size() == 1 && candidates.candidates.size() > 1 && !candidates.grazing) {
     return {fix_of(revolution, t, candidates, possible.front(), Resolution::Constraint)};
   }
   std::optional<KnownAxis> known = established;

@@ -35,7 +35,6 @@ enum class Rejection {
   OutOfTime,     ///< Far ahead of all others, by a clock that nothing else agrees with.
   Interference,  ///< An edge of another channel is so near that both are spoilt.
   Phase,     ///< Not where the edges of its channel lie; of a measurement: rests on such an edge.
-  Unpaired,  ///< Its partner edge is missing: it gives no measurement.
   Geometry,  ///< The measurement has no meaning (chord of half a turn, slit lag out of range).
   NoSensor,  ///< The mission file has no such sensor.
   NoOrbit,   ///< The orbit does not cover it: not testable.
@@ -86,6 +85,11 @@ struct SpinFix {
   Resolution resolution;
   double norm;    ///< |P| before normalising: 1 for measurements that agree.
   bool accepted;  ///< Neither AMBIGUOUS nor from measurements that contradict each other.
+  /// The candidates lie where they come together and vanish, within the noise: the covariance is
+  /// too small, and the true one may be missing.
+  bool grazing = false;
+  /// Of the alternates, each in its own tangent plane.
+  std::vector<Eigen::Matrix2d> alternate_covariances_rad2 = {};
 };
 
 enum class SpinEstimator { Mean, Sequential, Batch };

@@ -52,8 +52,9 @@ bool contradicts(const SpinFix& fix, const SpinFilter& filter) {
 /// Both filters have come to one axis.
 bool agree(const SpinFilter& a, const SpinFilter& b) {
   const double apart_rad = angle_between_rad(a.axis_icrf(), b.axis_icrf());
-  return apart_rad * apart_rad <
-         std::min(a.axis_covariance_rad2().trace(), b.axis_covariance_rad2().trace());
+  return apart_rad < kModel_rad &&
+         apart_rad * apart_rad <
+             std::min(a.axis_covariance_rad2().trace(), b.axis_covariance_rad2().trace());
 }
 
 const SpinFix* last_accepted(std::span<const SpinFix> fixes) {
@@ -64,7 +65,7 @@ const SpinFix* last_accepted(std::span<const SpinFix> fixes) {
 
 const SpinFix* last_ambiguous(std::span<const SpinFix> fixes) {
   const auto found = std::find_if(fixes.rbegin(), fixes.rend(), [](const SpinFix& fix) {
-    return fix.resolution == Resolution::Ambiguous;
+    return fix.resolution == Resolution::Ambiguous && !fix.grazing;
   });
   return found == fixes.rend() ? nullptr : &*found;
 }
@@ -127,28 +128,29 @@ bool SequentialEstimator::restart_is_due(std::span<const SpinFix> settled) {
 }
 
 void SequentialEstimator::start(const SpinFix& fix, const Revolution& revolution, const Sky& sky) {
-  Eigen::Matrix2d covariance_rad2 = fix.covariance_rad2;
-  if (config_.horizon.model == HorizonModel::Ellipsoid) {
-    covariance_rad2 += kFlattening_rad * kFlattening_rad * Eigen::Matrix2d::Identity();
-  }
-  if (!(covariance_rad2.trace() < kPoorestFix_rad * kPoorestFix_rad)) {
-    return;
-  }
   std::vector<Hypothesis> started;
-  const auto add = [&](const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& axis_rad2) {
-    if (const auto filter = SpinFilter::about(axis_icrf, axis_rad2, config_, revolution, sky)) {
-      started.push_back({.filter = *filter});
+  const auto add = [&](const Eigen::Vector3d& axis_icrf, Eigen::Matrix2d axis_rad2) {
+    if (config_.horizon.model == HorizonModel::Ellipsoid) {
+      axis_rad2 += kFlattening_rad * kFlattening_rad * Eigen::Matrix2d::Identity();
+    }
+    if (axis_rad2.trace() < kPoorestFix_rad * kPoorestFix_rad) {
+      if (const auto filter = SpinFilter::about(axis_icrf, axis_rad2, config_, revolution, sky)) {
+        started.push_back({.filter = *filter});
+      }
     }
   };
-  add(fix.axis_icrf, covariance_rad2);
+  add(fix.axis_icrf, fix.covariance_rad2);
   if (fix.resolution == Resolution::Ambiguous) {
-    // Nothing says how well the others are known: as the best one, in any direction.
-    const Eigen::Matrix2d round_rad2 = covariance_rad2.trace() * Eigen::Matrix2d::Identity();
-    for (const Eigen::Vector3d& axis_icrf : fix.alternate_axes_icrf) {
-      add(axis_icrf, round_rad2);
+    for (std::size_t i = 0; i < fix.alternate_axes_icrf.size(); ++i) {
+      add(fix.alternate_axes_icrf[i], fix.alternate_covariances_rad2[i]);
+    }
+    // Without one of them the true one may be missing.
+    if (started.size() != 1 + fix.alternate_axes_icrf.size()) {
+      return;
     }
   }
   if (!started.empty()) {
+    restarts_ += hypotheses_.empty() ? 0 : 1;
     hypotheses_ = std::move(started);
     revolutions_ = 0;
     gated_ = 0;

@@ -41,6 +41,9 @@ class SequentialEstimator {
   std::optional<SpinEstimate> update(const Revolution& revolution, const Sky& sky,
                                      std::span<const SpinFix> settled);
 
+  /// How often it gave up its axis for that of a fix.
+  int restarts() const { return restarts_; }
+
  private:
   /// One candidate for the axis and what speaks for it.
   struct Hypothesis {
@@ -67,7 +70,8 @@ class SequentialEstimator {
   double gated_share_ = 0.0;  ///< Of the recent edges.
   /// Of the recent revolutions, those in which the channel's edge was gated.
   std::array<double, kPulseChannels> channel_gated_share_ = {};
-  int contradicted_ = 0;        ///< Fixes against the axis, less those for it.
+  int contradicted_ = 0;  ///< Fixes against the axis, less those for it.
+  int restarts_ = 0;
   std::string_view restarted_;  ///< Why; empty: never.
 };
 

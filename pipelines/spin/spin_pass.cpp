@@ -12,6 +12,7 @@
 #include "pipelines/spin/axis_candidates.h"
 #include "pipelines/spin/edge_use.h"
 #include "pipelines/spin/geometry.h"
+#include "pipelines/time/utc.h"
 
 namespace spindrift {
 namespace {
@@ -21,6 +22,8 @@ constexpr std::size_t kEstablishedFixes = 10;
 // What the geometry leaves out (the Earth's shape, a sensor off its drawing) may part fixes of
 // different cases by so much.
 constexpr double kModel_rad = 0.5 * std::numbers::pi / 180.0;
+// Beyond so many sigmas, and that, the axis is another one than before.
+constexpr double kMovedSigmas = 5.0;
 
 /// What the spherical horizon leaves out of an oblate Earth, as a covariance: taken as anywhere
 /// between none and the whole displacement of the limb, in any direction. Unlike the noise of the
@@ -321,7 +324,15 @@ std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate, SpinOutput
 }
 
 void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
+  const Revolution& revolution = candidate.revolution;
   const std::vector<SpinFix> fixes = find_fixes(candidate, out);
+  std::optional<SpinEstimate> sequential;
+  if (const auto sky = surroundings_.sky(revolution.t_start)) {
+    sequential = sequential_.update(revolution, *sky, fixes);
+    if (sequential && sequential_.restarts() > restarts_heeded_) {
+      start_again_where_moved(*sequential, out);
+    }
+  }
   const Eigen::Matrix2d horizon_rad2 = horizon_error_rad2(config_, candidate.sightlines->disc_rad);
   bool mean_moved = false;
   for (const SpinFix& fix : fixes) {
@@ -335,31 +346,64 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
     SpinFix announced = fix;
     announced.covariance_rad2 += horizon_rad2;
     out.products.emplace_back(std::move(announced));
-    if (fix.accepted) {
+    if (fix.accepted && !(moved_at_ && fix.t < *moved_at_)) {
       recent_axes_.add(fix);
       mean_axis_.add(fix);
       mean_moved = true;
     }
+    unsettled_ += fix.resolution == Resolution::Ambiguous ? 1 : 0;
+    unsettled_ -= fix.accepted && fix.revolution != revolution.number ? 1 : 0;
   }
   if (mean_moved) {
     SpinEstimate mean = mean_estimate(candidate);
     mean.covariance_rad2 += horizon_rad2;
     out.products.emplace_back(std::move(mean));
   }
-  if (const auto sky = surroundings_.sky(candidate.revolution.t_start)) {
-    if (auto estimate = sequential_.update(candidate.revolution, *sky, fixes)) {
-      out.products.emplace_back(std::move(*estimate));
-    }
+  if (sequential) {
+    out.products.emplace_back(std::move(*sequential));
   }
+}
+
+/// After a manoeuvre a mean of the whole pass would lie where the axis never was. A restart of
+/// `sequential` raises the question; it may take some revolutions until its axis is known so well
+/// that the answer is clear.
+void SpinPass::start_again_where_moved(const SpinEstimate& sequential, SpinOutput& out) {
+  if (mean_axis_.count() == 0) {
+    return;
+  }
+  const double apart_rad = angle_between_rad(mean_axis_.axis_icrf(), sequential.axis_icrf);
+  const double sigma_rad =
+      std::sqrt(mean_covariance_rad2().trace() + sequential.covariance_rad2.trace());
+  if (apart_rad <= std::hypot(kMovedSigmas * sigma_rad, kModel_rad)) {
+    return;
+  }
+  restarts_heeded_ = sequential_.restarts();
+  moved_at_ = sequential.t;
+  unsettled_ = 0;
+  mean_axis_ = MeanAxis{};
+  recent_axes_ = AxisWindow{static_cast<std::size_t>(config_.screening.window)};
+  screening_ = ScreeningWindow{config_.screening};
+  disambiguator_ = Disambiguator{config_};
+  out.notices.push_back(fmt::format("{}: the axis has moved by {:.2f} deg, the mean begins anew",
+                                    format_utc(sequential.t),
+                                    apart_rad * 180.0 / std::numbers::pi));
 }
 
 std::optional<KnownAxis> SpinPass::established_axis() const {
   if (mean_axis_.count() < kEstablishedFixes) {
     return std::nullopt;
   }
-  return KnownAxis{
-      .axis_icrf = mean_axis_.axis_icrf(),
-      .sigma_rad = std::hypot(std::sqrt(mean_axis_.covariance_rad2().trace()), kModel_rad)};
+  return KnownAxis{.axis_icrf = mean_axis_.axis_icrf(),
+                   .sigma_rad = std::hypot(std::sqrt(mean_covariance_rad2().trace()), kModel_rad)};
+}
+
+/// Where a share s of the fixes is left out because nothing settles them, those that are settled
+/// lie to one side: by up to s sigma of a single fix, which their number does not reduce.
+Eigen::Matrix2d SpinPass::mean_covariance_rad2() const {
+  const auto settled = static_cast<double>(mean_axis_.count());
+  const double unsettled = std::max(0.0, static_cast<double>(unsettled_));
+  const double share = unsettled / (settled + unsettled);
+  return mean_axis_.covariance_rad2() * (1.0 + settled * share * share);
 }
 
 SpinEstimate SpinPass::mean_estimate(const Candidate& candidate) const {
@@ -368,10 +412,12 @@ SpinEstimate SpinPass::mean_estimate(const Candidate& candidate) const {
   return {.t = candidate.revolution.t_start,
           .estimator = SpinEstimator::Mean,
           .axis_icrf = mean_axis_.axis_icrf(),
-          .covariance_rad2 = mean_axis_.covariance_rad2(),
+          .covariance_rad2 = mean_covariance_rad2(),
           .spin_rate_rad_s = rate_rad_s,
           .spin_rate_sigma_rad_s = rate_rad_s / period.period_s * period.sigma_s,
-          .status = fmt::format("{} fixes, spherical horizon", mean_axis_.count())};
+          .status = moved_at_ ? fmt::format("{} fixes since {}, spherical horizon",
+                                            mean_axis_.count(), format_utc(*moved_at_, 0))
+                              : fmt::format("{} fixes, spherical horizon", mean_axis_.count())};
 }
 
 }  // namespace spindrift

@@ -8,7 +8,8 @@
 ///                                    -> good edges -------------------> sequential
 ///
 /// The first revolutions are held back until there are enough of them to tell an outlier from a
-/// level (kFirstRevolutions); from then on each is settled as it closes.
+/// level (kFirstRevolutions); from then on each is settled as it closes. When the axis has moved,
+/// screening and mean begin anew.
 
 #pragma once
 
@@ -80,6 +81,8 @@ class SpinPass {
   std::vector<SpinFix> find_fixes(const Candidate& candidate, SpinOutput& out);
   void announce_axis(const Candidate& candidate, SpinOutput& out);
   std::optional<KnownAxis> established_axis() const;
+  void start_again_where_moved(const SpinEstimate& sequential, SpinOutput& out);
+  Eigen::Matrix2d mean_covariance_rad2() const;
   SpinEstimate mean_estimate(const Candidate& candidate) const;
   static void leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out);
   void say_once(const std::string& notice, SpinOutput& out);
@@ -97,7 +100,10 @@ class SpinPass {
   AxisWindow recent_axes_;
   Disambiguator disambiguator_;
   MeanAxis mean_axis_;
+  std::int64_t unsettled_ = 0;       ///< AMBIGUOUS fixes since the mean began.
+  std::optional<TaiTime> moved_at_;  ///< When the axis last did, and the mean began anew.
   SequentialEstimator sequential_;
+  int restarts_heeded_ = 0;
   std::set<std::string, std::less<>> said_;
 };
 

@@ -1,6 +1,8 @@
 #include "tests/support/product_text.h"
 
+#include <cmath>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -80,6 +82,20 @@ Line line_of(const SpinEstimate& estimate) {
   return line;
 }
 
+template <class Sample>
+SpinOutput run_whole(SpinPass pass, const std::vector<Sample>& arrivals) {
+  SpinOutput all;
+  const auto collect = [&](SpinOutput some) {
+    std::move(some.products.begin(), some.products.end(), std::back_inserter(all.products));
+    std::move(some.notices.begin(), some.notices.end(), std::back_inserter(all.notices));
+  };
+  for (const Sample& sample : arrivals) {
+    collect(pass.push(sample));
+  }
+  collect(pass.finish());
+  return all;
+}
+
 }  // namespace
 
 std::string text_of(const SpinProduct& product) {
@@ -87,16 +103,32 @@ std::string text_of(const SpinProduct& product) {
 }
 
 SpinOutput run(SpinPass pass, const std::vector<Pulse>& arrivals) {
-  SpinOutput all;
-  const auto collect = [&](SpinOutput some) {
-    std::move(some.products.begin(), some.products.end(), std::back_inserter(all.products));
-    std::move(some.notices.begin(), some.notices.end(), std::back_inserter(all.notices));
-  };
-  for (const Pulse& pulse : arrivals) {
-    collect(pass.push(pulse));
+  return run_whole(std::move(pass), arrivals);
+}
+
+SpinOutput run(SpinPass pass, const std::vector<CodedFrame>& arrivals) {
+  return run_whole(std::move(pass), arrivals);
+}
+
+SpinOutput run(const RecordedPass& pass) {
+  SpinPass spin{pass.config, pass.orbit};
+  return pass.frames.empty() ? run(std::move(spin), pass.pulses)
+                             : run(std::move(spin), pass.frames);
+}
+
+SpinEstimate last_estimate(const SpinOutput& output, SpinEstimator estimator) {
+  std::optional<SpinEstimate> last;
+  for (const SpinProduct& product : output.products) {
+    const auto* const estimate = std::get_if<SpinEstimate>(&product);
+    if (estimate != nullptr && estimate->estimator == estimator) {
+      last = *estimate;
+    }
   }
-  collect(pass.finish());
-  return all;
+  return last.value();
+}
+
+double sigma_rad(const SpinEstimate& estimate) {
+  return std::sqrt(estimate.covariance_rad2.trace());
 }
 
 std::vector<std::string> texts_of(const SpinOutput& output) {

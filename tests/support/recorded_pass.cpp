@@ -2,10 +2,12 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <sstream>
 
 #include "pipelines/ephemeris/oem.h"
@@ -40,6 +42,35 @@ std::vector<Pulse> pulses_in(const std::string& csv) {
   return pulses;
 }
 
+std::vector<CodedFrame> frames_in(const std::string& csv) {
+  std::istringstream lines{csv};
+  std::string line;
+  std::getline(lines, line);
+  std::vector<CodedFrame> frames;
+  while (std::getline(lines, line)) {
+    std::istringstream fields{line};
+    std::string field;
+    const auto interval_s = [&]() -> std::optional<double> {
+      std::getline(fields, field, ',');
+      return field.empty() ? std::nullopt : std::optional{std::stod(field)};
+    };
+    std::getline(fields, field, ',');
+    CodedFrame frame{.t = tai_from_ns(std::stoll(field)), .period_s = interval_s(), .delay_s = {}};
+    std::generate(frame.delay_s.begin() + 1, frame.delay_s.end(), interval_s);
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+std::set<Pulse> bad_edges_in(const nlohmann::json& truth) {
+  std::set<Pulse> bad;
+  for (const auto& edge : truth.value("bad_edges", nlohmann::json::array())) {
+    bad.insert({.t = tai_from_ns(edge.at(0).get<std::int64_t>()),
+                .channel = pulse_channel_from(edge.at(1).get<std::string>()).value()});
+  }
+  return bad;
+}
+
 SpinConfig config_in(const toml::table& mission) {
   const toml::node_view spin = mission["spin"];
   const auto number = [](const auto& node) { return node.template value<double>().value(); };
@@ -68,9 +99,12 @@ SpinConfig config_in(const toml::table& mission) {
 RecordedPass recorded_pass(const std::string& name) {
   const std::filesystem::path folder = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin" / name;
   const auto truth = nlohmann::json::parse(text_of(folder / "truth.json"));
+  const bool coded = std::filesystem::exists(folder / "coded.csv");
   return {.config = config_in(toml::parse(text_of(folder / "mission.toml"))),
           .orbit = Orbit{parse_oem(text_of(folder / "orbit.oem")).value()},
-          .pulses = pulses_in(text_of(folder / "pulses.csv")),
+          .pulses = coded ? std::vector<Pulse>{} : pulses_in(text_of(folder / "pulses.csv")),
+          .frames = coded ? frames_in(text_of(folder / "coded.csv")) : std::vector<CodedFrame>{},
+          .bad_edges = bad_edges_in(truth),
           .true_axis_icrf =
               direction_icrf({.ra_rad = truth.at("ra_deg").get<double>() * kDegree_rad,
                               .dec_rad = truth.at("dec_deg").get<double>() * kDegree_rad}),

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "pipelines/ephemeris/orbit.h"
+#include "pipelines/spin/coded_frame.h"
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/pulse.h"
 
@@ -16,7 +18,9 @@ namespace spindrift::testing {
 struct RecordedPass {
   SpinConfig config;
   Orbit orbit;
-  std::vector<Pulse> pulses;  ///< In the order of the file.
+  std::vector<Pulse> pulses;       ///< In the order of the file; none where frames are.
+  std::vector<CodedFrame> frames;  ///< Likewise.
+  std::set<Pulse> bad_edges;       ///< Spoilt and spurious ones, as truth.json names them.
   Eigen::Vector3d true_axis_icrf;
   double true_rate_rad_s;
 };

@@ -33,7 +33,6 @@ TEST(SpinProducts, AFailedTestIsNamedAfterItsQuantity) {
 TEST(SpinProducts, OtherRejectionsSayWhatWasWrong) {
   EXPECT_EQ(name_of(Rejection::Unassociated), "unassociated");
   EXPECT_EQ(name_of(Rejection::Late), "late");
-  EXPECT_EQ(name_of(Rejection::Unpaired), "unpaired");
   EXPECT_EQ(name_of(Rejection::Geometry), "geometry");
   EXPECT_EQ(name_of(Rejection::NoOrbit), "no_orbit");
 }

@@ -104,6 +104,7 @@ std::vector<ObservedRevolution> without_sun(std::vector<ObservedRevolution> seen
 SpinFix ambiguous(SpinFix fix, const Eigen::Vector3d& first, const Eigen::Vector3d& second) {
   fix.axis_icrf = first;
   fix.alternate_axes_icrf = {second};
+  fix.alternate_covariances_rad2 = {fix.covariance_rad2};
   fix.resolution = Resolution::Ambiguous;
   fix.accepted = false;
   return fix;
@@ -296,6 +297,7 @@ TEST(Sequential, NamesTheAlternativeThatItDoesNotPublish) {
                             direction_icrf({.ra_rad = 0.0, .dec_rad = 0.0}));
   start.axis_icrf = scene.body.axis_icrf;
   start.alternate_axes_icrf = {scene.turned_about_earth(10.0)};
+  start.alternate_covariances_rad2 = {start.covariance_rad2};
   const auto all = estimates(scene.body.config, {seen.front()}, at_first(start));
   const RaDec other = ra_dec_of(start.alternate_axes_icrf.front());
   std::array<char, 64> named{};
