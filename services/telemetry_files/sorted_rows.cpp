@@ -82,7 +82,7 @@ void SortedRows<Value>::sort() {
 
 template <class Value>
 std::uint64_t SortedRows<Value>::bytes_given() const {
-  const double held = static_cast<double>(rows_.size() - next_);
+  const auto held = static_cast<double>(rows_.size() - next_);
   const double given = read_ == 0 ? 1.0 : 1.0 - held / static_cast<double>(read_);
   return static_cast<std::uint64_t>(given * static_cast<double>(file_.bytes_read()));
 }
