@@ -5,8 +5,11 @@
 namespace spindrift {
 namespace {
 
+/// The double nearest to so many nanoseconds: what a file of telemetry reads back as.
+double on_nanosecond(double interval_s) { return std::round(interval_s * 1e9) / 1e9; }
+
 double on_grid(double interval_s, double resolution_s) {
-  return std::round(interval_s / resolution_s) * resolution_s;
+  return on_nanosecond(std::round(interval_s / resolution_s) * resolution_s);
 }
 
 }  // namespace
@@ -26,7 +29,7 @@ std::vector<CodedFrame> coded_telemetry(const std::vector<ReceivedPulse>& pulses
       const double delay_s = on_grid(seconds_between(frame.t, pulse.t), resolution_s);
       const bool modulo = frame.period_s && *frame.period_s > 0.0;
       frames.back().delay_s.at(index_of(pulse.channel)) =
-          modulo ? std::fmod(delay_s, *frame.period_s) : delay_s;
+          modulo ? on_nanosecond(std::fmod(delay_s, *frame.period_s)) : delay_s;
     }
   }
   return frames;

@@ -12,8 +12,8 @@ namespace spindrift {
 
 /// The on-board counter: each sun1 edge opens a frame, the first edge of every other channel
 /// before the next sun1 is its delay, and the time since the sun1 before is the period (empty in
-/// the first frame). Intervals are rounded to multiples of `resolution_s`, delays taken modulo the
-/// period. Edges ahead of the first sun1 are left out.
+/// the first frame). Intervals are rounded to multiples of `resolution_s` and to nanoseconds,
+/// delays taken modulo the period. Edges ahead of the first sun1 are left out.
 ///
 /// @param pulses In order of time. @param resolution_s Positive.
 std::vector<CodedFrame> coded_telemetry(const std::vector<ReceivedPulse>& pulses,

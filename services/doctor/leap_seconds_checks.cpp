@@ -7,9 +7,6 @@
 namespace spindrift::doctor {
 namespace {
 
-// A leap second is announced about half a year before, at the end of June or December.
-constexpr std::chrono::days kSoon{30};
-
 std::string text_of(std::chrono::sys_days day) {
   const std::chrono::year_month_day date{day};
   return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()),
@@ -34,15 +31,16 @@ Check check_leap_seconds(const LeapFacts& facts) {
                facts.machine ? facts.machine->complete_until : facts.erfa.complete_until);
   if (facts.machine && facts.machine->complete_until > facts.erfa.complete_until &&
       facts.machine->tai_minus_utc_s != facts.erfa.tai_minus_utc_s) {
-    return failure(name, found, "UTC will be wrong by the difference: install a newer liberfa1");
+    return failure(name, found,
+                   "UTC will be wrong by the difference: install a newer liberfa1; Debian 12 has "
+                   "none, a later Debian has");
   }
-  const std::string advice =
-      "see whether IERS Bulletin C has announced a leap second; apt-get install --only-upgrade "
-      "tzdata liberfa1";
-  if (facts.today > known_until) {
-    return warning(name, fmt::format("{}; both are out of date", found), advice);
-  }
-  return facts.today + kSoon > known_until ? warning(name, found, advice) : ok(name, found);
+  return facts.today > known_until
+             ? warning(name, fmt::format("{}; out of date", found),
+                       "apt-get update && apt-get install --only-upgrade tzdata; where that brings "
+                       "no newer table: UTC is right unless IERS Bulletin C has announced a leap "
+                       "second meanwhile (https://hpiers.obspm.fr/iers/bul/bulc/bulletinc.dat)")
+             : ok(name, found);
 }
 
 }  // namespace spindrift::doctor

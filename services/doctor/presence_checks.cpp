@@ -50,7 +50,8 @@ std::string mismatch(const Endpoint& endpoint) {
 }
 
 bool is_telemetry(const Endpoint& endpoint) {
-  return endpoint.writes && endpoint.topic == bus::kPulseTopic.name;
+  return endpoint.writes &&
+         (endpoint.topic == bus::kPulseTopic.name || endpoint.topic == bus::kCodedFrameTopic.name);
 }
 
 Check check_company(const PresenceFacts& facts) {
@@ -73,8 +74,9 @@ Check check_telemetry(const PresenceFacts& facts) {
   if (!here.empty()) {
     return ok("telemetry", lines(here));
   }
-  const std::string found = fmt::format("nobody publishes pulses in domain {}, partition '{}'",
-                                        facts.bus.domain, facts.bus.partition);
+  const std::string found =
+      fmt::format("nobody publishes pulses or coded frames in domain {}, partition '{}'",
+                  facts.bus.domain, facts.bus.partition);
   return elsewhere.empty()
              ? warning("telemetry", found,
                        "start the front-end; if it runs, give it this domain and the network "

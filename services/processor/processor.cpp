@@ -142,7 +142,8 @@ std::vector<RunSummary> Processor::summaries() const {
   std::vector<RunSummary> summaries;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     summaries.push_back(passes_[i].summary());
-    summaries.back().edges_received = runs_[i].samples_received();
+    summaries.back().edges_received = runs_[i].edges_received();
+    summaries.back().coded_frames_received = runs_[i].frames_received();
     summaries.back().input_rejected = runs_[i].inputs_rejected();
   }
   return summaries;

@@ -18,10 +18,35 @@ struct Count {
   void operator()(const RevolutionProduct& /*revolution*/) const { ++summary.revolutions; }
   void operator()(const SpinMeasurement& /*measurement*/) const {}
   void operator()(const SpinFix& fix) const {
+    forget_ambiguous(fix.revolution);
+    if (fix.resolution == Resolution::Ambiguous) {
+      summary.ambiguous.emplace(fix.revolution, fix.geometry_case);
+    }
     ++summary.fixes;
     summary.fixes_accepted += fix.accepted ? 1 : 0;
+    ++summary.fixes_by_case[fix.geometry_case];
+    ++summary.fixes_by_resolution[name_of(fix.resolution)];
   }
-  void operator()(const SpinEstimate& estimate) const { summary.mean = estimate; }
+  void operator()(const SpinEstimate& estimate) const {
+    summary.estimates.insert_or_assign(estimate.estimator, estimate);
+  }
+
+  void forget_ambiguous(std::int64_t revolution) const {
+    const auto before = summary.ambiguous.find(revolution);
+    if (before != summary.ambiguous.end()) {
+      --summary.fixes;
+      take_one(summary.fixes_by_case, before->second);
+      take_one(summary.fixes_by_resolution, name_of(Resolution::Ambiguous));
+      summary.ambiguous.erase(before);
+    }
+  }
+
+  template <class Key>
+  static void take_one(std::map<Key, std::int64_t>& counts, const Key& key) {
+    if (--counts.at(key) == 0) {
+      counts.erase(key);
+    }
+  }
 };
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,16 +15,22 @@ namespace spindrift {
 struct RunSummary {
   std::string run_id;
   std::string spacecraft_id;
-  std::int64_t edges_received = 0;  ///< Duplicates too.
-  std::int64_t edges_accepted = 0;
+  std::int64_t edges_received = 0;         ///< Duplicates too.
+  std::int64_t coded_frames_received = 0;  ///< Likewise; each holds up to six edges.
+  std::int64_t edges_accepted = 0;         ///< Those of coded frames too; likewise the following.
   std::map<std::string_view, std::int64_t> edges_rejected;  ///< By the test that did it.
   std::int64_t input_rejected = 0;                          ///< Rows and samples that are none.
   std::int64_t revolutions = 0;
   std::int64_t fixes = 0;
   std::int64_t fixes_accepted = 0;
-  std::optional<SpinEstimate> mean;  ///< The last one.
+  std::map<int, std::int64_t> fixes_by_case;
+  std::map<std::string_view, std::int64_t> fixes_by_resolution;  ///< AMBIGUOUS among them.
+  std::map<SpinEstimator, SpinEstimate> estimates;               ///< The last of each.
 
   void count(const SpinProduct& product);
+
+  /// Case of every revolution whose fix is AMBIGUOUS: it may be given again, decided.
+  std::map<std::int64_t, int> ambiguous = {};
 };
 
 }  // namespace spindrift

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <random>
+#include <type_traits>
 #include <utility>
 
 #include "services/clock/wall_clock.h"
@@ -73,7 +74,8 @@ void SpacecraftRun::go_on(const StoredPass& stored) {
   };
   next_arrival_ =
       std::max({next_arrival_, arrival_of(stored.pulses) + 1, arrival_of(stored.frames) + 1});
-  samples_received_ = static_cast<std::int64_t>(stored.pulses.size() + stored.frames.size());
+  edges_received_ = static_cast<std::int64_t>(stored.pulses.size());
+  frames_received_ = static_cast<std::int64_t>(stored.frames.size());
   inputs_rejected_ = stored.rejected_inputs;
   earliest_ = stored.earliest;
   for (const SourceCount& count : stored.source_counts) {
@@ -120,7 +122,7 @@ template <class Sample>
 void SpacecraftRun::sort(const Sample& sample, std::vector<Sample>& held,
                          std::vector<Sample>& input, Taken& out) {
   const std::int64_t arrival = next_arrival_++;
-  ++samples_received_;
+  ++(std::is_same_v<Sample, Pulse> ? edges_received_ : frames_received_);
   lower(earliest_, sample.t);
   const auto verdict = restart_ ? restart_->see(sample) : RestartWatch::Verdict::SamePass;
   if (verdict == RestartWatch::Verdict::Stored) {
@@ -154,7 +156,8 @@ void SpacecraftRun::begin_new_pass(Taken& out) {
   restart_.reset();
   counts_before_.clear();
   inputs_rejected_ = 0;
-  samples_received_ = static_cast<std::int64_t>(held_pulses_.size() + held_frames_.size());
+  edges_received_ = static_cast<std::int64_t>(held_pulses_.size());
+  frames_received_ = static_cast<std::int64_t>(held_frames_.size());
   earliest_.reset();
   for (const Pulse& pulse : held_pulses_) {
     lower(earliest_, pulse.t);

@@ -36,7 +36,8 @@ class SpacecraftRun {
   const std::string& run_id() const { return run_id_; }
   /// What a stored run must have in common with this one to be continued.
   const RunStart& start() const { return start_; }
-  std::int64_t samples_received() const { return samples_received_; }  ///< Duplicates too.
+  std::int64_t edges_received() const { return edges_received_; }    ///< Duplicates too.
+  std::int64_t frames_received() const { return frames_received_; }  ///< Coded ones; likewise.
   std::int64_t inputs_rejected() const { return inputs_rejected_; }
 
   /// The run itself, before its first sample.
@@ -69,7 +70,8 @@ class SpacecraftRun {
   RunStart start_;
   std::string run_id_;
   std::int64_t next_arrival_;
-  std::int64_t samples_received_ = 0;
+  std::int64_t edges_received_ = 0;
+  std::int64_t frames_received_ = 0;
   std::int64_t inputs_rejected_ = 0;
   std::optional<TaiTime> earliest_;
   std::map<std::string, SequenceCounts> counts_before_;  ///< The run's, before the restart.

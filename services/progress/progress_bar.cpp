@@ -11,12 +11,11 @@ namespace spindrift {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenDrawings{100};
-constexpr std::int64_t kWidth = 30;
-constexpr const char* kEraseLine = "\r\x1b[K";
+constexpr int kWidth = 30;
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::string label, std::int64_t total)
+ProgressBar::ProgressBar(std::string label, std::uint64_t total)
     : label_{std::move(label)}, total_{total}, shown_{total > 0 && isatty(STDERR_FILENO) == 1} {}
 
 ProgressBar::~ProgressBar() {
@@ -25,7 +24,7 @@ ProgressBar::~ProgressBar() {
   }
 }
 
-void ProgressBar::advance_to(std::int64_t done) {
+void ProgressBar::advance_to(std::uint64_t done) {
   if (!shown_) {
     return;
   }
@@ -34,9 +33,8 @@ void ProgressBar::advance_to(std::int64_t done) {
     return;
   }
   next_drawing_ = now + kBetweenDrawings;
-  const double part =
-      static_cast<double>(std::clamp<std::int64_t>(done, 0, total_)) / static_cast<double>(total_);
-  const auto filled = static_cast<std::int64_t>(part * static_cast<double>(kWidth));
+  const double part = static_cast<double>(std::min(done, total_)) / static_cast<double>(total_);
+  const auto filled = static_cast<int>(part * kWidth);
   fmt::print(stderr, "{}{} [{:#>{}}{:->{}}] {:3.0f} %", kEraseLine, label_, "", filled, "",
              kWidth - filled, 100.0 * part);
 }

@@ -9,12 +9,15 @@
 
 namespace spindrift {
 
+/// Ahead of whatever else is written to a terminal while a bar may stand in its last line.
+inline constexpr const char* kEraseLine = "\r\x1b[K";
+
 /// One line on standard error, drawn anew at most ten times a second and gone at the end. Silent
 /// where standard error is no terminal.
 class ProgressBar {
  public:
   /// @param label What is being done: "processing". @param total What `done` will reach.
-  ProgressBar(std::string label, std::int64_t total);
+  ProgressBar(std::string label, std::uint64_t total);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -22,11 +25,11 @@ class ProgressBar {
   ProgressBar& operator=(ProgressBar&&) = delete;
 
   /// Cheap enough for every batch.
-  void advance_to(std::int64_t done);
+  void advance_to(std::uint64_t done);
 
  private:
   std::string label_;
-  std::int64_t total_;
+  std::uint64_t total_;
   bool shown_;
   std::chrono::steady_clock::time_point next_drawing_;
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -21,6 +22,7 @@
 #include <system_error>
 
 #include "services/processor/version.h"
+#include "services/progress/progress_bar.h"
 #include "services/spindrift/doctor.h"
 #include "services/spindrift/process.h"
 #include "services/spindrift/replay.h"
@@ -206,7 +208,9 @@ int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN);
     // Standard output is for results, standard error for people.
     spdlog::set_default_logger(spdlog::stderr_color_mt("spindrift"));
-    spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %^%l%$ %v", spdlog::pattern_time_type::utc);
+    const std::string begin_line = isatty(STDERR_FILENO) == 1 ? spindrift::kEraseLine : "";
+    spdlog::set_pattern(begin_line + "%Y-%m-%dT%H:%M:%S.%eZ %^%l%$ %v",
+                        spdlog::pattern_time_type::utc);
     const int status = run_safely(argc, argv);
     if (std::fflush(stdout) != 0) {
       fmt::print(stderr, "spindrift: standard output: {}\n",

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <optional>
-#include <thread>
+#include <stop_token>
 
 #include "pipelines/time/tai_time.h"
 
@@ -17,17 +19,8 @@ class Pacing {
   /// @param speed Times real time; 0: everything is due at once.
   explicit Pacing(double speed) : speed_{speed} {}
 
-  void wait_until_due(TaiTime t) {
-    if (!(speed_ > 0.0)) {
-      return;
-    }
-    if (!first_) {
-      first_ = t;
-      start_ = Clock::now();
-    }
-    const std::chrono::duration<double> elapsed{seconds_between(*first_, t) / speed_};
-    std::this_thread::sleep_until(start_ + std::chrono::duration_cast<Clock::duration>(elapsed));
-  }
+  /// Until `t` is due, or a stop is requested.
+  void wait_until_due(TaiTime t, const std::stop_token& stop);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -35,6 +28,8 @@ class Pacing {
   double speed_;
   std::optional<TaiTime> first_;
   Clock::time_point start_;
+  std::mutex mutex_;
+  std::condition_variable_any stopped_;
 };
 
 }  // namespace spindrift

@@ -9,6 +9,7 @@
 #include "services/archive/archive.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
+#include "services/progress/progress_bar.h"
 #include "services/spindrift/outcome.h"
 #include "services/spindrift/submit_all.h"
 #include "services/spindrift/summary_text.h"
@@ -29,6 +30,7 @@ Expected<void> run(Processor& processor, TelemetryInput& telemetry, Archive& arc
   if (auto begun = submit_all(archive, processor.begin()); !begun) {
     return begun;
   }
+  ProgressBar progress{"processing", telemetry.bytes_total()};
   while (true) {
     auto batch = telemetry.next();
     if (!batch) {
@@ -40,6 +42,7 @@ Expected<void> run(Processor& processor, TelemetryInput& telemetry, Archive& arc
     if (auto stored = submit_all(archive, processor.take(std::move(*batch))); !stored) {
       return stored;
     }
+    progress.advance_to(telemetry.bytes_given());
   }
 }
 

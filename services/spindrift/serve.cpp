@@ -122,6 +122,7 @@ Expected<void> run(const bus::Participant& participant, const ResultPublisher& p
   TelemetrySubscriber& subscriber = **started;
   std::atomic<bool> stopping = false;
   stop_signal.on_stop([&] {
+    spdlog::info("stopping");
     stopping = true;
     subscriber.stop();
     queue.close();

@@ -1,26 +1,20 @@
 #include "services/spindrift/simulate.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
-#include <stop_token>
+#include <span>
 #include <vector>
 
-#include "services/bus/participant.h"
+#include "pipelines/ground_model/coded_telemetry.h"
 #include "services/progress/progress_bar.h"
-#include "services/publisher/telemetry_publisher.h"
 #include "services/scenario/pass_files.h"
 #include "services/scenario/scenario.h"
 #include "services/scenario/simulated_pass.h"
-#include "services/spindrift/pacing.h"
+#include "services/spindrift/telemetry_output.h"
 
 namespace spindrift {
 namespace {
-
-constexpr std::chrono::seconds kWaitForSubscriber{30};
-constexpr std::chrono::seconds kWaitForArrival{60};
 
 nlohmann::json faults_json(const SimulatedPass& pass) {
   nlohmann::json faults = {{"missing", pass.received.missing}};
@@ -66,44 +60,47 @@ Expected<void> to_files(const SimulateOptions& options, const Scenario& scenario
   return {};
 }
 
-Expected<void> publish(PulsePublisher& publisher, const Scenario& scenario,
-                       const SimulatedPass& pass, double speed) {
-  const auto& pulses = pass.received.pulses;
-  Pacing pacing{speed};
-  ProgressBar progress{"publishing", static_cast<std::int64_t>(pulses.size())};
-  std::int64_t done = 0;
-  for (const auto& [pulse, damage] : pulses) {
-    pacing.wait_until_due(pulse.t);
-    if (auto sent = publisher.publish(scenario.spacecraft_id, pulse, std::stop_token{}); !sent) {
-      return sent;
-    }
-    progress.advance_to(++done);
+/// Pulses and coded frames in one order of time.
+Expected<void> publish(const Scenario& scenario, const SimulatedPass& pass,
+                       const std::vector<CodedFrame>& frames, TelemetryOutput& output) {
+  const std::span<const ReceivedPulse> pulses = scenario.telemetry.pulses
+                                                    ? std::span{pass.received.pulses}
+                                                    : std::span<const ReceivedPulse>{};
+  ProgressBar progress{"publishing", pulses.size() + frames.size()};
+  auto frame = frames.begin();
+  auto pulse = pulses.begin();
+  Expected<void> sent;
+  for (std::uint64_t done = 1; sent && (frame != frames.end() || pulse != pulses.end()); ++done) {
+    const bool pulse_is_next =
+        frame == frames.end() || (pulse != pulses.end() && pulse->pulse.t <= frame->t);
+    sent = pulse_is_next ? output.publish(scenario.spacecraft_id, (pulse++)->pulse)
+                         : output.publish(scenario.spacecraft_id, *frame++);
+    progress.advance_to(done);
   }
-  return publisher.wait_for_acknowledgments(kWaitForArrival);
+  return sent;
 }
 
 Expected<void> to_bus(const SimulateOptions& options, const Scenario& scenario,
                       const SimulatedPass& pass) {
-  const auto participant =
-      bus::Participant::create({.domain = options.domain, .partition = options.partition});
-  if (!participant) {
-    return Unexpected{participant.error()};
+  const std::vector<CodedFrame> frames =
+      scenario.telemetry.coded
+          ? coded_telemetry(pass.received.pulses, scenario.telemetry.coded_resolution_s)
+          : std::vector<CodedFrame>{};
+  const auto sent = send_telemetry(
+      {.bus = {.domain = options.domain, .partition = options.partition},
+       .source = "simulate",
+       .speed = options.speed,
+       .pulses = scenario.telemetry.pulses,
+       .coded = scenario.telemetry.coded},
+      [&](TelemetryOutput& output) { return publish(scenario, pass, frames, output); });
+  if (!sent) {
+    return Unexpected{sent.error()};
   }
-  spdlog::info("{}", participant->description());
-  auto publisher = PulsePublisher::create(*participant, "simulate");
-  if (!publisher) {
-    return Unexpected{publisher.error()};
-  }
-  if (auto found = publisher->wait_for_subscriber(kWaitForSubscriber); !found) {
-    return Unexpected{{ErrorCode::Unavailable,
-                       fmt::format("nobody subscribes in domain {}, partition '{}': {}",
-                                   options.domain, options.partition, found.error().message)}};
-  }
-  if (auto sent = publish(*publisher, scenario, pass, options.speed); !sent) {
-    return sent;
-  }
-  report(scenario, pass, {{"published", pass.received.pulses.size()}}, "all published\n",
-         options.json);
+  report(scenario, pass,
+         {{"published", sent->edges + sent->coded_frames},
+          {"published_edges", sent->edges},
+          {"published_coded_frames", sent->coded_frames}},
+         sent->text() + " published\n", options.json);
   return {};
 }
 
@@ -113,12 +110,6 @@ Expected<void> simulate(const SimulateOptions& options) {
   const auto scenario = load_scenario(options.scenario);
   if (!scenario) {
     return Unexpected{scenario.error()};
-  }
-  if (options.publish && scenario->telemetry.coded) {
-    return Unexpected{{ErrorCode::InvalidConfiguration,
-                       fmt::format("{}: telemetry.kind: only \"pulses\" can be published; write "
-                                   "coded telemetry to files with --out",
-                                   options.scenario.string())}};
   }
   const auto pass = simulated_pass(*scenario);
   if (!pass) {

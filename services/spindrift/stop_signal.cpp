@@ -1,6 +1,5 @@
 #include "services/spindrift/stop_signal.h"
 
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <utility>
@@ -25,7 +24,6 @@ void StopSignal::on_stop(std::function<void()> stop) {
   thread_ = std::thread{[signals = signals_, stop = std::move(stop)] {
     int signal = 0;
     sigwait(&signals, &signal);
-    spdlog::info("stopping");
     stop();
   }};
 }

@@ -30,63 +30,101 @@ Readable readable(const SpinEstimate& estimate) {
           .utc = format_utc(estimate.t)};
 }
 
+/// "1: 590, 2: 7".
+template <class Key>
+std::string listed(const std::map<Key, std::int64_t>& counts) {
+  std::string text;
+  for (const auto& [key, count] : counts) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", key, count);
+  }
+  return text;
+}
+
+template <class Key>
+nlohmann::json to_json(const std::map<Key, std::int64_t>& counts) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const auto& [key, count] : counts) {
+    json[fmt::format("{}", key)] = count;
+  }
+  return json;
+}
+
+std::string fixes_text(const RunSummary& summary) {
+  std::string text =
+      fmt::format("  fixes        {}, {} accepted\n", summary.fixes, summary.fixes_accepted);
+  if (summary.fixes > 0) {
+    text += fmt::format("               case         {}\n", listed(summary.fixes_by_case));
+    text += fmt::format("               resolution   {}\n", listed(summary.fixes_by_resolution));
+  }
+  return text;
+}
+
+std::string axis_text(const RunSummary& summary) {
+  if (summary.estimates.empty()) {
+    return "  spin axis    not determined\n";
+  }
+  std::string text =
+      "  spin axis    ICRF, deg          RA         Dec    sigma    spin rate, rpm      sigma\n";
+  std::string origins;
+  for (const auto& [estimator, estimate] : summary.estimates) {
+    const Readable shown = readable(estimate);
+    text += fmt::format("               {:<12}{:9.4f}  {:+10.4f}  {:7.4f}  {:16.6f}  {:9.6f}\n",
+                        name_of(estimator), shown.ra_deg, shown.dec_deg, shown.sigma_deg, shown.rpm,
+                        shown.sigma_rpm);
+    origins += fmt::format("  {:<13}{}  {}\n", name_of(estimator), shown.utc, estimate.status);
+  }
+  return text + origins;
+}
+
+nlohmann::json to_json(const SpinEstimate& estimate) {
+  const Readable shown = readable(estimate);
+  return {{"t_tai_ns", tai_ns(estimate.t)}, {"utc", shown.utc},
+          {"ra_deg", shown.ra_deg},         {"dec_deg", shown.dec_deg},
+          {"sigma_deg", shown.sigma_deg},   {"spin_rate_rpm", shown.rpm},
+          {"sigma_rpm", shown.sigma_rpm},   {"status", estimate.status}};
+}
+
 }  // namespace
 
 std::string to_text(const RunSummary& summary) {
   std::string text = fmt::format("{}  run {}\n", summary.spacecraft_id, summary.run_id);
-  text += fmt::format("  edges        {} received, {} accepted\n", summary.edges_received,
-                      summary.edges_accepted);
+  text +=
+      fmt::format("  received     {} edges, {} coded frames, {} bad rows or samples\n",
+                  summary.edges_received, summary.coded_frames_received, summary.input_rejected);
+  text += fmt::format("  edges        {} accepted\n", summary.edges_accepted);
   for (const auto& [test, count] : summary.edges_rejected) {
     text += fmt::format("               {} rejected: {}\n", count, test);
   }
-  text += fmt::format("  bad input    {}\n", summary.input_rejected);
   text += fmt::format("  revolutions  {}\n", summary.revolutions);
-  text += fmt::format("  fixes        {}, {} accepted\n", summary.fixes, summary.fixes_accepted);
-  if (!summary.mean) {
-    return text + "  spin axis    not determined\n";
-  }
-  const Readable mean = readable(*summary.mean);
-  text += fmt::format(
-      "  spin axis    right ascension {:.4f} deg, declination {:.4f} deg (ICRF), sigma {:.4f} "
-      "deg\n",
-      mean.ra_deg, mean.dec_deg, mean.sigma_deg);
-  text += fmt::format("  spin rate    {:.6f} rpm, sigma {:.6f} rpm\n", mean.rpm, mean.sigma_rpm);
-  text += fmt::format("  at           {}  (mean: {})\n", mean.utc, summary.mean->status);
-  return text;
+  return text + fixes_text(summary) + axis_text(summary);
 }
 
 nlohmann::json to_json(const RunSummary& summary) {
   nlohmann::json json{{"run_id", summary.run_id},
                       {"spacecraft", summary.spacecraft_id},
                       {"edges_received", summary.edges_received},
+                      {"coded_frames_received", summary.coded_frames_received},
                       {"edges_accepted", summary.edges_accepted},
-                      {"edges_rejected", nlohmann::json::object()},
+                      {"edges_rejected", to_json(summary.edges_rejected)},
                       {"input_rejected", summary.input_rejected},
                       {"revolutions", summary.revolutions},
                       {"fixes", summary.fixes},
                       {"fixes_accepted", summary.fixes_accepted},
-                      {"mean", nullptr}};
-  for (const auto& [test, count] : summary.edges_rejected) {
-    json["edges_rejected"][std::string{test}] = count;
-  }
-  if (summary.mean) {
-    const Readable mean = readable(*summary.mean);
-    json["mean"] = {{"t_tai_ns", tai_ns(summary.mean->t)},
-                    {"utc", mean.utc},
-                    {"ra_deg", mean.ra_deg},
-                    {"dec_deg", mean.dec_deg},
-                    {"sigma_deg", mean.sigma_deg},
-                    {"spin_rate_rpm", mean.rpm},
-                    {"sigma_rpm", mean.sigma_rpm},
-                    {"status", summary.mean->status}};
+                      {"fixes_by_case", to_json(summary.fixes_by_case)},
+                      {"fixes_by_resolution", to_json(summary.fixes_by_resolution)},
+                      {"mean", nullptr},
+                      {"sequential", nullptr}};
+  for (const auto& [estimator, estimate] : summary.estimates) {
+    json[std::string{name_of(estimator)}] = to_json(estimate);
   }
   return json;
 }
 
 std::string to_text(const SpinEstimate& estimate) {
   const Readable shown = readable(estimate);
-  return fmt::format("axis RA {:.4f} Dec {:.4f} deg, sigma {:.4f} deg, {:.6f} rpm, {}",
-                     shown.ra_deg, shown.dec_deg, shown.sigma_deg, shown.rpm, estimate.status);
+  return fmt::format("axis RA {:.4f} Dec {:.4f} deg, sigma {:.4f} deg, {:.6f} rpm, {}: {}",
+                     shown.ra_deg, shown.dec_deg, shown.sigma_deg, shown.rpm,
+                     name_of(estimate.estimator), estimate.status);
 }
 
 std::string report(const std::vector<RunSummary>& summaries,
@@ -106,7 +144,7 @@ std::string report(const std::vector<RunSummary>& summaries,
     text += to_text(summary);
   }
   for (const auto& [spacecraft, samples] : other_spacecraft) {
-    text += fmt::format("{}  no mission here: {} edges not stored\n", spacecraft, samples);
+    text += fmt::format("{}  no mission here: {} samples not stored\n", spacecraft, samples);
   }
   return text + fmt::format("archive: {}\n", db.string());
 }

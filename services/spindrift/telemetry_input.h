@@ -44,7 +44,7 @@ class TelemetryInput {
 
   bool holds(TelemetryKind kind) const;
   const BadRows& bad_rows() const { return bad_rows_; }  ///< Of the batches given.
-  std::uint64_t bytes_read() const { return stream_.bytes_read(); }
+  std::uint64_t bytes_given() const { return stream_.bytes_given(); }
   std::uint64_t bytes_total() const { return stream_.bytes_total(); }
 
  private:

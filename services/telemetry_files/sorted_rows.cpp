@@ -59,6 +59,7 @@ Expected<void> SortedRows<Value>::read(std::vector<RejectedInput>& rejected,
       ended_ = true;
     } else if (const auto* const good = std::get_if<TelemetryRow<Value>>(&**row)) {
       rows_.push_back(*good);
+      ++read_;
     } else {
       rejected.push_back(std::get<RejectedInput>(std::move(**row)));
     }
@@ -77,6 +78,13 @@ void SortedRows<Value>::sort() {
   if (!std::is_sorted(rows_.begin(), rows_.end(), before)) {
     std::inplace_merge(rows_.begin(), added, rows_.end(), before);
   }
+}
+
+template <class Value>
+std::uint64_t SortedRows<Value>::bytes_given() const {
+  const auto held = static_cast<double>(rows_.size() - next_);
+  const double given = read_ == 0 ? 1.0 : 1.0 - held / static_cast<double>(read_);
+  return static_cast<std::uint64_t>(given * static_cast<double>(file_.bytes_read()));
 }
 
 template class SortedRows<Pulse>;

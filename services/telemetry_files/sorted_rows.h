@@ -46,7 +46,8 @@ class SortedRows {
   void pop() { ++next_; }
 
   const std::string& file_name() const { return file_name_; }
-  std::uint64_t bytes_read() const { return file_.bytes_read(); }
+  /// Of the file, up to the rows that are still held.
+  std::uint64_t bytes_given() const;
 
  private:
   void drop_popped();
@@ -60,6 +61,7 @@ class SortedRows {
   std::size_t next_ = 0;    ///< The head.
   std::size_t ready_ = 0;   ///< Up to here nothing that is still to be read belongs.
   std::size_t sorted_ = 0;  ///< Up to here they are in order.
+  std::uint64_t read_ = 0;  ///< Good rows of the file so far.
   bool ended_ = false;
 };
 

@@ -172,10 +172,10 @@ Expected<bool> TelemetryStream::find_heads(SampleBatch& batch) {
   return true;
 }
 
-std::uint64_t TelemetryStream::bytes_read() const {
+std::uint64_t TelemetryStream::bytes_given() const {
   return std::accumulate(
       files_.begin(), files_.end(), std::uint64_t{0}, [](std::uint64_t sum, const File& file) {
-        return sum + std::visit([](const auto& rows) { return rows.bytes_read(); }, file);
+        return sum + std::visit([](const auto& rows) { return rows.bytes_given(); }, file);
       });
 }
 

@@ -44,8 +44,9 @@ class TelemetryStream {
   /// @return Unavailable when reading fails on the way.
   Expected<SampleBatch> next();
 
-  /// Of all files, and how many there are: how far the reading is.
-  std::uint64_t bytes_read() const;
+  /// Of all files, and how many there are: how far it is. Rows that are read but held back are not
+  /// counted yet.
+  std::uint64_t bytes_given() const;
   std::uint64_t bytes_total() const { return bytes_total_; }
 
  private:

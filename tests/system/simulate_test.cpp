@@ -205,16 +205,6 @@ TEST(Simulate, RefusesABadCommandLine) {
   }
 }
 
-TEST(Simulate, DoesNotPublishCodedTelemetry) {
-  const TemporaryFolder folder;
-  Program program{
-      {"simulate",
-       changed(folder, kNominal, "[attitude]", "[telemetry]\nkind = \"coded\"\n[attitude]"),
-       "--publish"}};
-  EXPECT_EQ(program.exit_status(), 2);
-  EXPECT_THAT(program.log(), HasSubstr("telemetry.kind: only \"pulses\" can be published"));
-}
-
 TEST(Simulate, PublishesWhatItWouldWrite) {
   const TemporaryFolder folder;
   const auto out = folder.path() / "pass";

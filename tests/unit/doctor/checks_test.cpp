@@ -166,6 +166,12 @@ TEST(DoctorPresence, NamesThoseWhoPublishTelemetry) {
   EXPECT_THAT(named(checks, "telemetry").found, HasSubstr("frontend (pid 7) on ant"));
 }
 
+TEST(DoctorPresence, TakesCodedFramesForTelemetry) {
+  Endpoint coded = pulses_in("live");
+  coded.topic = "spindrift/coded_frame";
+  EXPECT_EQ(named(check_presence(present({coded})), "telemetry").verdict, Verdict::Ok);
+}
+
 TEST(DoctorPresence, TakesAPartitionForThePatternThatItIs) {
   EXPECT_EQ(worst_of(check_presence(present({pulses_in("li*")}))), Verdict::Ok);
 }
@@ -283,8 +289,7 @@ LeapFacts leaps(std::chrono::sys_days today) {
 }
 
 TEST(DoctorLeapSeconds, WarnsWhenNoTableReachesToday) {
-  EXPECT_EQ(check_leap_seconds(leaps(2026y / 5 / 28)).verdict, Verdict::Ok);
-  EXPECT_EQ(check_leap_seconds(leaps(2026y / 5 / 31)).verdict, Verdict::Warning);
+  EXPECT_EQ(check_leap_seconds(leaps(2026y / 6 / 28)).verdict, Verdict::Ok);
   const Check late = check_leap_seconds(leaps(2026y / 6 / 29));
   EXPECT_EQ(late.verdict, Verdict::Warning);
   EXPECT_THAT(late.found, HasSubstr("out of date"));
@@ -371,12 +376,12 @@ DiskFacts disk(std::uint64_t free_bytes) {
 }
 
 TEST(DoctorDisk, SaysHowManyHoursItLasts) {
-  // 2200 bytes, 100 rpm: 13.2 MB an hour of one spacecraft.
-  EXPECT_EQ(worst_of(check_disk(disk(24 * 13'200'000ULL), 1)), Verdict::Ok);
-  const auto checks = check_disk(disk(24 * 13'200'000ULL), 2);
+  // 2300 bytes, 100 rpm: 13.8 MB an hour of one spacecraft.
+  EXPECT_EQ(worst_of(check_disk(disk(24 * 13'800'000ULL), 1)), Verdict::Ok);
+  const auto checks = check_disk(disk(24 * 13'800'000ULL), 2);
   EXPECT_EQ(named(checks, "disk").verdict, Verdict::Warning);
   EXPECT_THAT(named(checks, "disk").found, HasSubstr("12 h of 2 spacecraft"));
-  EXPECT_EQ(named(check_disk(disk(13'100'000), 1), "disk").verdict, Verdict::Failure);
+  EXPECT_EQ(named(check_disk(disk(13'700'000), 1), "disk").verdict, Verdict::Failure);
   expect_advice(checks);
 }
 

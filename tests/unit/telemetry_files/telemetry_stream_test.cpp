@@ -44,7 +44,7 @@ Telemetry read(const std::vector<std::filesystem::path>& paths,
     EXPECT_LE(batch->pulses.size() + batch->coded.size(), TelemetryStream::kBatch);
     EXPECT_LE(batch->rejected.size(), TelemetryStream::kBatch);
     if (batch->pulses.empty() && batch->coded.empty() && batch->rejected.empty()) {
-      EXPECT_EQ(stream->bytes_read(), stream->bytes_total());
+      EXPECT_EQ(stream->bytes_given(), stream->bytes_total());
       return all;
     }
     for (const PulseSample& sample : batch->pulses) {

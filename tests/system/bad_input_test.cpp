@@ -1,0 +1,270 @@
+// What no pass should bring: the program says so and makes no number up. Bad rows and files of
+// telemetry are in process_test.cpp, an orbit that jumps is in the tests of the pipelines.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+#include "tests/support/archive_rows.h"
+#include "tests/support/program.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::filesystem::path kData{SPINDRIFT_TEST_DATA};
+const std::filesystem::path kNominal = kData / "spin" / "nominal";
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+struct Outcome {
+  int status;
+  nlohmann::json run;  ///< Of the summary.
+  std::string log;
+  std::filesystem::path db;
+};
+
+Outcome process(const TemporaryFolder& folder, const std::filesystem::path& pass) {
+  const auto db = folder.path() / "out.db";
+  Program program{{"process", "--mission", (pass / "mission.toml").string(), "--telemetry",
+                   pass.string(), "--db", db.string(), "--json"}};
+  const int status = program.exit_status();
+  const auto answer = nlohmann::json::parse(program.out());
+  return {.status = status,
+          .run = answer.contains("runs") ? answer["runs"][0] : answer,
+          .log = program.log(),
+          .db = db};
+}
+
+using Replacements = std::vector<std::pair<std::string, std::string>>;
+
+std::string replaced(std::string text, const Replacements& replacements) {
+  for (const auto& [from, to] : replacements) {
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+/// A pass simulated from scenarios/gto-nominal.toml with that changed.
+Outcome process_simulated(const TemporaryFolder& folder, const Replacements& replacements) {
+  const auto nominal = kData / ".." / ".." / "scenarios" / "gto-nominal.toml";
+  const auto scenario = folder.write("scenario.toml", replaced(text_of(nominal), replacements));
+  const auto pass = folder.path() / "pass";
+  Program simulate{{"simulate", scenario.string(), "--out", pass.string()}};
+  EXPECT_EQ(simulate.exit_status(), 0) << simulate.log();
+  return process(folder, pass);
+}
+
+/// A copy of the nominal pass to spoil.
+std::filesystem::path nominal_copy(const TemporaryFolder& folder) {
+  const auto pass = folder.path() / "pass";
+  std::filesystem::copy(kNominal, pass);
+  return pass;
+}
+
+void expect_no_axis(const Outcome& outcome) {
+  EXPECT_EQ(outcome.status, 0) << outcome.log;
+  EXPECT_EQ(outcome.run["fixes_accepted"], 0);
+  EXPECT_TRUE(outcome.run["mean"].is_null());
+  EXPECT_TRUE(outcome.run["sequential"].is_null());
+  EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM spin_estimate"), 0);
+  EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM spin_fix WHERE accepted = 1"), 0);
+  // Telemetry is kept all the same.
+  EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM pulse"), outcome.run["edges_received"]);
+}
+
+TEST(BadGeometry, WithSunAndEarthInOneLineGivesNoAxisAndSaysWhy) {
+  const TemporaryFolder folder;
+  // At local noon: from the geostationary ring the Earth stands opposite the Sun, whose place then
+  // is RA 235.14, Dec -19.58 deg.
+  const auto outcome = process_simulated(folder, {{"a_km = 24400.0", "a_km = 42164.0"},
+                                                  {"e = 0.73", "e = 0.0"},
+                                                  {"i_deg = 28.5", "i_deg = 90.0"},
+                                                  {"raan_deg = 300.0", "raan_deg = 235.138"},
+                                                  {"argp_deg = 178.0", "argp_deg = 0.0"},
+                                                  {"anomaly_deg = 30.0", "anomaly_deg = -19.833"},
+                                                  {"duration_s = 600.0", "duration_s = 120.0"},
+                                                  {"ra_deg = 100.0", "ra_deg = 235.138"},
+                                                  {"dec_deg = -55.0", "dec_deg = 70.417"}});
+  expect_no_axis(outcome);
+  EXPECT_EQ(outcome.run["fixes"], 0);
+  EXPECT_GT(outcome.run["edges_accepted"], 700);
+  EXPECT_THAT(outcome.log, HasSubstr("Sun and Earth stand 179."));
+}
+
+TEST(BadGeometry, WithChordsWiderThanTheEarthGivesNoAxisAndSaysWhy) {
+  const TemporaryFolder folder;
+  // The Earth's disc is 41.7 deg wide, and both beams pass near its middle.
+  const auto outcome =
+      process_simulated(folder, {{"[spin.noise]",
+                                  "[truth.ir.north]\nchord_excess_deg = 10.0\n"
+                                  "[truth.ir.south]\nchord_excess_deg = 10.0\n[spin.noise]"}});
+  expect_no_axis(outcome);
+  EXPECT_THAT(outcome.log, HasSubstr("contradict each other"));
+}
+
+TEST(BadGeometry, WithABeamThatNeverMeetsTheEarthGivesNoAxisAndSaysWhy) {
+  const TemporaryFolder folder;
+  const auto outcome =
+      process_simulated(folder, {{"mount_angle_deg = 85.0", "mount_angle_deg = 20.0"},
+                                 {"mount_angle_deg = 95.0", "mount_angle_deg = 160.0"}});
+  expect_no_axis(outcome);
+  EXPECT_EQ(outcome.run["fixes"], 0);
+  EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM pulse WHERE channel LIKE '%_in'"), 0);
+  EXPECT_THAT(outcome.log, HasSubstr("a sun angle without a chord"));
+}
+
+TEST(BadGeometry, WithAMissionWhoseBeamsCannotMeetTheEarthSaysThatItContradictsTheTelemetry) {
+  const TemporaryFolder folder;
+  const auto pass = nominal_copy(folder);
+  const std::string mission = text_of(pass / "mission.toml");
+  std::ofstream{pass / "mission.toml"}
+      << replaced(mission, {{"mount_angle_deg = 85", "mount_angle_deg = 20"},
+                            {"mount_angle_deg = 95", "mount_angle_deg = 160"}});
+  const auto outcome = process(folder, pass);
+  EXPECT_EQ(outcome.status, 0) << outcome.log;
+  EXPECT_THAT(outcome.log, HasSubstr("contradict each other"));
+  EXPECT_THAT(outcome.log, HasSubstr("check the mission's mounting angles"));
+  EXPECT_EQ(number_of(outcome.db,
+                      "SELECT count(*) FROM spin_fix WHERE geometry_case = 1 AND accepted = 1"),
+            0);
+}
+
+std::string without_channel(const std::string& channel, const std::string& csv) {
+  std::istringstream lines{csv};
+  std::string kept;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("," + channel) == std::string::npos) {
+      kept += line + "\n";
+    }
+  }
+  return kept;
+}
+
+double error_deg(const nlohmann::json& estimate) {
+  const auto place = [](double ra_deg, double dec_deg) {
+    return direction_icrf({.ra_rad = ra_deg * kDegree, .dec_rad = dec_deg * kDegree});
+  };
+  return angle_between_rad(place(estimate["ra_deg"], estimate["dec_deg"]), place(100.0, -55.0)) /
+         kDegree;
+}
+
+struct Missing {
+  const char* channel;
+  int main_case;  ///< Of nearly all revolutions: what the other five channels allow.
+};
+
+TEST(MissingChannel, LeavesTheCaseThatTheOthersAllow) {
+  // Without sun1 no dihedral and no sun angle, but the azimuth of both chords from sun2; without
+  // sun2 no sun angle; with half a chord the other one alone.
+  for (const auto& [channel, main_case] : std::array<Missing, 6>{{{"sun1", 7},
+                                                                  {"sun2", 4},
+                                                                  {"north_in", 3},
+                                                                  {"north_out", 3},
+                                                                  {"south_in", 2},
+                                                                  {"south_out", 2}}}) {
+    SCOPED_TRACE(channel);
+    const TemporaryFolder folder;
+    const auto pass = nominal_copy(folder);
+    const std::string csv = without_channel(channel, text_of(pass / "pulses.csv"));
+    std::ofstream{pass / "pulses.csv"} << csv;
+    const auto outcome = process(folder, pass);
+    ASSERT_EQ(outcome.status, 0) << outcome.log;
+    EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM pulse_use"), 3000);
+    EXPECT_GT(outcome.run["fixes_by_case"].value(std::to_string(main_case), 0), 570)
+        << outcome.run["fixes_by_case"];
+    for (const char* const estimator : {"mean", "sequential"}) {
+      ASSERT_FALSE(outcome.run[estimator].is_null());
+      EXPECT_LT(error_deg(outcome.run[estimator]), 0.2) << estimator;
+      EXPECT_LT(error_deg(outcome.run[estimator]),
+                3.0 * outcome.run[estimator]["sigma_deg"].get<double>())
+          << estimator;
+    }
+  }
+}
+
+TEST(BadMission, IsRefusedWithAllItsTenMistakes) {
+  const TemporaryFolder folder;
+  const auto pass = nominal_copy(folder);
+  std::ofstream{pass / "mission.toml"} << R"([spacecraft]
+id = "A,B"
+kind = "spin"
+colour = "red"
+[orbit]
+oem = "missing.oem"
+[spin.sun_sensor]
+slit_cant_deg = 95
+slit_separation_dge = 35.0
+[spin.ir.north]
+mount_angle_deg = "85"
+azimuth_deg = 900
+[spin.screening]
+window = 100.5
+sigma = -1
+[spin.horizon]
+model = "flat"
+co2_altitude_km = 40
+)";
+  const auto outcome = process(folder, pass);
+  EXPECT_EQ(outcome.status, 2);
+  for (const char* const key :
+       {"spacecraft.id", "spacecraft.colour", "orbit.oem", "slit_cant_deg", "slit_separation_dge",
+        "mount_angle_deg", "azimuth_deg", "screening.window", "screening.sigma", "horizon.model",
+        "[spin.noise]"}) {
+    EXPECT_THAT(outcome.log, HasSubstr(key));
+  }
+  EXPECT_FALSE(std::filesystem::exists(outcome.db));
+}
+
+TEST(ShortOrbit, GivesTheAxisWhereItReachesAndSaysByHowMuchItDoesNot) {
+  const TemporaryFolder folder;
+  const auto pass = nominal_copy(folder);
+  const std::string oem = text_of(pass / "orbit.oem");
+  const std::string short_oem = oem.substr(0, oem.find("2026-11-20T03:05:30.000 "));
+  std::ofstream{pass / "orbit.oem"} << replaced(
+      short_oem, {{"STOP_TIME = 2026-11-20T03:12:00.000", "STOP_TIME = 2026-11-20T03:05:00.000"}});
+  const auto outcome = process(folder, pass);
+  EXPECT_EQ(outcome.status, 0) << outcome.log;
+  EXPECT_THAT(outcome.log, ::testing::ContainsRegex(
+                               "orbit: no orbit at 2026-11-20T03:05:00.*Z: 0\\.[0-9]+ s after the "
+                               "ephemeris ends"));
+  EXPECT_EQ(outcome.run["revolutions"], 600);
+  EXPECT_NEAR(outcome.run["fixes"].get<double>(), 300.0, 3.0);
+  EXPECT_EQ(
+      number_of(outcome.db, "SELECT count(*) FROM spin_fix WHERE t_tai_ns > 1795143937000000000"),
+      0);
+  EXPECT_LT(error_deg(outcome.run["mean"]), 0.1);
+}
+
+TEST(AbsurdTimes, ThatCouldBeTrueLeaveTheOtherProductsAlone) {
+  const TemporaryFolder folder;
+  const auto pass = nominal_copy(folder);
+  // The years 1980 and 2099, and a day ahead.
+  std::ofstream{pass / "more.csv"} << "t_tai_ns,channel\n315532819000000000,sun2\n"
+                                      "4070908837000000000,sun1\n1795230037000000000,north_in\n";
+  const auto outcome = process(folder, pass);
+  EXPECT_EQ(outcome.status, 0) << outcome.log;
+  EXPECT_EQ(outcome.run["input_rejected"], 0);
+  EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM pulse"), 3603);
+  EXPECT_EQ(number_of(outcome.db,
+                      "SELECT count(*) FROM pulse_use WHERE accepted = 0 AND t_tai_ns IN"
+                      " (315532819000000000, 4070908837000000000, 1795230037000000000)"),
+            3);
+  EXPECT_EQ(outcome.run["revolutions"], 600);
+  EXPECT_LT(error_deg(outcome.run["mean"]), 0.05);
+  EXPECT_LT(error_deg(outcome.run["sequential"]), 0.05);
+}
+
+}  // namespace
+}  // namespace spindrift

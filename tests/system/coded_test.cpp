@@ -1,0 +1,132 @@
+// Coded telemetry from the file or the bus to the archive: the real program, real DDS.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+#include "tests/support/archive_rows.h"
+#include "tests/support/bus_fixture.h"
+#include "tests/support/program.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+const std::filesystem::path kPass = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin" / "coded";
+const std::string kMission = (kPass / "mission.toml").string();
+const std::string kScenario =
+    (std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios" / "gto-nominal.toml")
+        .string();
+
+std::vector<std::string> on(const bus::BusConfig& bus, std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(),
+                   {"--domain", std::to_string(bus.domain), "--partition", bus.partition});
+  return arguments;
+}
+
+/// What `serve` makes of what `source` publishes.
+void serve(const std::string& mission, const std::filesystem::path& db,
+           const std::vector<std::string>& source) {
+  const bus::BusConfig bus = bus_of_its_own();
+  Program service{on(bus, {"serve", "--mission", mission, "--db", db.string()})};
+  ASSERT_TRUE(service.says("ready")) << service.log();
+  Program sending{on(bus, source)};
+  ASSERT_EQ(sending.exit_status(), 0) << sending.log();
+  service.signal(SIGTERM);
+  ASSERT_EQ(service.exit_status(), 0) << service.log();
+}
+
+void process(const std::string& mission, const std::filesystem::path& telemetry,
+             const std::filesystem::path& db) {
+  Program program{{"process", "--mission", mission, "--telemetry", telemetry.string(), "--db",
+                   db.string(), "--strict"}};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+}
+
+std::vector<std::string> coded_rows(const std::filesystem::path& db) {
+  return rows_of(db,
+                 "SELECT spacecraft_id, t_tai_ns, period_s, sun2_s, north_in_s, north_out_s,"
+                 " south_in_s, south_out_s FROM coded_frame ORDER BY 1, 2");
+}
+
+double error_deg(const std::filesystem::path& db, const std::string& estimator,
+                 const nlohmann::json& truth) {
+  const std::string answer = " FROM pass_answer WHERE estimator = '" + estimator + "'";
+  const auto place = [](double ra_deg, double dec_deg) {
+    return direction_icrf({.ra_rad = ra_deg * kDegree, .dec_rad = dec_deg * kDegree});
+  };
+  return angle_between_rad(
+             place(real_of(db, "SELECT ra_deg" + answer), real_of(db, "SELECT dec_deg" + answer)),
+             place(truth["ra_deg"], truth["dec_deg"])) /
+         kDegree;
+}
+
+TEST(Coded, GivesTheSameProductsLiveAsOfflineAndFindsTheAxis) {
+  const TemporaryFolder folder;
+  const auto offline = folder.path() / "processed.db";
+  const auto served = folder.path() / "served.db";
+  process(kMission, kPass, offline);
+  serve(kMission, served,
+        {"replay", "--mission", kMission, "--telemetry", kPass.string(), "--speed", "0"});
+  const auto rows = product_rows(offline);
+  EXPECT_GT(rows.size(), 4000U);
+  EXPECT_EQ(product_rows(served), rows);
+  EXPECT_EQ(coded_rows(offline).size(), 299U);
+  EXPECT_EQ(coded_rows(served), coded_rows(offline));
+
+  const auto truth = nlohmann::json::parse(text_of(kPass / "truth.json"));
+  for (const std::string estimator : {"mean", "sequential"}) {
+    EXPECT_LT(error_deg(offline, estimator, truth), 0.1) << estimator;
+  }
+}
+
+TEST(Coded, SimulatedPassGivesTheSameProductsFromTheBusAsFromFiles) {
+  const TemporaryFolder folder;
+  std::string text = text_of(kScenario);
+  const std::string scenario =
+      folder.write("scenario.toml", text + "[telemetry]\nkind = \"coded\"\n").string();
+  const auto pass = folder.path() / "pass";
+  Program simulate{{"simulate", scenario, "--out", pass.string()}};
+  ASSERT_EQ(simulate.exit_status(), 0) << simulate.log();
+  const std::string mission = (pass / "mission.toml").string();
+  const auto offline = folder.path() / "processed.db";
+  const auto served = folder.path() / "served.db";
+  process(mission, pass, offline);
+  serve(mission, served, {"simulate", scenario, "--publish", "--speed", "0"});
+  EXPECT_EQ(coded_rows(offline).size(), 600U);
+  EXPECT_EQ(product_rows(served), product_rows(offline));
+  EXPECT_LT(error_deg(offline, "mean", nlohmann::json::parse(text_of(pass / "truth.json"))), 0.1);
+}
+
+TEST(Coded, SimulatedPassOfBothKindsIsPublishedAsBoth) {
+  const TemporaryFolder folder;
+  const std::string scenario =
+      folder.write("scenario.toml", text_of(kScenario) + "[telemetry]\nkind = \"both\"\n").string();
+  const auto pass = folder.path() / "pass";
+  Program simulate{{"simulate", scenario, "--out", pass.string()}};
+  ASSERT_EQ(simulate.exit_status(), 0) << simulate.log();
+  const auto served = folder.path() / "served.db";
+  serve((pass / "mission.toml").string(), served,
+        {"simulate", scenario, "--publish", "--speed", "0"});
+  EXPECT_EQ(number_of(served, "SELECT count(*) FROM pulse"), 3600);
+  EXPECT_EQ(number_of(served, "SELECT count(*) FROM coded_frame"), 600);
+}
+
+TEST(Coded, SummaryCountsFramesApartFromEdges) {
+  const TemporaryFolder folder;
+  Program program{{"process", "--mission", kMission, "--telemetry", kPass.string(), "--db",
+                   (folder.path() / "out.db").string(), "--json"}};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  const auto run = nlohmann::json::parse(program.out())["runs"][0];
+  EXPECT_EQ(run["coded_frames_received"], 299);
+  EXPECT_EQ(run["edges_received"], 0);
+}
+
+}  // namespace
+}  // namespace spindrift

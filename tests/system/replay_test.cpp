@@ -1,0 +1,108 @@
+// `spindrift replay` and `simulate --publish` as somebody at a terminal has them: how they end, and
+// what they draw.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/archive_rows.h"
+#include "tests/support/bus_fixture.h"
+#include "tests/support/program.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::filesystem::path kData{SPINDRIFT_TEST_DATA};
+const std::string kPass = (kData / "spin" / "nominal").string();
+const std::string kMission = kPass + "/mission.toml";
+const std::string kScenario = (kData / ".." / ".." / "scenarios" / "gto-nominal.toml").string();
+
+/// Ways to put ten minutes of telemetry on the bus in ten minutes.
+const std::vector<std::vector<std::string>> kSenders = {
+    {"replay", "--mission", kMission, "--telemetry", kPass, "--json"},
+    {"simulate", kScenario, "--publish", "--json"}};
+
+std::vector<std::string> on(const bus::BusConfig& bus, std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(),
+                   {"--domain", std::to_string(bus.domain), "--partition", bus.partition});
+  return arguments;
+}
+
+TEST(Sending, ToldToStopSaysHowFarItCameAndEndsWithOne) {
+  for (const auto& sender : kSenders) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+      SCOPED_TRACE(sender.front());
+      const TemporaryFolder folder;
+      const auto db = folder.path() / "served.db";
+      const bus::BusConfig bus = bus_of_its_own();
+      Program service{on(bus, {"serve", "--mission", kMission, "--db", db.string()})};
+      ASSERT_TRUE(service.says("ready")) << service.log();
+      Program sending{on(bus, sender)};
+      ASSERT_TRUE(sending.says("publishing")) << sending.log();
+      ASSERT_TRUE(eventually([&] { return number_of(db, "SELECT count(*) FROM pulse") > 0; }));
+      sending.signal(signal);
+      EXPECT_EQ(sending.exit_status(), 1);
+      service.signal(SIGTERM);
+      ASSERT_EQ(service.exit_status(), 0) << service.log();
+
+      const auto stored = number_of(db, "SELECT count(*) FROM pulse");
+      const std::string error = nlohmann::json::parse(sending.out()).at("error");
+      EXPECT_THAT(error, HasSubstr("stopped by a signal: " + std::to_string(stored) +
+                                   " edges and 0 coded frames published, up to telemetry of "
+                                   "2026-11-20T03:0"));
+      EXPECT_THAT(sending.log(), HasSubstr(error));
+    }
+  }
+}
+
+TEST(Sending, ToldToStopWhileNobodySubscribesEndsAtOnce) {
+  for (const auto& sender : kSenders) {
+    Program sending{on(bus_of_its_own(), sender)};
+    ASSERT_TRUE(sending.says("domain")) << sending.log();
+    sending.signal(SIGINT);
+    EXPECT_EQ(sending.exit_status(), 1);
+    EXPECT_THAT(sending.log(), HasSubstr("stopped by a signal: 0 edges and 0 coded frames"));
+  }
+}
+
+/// Carriage returns and escapes draw on a terminal, and spoil a log.
+void expect_plain(const std::string& text) {
+  EXPECT_EQ(text.find_first_of("\r\x1b"), std::string::npos) << text;
+}
+
+TEST(Sending, DrawsNothingInAPipe) {
+  const TemporaryFolder folder;
+  const bus::BusConfig bus = bus_of_its_own();
+  const auto db = folder.path() / "served.db";
+  Program service{on(bus, {"serve", "--mission", kMission, "--db", db.string()})};
+  ASSERT_TRUE(service.says("ready")) << service.log();
+  for (std::vector<std::string> sender : kSenders) {
+    sender.insert(sender.end(), {"--speed", "0"});
+    Program sending{on(bus, sender)};
+    EXPECT_EQ(sending.exit_status(), 0) << sending.log();
+    expect_plain(sending.log());
+    EXPECT_EQ(nlohmann::json::parse(sending.out())["published"], 3600);
+  }
+  service.signal(SIGTERM);
+  EXPECT_EQ(service.exit_status(), 0);
+  expect_plain(service.log());
+}
+
+TEST(Process, DrawsNothingInAPipe) {
+  const TemporaryFolder folder;
+  Program process{{"process", "--mission", kMission, "--telemetry", kPass, "--db",
+                   (folder.path() / "out.db").string()}};
+  ASSERT_EQ(process.exit_status(), 0);
+  expect_plain(process.log());
+  expect_plain(process.out());
+}
+
+}  // namespace
+}  // namespace spindrift
