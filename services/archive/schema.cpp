@@ -15,14 +15,16 @@ namespace embedded {
 extern const char* const schema_0001_tables;
 extern const char* const schema_0002_views;
 extern const char* const schema_0003_restart;
+extern const char* const schema_0004_quick_checks;
 }  // namespace embedded
 
 namespace {
 
-constexpr std::size_t kMigrations = 3;
+constexpr std::size_t kMigrations = 4;
 
 std::array<const char*, kMigrations> migrations() {
-  return {embedded::schema_0001_tables, embedded::schema_0002_views, embedded::schema_0003_restart};
+  return {embedded::schema_0001_tables, embedded::schema_0002_views, embedded::schema_0003_restart,
+          embedded::schema_0004_quick_checks};
 }
 
 }  // namespace

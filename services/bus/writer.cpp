@@ -7,16 +7,20 @@
 namespace spindrift::bus {
 
 Expected<UntypedWriter> UntypedWriter::create(const Participant& participant, const char* topic,
-                                              const dds_topic_descriptor_t* type, const Qos& qos) {
+                                              const dds_topic_descriptor_t* type, const Qos& qos,
+                                              Sending sending) {
   const auto created_topic =
       Entity::own(dds_create_topic(participant.handle(), type, topic, nullptr, nullptr),
                   fmt::format("DDS topic {}", topic));
   if (!created_topic) {
     return Unexpected{created_topic.error()};
   }
+  // Cyclone has this for the process only; it holds for the writers that are made meanwhile.
+  dds_write_set_batch(sending == Sending::Packed);
   auto writer = Entity::own(
       dds_create_writer(participant.publisher(), created_topic->handle(), qos.get(), nullptr),
       fmt::format("DDS writer of {}", topic));
+  dds_write_set_batch(false);
   if (!writer) {
     return Unexpected{writer.error()};
   }
@@ -65,6 +69,7 @@ Expected<void> UntypedWriter::wait_for_reader(std::chrono::nanoseconds timeout) 
 }
 
 Expected<void> UntypedWriter::wait_for_acknowledgments(std::chrono::nanoseconds timeout) const {
+  dds_write_flush(writer_.handle());
   const dds_return_t result = dds_wait_for_acks(writer_.handle(), timeout.count());
   if (result < 0) {
     return Unexpected{error("waiting for the acknowledgment of samples on", result)};

@@ -20,11 +20,17 @@ struct WriterStatus {
   std::vector<std::string> incompatible_readers;  ///< In sight now; see endpoints.h.
 };
 
+enum class Sending {
+  AtOnce,  ///< Every sample goes out by itself.
+  Packed,  ///< When a packet is full: cheaper by far for all, when many samples come in a row.
+};
+
 /// Everything about a writer that does not depend on the type of its samples.
 class UntypedWriter {
  public:
   static Expected<UntypedWriter> create(const Participant& participant, const char* topic,
-                                        const dds_topic_descriptor_t* type, const Qos& qos);
+                                        const dds_topic_descriptor_t* type, const Qos& qos,
+                                        Sending sending);
 
   Expected<void> write(const void* sample) const;
   Expected<void> write(const void* sample, const std::stop_token& stop) const;
@@ -47,8 +53,8 @@ class Writer {
  public:
   /// @return Unavailable, naming the topic, when Cyclone refuses.
   static Expected<Writer> create(const Participant& participant, const Topic<Sample>& topic,
-                                 const Qos& qos) {
-    return UntypedWriter::create(participant, topic.name, topic.type, qos)
+                                 const Qos& qos, Sending sending = Sending::AtOnce) {
+    return UntypedWriter::create(participant, topic.name, topic.type, qos, sending)
         .map([](UntypedWriter&& writer) { return Writer{std::move(writer)}; });
   }
 
@@ -67,7 +73,8 @@ class Writer {
     return writer_.wait_for_reader(timeout);
   }
 
-  /// Until all matched readers have everything. @return Unavailable after `timeout`.
+  /// Until all matched readers have everything, what is still packed too. @return Unavailable after
+  /// `timeout`.
   Expected<void> wait_for_acknowledgments(std::chrono::nanoseconds timeout) const {
     return writer_.wait_for_acknowledgments(timeout);
   }

@@ -27,8 +27,10 @@ std::uint64_t random_session() {
 
 template <class Value, class Sample, class OnBus>
 Expected<TelemetryPublisher<Value, Sample, OnBus>> TelemetryPublisher<Value, Sample, OnBus>::create(
-    const bus::Participant& participant, std::string source, std::uint64_t session) {
-  return bus::Writer<OnBus>::create(participant, topic_of<OnBus>(), bus::telemetry_writer_qos())
+    const bus::Participant& participant, std::string source, std::uint64_t session,
+    bus::Sending sending) {
+  return bus::Writer<OnBus>::create(participant, topic_of<OnBus>(), bus::telemetry_writer_qos(),
+                                    sending)
       .map([&](bus::Writer<OnBus>&& writer) {
         return TelemetryPublisher{std::move(writer),
                                   {.source = std::move(source), .session = session, .seq = 0}};

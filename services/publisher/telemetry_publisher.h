@@ -23,10 +23,13 @@ template <class Value, class Sample, class OnBus>
 class TelemetryPublisher {
  public:
   /// @param session  The same for all topics of a source. `participant` outlives the publisher.
+  /// @param sending  Packed: for samples that are published as fast as they are taken. The last
+  ///                 ones go out with wait_for_acknowledgments.
   /// @return Unavailable when Cyclone refuses.
   static Expected<TelemetryPublisher> create(const bus::Participant& participant,
                                              std::string source,
-                                             std::uint64_t session = random_session());
+                                             std::uint64_t session = random_session(),
+                                             bus::Sending sending = bus::Sending::AtOnce);
 
   /// With the next seq: 0, 1, 2, ... Waits for as long as a subscriber pushes back.
   /// @return InvalidInput for a name that does not fit (to_idl.h), Unavailable when stopped

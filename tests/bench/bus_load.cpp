@@ -69,13 +69,15 @@ void publish(PulsePublisher& publisher, const std::vector<Pulse>& pulses,
     }
     or_exit(publisher.publish(spacecraft, pulses[i], std::stop_token{}));
   }
+  or_exit(publisher.wait_for_acknowledgments(kPatience));
 }
 
 void run(const std::string& file, const std::string& spacecraft, const std::string& archive,
          double rate, std::uint32_t domain) {
   const std::vector<Pulse> pulses = bench::read_pulses(file);
   const auto participant = or_exit(bus::Participant::create({.domain = domain}));
-  auto publisher = or_exit(PulsePublisher::create(participant, "load"));
+  const auto sending = rate > 0.0 ? bus::Sending::AtOnce : bus::Sending::Packed;
+  auto publisher = or_exit(PulsePublisher::create(participant, "load", random_session(), sending));
   or_exit(publisher.wait_for_subscriber(std::chrono::seconds{30}));
 
   Query last{archive, "SELECT max(t_tai_ns) FROM pulse WHERE spacecraft_id = '" + spacecraft + "'"};

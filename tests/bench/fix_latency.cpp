@@ -10,6 +10,7 @@
 /// microseconds.
 
 #include <fmt/format.h>
+#include <spindrift.h>
 
 #include <algorithm>
 #include <atomic>
@@ -22,7 +23,6 @@
 #include <utility>
 #include <vector>
 
-#include <spindrift.h>
 #include "pipelines/spin/spin_pass.h"
 #include "services/bus/participant.h"
 #include "services/bus/reader.h"
