@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "services/archive/batch_writer.h"
-#include "services/archive/checkpointer.h"
 #include "services/archive/connection.h"
 #include "services/archive/write_lock.h"
 
@@ -65,14 +64,10 @@ Expected<std::filesystem::path> resolved(const std::filesystem::path& path) {
 /// What the writer thread works with. The lock is let go of last.
 struct Archive::Store {
   Store(WriteLock held, SQLite::Database opened)
-      : lock{std::move(held)},
-        database{std::move(opened)},
-        checkpointer{database},
-        writer{database} {}
+      : lock{std::move(held)}, database{std::move(opened)}, writer{database} {}
 
   WriteLock lock;
   SQLite::Database database;
-  Checkpointer checkpointer;
   BatchWriter writer;
 };
 
