@@ -310,7 +310,9 @@ class OemReader {
       if (!point) {
         return Unexpected{point.error()};
       }
-      if (const auto jump = last_point_ ? jump_km(*last_point_, *point) : std::nullopt) {
+      // Of one segment, times out of order are found as such.
+      const bool judged = last_point_ && (points.empty() || last_point_->t < point->t);
+      if (const auto jump = judged ? jump_km(*last_point_, *point) : std::nullopt) {
         return refused(last_line_,
                        fmt::format("the orbit jumps: {:.0f} km from where the data line before it, "
                                    "{}, leads to",

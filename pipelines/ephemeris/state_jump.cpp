@@ -12,8 +12,8 @@ namespace {
 // Within this a fall round the Earth's surface is good to a metre.
 constexpr double kIntegration_s = 30.0;
 constexpr double kTolerance_km = 10.0;
-// The states printed in 502.0-B as examples are off by most of it.
-constexpr double kToleranceOfWay = 1.0;
+constexpr double kToleranceOfWay = 0.05;
+constexpr double kEarthRadius_km = 6378.137;
 
 struct Slope {
   Eigen::Vector3d velocity_km_s;
@@ -50,7 +50,9 @@ OrbitState fallen(OrbitState state, double duration_s) {
 }  // namespace
 
 std::optional<double> jump_km(const EphemerisPoint& from, const EphemerisPoint& to) {
-  if (to.t < from.t || to.t - from.t > std::chrono::hours{6}) {
+  const double least_range_km =
+      std::min(from.state.position_icrf_km.norm(), to.state.position_icrf_km.norm());
+  if (to.t < from.t || to.t - from.t > std::chrono::hours{6} || least_range_km < kEarthRadius_km) {
     return std::nullopt;
   }
   const double dt_s = seconds_between(from.t, to.t);
