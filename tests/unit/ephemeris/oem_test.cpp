@@ -439,7 +439,7 @@ TEST(Oem, SaysWhichLineAndKeyIsWrong) {
       {"18", "2026-11-20T03:01:00 inf 450 0 0 7.5 0", "line 18:", "'inf' is not a number"},
       {"18", "2026-11-20T03:01:00 1e999 450 0 0 7.5 0", "line 18:", "'1e999' is not a number"},
       {"18", "2026-11-20T02:59:59 6990 450 0 0 7.5 0", "line 18:", "between START_TIME"},
-      {"18", "2026-11-20T03:02:00 6990 450 0 0 7.5 0", "segment 1:", "must be later"},
+      {"18", "2026-11-20T03:02:00 6980 900 0 0 7.5 0", "segment 1:", "must be later"},
   };
   for (const auto& [line, text, where, what] : cases) {
     SCOPED_TRACE(text);
