@@ -68,7 +68,8 @@ class OrbitEphemeris {
 /// arcsec; UTC or TAI. A segment is usable where its USEABLE times, its START and STOP times and
 /// its data lines all reach. Without INTERPOLATION: Hermite of degree 7, less if the points are
 /// few, since every data line has a velocity. Accelerations and covariances are checked for form
-/// only.
+/// only. Each state must follow from the one before (state_jump.h); between segments the velocity
+/// may change.
 /// @return InvalidConfiguration with the line number, the key and what is allowed.
 Expected<OrbitEphemeris> parse_oem(std::string_view text);
 

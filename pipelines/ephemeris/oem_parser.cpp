@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "pipelines/ephemeris/oem.h"
+#include "pipelines/ephemeris/state_jump.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift {
@@ -309,6 +310,15 @@ class OemReader {
       if (!point) {
         return Unexpected{point.error()};
       }
+      // Of one segment, times out of order are found as such.
+      const bool judged = last_point_ && (points.empty() || last_point_->t < point->t);
+      if (const auto jump = judged ? jump_km(*last_point_, *point) : std::nullopt) {
+        return refused(last_line_,
+                       fmt::format("the orbit jumps: {:.0f} km from where the data line before it, "
+                                   "{}, leads to",
+                                   *jump, format_utc(last_point_->t)));
+      }
+      last_point_ = *point;
       points.push_back(*point);
     }
     if (points.empty()) {
@@ -443,6 +453,7 @@ class OemReader {
 
   std::span<const Line> rest_;
   int last_line_ = 1;
+  std::optional<EphemerisPoint> last_point_;  ///< Of this segment or the one before.
 };
 
 }  // namespace

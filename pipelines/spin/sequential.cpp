@@ -212,9 +212,11 @@ void SequentialEstimator::count(const EdgeTally& tally) {
   const auto gated = static_cast<double>(tally.gated.count());
   const double edges = gated + static_cast<double>(tally.accepted.count());
   gated_share_ += kRecentEdge * (gated - edges * gated_share_);
+  // Of the first revolutions the plain mean: what starts wrong says so at once.
+  const double recent = std::max(kRecentRevolution, 1.0 / static_cast<double>(revolutions_ + 1));
   for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
     double& share = channel_gated_share_.at(channel);
-    share += kRecentRevolution * ((tally.gated.test(channel) ? 1.0 : 0.0) - share);
+    share += recent * ((tally.gated.test(channel) ? 1.0 : 0.0) - share);
   }
   gated_ += static_cast<std::int64_t>(tally.gated.count());
   ++revolutions_;

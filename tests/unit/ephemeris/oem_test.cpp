@@ -339,6 +339,16 @@ TEST(Oem, UtcTimesStandAfterTheirLeapSeconds) {
   EXPECT_EQ(ephemeris.usable_from(), parse_utc("2026-11-20T03:01:00").value());
 }
 
+TEST(Oem, AnOrbitThatJumpsIsRefusedByLine) {
+  std::string jumps = kValid;
+  const std::string line = "2026-11-20T03:02:00 6980 900 0";
+  jumps.replace(jumps.find(line), line.size(), "2026-11-20T03:02:00 6980 9000 0");
+  const auto refused = parse_oem(jumps);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("line 19: the orbit jumps: 81"), std::string::npos)
+      << refused.error().message;
+}
+
 TEST(Oem, LineEndingsBlanksAndCommentsDoNotMatter) {
   std::string text = replaced(kValid, "\n", " \t\r\n\r\nCOMMENT of no = importance\r\nCOMMENT\r\n");
   text = replaced(text, " = ", "=");
@@ -429,7 +439,7 @@ TEST(Oem, SaysWhichLineAndKeyIsWrong) {
       {"18", "2026-11-20T03:01:00 inf 450 0 0 7.5 0", "line 18:", "'inf' is not a number"},
       {"18", "2026-11-20T03:01:00 1e999 450 0 0 7.5 0", "line 18:", "'1e999' is not a number"},
       {"18", "2026-11-20T02:59:59 6990 450 0 0 7.5 0", "line 18:", "between START_TIME"},
-      {"18", "2026-11-20T03:02:00 6990 450 0 0 7.5 0", "segment 1:", "must be later"},
+      {"18", "2026-11-20T03:02:00 6980 900 0 0 7.5 0", "segment 1:", "must be later"},
   };
   for (const auto& [line, text, where, what] : cases) {
     SCOPED_TRACE(text);

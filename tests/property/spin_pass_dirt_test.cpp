@@ -1,0 +1,233 @@
+/// Whole passes as bad as they come: the estimates stand, every edge has one fate, and nothing that
+/// is no number is ever a product.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/spin_pass.h"
+#include "tests/support/dirt.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/product_text.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+using enum PulseChannel;
+using testing::all_of;
+using testing::Dirt;
+using testing::DirtyPass;
+using testing::SpinningBody;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree_rad = kPi / 180.0;
+
+void expect_numbers(const SpinOutput& output) {
+  for (const SpinMeasurement& measurement : all_of<SpinMeasurement>(output)) {
+    ASSERT_TRUE(std::isfinite(measurement.value));
+    ASSERT_TRUE(std::isfinite(measurement.sigma));
+  }
+  for (const RevolutionProduct& revolution : all_of<RevolutionProduct>(output)) {
+    ASSERT_TRUE(std::isfinite(revolution.period_s));
+  }
+  for (const SpinFix& fix : all_of<SpinFix>(output)) {
+    ASSERT_NEAR(fix.axis_icrf.norm(), 1.0, 1e-9);
+    ASSERT_TRUE(fix.covariance_rad2.allFinite());
+    ASSERT_TRUE(std::isfinite(fix.norm));
+  }
+  for (const SpinEstimate& estimate : all_of<SpinEstimate>(output)) {
+    ASSERT_NEAR(estimate.axis_icrf.norm(), 1.0, 1e-9);
+    ASSERT_TRUE(estimate.covariance_rad2.allFinite());
+    ASSERT_TRUE(std::isfinite(estimate.spin_rate_rad_s));
+    ASSERT_TRUE(std::isfinite(estimate.spin_rate_sigma_rad_s));
+    ASSERT_LE(estimate.status.size(), 63U) << estimate.status;
+  }
+}
+
+/// Of all edges that differ.
+void expect_one_fate_each(const SpinOutput& output, const std::vector<Pulse>& pulses) {
+  std::vector<Pulse> told;
+  for (const PulseUse& use : all_of<PulseUse>(output)) {
+    told.push_back(use.pulse);
+    ASSERT_TRUE(use.revolution || use.rejected_by);
+  }
+  std::sort(told.begin(), told.end());
+  const std::set<Pulse> given{pulses.begin(), pulses.end()};
+  ASSERT_EQ(told, std::vector<Pulse>(given.begin(), given.end()));
+}
+
+struct Scene {
+  Orbit orbit = testing::transfer_orbit();
+  testing::Surroundings around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+
+  std::vector<Pulse> seen(const SpinningBody& body, double from_s, double to_s,
+                          std::mt19937_64& rng) const {
+    return testing::pulses_from(testing::edges_between(body, around, from_s, to_s),
+                                testing::kTransferStart, body.config.noise, rng);
+  }
+  SpinOutput run(const SpinningBody& body, const std::vector<Pulse>& pulses) const {
+    SpinOutput output = testing::run(SpinPass{body.config, orbit}, pulses);
+    expect_numbers(output);
+    expect_one_fate_each(output, pulses);
+    return output;
+  }
+};
+
+void expect_found(const SpinOutput& output, const SpinningBody& body) {
+  const SpinEstimate sequential = testing::last_estimate(output, SpinEstimator::Sequential);
+  EXPECT_TRUE(sequential.status.starts_with("OK")) << sequential.status;
+  const double off_rad = angle_between_rad(sequential.axis_icrf, body.axis_icrf);
+  EXPECT_LT(off_rad, 4.0 * testing::sigma_rad(sequential));
+  EXPECT_LT(testing::sigma_rad(sequential), 0.3 * kDegree_rad);
+  EXPECT_NEAR(sequential.spin_rate_rad_s, body.rate_rad_s, 5.0 * sequential.spin_rate_sigma_rad_s);
+}
+
+TEST(SpinPassDirt, AxisAndRateAreFoundHoweverDirtyThePass) {
+  const Scene scene;
+  std::mt19937_64 rng{701};
+  const std::array<Dirt, 4> kLevels = {{{.lost = 0.05, .spoilt = 0.05, .spurious = 0.04},
+                                        {.lost = 0.2},
+                                        {.lost = 0.1, .spoilt = 0.1, .spurious = 0.05},
+                                        {.lost = 0.2, .spoilt = 0.1, .spurious = 0.1}}};
+  for (const Dirt& dirt : kLevels) {
+    for (const double rpm : {5.0, 20.0, 60.0, 200.0}) {
+      SCOPED_TRACE(::testing::Message() << rpm << " rpm, lost " << dirt.lost << " spoilt "
+                                        << dirt.spoilt << " spurious " << dirt.spurious);
+      SpinningBody body = testing::random_body(scene.around, 4.0 * kDegree_rad, rng);
+      body.rate_rad_s = rpm * 2.0 * kPi / 60.0;
+      const double period_s = 60.0 / rpm;
+      const DirtyPass pass = testing::dirty(
+          scene.seen(body, 0.0, std::min(200.0 * period_s, 900.0), rng), period_s, dirt, rng);
+      const SpinOutput output = scene.run(body, pass.pulses);
+      expect_found(output, body);
+      double bad_used = 0.0;
+      double good_left_out = 0.0;
+      for (const PulseUse& use : all_of<PulseUse>(output)) {
+        const bool bad = pass.bad.contains(use.pulse);
+        bad_used += bad && !use.rejected_by ? 1.0 : 0.0;
+        good_left_out += !bad && use.rejected_by ? 1.0 : 0.0;
+      }
+      EXPECT_LE(bad_used, 0.05 * static_cast<double>(pass.bad.size()));
+      EXPECT_LE(good_left_out, 0.03 * static_cast<double>(pass.pulses.size()));
+    }
+  }
+}
+
+TEST(SpinPassDirt, TurnsAreCountedThroughSilencesOfMinutes) {
+  const Scene scene;
+  std::mt19937_64 rng{702};
+  for (const double silence_s : {60.0, 300.0, 900.0}) {
+    SCOPED_TRACE(silence_s);
+    const SpinningBody body = testing::random_body(scene.around, 2.0 * kDegree_rad, rng);
+    std::vector<Pulse> pulses = scene.seen(body, 0.0, 120.0, rng);
+    const auto later = scene.seen(body, 120.0 + silence_s, 240.0 + silence_s, rng);
+    pulses.insert(pulses.end(), later.begin(), later.end());
+    const SpinOutput output = scene.run(body, pulses);
+    const auto revolutions = all_of<RevolutionProduct>(output);
+    const double turns = body.rate_rad_s *
+                         seconds_between(revolutions.front().t_sun1, revolutions.back().t_sun1) /
+                         (2.0 * kPi);
+    EXPECT_EQ(revolutions.back().revolution - revolutions.front().revolution, std::llround(turns));
+    expect_found(output, body);
+  }
+}
+
+TEST(SpinPassDirt, TheFilterRunsOnWhenSun1Dies) {
+  const Scene scene;
+  std::mt19937_64 rng{703};
+  const SpinningBody body = testing::random_body(scene.around, 2.0 * kDegree_rad, rng);
+  for (const std::set<PulseChannel>& dead :
+       {std::set{Sun1}, std::set{Sun1, Sun2}, std::set{Sun1, Sun2, SouthIn, SouthOut}}) {
+    SCOPED_TRACE(dead.size());
+    std::vector<Pulse> pulses = scene.seen(body, 0.0, 300.0, rng);
+    const TaiTime death = shifted(testing::kTransferStart, 150.0);
+    std::erase_if(pulses, [&](const Pulse& pulse) {
+      return pulse.t > death && dead.contains(pulse.channel);
+    });
+    const SpinOutput output = scene.run(body, pulses);
+    const SpinEstimate last = testing::last_estimate(output, SpinEstimator::Sequential);
+    EXPECT_GT(seconds_between(death, last.t), 140.0);
+    expect_found(output, body);
+  }
+}
+
+TEST(SpinPassDirt, InterferenceSpoilsBothEdges) {
+  const Scene scene;
+  std::mt19937_64 rng{704};
+  SpinningBody body = testing::random_body(scene.around, 2.0 * kDegree_rad, rng);
+  body.config.screening.interference_s = 0.002;
+  const auto pulses = scene.seen(body, 0.0, 150.0, rng);
+  const auto uses = all_of<PulseUse>(scene.run(body, pulses));
+  for (std::size_t i = 1; i < pulses.size(); ++i) {
+    if (seconds_between(pulses[i - 1].t, pulses[i].t) < 0.002) {
+      for (const Pulse& pulse : {pulses[i - 1], pulses[i]}) {
+        const auto use = std::find_if(uses.begin(), uses.end(),
+                                      [&](const PulseUse& u) { return u.pulse == pulse; });
+        ASSERT_EQ(use->rejected_by, Rejection::Interference);
+      }
+    }
+  }
+}
+
+TEST(SpinPassDirt, SwappedBeamsGiveNoConfidentAxis) {
+  const Scene scene;
+  std::mt19937_64 rng{705};
+  constexpr std::array<PulseChannel, kPulseChannels> kSwapped = {Sun1,     Sun2,    SouthIn,
+                                                                 SouthOut, NorthIn, NorthOut};
+  for (int trial = 0; trial < 10; ++trial) {
+    SCOPED_TRACE(trial);
+    const SpinningBody body = testing::random_body(scene.around, 2.0 * kDegree_rad, rng);
+    std::vector<Pulse> pulses = scene.seen(body, 0.0, 150.0, rng);
+    for (Pulse& pulse : pulses) {
+      pulse.channel = kSwapped.at(index_of(pulse.channel));
+    }
+    std::sort(pulses.begin(), pulses.end());
+    for (const SpinEstimate& estimate : all_of<SpinEstimate>(scene.run(body, pulses))) {
+      // The first one is the fix that it starts from, no edge has spoken yet.
+      if (estimate.estimator == SpinEstimator::Sequential && estimate.status.starts_with("OK") &&
+          !estimate.status.starts_with("OK, 0 ")) {
+        EXPECT_LT(angle_between_rad(estimate.axis_icrf, body.axis_icrf),
+                  5.0 * testing::sigma_rad(estimate) + kDegree_rad)
+            << estimate.status;
+      }
+    }
+  }
+}
+
+TEST(SpinPassDirt, GarbageGivesNothingThatIsNoNumber) {
+  const Scene scene;
+  std::mt19937_64 rng{706};
+  std::uniform_int_distribution<int> channel{0, static_cast<int>(kPulseChannels) - 1};
+  std::uniform_int_distribution<std::int64_t> anywhen{std::numeric_limits<std::int64_t>::min(),
+                                                      std::numeric_limits<std::int64_t>::max()};
+  for (int trial = 0; trial < 60; ++trial) {
+    SCOPED_TRACE(trial);
+    const SpinningBody body = testing::random_body(scene.around, 8.0 * kDegree_rad, rng);
+    std::vector<Pulse> pulses =
+        trial % 3 == 0 ? std::vector<Pulse>{} : scene.seen(body, 0.0, 60.0, rng);
+    std::uniform_real_distribution<double> within_s{0.0, trial % 2 == 0 ? 60.0 : 4000.0};
+    for (int i = 0; i < 600; ++i) {
+      pulses.push_back({.t = i % 20 == 0 && trial % 4 > 1
+                                 ? tai_from_ns(anywhen(rng))
+                                 : shifted(testing::kTransferStart, within_s(rng)),
+                        .channel = static_cast<PulseChannel>(channel(rng))});
+    }
+    if (trial % 5 != 0) {
+      std::sort(pulses.begin(), pulses.end());
+    }
+    scene.run(body, pulses);
+  }
+}
+
+}  // namespace
+}  // namespace spindrift
