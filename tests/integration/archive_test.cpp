@@ -640,7 +640,7 @@ TEST_F(ArchiveTest, TablesOfEveryEdgeTakeNoOtherNamesThanThoseOfTheContract) {
       "INSERT INTO run VALUES ('r', 'A', 'live', '', '', '', NULL, '', '', NULL, 0, 0)";
   raw.exec(run);
   const auto takes = [&raw](const std::string& values) {
-    return raw.tryExec("INSERT INTO " + values) == SQLITE_OK;
+    return raw.tryExec("INSERT INTO " + values) == SQLite::OK;
   };
   for (const char* channel :
        {"sun1", "sun2", "north_in", "north_out", "south_in", "south_out", "Sun1", "", "sun"}) {
