@@ -21,6 +21,8 @@ std::chrono::nanoseconds reorder_horizon(const CodedFrame& frame) {
   return std::chrono::nanoseconds{static_cast<std::int64_t>(kFrameHorizon_turns * turn_s * 1e9)};
 }
 
+/// A duplicate changes nothing, since it is not among the samples that a restarted service reads
+/// back.
 template <class Sample>
 typename BasicReorderWindow<Sample>::Verdict BasicReorderWindow<Sample>::add(const Sample& sample) {
   if (!released_.empty() && sample <= released_.back()) {
@@ -28,8 +30,11 @@ typename BasicReorderWindow<Sample>::Verdict BasicReorderWindow<Sample>::add(con
     return known ? Verdict::Duplicate : Verdict::Late;
   }
   if (!is_far_ahead(sample)) {
+    if (!held_.insert(sample).second) {
+      return Verdict::Duplicate;
+    }
     far_in_a_row_ = 0;
-    return held_.insert(sample).second ? Verdict::Held : Verdict::Duplicate;
+    return Verdict::Held;
   }
   if (far_ahead_.size() >= kMostFarAhead) {
     return Verdict::OutOfTime;

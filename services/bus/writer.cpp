@@ -50,7 +50,6 @@ Expected<void> UntypedWriter::write(const void* sample, const std::stop_token& s
   return {};
 }
 
-
 Expected<void> UntypedWriter::wait_for_reader(std::chrono::nanoseconds timeout) const {
   const dds_time_t deadline_ns = dds_time() + timeout.count();
   dds_publication_matched_status_t matched{};

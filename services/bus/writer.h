@@ -73,7 +73,8 @@ class Writer {
     return writer_.wait_for_reader(timeout);
   }
 
-  /// Until all matched readers have everything, what is still packed too. @return Unavailable after `timeout`.
+  /// Until all matched readers have everything, what is still packed too. @return Unavailable after
+  /// `timeout`.
   Expected<void> wait_for_acknowledgments(std::chrono::nanoseconds timeout) const {
     return writer_.wait_for_acknowledgments(timeout);
   }

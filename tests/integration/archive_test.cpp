@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <future>
@@ -18,6 +19,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -616,13 +618,68 @@ TEST_F(ArchiveTest, OlderSchemaIsBroughtForwardWithItsRows) {
     SQLite::Database old{path().string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE};
     old.exec("PRAGMA application_id = " + std::to_string(kArchiveApplicationId));
     old.exec(embedded::schema_0001_tables);
-    old.exec("PRAGMA user_version = 1; INSERT INTO spacecraft VALUES ('OLD', 'Old', 'spin')");
+    old.exec(
+        "PRAGMA user_version = 1; INSERT INTO spacecraft VALUES ('OLD', 'Old', 'spin');"
+        "INSERT INTO pulse VALUES ('OLD', 1000000000, 'sun2', 'station', 7, 3)");
   }
   ASSERT_TRUE(open()->close());
 
   EXPECT_EQ(number("PRAGMA user_version"), archive_schema_version());
   EXPECT_EQ(text("SELECT name FROM spacecraft"), "Old");
+  EXPECT_EQ(text("SELECT spacecraft_id || channel || source || session || seq FROM pulse"),
+            "OLDsun2station73");
+  EXPECT_EQ(number("SELECT count(*) FROM pulse_utc WHERE arrival IS NULL"), 1);
   EXPECT_EQ(number("SELECT count(*) FROM pass_answer"), 0);
+}
+
+TEST_F(ArchiveTest, TablesOfEveryEdgeTakeNoOtherNamesThanThoseOfTheContract) {
+  ASSERT_TRUE(open()->close());
+  SQLite::Database raw{path().string(), SQLite::OPEN_READWRITE};
+  raw.exec("INSERT INTO spacecraft VALUES ('A', 'A', 'spin')");
+  const std::string run =
+      "INSERT INTO run VALUES ('r', 'A', 'live', '', '', '', NULL, '', '', NULL, 0, 0)";
+  raw.exec(run);
+  const auto takes = [&raw](const std::string& values) {
+    return raw.tryExec("INSERT INTO " + values) == SQLite::OK;
+  };
+  for (const char* channel :
+       {"sun1", "sun2", "north_in", "north_out", "south_in", "south_out", "Sun1", "", "sun"}) {
+    const bool known = pulse_channel_from(channel).has_value();
+    EXPECT_EQ(takes(fmt::format("pulse VALUES ('A', 1, '{}', '', 0, 0, 0)", channel)), known);
+    EXPECT_EQ(takes(fmt::format("pulse_use VALUES ('r', 'A', 1, '{}', 1, 1, NULL)", channel)),
+              known);
+  }
+  EXPECT_TRUE(takes("spin_measurement VALUES ('r', 1, 'mixed_azimuth', 1, 'deg', 1, 1, NULL)"));
+  EXPECT_FALSE(takes("spin_measurement VALUES ('r', 1, 'azimuth', 1, 'deg', 1, 1, NULL)"));
+  EXPECT_TRUE(
+      takes("spin_fix VALUES ('r', 1, 1, 1, 1, 1, 1, 1, 0, 1, NULL, NULL, 'AMBIGUOUS', 1, 1)"));
+  EXPECT_FALSE(takes("spin_fix VALUES ('r', 2, 1, 1, 1, 1, 1, 1, 0, 1, NULL, NULL, 'NONE', 1, 1)"));
+  EXPECT_TRUE(takes("spin_estimate VALUES ('r', 1, 'batch', 1, 1, 1, 1, 0, 1, 1, 1, 'OK')"));
+  EXPECT_FALSE(takes("spin_estimate VALUES ('r', 1, 'mode', 1, 1, 1, 1, 0, 1, 1, 1, 'OK')"));
+}
+
+TEST_F(ArchiveTest, ALongLogReachesTheFileWhileTheArchiveIsOpen) {
+  constexpr std::int64_t kBatches = 100;
+  constexpr std::int64_t kRows = 6000;  // Of more than 60 bytes: the log is longer than it may be.
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(start_of("run")));
+  for (std::int64_t i = 0; i < kBatches; ++i) {
+    ArchiveBatch batch = batch_of("run");
+    for (std::int64_t row = 0; row < kRows; ++row) {
+      batch.pulses.push_back(pulse_at(i * kRows + row));
+    }
+    ASSERT_TRUE(archive->submit(std::move(batch)));
+  }
+  ASSERT_TRUE(archive->flush());
+
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes{1};
+  while (std::filesystem::file_size(path()) < 10'000'000 &&
+         std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{10});
+  }
+  EXPECT_GE(std::filesystem::file_size(path()), 10'000'000U);
+  EXPECT_EQ(number("SELECT count(*) FROM pulse"), kBatches * kRows);
+  EXPECT_EQ(text("PRAGMA integrity_check"), "ok");
 }
 
 TEST_F(ArchiveTest, PathThatCannotBeThatOfAFileIsRefusedAndLeavesNoLock) {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -252,6 +253,25 @@ TEST(PulsePublisher, NumbersItsSamplesFromZeroInOneSession) {
       published({.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::Sun1}, 100);
   EXPECT_EQ(seqs_of(taken), first_seqs(100));
   EXPECT_EQ(taken.front().session, taken.back().session);
+}
+
+TEST(PulsePublisher, PackedSamplesAllArriveInOrder) {
+  constexpr std::size_t kCount = 1000;
+  const auto bus = bus_of_its_own();
+  const auto sender = Participant::create(bus).value();
+  const auto receiver = Participant::create(bus).value();
+  const auto reader =
+      Reader<spindrift_Pulse>::create(receiver, bus::kPulseTopic, bus::telemetry_reader_qos())
+          .value();
+  auto publisher =
+      PulsePublisher::create(sender, "replay", random_session(), bus::Sending::Packed).value();
+  ASSERT_TRUE(publisher.wait_for_subscriber(std::chrono::seconds{30}));
+  for (std::size_t i = 0; i < kCount; ++i) {
+    ASSERT_TRUE(publisher.publish(
+        "SPINNER", {.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::Sun1}, {}));
+  }
+  ASSERT_TRUE(publisher.wait_for_acknowledgments(std::chrono::seconds{30}));
+  EXPECT_EQ(seqs_of(take_samples(reader, kCount)), first_seqs(kCount));
 }
 
 TEST(PulsePublisher, DrawsAnotherSessionAtEachStart) {

@@ -93,6 +93,17 @@ TEST(ReorderWindow, FewFarAheadAtTheEndAreOutOfTime) {
   EXPECT_EQ(rest.out_of_time.size(), 7U);
 }
 
+// A restarted service reads them back without their duplicates.
+TEST(ReorderWindow, DuplicatesOfHeldSamplesChangeNothing) {
+  ReorderWindow window;
+  window.add(pulse_at(0));
+  for (std::int64_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(window.add(pulse_at((1000 + i) * kSecond_ns)), Held);
+    EXPECT_EQ(window.add(pulse_at(0)), Duplicate);
+  }
+  EXPECT_EQ(window.release().size(), 8U);
+}
+
 TEST(ReorderWindow, GoesOnAfterASilenceOfAnyLength) {
   ReorderWindow window;
   std::vector<Pulse> released;
