@@ -168,6 +168,7 @@ void Associator::restart_after_step(const Pulse& pulse) {
        .period_s = comb->period_s,
        .period_sigma_s = comb->scatter_s * std::sqrt(12.0 / count) / std::max(1.0, comb->turns),
        .sigma_s = 2.0 * comb->scatter_s / std::sqrt(count),
+       .drift_per_s2 = 0.0,
        .scale = comb->scatter_s / noise_s}};
   period_ = {
       .period_s = comb->period_s,

@@ -93,6 +93,7 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
                                .period_s = comb->period_s,
                                .period_sigma_s = period_sigma_s,
                                .sigma_s = 2.0 * comb->scatter_s / std::sqrt(count),
+                               .drift_per_s2 = comb->drift_per_s2,
                                .scale = comb->scatter_s / noise_s},
                               edges, channel, phase_turns),
         .period = {.period_s = comb->period_s,
