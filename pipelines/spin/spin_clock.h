@@ -39,6 +39,9 @@ class SpinClock {
   bool follow(std::int64_t turn, TaiTime t, double noise_s, double earth_turns,
               const DriftGate& gate_turns);
 
+  /// Adds to the count of turns.
+  void count_on(std::int64_t turns) { epoch_turn_ += static_cast<double>(turns); }
+
   /// Puts phase `turn` by `phase_turns` later and lengthens the period by `drift` of itself.
   void shift(std::int64_t turn, double phase_turns, double drift);
 
