@@ -23,10 +23,8 @@ constexpr double kOpen_turns = 0.75;
 constexpr double kChordGate_turns = 0.2;
 // However long the silence, an edge must lie nearer than this to a turn to be counted with it.
 constexpr double kMostReach_turns = 0.4;
-// A clock less certain than this may have miscounted the turns of a silence...
-constexpr double kUncertain_turns = 0.2;
-// ...and beyond this it is of no use.
-constexpr double kLost_turns = 0.5;
+// A clock less certain than this may have miscounted the turns of a silence: it starts afresh.
+constexpr double kLost_turns = 0.2;
 // Of so many edges of the reference so many are wrong when it is time to ask whether the clock is.
 constexpr std::size_t kRecentReference = 9;
 constexpr std::ptrdiff_t kDoubtful = 4;
@@ -116,7 +114,7 @@ void Associator::try_to_start(bool at_end, Association& out) {
   }
 }
 
-/// The silence was too long: the clock cannot even say where in its turn the body is.
+/// The silence was too long: the clock cannot say for certain which turn this is.
 void Associator::give_up_clock(const Pulse& pulse, Association& out) {
   while (!open_.empty()) {
     close_front(out);
@@ -298,11 +296,7 @@ void Associator::close_before(double phase_turns, Association& out) {
 void Associator::close_front(Association& out) {
   Revolution& revolution = open_.front();
   first_open_ = revolution.number + 1;
-  const double sigma_turns = clock_sigma_turns(static_cast<double>(revolution.number));
   revolution.count_sigma_turns = std::exchange(count_sigma_turns_, std::nullopt);
-  if (sigma_turns > kUncertain_turns) {
-    revolution.count_sigma_turns = sigma_turns;
-  }
   judge_reference(revolution);
   judge_others(revolution);
   judge_neighbours(revolution);
