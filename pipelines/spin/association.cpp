@@ -23,6 +23,8 @@ constexpr double kOpen_turns = 0.75;
 constexpr double kChordGate_turns = 0.2;
 // However long the silence, an edge must lie nearer than this to a turn to be counted with it.
 constexpr double kMostReach_turns = 0.4;
+// A clock less certain than this may have miscounted the turns of a silence: it starts afresh.
+constexpr double kLost_turns = 0.2;
 // Of so many edges of the reference so many are wrong when it is time to ask whether the clock is.
 constexpr std::size_t kRecentReference = 9;
 constexpr std::ptrdiff_t kDoubtful = 4;
@@ -54,6 +56,9 @@ void Associator::note_period(TaiTime t_sun1, double period_s) {
 
 Association Associator::push(const Pulse& pulse) {
   Association out;
+  if (clock_ && clock_sigma_turns(clock_->phase_turns(pulse.t)) > kLost_turns) {
+    give_up_clock(pulse, out);
+  }
   if (clock_) {
     place(pulse, out);
     return out;
@@ -96,11 +101,33 @@ void Associator::try_to_start(bool at_end, Association& out) {
   period_window_ = SpinPeriodWindow{config_.screening, noise_of(config_.noise, start->reference)};
   phases_.set_period(clock_->period_s());
   phases_.set_reference(reference_);
-  phases_.define(reference_, 0, defined_phase_turns(config_, reference_));
+  if (lost_clock_) {
+    const double guess = lost_clock_->phase_turns(clock_->t_of(0.0));
+    first_open_ = std::max(first_open_, static_cast<std::int64_t>(std::llround(guess)));
+    clock_->count_on(first_open_);
+    lost_clock_.reset();
+  }
+  phases_.define(reference_, first_open_, defined_phase_turns(config_, reference_));
   learn_phases();
   for (const Pulse& pulse : std::exchange(waiting_, {})) {
     place(pulse, out);
   }
+}
+
+/// The silence was too long: the clock cannot say for certain which turn this is.
+void Associator::give_up_clock(const Pulse& pulse, Association& out) {
+  while (!open_.empty()) {
+    close_front(out);
+  }
+  count_sigma_turns_ = clock_sigma_turns(clock_->phase_turns(pulse.t));
+  lost_clock_ = std::exchange(clock_, std::nullopt);
+  phases_ = ExpectedPhases{config_};
+  turns_without_reference_ = 0;
+  recent_reference_.clear();
+  interval_start_.reset();
+  notes_.erase(std::remove_if(notes_.begin(), notes_.end(),
+                              [&](const PeriodNote& note) { return note.t_sun1 < pulse.t; }),
+               notes_.end());
 }
 
 void Associator::learn_phases() {
@@ -143,10 +170,17 @@ void Associator::restart_after_step(const Pulse& pulse) {
   if (!comb) {
     return;
   }
-  const auto behind_comb = [&](TaiTime t) {
-    const double turns = elapsed_s(comb->t, t) / comb->period_s;
-    return turns - std::round(turns);
-  };
+  const auto count = static_cast<double>(comb->edges);
+  SpinClock::Setting setting{
+      .t = comb->t,
+      .turn = 0,
+      .period_s = comb->period_s,
+      .period_sigma_s = comb->scatter_s * std::sqrt(12.0 / count) / std::max(1.0, comb->turns),
+      .sigma_s = 2.0 * comb->scatter_s / std::sqrt(count),
+      .drift_per_s2 = comb->drift_per_s2,
+      .scale = comb->scatter_s / noise_s};
+  const SpinClock teeth{setting};
+  const auto behind_comb = [&](TaiTime t) { return std::remainder(teeth.phase_turns(t), 1.0); };
   // Most of the edges that the clock thinks good lie on the comb: it is the clock's own.
   const double limit = std::max(0.005, 6.0 * comb->scatter_s / comb->period_s);
   std::size_t agreeing = 0;
@@ -160,15 +194,9 @@ void Associator::restart_after_step(const Pulse& pulse) {
   if (!open_.empty() && open_.back().edge(reference_)) {
     number = std::max(number, open_.back().number + 1);
   }
-  const double since = std::round(elapsed_s(comb->t, pulse.t) / comb->period_s);
-  const auto count = static_cast<double>(comb->edges);
-  clock_ = SpinClock{
-      {.t = later_by_s(comb->t, (since - expected) * comb->period_s),
-       .turn = number,
-       .period_s = comb->period_s,
-       .period_sigma_s = comb->scatter_s * std::sqrt(12.0 / count) / std::max(1.0, comb->turns),
-       .sigma_s = 2.0 * comb->scatter_s / std::sqrt(count),
-       .scale = comb->scatter_s / noise_s}};
+  setting.t = later_by_s(comb->t, -expected * comb->period_s);
+  setting.turn = number - static_cast<std::int64_t>(std::llround(teeth.phase_turns(pulse.t)));
+  clock_ = SpinClock{setting};
   period_ = {
       .period_s = comb->period_s,
       .sigma_s = std::hypot(std::numbers::sqrt2 * comb->scatter_s / std::max(1.0, comb->turns),
@@ -185,6 +213,10 @@ TaiTime Associator::zero_of(TaiTime t, double turn) const {
   return later_by_s(t, -phases_.at(reference_, turn) * clock_->period_s());
 }
 
+double Associator::clock_sigma_turns(double phase_turns) const {
+  return clock_->sigma_s(phase_turns, reference_wander()) / clock_->period_s();
+}
+
 double Associator::reference_wander() const {
   return sees_the_sun(reference_) ? 0.0 : earth_wander_turns(reference_, clock_->period_s());
 }
@@ -192,8 +224,8 @@ double Associator::reference_wander() const {
 /// How far from its expectation an edge is still counted with a turn: further when a silence has
 /// left the clock uncertain.
 double Associator::reach_turns(PulseChannel channel, double phase_turns) const {
-  const double sigma_turns = clock_->sigma_s(phase_turns, reference_wander()) / clock_->period_s();
-  return std::clamp(config_.screening.sigma * sigma_turns, gate_turns(channel), kMostReach_turns);
+  return std::clamp(config_.screening.sigma * clock_sigma_turns(phase_turns), gate_turns(channel),
+                    kMostReach_turns);
 }
 
 void Associator::place(const Pulse& pulse, Association& out) {
@@ -264,6 +296,7 @@ void Associator::close_before(double phase_turns, Association& out) {
 void Associator::close_front(Association& out) {
   Revolution& revolution = open_.front();
   first_open_ = revolution.number + 1;
+  revolution.count_sigma_turns = std::exchange(count_sigma_turns_, std::nullopt);
   judge_reference(revolution);
   judge_others(revolution);
   judge_neighbours(revolution);
@@ -294,14 +327,14 @@ void Associator::judge_reference(Revolution& revolution) {
 
 void Associator::judge_others(Revolution& revolution) {
   const auto turn = static_cast<double>(revolution.number);
-  const double clock_sigma_turns = clock_->sigma_s(turn, reference_wander()) / clock_->period_s();
+  const double clock_sigma = clock_sigma_turns(turn);
   for (const PulseChannel channel : kChannels) {
     const std::optional<TaiTime>& edge = revolution.edge(channel);
     if (!edge || channel == reference_) {
       continue;
     }
     const double count = clock_->phase_turns(*edge);
-    if (!phases_.follow(channel, revolution.number, count - turn, clock_sigma_turns) &&
+    if (!phases_.follow(channel, revolution.number, count - turn, clock_sigma) &&
         !phases_.stray(channel, count)) {
       revolution.edge_rejections.at(index_of(channel)) = Rejection::Phase;
     }

@@ -7,8 +7,9 @@
 /// followed as the Earth moves; an edge belongs to the revolution whose expected phase it is
 /// nearest to. So a chord that straddles the next sun1, or hovers about it, stays with one
 /// revolution. An edge further from its expectation than the screening's sigmas is kept with its
-/// revolution and rejected. When the edges of a channel agree on another place (the Earth moved
-/// during a silence, the spin rate stepped), they are believed.
+/// revolution and rejected. After a silence too long for the clock to say what turn it is, it
+/// starts afresh, and the count goes on from the best guess. When the edges of a channel agree on
+/// another place (the Earth moved during a silence, the spin rate stepped), they are believed.
 
 #pragma once
 
@@ -39,6 +40,9 @@ struct Revolution {
   /// the interval that ends at the edge that the clock is set by.
   std::optional<PeriodCandidate> period_candidate;
   SpinPeriod period;  ///< In force when the revolution closed.
+  /// After a silence through which the turns could not be counted for certain: one standard
+  /// deviation of the number.
+  std::optional<double> count_sigma_turns = {};
   /// Its sun1 edge if good, else where that is expected; of a pass without sun1 likewise the edge
   /// that the clock is set by.
   TaiTime t_start = {};
@@ -85,6 +89,8 @@ class Associator {
 
   void try_to_start(bool at_end, Association& out);
   void learn_phases();
+  void give_up_clock(const Pulse& pulse, Association& out);
+  double clock_sigma_turns(double phase_turns) const;
   void restart_after_step(const Pulse& pulse);
   void place(const Pulse& pulse, Association& out);
   void put(Revolution& revolution, const Pulse& pulse, Association& out);
@@ -110,6 +116,8 @@ class Associator {
   std::deque<PeriodNote> notes_;  ///< Not yet used.
 
   std::optional<SpinClock> clock_;
+  std::optional<SpinClock> lost_clock_;          ///< Before a silence too long for it.
+  std::optional<double> count_sigma_turns_;      ///< For the revolution that closes next.
   PulseChannel reference_ = PulseChannel::Sun1;  ///< The channel that sets the clock.
   bool sun1_known_ = false;                      ///< Phase 0 is where sun1 is.
   int turns_without_reference_ = 0;

@@ -39,6 +39,11 @@ std::vector<TaiTime> times_of(std::span<const Pulse> pulses, PulseChannel channe
   return times;
 }
 
+/// By how much the period changes along the comb.
+double drifted_s(const Comb& comb) {
+  return comb.drift_per_s2 * std::pow(comb.period_s, 3) * comb.turns;
+}
+
 /// The setting with its turns counted so that the first edge near the comb is on turn 0.
 SpinClock counted_from(SpinClock::Setting setting, const std::vector<TaiTime>& edges,
                        PulseChannel channel, double phase_turns) {
@@ -93,12 +98,13 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
                                .period_s = comb->period_s,
                                .period_sigma_s = period_sigma_s,
                                .sigma_s = 2.0 * comb->scatter_s / std::sqrt(count),
+                               .drift_per_s2 = comb->drift_per_s2,
                                .scale = comb->scatter_s / noise_s},
                               edges, channel, phase_turns),
         .period = {.period_s = comb->period_s,
                    .sigma_s = std::hypot(
                        std::numbers::sqrt2 * comb->scatter_s / std::max(1.0, comb->turns),
-                       apparent_motion_s(channel, comb->period_s))}};
+                       apparent_motion_s(channel, comb->period_s), drifted_s(*comb))}};
   }
   return std::nullopt;
 }

@@ -15,63 +15,80 @@ constexpr double kMostScale = 30.0;
 }  // namespace
 
 DriftFilter::DriftFilter(const DriftState& state)
-    : turn_{static_cast<double>(state.turn)},
-      value_{state.value},
-      change_{state.change},
-      covariance_{.value = state.value_sigma * state.value_sigma,
-                  .both = 0.0,
-                  .change = state.change_sigma * state.change_sigma},
+    : x_{state.x},
+      state_{state.value, state.change, state.bend},
+      covariance_{Eigen::Vector3d{state.value_sigma, state.change_sigma, state.bend_sigma}
+                      .cwiseAbs2()
+                      .asDiagonal()},
       scale_{std::clamp(state.scale, 1.0, kMostScale)} {}
 
-DriftFilter::Covariance DriftFilter::covariance_at(double turn, double wander) const {
-  const double turns = std::abs(turn - turn_);
-  const double wander_2 = wander * wander;
-  const auto& [value, both, change] = covariance_;
-  return {.value = value + turns * (2.0 * both + turns * (change + wander_2 * turns / 3.0)),
-          .both = both + turns * (change + 0.5 * wander_2 * turns),
-          .change = change + wander_2 * turns};
+double DriftFilter::at(double x) const {
+  const double ahead = x - x_;
+  return state_[0] + (state_[1] + 0.5 * state_[2] * ahead) * ahead;
 }
 
-double DriftFilter::sigma_at(double turn, const DriftNoise& noise) const {
-  return std::sqrt(covariance_at(turn, noise.wander).value);
+double DriftFilter::x_of(double value) const {
+  const double ahead = value - state_[0];
+  const double change = std::sqrt(std::max(0.0, state_[1] * state_[1] + 2.0 * state_[2] * ahead));
+  return x_ + 2.0 * ahead / (state_[1] + change);
 }
 
-bool DriftFilter::accepts(std::int64_t turn, double measured, const DriftNoise& noise,
+Eigen::Matrix3d DriftFilter::covariance_at(double x, const DriftNoise& noise) const {
+  const double ahead = x - x_;
+  Eigen::Matrix3d moved = covariance_;
+  moved.row(0) += ahead * (moved.row(1) + 0.5 * ahead * moved.row(2));
+  moved.row(1) += ahead * moved.row(2);
+  moved.col(0) += ahead * (moved.col(1) + 0.5 * ahead * moved.col(2));
+  moved.col(1) += ahead * moved.col(2);
+  // The wander integrated over the way; backwards it is as long.
+  const double length = std::abs(ahead);
+  const double change = noise.wander * noise.wander * length;
+  const double bend = noise.bend_wander * noise.bend_wander * length;
+  const double ahead_2 = ahead * ahead;
+  moved(0, 0) += ahead_2 * (change / 3.0 + ahead_2 * bend / 20.0);
+  moved(0, 1) += ahead * (change / 2.0 + ahead_2 * bend / 8.0);
+  moved(0, 2) += ahead_2 * bend / 6.0;
+  moved(1, 1) += change + ahead_2 * bend / 3.0;
+  moved(1, 2) += ahead * bend / 2.0;
+  moved(2, 2) += bend;
+  return moved.selfadjointView<Eigen::Upper>();
+}
+
+double DriftFilter::sigma_at(double x, const DriftNoise& noise) const {
+  return std::sqrt(covariance_at(x, noise)(0, 0));
+}
+
+bool DriftFilter::accepts(double x, double measured, const DriftNoise& noise,
                           const DriftGate& gate) const {
-  const auto turn_d = static_cast<double>(turn);
-  const double sigma = std::hypot(sigma_at(turn_d, noise), scale_ * noise.measured);
-  return std::abs(measured - at(turn_d)) <= std::min(gate.sigma * sigma, gate.most);
+  const double sigma = std::hypot(sigma_at(x, noise), scale_ * noise.measured);
+  return std::abs(measured - at(x)) <= std::min(gate.sigma * sigma, gate.most);
 }
 
-bool DriftFilter::follow(std::int64_t turn, double measured, const DriftNoise& noise,
+bool DriftFilter::follow(double x, double measured, const DriftNoise& noise,
                          const DriftGate& gate) {
-  const bool accepted = accepts(turn, measured, noise, gate);
-  const auto turn_d = static_cast<double>(turn);
-  if (turn_d < turn_) {  // The past is judged, not learnt from.
+  const bool accepted = accepts(x, measured, noise, gate);
+  const double ahead = x - x_;
+  if (ahead < 0.0) {  // The past is judged, not learnt from.
     return accepted;
   }
-  const Covariance before = covariance_at(turn_d, noise.wander);
+  const Eigen::Matrix3d before = covariance_at(x, noise);
   const double measured_sigma = scale_ * noise.measured;
-  const double variance = before.value + measured_sigma * measured_sigma;
-  const double off = measured - at(turn_d);
+  const double variance = before(0, 0) + measured_sigma * measured_sigma;
+  const double off = measured - at(x);
   const bool far = off * off > kMedianDeviation * kMedianDeviation * variance;
   scale_ = std::clamp(far ? scale_ * kScaleStep : scale_ / kScaleStep, 1.0, kMostScale);
   if (accepted) {
-    const double value_gain = before.value / variance;
-    const double change_gain = before.both / variance;
-    value_ = at(turn_d) + value_gain * off;
-    change_ += change_gain * off;
-    turn_ = turn_d;
-    covariance_ = {.value = (1.0 - value_gain) * before.value,
-                   .both = (1.0 - value_gain) * before.both,
-                   .change = before.change - change_gain * before.both};
+    const Eigen::Vector3d gain = before.col(0) / variance;
+    state_ = Eigen::Vector3d{at(x), state_[1] + state_[2] * ahead, state_[2]} + gain * off;
+    x_ = x;
+    covariance_ = before - gain * before.row(0);
   }
   return accepted;
 }
 
-void DriftFilter::shift(double turn, double value, double change) {
-  value_ += value + change * (turn_ - turn);
-  change_ += change;
+void DriftFilter::shift(double x, double value, double change) {
+  state_[0] += value + change * (x_ - x);
+  state_[1] += change;
 }
 
 }  // namespace spindrift

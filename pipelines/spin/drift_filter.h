@@ -1,17 +1,19 @@
 /// @file
-/// A quantity measured once a turn that changes by nearly the same amount from turn to turn: two
-/// states, value and change per turn, whose change wanders.
+/// A quantity that changes evenly but for a slow drift: three states, value, change and bend (the
+/// change of the change), the last two of which wander. The abscissa is whatever it is measured
+/// over: turns or seconds.
 
 #pragma once
 
-#include <cstdint>
+#include <Eigen/Core>
 
 namespace spindrift {
 
 /// One standard deviation each.
 struct DriftNoise {
-  double measured;  ///< Of one measurement.
-  double wander;    ///< By which the change per turn itself changes in a turn.
+  double measured;           ///< Of one measurement.
+  double wander;             ///< By which the change itself changes along one unit of the abscissa.
+  double bend_wander = 0.0;  ///< The same of the bend.
 };
 
 /// How far from the expectation a measurement may lie.
@@ -20,13 +22,15 @@ struct DriftGate {
   double most;   ///< In any case.
 };
 
-/// What is known at a turn, with its standard deviations.
+/// What is known at an abscissa, with its standard deviations.
 struct DriftState {
-  std::int64_t turn;
+  double x;
   double value;
   double value_sigma;
-  double change;  ///< Per turn.
+  double change;
   double change_sigma;
+  double bend = 0.0;
+  double bend_sigma = 0.0;
   double scale = 1.0;  ///< By which the scatter exceeds the stated noise, at least 1.
 };
 
@@ -36,35 +40,31 @@ class DriftFilter {
  public:
   explicit DriftFilter(const DriftState& state);
 
-  double at(double turn) const { return value_ + change_ * (turn - turn_); }
-  /// At the last turn that was taken in.
-  double value() const { return value_; }
-  double change() const { return change_; }
+  double at(double x) const;
+  /// Where the value is reached, next to the last abscissa that was taken in; where it never is,
+  /// where it comes nearest. The change must be positive there.
+  double x_of(double value) const;
+  /// At the last abscissa that was taken in.
+  double value() const { return state_[0]; }
+  double change() const { return state_[1]; }
   double scale() const { return scale_; }
-  /// Standard deviation of the value at a turn.
-  double sigma_at(double turn, const DriftNoise& noise) const;
+  /// Standard deviation of the value.
+  double sigma_at(double x, const DriftNoise& noise) const;
 
   /// Whether the measurement lies within the gate.
-  bool accepts(std::int64_t turn, double measured, const DriftNoise& noise,
-               const DriftGate& gate) const;
+  bool accepts(double x, double measured, const DriftNoise& noise, const DriftGate& gate) const;
   /// The same, and takes it in when it does.
-  bool follow(std::int64_t turn, double measured, const DriftNoise& noise, const DriftGate& gate);
+  bool follow(double x, double measured, const DriftNoise& noise, const DriftGate& gate);
 
-  /// Moves value (at `turn`) and change.
-  void shift(double turn, double value, double change);
+  /// Moves value (at `x`) and change.
+  void shift(double x, double value, double change);
 
  private:
-  struct Covariance {
-    double value;
-    double both;
-    double change;
-  };
-  Covariance covariance_at(double turn, double wander) const;
+  Eigen::Matrix3d covariance_at(double x, const DriftNoise& noise) const;
 
-  double turn_;
-  double value_;
-  double change_;
-  Covariance covariance_;
+  double x_;
+  Eigen::Vector3d state_;
+  Eigen::Matrix3d covariance_;
   double scale_;
 };
 

@@ -61,7 +61,7 @@ double ExpectedPhases::wander(PulseChannel channel) const {
 }
 
 void ExpectedPhases::define(PulseChannel channel, std::int64_t turn, double phase_turns) {
-  of(channel).phase = DriftFilter{{.turn = turn,
+  of(channel).phase = DriftFilter{{.x = static_cast<double>(turn),
                                    .value = phase_turns,
                                    .value_sigma = noise_turns(channel),
                                    .change = 0.0,
@@ -88,7 +88,7 @@ void ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts)
                                  wander(channel) * std::sqrt(edges));
   const double change = line->drift * possible * possible / (possible * possible + seen * seen);
   const double first = line->agreeing.front().turn;
-  of(channel).phase = DriftFilter{{.turn = static_cast<std::int64_t>(first),
+  of(channel).phase = DriftFilter{{.x = first,
                                    .value = line->phase + change * (first - line->turn),
                                    .value_sigma = 2.0 * line->scatter / std::sqrt(edges),
                                    .change = change,
@@ -101,7 +101,7 @@ bool ExpectedPhases::follow(PulseChannel channel, std::int64_t turn, double phas
   Channel& own = of(channel);
   const DriftNoise noise{.measured = std::hypot(noise_turns(channel), clock_sigma_turns),
                          .wander = wander(channel)};
-  const bool accepted = own.phase->follow(turn, phase_turns, noise,
+  const bool accepted = own.phase->follow(static_cast<double>(turn), phase_turns, noise,
                                           {.sigma = gate_sigma_, .most = gate_turns(channel)});
   if (accepted) {
     own.strays.clear();

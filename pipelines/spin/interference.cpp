@@ -15,9 +15,14 @@ InterferenceWindow::Sorted InterferenceWindow::push(const Pulse& pulse) {
     give_front(out);
   }
   Held last{.pulse = pulse, .spoilt = false};
-  for (Held& before : held_) {
-    if (before.pulse.channel != pulse.channel) {
-      before.spoilt = last.spoilt = true;
+  ++held_of_.at(index_of(pulse.channel));
+  if (held_of_.at(index_of(pulse.channel)) <= held_.size()) {
+    last.spoilt = true;
+    // Those that are not spoilt yet came last and are of one channel.
+    for (auto before = held_.rbegin();
+         before != held_.rend() && !before->spoilt && before->pulse.channel != pulse.channel;
+         ++before) {
+      before->spoilt = true;
     }
   }
   held_.push_back(last);
@@ -36,6 +41,7 @@ InterferenceWindow::Sorted InterferenceWindow::finish() {
 }
 
 void InterferenceWindow::give_front(Sorted& out) {
+  --held_of_.at(index_of(held_.front().pulse.channel));
   (held_.front().spoilt ? out.spoilt : out.clean).push_back(held_.front().pulse);
   held_.pop_front();
 }

@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <deque>
 #include <vector>
 
@@ -35,6 +37,7 @@ class InterferenceWindow {
 
   std::chrono::nanoseconds window_;
   std::deque<Held> held_;
+  std::array<std::size_t, kPulseChannels> held_of_{};  ///< How many of each channel.
 };
 
 }  // namespace spindrift

@@ -27,6 +27,11 @@ constexpr double kLeastFilled = 0.45;
 // A longer gap is a silence, not lost edges.
 constexpr double kMostLost = 5.0;
 
+// 3 rpm an hour.
+constexpr double kMostDrift_per_s2 = 3.0 / 60.0 / 3600.0;
+// An uneven comb must leave this part of the scatter about an even one.
+constexpr double kFarBetter = 0.5;
+
 using Teeth = std::vector<PhasePoint>;  // The phase here is a time in seconds.
 
 /// The edges that follow one another by whole periods, from edges[first] on, on and on.
@@ -101,6 +106,38 @@ Found best_teeth(const std::vector<double>& edges_s) {
   return best;
 }
 
+void straighten(Teeth& teeth, double bend) {
+  for (PhasePoint& tooth : teeth) {
+    tooth.phase -= 0.5 * bend * tooth.turn * tooth.turn;
+  }
+}
+
+/// By how much the period changes in a turn, of itself: that of the middle one of the parabolas
+/// through three teeth far apart; 0 unless it explains the teeth far better than an even comb.
+double bend_of(const Teeth& teeth, double noise, double period_s) {
+  const std::size_t apart = teeth.size() / 3;
+  if (apart == 0) {
+    return 0.0;
+  }
+  const auto slope = [&](std::size_t from, std::size_t to) {
+    return (teeth[to].phase - teeth[from].phase) / (teeth[to].turn - teeth[from].turn);
+  };
+  std::vector<double> bends;
+  for (std::size_t i = 0; i + 2 * apart < teeth.size(); ++i) {
+    bends.push_back(2.0 * (slope(i + apart, i + 2 * apart) - slope(i, i + apart)) /
+                    (teeth[i + 2 * apart].turn - teeth[i].turn));
+  }
+  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
+  std::nth_element(bends.begin(), middle, bends.end());
+  const double bend = *middle;
+  Teeth straight = teeth;
+  straighten(straight, bend);
+  const bool better = fit_phase_line(straight, noise, kNear * 2.0)->scatter <
+                      kFarBetter * fit_phase_line(teeth, noise, kNear * 2.0)->scatter;
+  const bool possible = std::abs(bend) <= kMostDrift_per_s2 * period_s * period_s;
+  return better && possible ? bend : 0.0;
+}
+
 }  // namespace
 
 std::optional<Comb> find_comb(std::span<const TaiTime> edges, double noise_s, std::size_t fewest) {
@@ -126,6 +163,8 @@ std::optional<Comb> find_comb(std::span<const TaiTime> edges, double noise_s, st
     const double turn = tooth.turn - teeth.front().turn;
     return PhasePoint{.turn = turn, .phase = (tooth.phase - teeth.front().phase) / period_s - turn};
   });
+  const double bend = bend_of(points, noise_s / period_s, period_s);
+  straighten(points, bend);
   const auto line = fit_phase_line(points, noise_s / period_s, kNear * 2.0);
   const double limit = std::max(kOn, kOn_sigma * noise_s / period_s);
   const auto on_it = std::count_if(points.begin(), points.end(), [&](const PhasePoint& point) {
@@ -137,6 +176,7 @@ std::optional<Comb> find_comb(std::span<const TaiTime> edges, double noise_s, st
   }
   return Comb{.t = later_by_s(edges.front(), teeth.front().phase + line->at(0.0) * period_s),
               .period_s = period_s * (1.0 + line->drift),
+              .drift_per_s2 = -bend / (period_s * period_s),
               .scatter_s = line->scatter * period_s,
               .edges = static_cast<std::size_t>(on_it),
               .turns = points.back().turn};

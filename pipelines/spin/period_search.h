@@ -12,13 +12,14 @@
 
 namespace spindrift {
 
-/// A comb of equally spaced instants that most edges lie on.
+/// A comb of nearly equally spaced instants that most edges lie on.
 struct Comb {
-  TaiTime t;          ///< One of them, near the first edge that lies on it.
-  double period_s;    ///< Their spacing.
-  double scatter_s;   ///< Standard deviation of the edges about it, at least the stated one.
-  std::size_t edges;  ///< How many edges lie on it.
-  double turns;       ///< That they span.
+  TaiTime t;            ///< One of them, near the first edge that lies on it.
+  double period_s;      ///< Their spacing at t.
+  double drift_per_s2;  ///< Of their rate, 1/s: 0 unless that explains the edges far better.
+  double scatter_s;     ///< Standard deviation of the edges about it, at least the stated one.
+  std::size_t edges;    ///< How many edges lie on it.
+  double turns;         ///< That they span.
 };
 
 /// Tries the intervals between neighbouring edges as the period, counts for each how many edges

@@ -57,14 +57,40 @@ bool BasicReorderWindow<Sample>::is_far_ahead(const Sample& sample) const {
   return !held_.empty() && span_between(held_.rbegin()->t, sample.t) > kFarAhead;
 }
 
-/// Time has jumped: what was held before is due.
+/// Time has jumped: what was held before is due, or was never to be believed itself.
 template <class Sample>
 void BasicReorderWindow<Sample>::believe() {
+  if (released_.empty() && held_.size() < kBelieved) {
+    early_.insert(early_.end(), held_.begin(), held_.end());
+    held_.clear();
+  }
   for (const Sample& sample : std::exchange(held_, std::exchange(far_ahead_, {}))) {
     due_.push_back(sample);
     remember(sample);
   }
   far_in_a_row_ = 0;
+}
+
+/// Nothing is believed yet, and the first few are far before enough others to be.
+/// @return Whether any were set aside.
+template <class Sample>
+bool BasicReorderWindow<Sample>::set_aside_early() {
+  if (!released_.empty() || held_.size() <= kBelieved) {
+    return false;
+  }
+  auto end = std::next(held_.begin());
+  std::size_t before = 1;
+  while (end != held_.end() && before < kBelieved &&
+         span_between(std::prev(end)->t, end->t) <= kFarAhead) {
+    ++end;
+    ++before;
+  }
+  if (before >= kBelieved || held_.size() - before < kBelieved) {
+    return false;
+  }
+  early_.insert(early_.end(), held_.begin(), end);
+  held_.erase(held_.begin(), end);
+  return true;
 }
 
 template <class Sample>
@@ -77,6 +103,9 @@ std::vector<Sample> BasicReorderWindow<Sample>::release() {
     const auto younger = held_.lower_bound(due_by);
     // A sample of a bad clock that was there first does not count either.
     if (younger == held_.end() || span_between(first.t, younger->t) > kFarAhead) {
+      if (set_aside_early()) {
+        continue;
+      }
       break;
     }
     due.push_back(first);
@@ -90,6 +119,8 @@ template <class Sample>
 typename BasicReorderWindow<Sample>::Rest BasicReorderWindow<Sample>::release_all() {
   Rest rest{.in_time = std::exchange(due_, {}), .out_of_time = {}};
   held_.merge(far_ahead_);
+  while (set_aside_early()) {
+  }
   std::vector<Sample> samples{held_.begin(), held_.end()};
   held_.clear();
   far_ahead_.clear();
@@ -107,7 +138,8 @@ typename BasicReorderWindow<Sample>::Rest BasicReorderWindow<Sample>::release_al
     }
   }
   rest.in_time.insert(rest.in_time.end(), samples.begin(), end);
-  rest.out_of_time.assign(end, samples.end());
+  rest.out_of_time = std::exchange(early_, {});
+  rest.out_of_time.insert(rest.out_of_time.end(), end, samples.end());
   for (auto sample = samples.begin(); sample != end; ++sample) {
     remember(*sample);
   }

@@ -25,7 +25,7 @@ std::chrono::nanoseconds reorder_horizon(const CodedFrame& frame);
 ///
 /// A sample far ahead of the others moves nothing by itself, since a sender with a bad clock would
 /// make all true ones late. When several in a row say so, time has really jumped: the pass goes
-/// on after a silence.
+/// on after a silence. Likewise fewer than that which lie far before the first run are left out.
 /// @tparam Sample Totally ordered, first by its time `t`.
 template <class Sample>
 class BasicReorderWindow {
@@ -51,7 +51,7 @@ class BasicReorderWindow {
 
   struct Rest {
     std::vector<Sample> in_time;      ///< In order of time and channel.
-    std::vector<Sample> out_of_time;  ///< Far ahead, and too few to be believed.
+    std::vector<Sample> out_of_time;  ///< Far ahead or far before, and too few to be believed.
   };
   /// All that are held: the pass has ended.
   Rest release_all();
@@ -59,11 +59,13 @@ class BasicReorderWindow {
  private:
   bool is_far_ahead(const Sample& sample) const;
   void believe();
+  bool set_aside_early();
   void remember(const Sample& sample);
 
   std::set<Sample> held_;
   std::set<Sample> far_ahead_;
   std::size_t far_in_a_row_ = 0;
+  std::vector<Sample> early_;    ///< Too few, and far before the first that are believed.
   std::vector<Sample> due_;      ///< Before a jump that was believed.
   std::deque<Sample> released_;  ///< In order; those remembered, at least the last one.
 };

@@ -7,51 +7,64 @@
 namespace spindrift {
 namespace {
 
-// Change of the period in one turn, of itself: free bodies lose less, thermal and eddy effects in.
-constexpr double kWander = 3e-6;
+// Turns a second, in a second: what is left of the rate's change beside an even drift, as in the
+// spin filter.
+constexpr double kRateWander = 5e-7;
+// Turns a second squared, in a second.
+constexpr double kDriftWander = 3e-10;
+// Half a rpm an hour: eddy currents, warming and leaks seldom do more, and a few turns tell.
+constexpr double kFirstDrift_per_s2 = 0.5 / 60.0 / 3600.0;
 
 }  // namespace
 
 SpinClock::SpinClock(const Setting& setting)
     : epoch_{setting.t},
       epoch_turn_{static_cast<double>(setting.turn)},
-      t_s_{DriftState{.turn = setting.turn,
-                      .value = 0.0,
-                      .value_sigma = setting.sigma_s,
-                      .change = setting.period_s,
-                      .change_sigma = setting.period_sigma_s,
-                      .scale = setting.scale}} {}
+      turns_{
+          DriftState{.x = 0.0,
+                     .value = 0.0,
+                     .value_sigma = setting.sigma_s / setting.period_s,
+                     .change = 1.0 / setting.period_s,
+                     .change_sigma = setting.period_sigma_s / (setting.period_s * setting.period_s),
+                     .bend = setting.drift_per_s2,
+                     .bend_sigma = kFirstDrift_per_s2,
+                     .scale = setting.scale}} {}
 
 double SpinClock::phase_turns(TaiTime t) const {
-  return epoch_turn_ + (elapsed_s(epoch_, t) - t_s_.at(epoch_turn_)) / period_s();
+  return epoch_turn_ + turns_.at(elapsed_s(epoch_, t));
 }
 
 TaiTime SpinClock::t_of(double phase_turns) const {
-  return later_by_s(epoch_, t_s_.at(phase_turns));
+  return later_by_s(epoch_, turns_.x_of(phase_turns - epoch_turn_));
 }
 
 DriftNoise SpinClock::noise(double noise_s, double earth_turns) const {
-  return {.measured = noise_s, .wander = std::hypot(kWander, earth_turns) * period_s()};
+  const double rate = turns_.change();
+  return {.measured = noise_s * rate,
+          .wander = std::hypot(kRateWander, earth_turns * rate * std::sqrt(rate)),
+          .bend_wander = kDriftWander};
 }
 
 double SpinClock::sigma_s(double phase_turns, double earth_turns) const {
-  return t_s_.sigma_at(phase_turns, noise(0.0, earth_turns));
+  return turns_.sigma_at(turns_.x_of(phase_turns - epoch_turn_), noise(0.0, earth_turns)) *
+         period_s();
 }
 
 bool SpinClock::accepts(std::int64_t turn, TaiTime t, double noise_s, double earth_turns,
                         const DriftGate& gate_turns) const {
-  return t_s_.accepts(turn, elapsed_s(epoch_, t), noise(noise_s, earth_turns),
-                      {.sigma = gate_turns.sigma, .most = gate_turns.most * period_s()});
+  return turns_.accepts(elapsed_s(epoch_, t), static_cast<double>(turn) - epoch_turn_,
+                        noise(noise_s, earth_turns), gate_turns);
 }
 
 bool SpinClock::follow(std::int64_t turn, TaiTime t, double noise_s, double earth_turns,
                        const DriftGate& gate_turns) {
-  return t_s_.follow(turn, elapsed_s(epoch_, t), noise(noise_s, earth_turns),
-                     {.sigma = gate_turns.sigma, .most = gate_turns.most * period_s()});
+  return turns_.follow(elapsed_s(epoch_, t), static_cast<double>(turn) - epoch_turn_,
+                       noise(noise_s, earth_turns), gate_turns);
 }
 
 void SpinClock::shift(std::int64_t turn, double phase_turns, double drift) {
-  t_s_.shift(static_cast<double>(turn), phase_turns * period_s(), drift * period_s());
+  turns_.shift(turns_.x_of(static_cast<double>(turn) - epoch_turn_), -phase_turns,
+               -drift * turns_.change());
 }
 
 }  // namespace spindrift

@@ -10,8 +10,8 @@
 
 namespace spindrift {
 
-/// Phase n is where the sun1 edge of turn n is expected (or whatever stands in for it). The period
-/// may wander by a few parts in a million a turn.
+/// Phase n is where the sun1 edge of turn n is expected (or whatever stands in for it). The spin
+/// rate may drift evenly, by up to about 2 rpm an hour, and wander a little about that.
 class SpinClock {
  public:
   struct Setting {
@@ -19,15 +19,16 @@ class SpinClock {
     std::int64_t turn;
     double period_s;
     double period_sigma_s;
-    double sigma_s;      ///< Of t.
-    double scale = 1.0;  ///< See DriftState.
+    double sigma_s;             ///< Of t.
+    double drift_per_s2 = 0.0;  ///< Of the spin rate in turns a second.
+    double scale = 1.0;         ///< See DriftState.
   };
   explicit SpinClock(const Setting& setting);
 
   double phase_turns(TaiTime t) const;
   TaiTime t_of(double phase_turns) const;
-  double period_s() const { return t_s_.change(); }
-  double scale() const { return t_s_.scale(); }
+  double period_s() const { return 1.0 / turns_.change(); }
+  double scale() const { return turns_.scale(); }
   double sigma_s(double phase_turns, double earth_turns) const;
 
   /// @param t Where an edge says that phase `turn` is.
@@ -38,6 +39,9 @@ class SpinClock {
   bool follow(std::int64_t turn, TaiTime t, double noise_s, double earth_turns,
               const DriftGate& gate_turns);
 
+  /// Adds to the count of turns.
+  void count_on(std::int64_t turns) { epoch_turn_ += static_cast<double>(turns); }
+
   /// Puts phase `turn` by `phase_turns` later and lengthens the period by `drift` of itself.
   void shift(std::int64_t turn, double phase_turns, double drift);
 
@@ -46,7 +50,7 @@ class SpinClock {
 
   TaiTime epoch_;
   double epoch_turn_;
-  DriftFilter t_s_;  ///< Behind epoch_, of every turn.
+  DriftFilter turns_;  ///< Behind epoch_turn_, over the seconds behind epoch_.
 };
 
 }  // namespace spindrift

@@ -10,15 +10,18 @@
 namespace spindrift {
 namespace {
 
-enum Component : Eigen::Index { kTiltX, kTiltY, kPhase, kRate };
+enum Component : Eigen::Index { kTiltX, kTiltY, kPhase, kRate, kDrift };
 
 // Torques on a satellite turn its axis by up to a tenth of a degree a day; this random walk makes
 // 0.02 deg of it, and 3e-6 deg a second, which no pulse can tell from rest.
 constexpr double kAxisWander_rad_sqrt_s = 1e-6;
-// Follows a rate that changes by 1e-6 rad/s^2 (0.8 rpm a day) within its sigma, by ten times that
-// within the gate. A rate that is constant is known better than the filter says; the axis hardly
-// depends on it.
+// What is left beside an even drift. A rate that is constant is known better than the filter says;
+// the axis hardly depends on it.
 constexpr double kRateWander_rad_s_sqrt_s = 3e-6;
+// 2 rpm an hour: eddy currents, warming and leaks do less.
+constexpr double kFirstDrift_rad_s2 = 2.0 * (2.0 * std::numbers::pi / 60.0) / 3600.0;
+// A day makes 0.02 rpm/h of it.
+constexpr double kDriftWander_rad_s2_sqrt_s = 2e-9;
 // Four in a hundred thousand good edges lie farther out.
 constexpr double kGateSigmas = 4.1;
 // One edge in a thousand is spurious and anywhere on the circle.
@@ -80,6 +83,7 @@ std::optional<SpinFilter> SpinFilter::about(const Eigen::Vector3d& axis_icrf,
     filter.covariance_(kRate, kRate) = square(
         rate_rad_s * (kFirstRateSigmas * revolution.period.sigma_s / revolution.period.period_s +
                       kFirstRateShare));
+    filter.covariance_(kDrift, kDrift) = square(kFirstDrift_rad_s2);
     return filter;
   }
   return std::nullopt;
@@ -90,17 +94,25 @@ void SpinFilter::predict(TaiTime t) {
   if (!(dt_s > 0.0)) {
     return;
   }
-  phase_rad_ = wrapped_rad(phase_rad_ + rate_rad_s_ * dt_s);
-  covariance_.row(kPhase) += dt_s * covariance_.row(kRate);
-  covariance_.col(kPhase) += dt_s * covariance_.col(kRate);
+  phase_rad_ = wrapped_rad(phase_rad_ + (rate_rad_s_ + 0.5 * drift_rad_s2_ * dt_s) * dt_s);
+  rate_rad_s_ += drift_rad_s2_ * dt_s;
+  covariance_.row(kPhase) += dt_s * (covariance_.row(kRate) + 0.5 * dt_s * covariance_.row(kDrift));
+  covariance_.col(kPhase) += dt_s * (covariance_.col(kRate) + 0.5 * dt_s * covariance_.col(kDrift));
+  covariance_.row(kRate) += dt_s * covariance_.row(kDrift);
+  covariance_.col(kRate) += dt_s * covariance_.col(kDrift);
+
   const double axis_rad2 = square(kAxisWander_rad_sqrt_s) * dt_s;
   const double rate_rad2_s2 = square(kRateWander_rad_s_sqrt_s) * dt_s;
+  const double drift_rad2_s4 = square(kDriftWander_rad_s2_sqrt_s) * dt_s;
   covariance_(kTiltX, kTiltX) += axis_rad2;
   covariance_(kTiltY, kTiltY) += axis_rad2;
-  covariance_(kPhase, kPhase) += rate_rad2_s2 * dt_s * dt_s / 3.0;
-  covariance_(kPhase, kRate) += rate_rad2_s2 * dt_s / 2.0;
-  covariance_(kRate, kPhase) += rate_rad2_s2 * dt_s / 2.0;
-  covariance_(kRate, kRate) += rate_rad2_s2;
+  // Integrated over the interval: of the drift, the rate it makes and the phase that this makes.
+  Eigen::Matrix3d wander;
+  wander << square(dt_s) * (rate_rad2_s2 / 3.0 + drift_rad2_s4 * square(dt_s) / 20.0),
+      dt_s * (rate_rad2_s2 / 2.0 + drift_rad2_s4 * square(dt_s) / 8.0),
+      drift_rad2_s4 * square(dt_s) / 6.0, 0.0, rate_rad2_s2 + drift_rad2_s4 * square(dt_s) / 3.0,
+      drift_rad2_s4 * dt_s / 2.0, 0.0, 0.0, drift_rad2_s4;
+  covariance_.bottomRightCorner<3, 3>() += wander.selfadjointView<Eigen::Upper>();
   t_ = t;
 }
 
@@ -109,7 +121,7 @@ EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky,
   const SpinFilter prior = *this;
   EdgeTally tally;
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    const Eigen::Vector4d moved = update_linearised_here(prior, config, sky, edges, tally);
+    const Error moved = update_linearised_here(prior, config, sky, edges, tally);
     if (moved.head<2>().norm() < kFarFromLinear_rad) {
       break;
     }
@@ -119,13 +131,14 @@ EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky,
 
 /// All edges are linearised at the present state: then their order has no weight, and sun edges,
 /// the sharper, come first to the gate.
-Eigen::Vector4d SpinFilter::update_linearised_here(const SpinFilter& prior,
-                                                   const SpinConfig& config, const Sky& sky,
-                                                   std::span<const Pulse> edges, EdgeTally& tally) {
+SpinFilter::Error SpinFilter::update_linearised_here(const SpinFilter& prior,
+                                                     const SpinConfig& config, const Sky& sky,
+                                                     std::span<const Pulse> edges,
+                                                     EdgeTally& tally) {
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin_.conjugate().toRotationMatrix();
   tally = {};
   covariance_ = prior.covariance_;
-  Eigen::Vector4d error = error_of(prior);
+  Error error = error_of(prior);
   const auto gate = [&tally](const Pulse& edge) {
     tally.gated.set(index_of(edge.channel));
     tally.log_likelihood += kLogSpurious;
@@ -138,13 +151,14 @@ Eigen::Vector4d SpinFilter::update_linearised_here(const SpinFilter& prior,
       continue;
     }
     const double dt_s = seconds_between(t_, edge.t);
-    const Eigen::Vector4d slope{predicted->phase_per_rotation.x(),
-                                predicted->phase_per_rotation.y(), -1.0, -dt_s};
-    const Eigen::Vector4d gain_unscaled = covariance_ * slope;
+    const Error slope{predicted->phase_per_rotation.x(), predicted->phase_per_rotation.y(), -1.0,
+                      -dt_s, -0.5 * square(dt_s)};
+    const Error gain_unscaled = covariance_ * slope;
     const double variance =
         slope.dot(gain_unscaled) + square(rate_rad_s_ * edge_sigma_s(config.noise, edge.channel));
     const double innovation =
-        wrapped_rad(phase_rad_ + rate_rad_s_ * dt_s - predicted->phase_rad - slope.dot(error));
+        wrapped_rad(phase_rad_ + (rate_rad_s_ + 0.5 * drift_rad_s2_ * dt_s) * dt_s -
+                    predicted->phase_rad - slope.dot(error));
     const double squared_innovation = square(innovation) / variance;
     if (squared_innovation > square(kGateSigmas)) {
       gate(edge);
@@ -161,14 +175,14 @@ Eigen::Vector4d SpinFilter::update_linearised_here(const SpinFilter& prior,
 }
 
 /// Of this state, were `truth` true.
-Eigen::Vector4d SpinFilter::error_of(const SpinFilter& truth) const {
+SpinFilter::Error SpinFilter::error_of(const SpinFilter& truth) const {
   const Eigen::AngleAxisd turn{q_icrf_spin_.conjugate() * truth.q_icrf_spin_};
   const Eigen::Vector3d turn_rad = turn.angle() * turn.axis();
-  return {turn_rad.x(), turn_rad.y(), wrapped_rad(truth.phase_rad_ - phase_rad_),
-          truth.rate_rad_s_ - rate_rad_s_};
+  return Error{turn_rad.x(), turn_rad.y(), wrapped_rad(truth.phase_rad_ - phase_rad_),
+               truth.rate_rad_s_ - rate_rad_s_, truth.drift_rad_s2_ - drift_rad_s2_};
 }
 
-void SpinFilter::correct(const Eigen::Vector4d& error) {
+void SpinFilter::correct(const Error& error) {
   const Eigen::Vector3d tilt_rad{error[kTiltX], error[kTiltY], 0.0};
   const double angle_rad = tilt_rad.norm();
   if (angle_rad > 0.0) {
@@ -176,6 +190,7 @@ void SpinFilter::correct(const Eigen::Vector4d& error) {
   }
   phase_rad_ = wrapped_rad(phase_rad_ + error[kPhase]);
   rate_rad_s_ += error[kRate];
+  drift_rad_s2_ += error[kDrift];
 }
 
 Eigen::Matrix2d SpinFilter::axis_covariance_rad2() const {

@@ -2,14 +2,15 @@
 /// Kalman filter on the sphere: spin axis, phase and rate from single edge times.
 ///
 /// The state is a frame `spin` (edge_prediction.h) whose third axis is the spin axis, the phase of
-/// the body in it at the reference time, and the spin rate. Its error is small and has no
-/// singularity anywhere: tilts of the axis about the frame's first and second axes, phase, rate.
-/// Each edge is one scalar measurement with its own noise,
+/// the body in it at the reference time, the spin rate and its drift. Its error is small and has no
+/// singularity anywhere: tilts of the axis about the frame's first and second axes, phase, rate,
+/// drift. Each edge is one scalar measurement with its own noise,
 ///
-///     phase + rate (t - t_ref) - predicted phase = 0 +/- rate sigma_t        (round the circle)
+///     phase + rate dt + drift dt^2/2 - predicted phase = 0 +/- rate sigma_t        (round the
+///     circle)
 ///
-/// so any subset of the channels will do. Assumes a body in uniform rotation about a fixed axis,
-/// but for a slow random walk of both.
+/// with dt = t - t_ref, so any subset of the channels will do. Assumes a body that turns about a
+/// fixed axis at a rate that drifts evenly, but for a slow random walk of all three.
 
 #pragma once
 
@@ -69,18 +70,20 @@ class SpinFilter {
   SpinFilter(TaiTime t, const Eigen::Quaterniond& q_icrf_spin, double phase_rad, double rate_rad_s)
       : t_{t}, q_icrf_spin_{q_icrf_spin}, phase_rad_{phase_rad}, rate_rad_s_{rate_rad_s} {}
 
-  Eigen::Vector4d update_linearised_here(const SpinFilter& prior, const SpinConfig& config,
-                                         const Sky& sky, std::span<const Pulse> edges,
-                                         EdgeTally& tally);
-  Eigen::Vector4d error_of(const SpinFilter& truth) const;
-  void correct(const Eigen::Vector4d& error);
+  /// Tilt about the frame's first and second axes, phase, rate, drift.
+  using Error = Eigen::Matrix<double, 5, 1>;
+
+  Error update_linearised_here(const SpinFilter& prior, const SpinConfig& config, const Sky& sky,
+                               std::span<const Pulse> edges, EdgeTally& tally);
+  Error error_of(const SpinFilter& truth) const;
+  void correct(const Error& error);
 
   TaiTime t_;
   Eigen::Quaterniond q_icrf_spin_;
   double phase_rad_;  ///< Of slit 1 at `t_`.
   double rate_rad_s_;
-  /// Of the error: tilt about the frame's first and second axes, phase, rate.
-  Eigen::Matrix4d covariance_ = Eigen::Matrix4d::Zero();
+  double drift_rad_s2_ = 0.0;
+  Eigen::Matrix<double, 5, 5> covariance_ = Eigen::Matrix<double, 5, 5>::Zero();  ///< Of the error.
 };
 
 /// The good edges of a revolution.

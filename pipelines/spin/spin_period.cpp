@@ -10,6 +10,9 @@
 namespace spindrift {
 namespace {
 
+// Few intervals show a trend that is this far beyond their noise.
+constexpr double kTrend_sigma = 3.0;
+
 /// Successive intervals together.
 struct Span {
   double elapsed_s = 0.0;
@@ -71,10 +74,6 @@ std::optional<SpinPeriod> SpinPeriodWindow::period_now(double edge_sigma_s) cons
   if (accepted == 0) {
     return std::nullopt;
   }
-  if (accepted < kTrendIntervals) {
-    return SpinPeriod{.period_s = all.mean_s(),
-                      .sigma_s = std::numbers::sqrt2 * edge_sigma_s / all.turns};
-  }
   Span older;
   Span newer;
   for (const Entry& entry : entries_) {
@@ -85,11 +84,18 @@ std::optional<SpinPeriod> SpinPeriodWindow::period_now(double edge_sigma_s) cons
   if (!(newer.turns > 0.0)) {
     newer = older;  // One long silence at the end outweighs all before it: no trend to be seen.
   }
+  const double trend_s = newer.mean_s() - older.mean_s();
+  const double trend_sigma_s = edge_sigma_s * std::hypot(1.0 / older.turns, 1.0 / newer.turns,
+                                                         1.0 / older.turns + 1.0 / newer.turns);
+  if (accepted < kTrendIntervals && std::abs(trend_s) <= kTrend_sigma * trend_sigma_s) {
+    return SpinPeriod{.period_s = all.mean_s(),
+                      .sigma_s = std::numbers::sqrt2 * edge_sigma_s / all.turns};
+  }
   const double carried = newer.turns / (older.turns + newer.turns);
   // The three edges that are left: the first, the one between the halves, the last.
   const double first = carried / older.turns;
   const double last = (1.0 + carried) / newer.turns;
-  return SpinPeriod{.period_s = newer.mean_s() + carried * (newer.mean_s() - older.mean_s()),
+  return SpinPeriod{.period_s = newer.mean_s() + carried * trend_s,
                     .sigma_s = edge_sigma_s * std::hypot(first, last, first + last)};
 }
 

@@ -45,7 +45,8 @@ class SpinPeriodWindow {
   /// At the end of the window: the mean of its intervals, carried on by the difference of its
   /// halves, since a rate that drifts would leave the mean behind and the axis with it. The
   /// accepted intervals follow one another from edge to edge, so that the noise of the edges
-  /// between cancels: what was accepted is not judged again. Below kTrendIntervals the mean alone.
+  /// between cancels: what was accepted is not judged again. Below kTrendIntervals the mean alone,
+  /// unless the halves differ by more than their noise.
   /// Empty before the first candidate accepted.
   std::optional<SpinPeriod> period() const { return period_; }
   std::size_t size() const { return entries_.size(); }

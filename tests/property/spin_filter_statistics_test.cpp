@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -175,6 +176,68 @@ TEST(SpinFilterStatistics, SigmaIsThatOfTheInformationLimit) {
     // One of 40 revolutions is left to the fix, whose own weight is about as much.
     EXPECT_NEAR(sigma_rad / limit_rad, 1.0, 0.05) << "pass " << pass;
   }
+}
+
+/// Edges of a body whose rate drifts evenly: time is stretched so that the oracle's body, and all
+/// about it, see it turn evenly.
+std::vector<testing::Edge> drifting_edges(const SpinningBody& body, const Surroundings& around,
+                                          double drift_rad_s2, double revolutions) {
+  const double relative = drift_rad_s2 / body.rate_rad_s;
+  const auto t_of = [relative](double even_s) {
+    return 2.0 * even_s / (1.0 + std::sqrt(1.0 + 2.0 * relative * even_s));
+  };
+  const Surroundings stretched{
+      .sun_icrf = [&](double even_s) { return around.sun_icrf(t_of(even_s)); },
+      .earth_icrf_km = [&](double even_s) { return around.earth_icrf_km(t_of(even_s)); },
+      .horizon_km = around.horizon_km};
+  auto edges = testing::edges_between(body, stretched, 0.0,
+                                      revolutions * 2.0 * std::numbers::pi / body.rate_rad_s);
+  for (testing::Edge& edge : edges) {
+    edge.t_s = t_of(edge.t_s);
+  }
+  return edges;
+}
+
+TEST(SpinFilterStatistics, AnEvenDriftOfTheRateIsFollowed) {
+  constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;
+  const Orbit orbit = testing::transfer_orbit();
+  const Surroundings around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  std::mt19937_64 rng{1958};
+  double axis = 0.0;
+  int passes = 0;
+  for (const double rate_rpm : {5.0, 20.0, 60.0, 180.0}) {
+    for (const double drift_rpm_h : {0.0, 0.1, 1.0, 2.0}) {
+      SCOPED_TRACE(std::to_string(rate_rpm) + " rpm, " + std::to_string(drift_rpm_h) + " rpm/h");
+      SpinningBody body = testing::random_body(around, 8.0 * kDegree_rad, rng);
+      body.rate_rad_s = rate_rpm * kRpm;
+      const double drift_rad_s2 = drift_rpm_h * kRpm / 3600.0;
+      const auto seen =
+          testing::observed(body.config, orbit,
+                            testing::pulses_from(drifting_edges(body, around, drift_rad_s2, 60.0),
+                                                 testing::kTransferStart, body.config.noise, rng));
+      const SpinFix fix = testing::drawn_fix(body.axis_icrf, kFixSigma_rad, rng);
+      SequentialEstimator estimator{body.config};
+      std::optional<SpinEstimate> last;
+      double worst = 0.0;
+      std::span<const SpinFix> settled{&fix, 1};
+      for (const auto& [revolution, sky] : seen) {
+        last = estimator.update(revolution, sky, settled);
+        settled = {};
+        const double true_rad_s =
+            body.rate_rad_s + drift_rad_s2 * seconds_between(testing::kTransferStart, last->t);
+        worst = std::max(
+            worst, std::abs(last->spin_rate_rad_s - true_rad_s) / last->spin_rate_sigma_rad_s);
+      }
+      EXPECT_LT(worst, 4.0);
+      EXPECT_EQ(last->status.substr(0, 2), "OK");
+      const Eigen::Vector2d error_rad = testing::error_rad(last->axis_icrf, body.axis_icrf);
+      axis += error_rad.dot(last->covariance_rad2.ldlt().solve(error_rad));
+      ++passes;
+    }
+  }
+  ASSERT_EQ(passes, 16);
+  EXPECT_LT(axis, 62.5);  // 99.9 % of chi-square (both ends), 32 degrees of freedom.
+  EXPECT_GT(axis, 12.7);
 }
 
 }  // namespace

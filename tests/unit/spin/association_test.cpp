@@ -443,5 +443,93 @@ TEST(Association, EveryEdgeComesOutExactlyOnce) {
   }
 }
 
+/// Edges of a body whose rate drifts evenly.
+std::vector<MadeEdge> made_drifting(double rate_rpm, double drift_rpm_h, int turns,
+                                    std::mt19937_64& rng) {
+  std::normal_distribution<double> normal;
+  const double rate = rate_rpm / 60.0;
+  const double drift = drift_rpm_h / 60.0 / 3600.0;
+  std::vector<MadeEdge> edges;
+  for (int turn = 0; turn < turns; ++turn) {
+    for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+      const double phase = turn + kOrdinary.at(channel);
+      const double t_s = 2.0 * phase / (rate + std::sqrt(rate * rate + 2.0 * drift * phase));
+      edges.push_back({.pulse = {.t = shifted(kStart, t_s + 1e-4 * normal(rng)),
+                                 .channel = static_cast<PulseChannel>(channel)},
+                       .turn = turn});
+    }
+  }
+  return edges;
+}
+
+TEST(Association, ADriftOfTheRateIsFollowed) {
+  std::mt19937_64 rng{57};
+  for (const double rate_rpm : {5.0, 12.0, 60.0, 200.0}) {
+    for (const double drift_rpm_h : {0.05, 0.5, 2.0}) {
+      SCOPED_TRACE(std::to_string(rate_rpm) + " rpm, " + std::to_string(drift_rpm_h) + " rpm/h");
+      const auto edges = made_drifting(rate_rpm, drift_rpm_h, 200, rng);
+      const Association all = associate(edges);
+      expect_every_edge_on_its_turn(all, edges);
+      std::ptrdiff_t rejected = 0;
+      for (const Revolution& revolution : all.closed) {
+        rejected +=
+            std::count_if(revolution.edge_rejections.begin(), revolution.edge_rejections.end(),
+                          [](const auto& rejection) { return rejection.has_value(); });
+      }
+      EXPECT_LE(rejected, 12);  // One in a hundred.
+    }
+  }
+}
+
+TEST(Association, SaysWhenASilenceWasTooLongToCount) {
+  std::mt19937_64 rng{58};
+  const auto edges = made_drifting(60.0, 0.1, 4400, rng);
+  const auto heard = [&](int silence) {
+    return associate(without(edges, [&](const MadeEdge& edge) {
+      return (edge.turn >= 600 && edge.turn < 600 + silence);
+    }));
+  };
+  for (const Revolution& revolution : heard(60).closed) {
+    ASSERT_FALSE(revolution.count_sigma_turns) << revolution.number;
+  }
+  const auto closed = heard(3720).closed;
+  const auto uncertain = std::find_if(closed.begin(), closed.end(), [](const Revolution& r) {
+    return r.count_sigma_turns.has_value();
+  });
+  const auto after = std::find_if(closed.begin(), closed.end(), [&](const Revolution& r) {
+    return r.t_start > edges.at(4000 * kPulseChannels).pulse.t;
+  });
+  ASSERT_NE(after, closed.end());
+  // Either the count is right, or it is said to be uncertain by about what it is off.
+  if (uncertain == closed.end()) {
+    expect_every_edge_on_its_turn(
+        {.closed = closed, .left_over = {}},
+        without(edges, [](const MadeEdge& edge) { return edge.turn >= 600 && edge.turn < 4320; }));
+  } else {
+    EXPECT_GE(uncertain->number, 4310);
+    EXPECT_LE(uncertain->number, 4330);
+  }
+}
+
+TEST(Association, AYearOfSilenceStartsTheClockAfresh) {
+  const auto edges = made({.noise_s = 1e-4});
+  std::vector<Pulse> pulses = pulses_of(edges);
+  const std::size_t first = pulses.size();
+  for (std::size_t i = 0; i < first; ++i) {
+    pulses.push_back({.t = shifted(pulses[i].t, 365.0 * 86400.0), .channel = pulses[i].channel});
+  }
+  const Association all = associate(pulses);
+  EXPECT_LT(all.left_over.size(), 6U);
+  EXPECT_TRUE(std::is_sorted(all.closed.begin(), all.closed.end(),
+                             [](const auto& a, const auto& b) { return a.number < b.number; }));
+  const auto year_on = std::find_if(all.closed.begin(), all.closed.end(), [&](const auto& r) {
+    return r.t_start > shifted(kStart, 1e6);
+  });
+  ASSERT_NE(year_on, all.closed.end());
+  ASSERT_TRUE(year_on->count_sigma_turns);
+  EXPECT_GT(*year_on->count_sigma_turns, 0.5);
+  EXPECT_GE(std::distance(year_on, all.closed.end()), 99);
+}
+
 }  // namespace
 }  // namespace spindrift

@@ -209,5 +209,43 @@ TEST(ReorderWindow, TheEndsOfTimeDoNotOverflow) {
   EXPECT_EQ(out + rest.in_time.size() + rest.out_of_time.size(), 40U);
 }
 
+TEST(ReorderWindow, AFewFarBeforeTheFirstRunAreLeftOut) {
+  constexpr std::int64_t kPass_ns = 1'795'143'637 * kSecond_ns;
+  const std::vector<Pulse> strays = {pulse_at(63'158'400 * kSecond_ns),
+                                     pulse_at(946'684'800 * kSecond_ns)};
+  for (const std::size_t place : {std::size_t{0}, std::size_t{2}}) {
+    std::vector<Pulse> pulses;
+    for (std::int64_t i = 0; i < 40; ++i) {
+      pulses.push_back(pulse_at(kPass_ns + i * kSecond_ns / 5));
+    }
+    const std::vector<Pulse> pass = pulses;
+    pulses.insert(pulses.begin() + static_cast<std::ptrdiff_t>(place), strays.begin(),
+                  strays.end());
+    ReorderWindow window;
+    std::vector<Pulse> released;
+    for (const Pulse& pulse : pulses) {
+      ASSERT_EQ(window.add(pulse), Held);
+      for (const Pulse& due : window.release()) {
+        released.push_back(due);
+      }
+    }
+    EXPECT_GT(released.size(), 30U) << "not held until the end";
+    const ReorderWindow::Rest rest = window.release_all();
+    released.insert(released.end(), rest.in_time.begin(), rest.in_time.end());
+    EXPECT_EQ(released, pass) << place;
+    EXPECT_EQ(rest.out_of_time, strays) << place;
+  }
+}
+
+TEST(ReorderWindow, ADuplicateDoesNotSpeakAgainstAJump) {
+  ReorderWindow window;
+  window.add(pulse_at(0));
+  for (std::int64_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(window.add(pulse_at(0)), Duplicate);
+    EXPECT_EQ(window.add(pulse_at((100 + i) * kSecond_ns)), Held);
+  }
+  EXPECT_THAT(window.release(), ::testing::Contains(pulse_at(100 * kSecond_ns)));
+}
+
 }  // namespace
 }  // namespace spindrift
