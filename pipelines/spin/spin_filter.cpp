@@ -19,8 +19,6 @@ constexpr double kAxisWander_rad_sqrt_s = 1e-6;
 // within the gate. A rate that is constant is known better than the filter says; the axis hardly
 // depends on it.
 constexpr double kRateWander_rad_s_sqrt_s = 3e-6;
-// Four in a hundred thousand good edges lie farther out.
-constexpr double kGateSigmas = 4.1;
 // One edge in a thousand is spurious and anywhere on the circle.
 const double kLogSpurious = std::log(1e-3 / (2.0 * std::numbers::pi));
 // A correction of the axis beyond this (0.06 deg) is linearised anew where it ends, up to so many
@@ -129,7 +127,7 @@ Eigen::Vector4d SpinFilter::update_linearised_here(const SpinFilter& prior,
   const auto gate = [&tally](const Pulse& edge) {
     tally.gated.set(index_of(edge.channel));
     tally.log_likelihood += kLogSpurious;
-    tally.squared_innovations += square(kGateSigmas);
+    tally.squared_innovations += square(SpinFilter::kGateSigmas);
   };
   for (const Pulse& edge : edges) {
     const auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
@@ -146,7 +144,7 @@ Eigen::Vector4d SpinFilter::update_linearised_here(const SpinFilter& prior,
     const double innovation =
         wrapped_rad(phase_rad_ + rate_rad_s_ * dt_s - predicted->phase_rad - slope.dot(error));
     const double squared_innovation = square(innovation) / variance;
-    if (squared_innovation > square(kGateSigmas)) {
+    if (squared_innovation > square(SpinFilter::kGateSigmas)) {
       gate(edge);
       continue;
     }
