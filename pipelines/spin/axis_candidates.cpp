@@ -13,6 +13,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/geometry.h"
 #include "pipelines/spin/mixed_azimuth.h"
+#include "pipelines/spin/model_allowance.h"
 
 namespace spindrift {
 namespace {
@@ -20,11 +21,15 @@ namespace {
 // Within this angle of one line, Sun and Earth leave the axis free to turn about it.
 constexpr double kInLine_rad = 3.0 * std::numbers::pi / 180.0;
 
-// What measurements may contradict each other by: this many sigmas of their noise, and what the
-// model leaves out (oblateness 0.2 deg, height and brightness of the CO2 layer likewise).
+// What measurements may contradict each other by, beside kModelLimit_rad.
 constexpr double kContradictionSigmas = 5.0;
-constexpr double kModel_rad = 0.5 * std::numbers::pi / 180.0;
 constexpr double kGrazingSigmas = 3.0;
+// One root fits better than another only beyond so many sigmas of noise: of the thousands of fixes
+// of a pass, none is then the wrong one. And of the model, whose errors are drawn but once.
+constexpr double kToldApartSigmas = 5.0;
+constexpr double kToldApartModelSigmas = 3.0;
+// The linear solution divides by Delta, which must not be its own noise.
+constexpr double kDeterminantSigmas = 5.0;
 
 /// An angle, or a function of angles, with its derivatives: to each edge for one standard deviation
 /// of its time, then to each error of the model for a radian of it.
@@ -33,6 +38,11 @@ using Value = Eigen::AutoDiffScalar<Eigen::Matrix<double, kEdges + kModelErrors,
 enum ModelError { NorthLimb, SouthLimb, SunAngleError, AzimuthError };
 
 double noise_of(const Value& value) { return value.derivatives().head<kEdges>().norm(); }
+
+/// One standard deviation of what the errors of the model make of it.
+double model_uncertainty_of(const Value& value) {
+  return value.derivatives().tail<kModelErrors>().norm() * kModelError_rad;
+}
 
 Value constant(double value) { return {value, Value::DerType::Zero()}; }
 
@@ -95,9 +105,8 @@ double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; 
 /// are missing may be the true ones.
 /// @param excess By how much they miss each other, as a cosine; negative where they cross.
 void note_grazing(const Value& excess, Solutions& found) {
-  const double model = excess.derivatives().tail<kModelErrors>().norm() * kModelError_rad;
-  const bool grazing =
-      std::abs(excess.value()) <= kGrazingSigmas * std::hypot(noise_of(excess), model);
+  const bool grazing = std::abs(excess.value()) <=
+                       kGrazingSigmas * std::hypot(noise_of(excess), model_uncertainty_of(excess));
   found.grazing = found.grazing || grazing;
   found.told_apart = found.told_apart && !grazing;
 }
@@ -184,37 +193,38 @@ std::vector<Value> earth_angles_from_one(const Input& input, Solutions& found) {
 }
 
 /// How badly a place fits the angle between Sun and Earth.
-double misfit(const Input& input, const Place& place) {
-  const double sun_rad = place.sun_angle_rad.value();
-  const double earth_rad = place.earth_angle_rad.value();
-  const double cos_sun_earth =
-      std::cos(sun_rad) * std::cos(earth_rad) +
-      std::sin(sun_rad) * std::sin(earth_rad) * std::cos(place.dihedral_rad.value());
-  return std::abs(cos_sun_earth - std::cos(input.sun_earth_rad));
+Value misfit(const Input& input, const Place& place) {
+  const Value along = Value{cos(place.sun_angle_rad)} * Value{cos(place.earth_angle_rad)};
+  const Value sines = Value{sin(place.sun_angle_rad)} * Value{sin(place.earth_angle_rad)};
+  const Value off = along + sines * Value{cos(place.dihedral_rad)} - std::cos(input.sun_earth_rad);
+  return off.value() < 0.0 ? Value{-off} : off;
+}
+
+/// Not only does one of them fit better: it does so beyond noise and model.
+bool fits_beyond_doubt(const Input& input, const Place& better, const Place& worse) {
+  const Value difference = misfit(input, worse) - misfit(input, better);
+  return difference.value() > std::hypot(kToldApartSigmas * noise_of(difference),
+                                         kToldApartModelSigmas * model_uncertainty_of(difference));
 }
 
 /// Cases 2 and 3 with the dihedral.
 Solutions from_one_chord(const Input& input) {
-  const ChordOf<Value>& chord = input.lone_chord();
-  const double delta = std::abs(determinant(
-      {.chord = {.mount_angle_rad = chord.mount_angle_rad, .chord_rad = chord.chord_rad.value()},
-       .sun_angle_rad = input.sun_angle->value(),
-       .dihedral_rad = input.dihedral->value(),
-       .sun_earth_rad = input.sun_earth_rad,
-       .disc_rad = input.sightlines.disc_rad}));
+  const OneChordInput<Value> measured{.chord = input.lone_chord(),
+                                      .sun_angle_rad = *input.sun_angle,
+                                      .dihedral_rad = *input.dihedral,
+                                      .sun_earth_rad = input.sun_earth_rad,
+                                      .disc_rad = input.lone_disc_rad()};
+  const Value signed_delta = determinant(measured);
+  const double delta = std::abs(signed_delta.value());
   Solutions found;
   const auto add = [&](const Value& earth_angle_rad) {
     found.places.push_back({.sun_angle_rad = *input.sun_angle,
                             .earth_angle_rad = earth_angle_rad,
                             .dihedral_rad = *input.dihedral});
   };
-  if (delta >= input.limits.determinant_usable) {
-    const Value earth_angle_rad =
-        earth_angle_linear(OneChordInputOf<Value>{.chord = chord,
-                                                  .sun_angle_rad = *input.sun_angle,
-                                                  .dihedral_rad = *input.dihedral,
-                                                  .sun_earth_rad = input.sun_earth_rad,
-                                                  .disc_rad = input.lone_disc_rad()});
+  if (delta >= input.limits.determinant_usable &&
+      delta > kDeterminantSigmas * noise_of(signed_delta)) {
+    const Value earth_angle_rad = earth_angle_linear(measured);
     if (earth_angle_rad > 0.0 && earth_angle_rad < std::numbers::pi) {
       add(earth_angle_rad);
     } else {
@@ -227,9 +237,13 @@ Solutions from_one_chord(const Input& input) {
   for (const Value& earth_angle_rad : earth_angles_from_one(input, found)) {
     add(earth_angle_rad);
   }
-  std::sort(found.places.begin(), found.places.end(),
-            [&](const Place& a, const Place& b) { return misfit(input, a) < misfit(input, b); });
-  found.told_apart = found.places.size() == 1 || delta > input.limits.determinant_ambiguous;
+  std::sort(found.places.begin(), found.places.end(), [&](const Place& a, const Place& b) {
+    return misfit(input, a).value() < misfit(input, b).value();
+  });
+  if (found.places.size() > 1) {
+    found.told_apart = found.told_apart && delta > input.limits.determinant_ambiguous &&
+                       fits_beyond_doubt(input, found.places[0], found.places[1]);
+  }
   return found;
 }
 
@@ -321,7 +335,7 @@ Solutions solve(const Input& input) {
 }
 
 bool agrees(double contradiction, double noise) {
-  return std::abs(contradiction) <= kContradictionSigmas * noise + kModel_rad;
+  return std::abs(contradiction) <= kContradictionSigmas * noise + kModelLimit_rad;
 }
 
 /// Both chords show the disc that the orbit gives.
@@ -336,11 +350,11 @@ bool disc_agrees(const Input& input, const Value& earth_angle_rad) {
 
 AxisCandidate candidate_at(const Input& input, const Place& place) {
   const Eigen::Matrix<Value, 3, 1> axis =
-      axis_icrf(AxisInputOf<Value>{.sun_icrf = input.sightlines.sun_icrf,
-                                   .earth_icrf = input.sightlines.earth_icrf,
-                                   .sun_angle_rad = place.sun_angle_rad,
-                                   .earth_angle_rad = place.earth_angle_rad,
-                                   .dihedral_rad = place.dihedral_rad});
+      axis_icrf(AxisInput<Value>{.sun_icrf = input.sightlines.sun_icrf,
+                                 .earth_icrf = input.sightlines.earth_icrf,
+                                 .sun_angle_rad = place.sun_angle_rad,
+                                 .earth_angle_rad = place.earth_angle_rad,
+                                 .dihedral_rad = place.dihedral_rad});
   Eigen::Vector3d solved;
   Eigen::Matrix<double, 3, kEdges + kModelErrors> shifts;
   for (Eigen::Index i = 0; i < 3; ++i) {

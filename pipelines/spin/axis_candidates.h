@@ -19,8 +19,6 @@ namespace spindrift {
 /// What is the same in every revolution and unlike noise does not average out: where the limb lies
 /// for the north and the south beam (its mounting angle included), sun angle, azimuth.
 inline constexpr int kModelErrors = 4;
-/// What each of them may amount to, one standard deviation.
-inline constexpr double kModelError_rad = 0.15 * 0.017453292519943295;
 
 struct AxisCandidate {
   Eigen::Vector3d axis_icrf;        ///< Unit.

@@ -8,13 +8,13 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/geometry.h"
+#include "pipelines/spin/model_allowance.h"
 
 namespace spindrift {
 namespace {
 
-// What a prediction may be off by: noise, and what the model leaves out.
+// What a prediction may be off by, beside kModelLimit_rad.
 constexpr double kSigmas = 5.0;
-constexpr double kModel_rad = 0.5 * std::numbers::pi / 180.0;
 constexpr int kSilentRevolutions = 5;
 constexpr double kPriorSigmas = 3.0;
 constexpr int kContradictionsInARow = 20;
@@ -36,7 +36,7 @@ ChordRange chords_from(const AxisCandidate& candidate, const Sightlines& sightli
   const Eigen::Vector2d towards =
       tangent_basis(axis).transpose() * sightlines.earth_icrf / std::sin(earth_rad);
   const double margin_rad =
-      kSigmas * std::sqrt(towards.dot(candidate.covariance_rad2 * towards)) + kModel_rad;
+      kSigmas * std::sqrt(towards.dot(candidate.covariance_rad2 * towards)) + kModelLimit_rad;
   constexpr int kPlaces = 5;  // Either side.
   ChordRange range;
   for (int place = -kPlaces; place <= kPlaces; ++place) {
@@ -123,8 +123,12 @@ std::vector<SpinFix> Disambiguator::settle(std::int64_t revolution, TaiTime t,
                                            const std::optional<KnownAxis>& established) {
   note_silence(measured);
   if (candidates.told_apart) {
-    return {fix_of(revolution, t, candidates, 0, Resolution::Geometry)};
+    SpinFix fix = fix_of(revolution, t, candidates, 0, Resolution::Geometry);
+    silent_where_seen_ = silent_where_seen(sightlines, candidates.candidates.front());
+    fix.accepted = fix.accepted && !silent_where_seen_;
+    return {std::move(fix)};
   }
+  silent_where_seen_.reset();
   std::vector<std::size_t> possible = possible_of(measured, sightlines, candidates);
   if (possible.empty()) {
     return {fix_of(revolution, t, candidates, 0, Resolution::Ambiguous)};
@@ -152,7 +156,28 @@ void Disambiguator::note_silence(const RevolutionMeasurements& measured) {
   for (const Side side : kSides) {
     int& silent = silent_revolutions_.at(index_of(side));
     silent = measured.silent.at(index_of(side)) ? silent + 1 : 0;
+    heard_.at(index_of(side)) = heard_.at(index_of(side)) || silent == 0;
   }
+}
+
+bool Disambiguator::should_see(Side side, const Sightlines& sightlines,
+                               const AxisCandidate& candidate) const {
+  const auto& sensor = sensor_of(config_, side);
+  if (!sensor || !sensor->healthy) {
+    return false;
+  }
+  const ChordRange range = chords_from(candidate, sightlines, sensor->mount_angle_rad);
+  return range.least_rad > 0.0 && range.most_rad < 2.0 * std::numbers::pi;
+}
+
+std::optional<Side> Disambiguator::silent_where_seen(const Sightlines& sightlines,
+                                                     const AxisCandidate& candidate) const {
+  const auto* const found = std::find_if(kSides.begin(), kSides.end(), [&](Side side) {
+    const int silent = silent_revolutions_.at(index_of(side));
+    return (silent >= kSilentRevolutions || (silent > 0 && !heard_.at(index_of(side)))) &&
+           should_see(side, sightlines, candidate);
+  });
+  return found == kSides.end() ? std::nullopt : std::optional{*found};
 }
 
 bool Disambiguator::breaks_constraint(const RevolutionMeasurements& measured,
@@ -163,15 +188,14 @@ bool Disambiguator::breaks_constraint(const RevolutionMeasurements& measured,
     if (!sensor) {
       return false;
     }
-    const ChordRange range = chords_from(candidate, sightlines, sensor->mount_angle_rad);
     if (const auto chord = good_value_of(measured, kChords.at(index_of(side)))) {
-      const double tolerance_rad = kSigmas * chord->sigma_rad + kModel_rad;
+      const ChordRange range = chords_from(candidate, sightlines, sensor->mount_angle_rad);
+      const double tolerance_rad = kSigmas * chord->sigma_rad + kModelLimit_rad;
       return chord->value_rad < range.least_rad - tolerance_rad ||
              chord->value_rad > range.most_rad + tolerance_rad;
     }
-    const bool silent = silent_revolutions_.at(index_of(side)) >= kSilentRevolutions;
-    const bool clearly_seen = range.least_rad > 0.0 && range.most_rad < 2.0 * std::numbers::pi;
-    return sensor->healthy && silent && clearly_seen;
+    return silent_revolutions_.at(index_of(side)) >= kSilentRevolutions &&
+           should_see(side, sightlines, candidate);
   });
 }
 

@@ -25,7 +25,9 @@ struct KnownAxis {
 };
 
 /// Asks in this order, and the first that answers settles it:
-///   GEOMETRY    the measurements themselves tell the candidates apart;
+///   GEOMETRY    the measurements themselves tell the candidates apart; not accepted where a
+///               healthy beam that should see the Earth has been silent for five revolutions, or
+///               from the first on;
 ///   CONSTRAINT  one candidate only is consistent, gives the chord that each beam saw, and does
 ///               not show the Earth to a healthy beam that is silent, five revolutions running;
 ///   PRIOR       one candidate is within three sigmas of the axis that is known already, and nearer
@@ -46,6 +48,9 @@ class Disambiguator {
                               const AxisCandidates& candidates,
                               const std::optional<KnownAxis>& established);
 
+  /// The beam that contradicts the last fix by its silence, where geometry left but one axis.
+  std::optional<Side> silent_where_seen() const { return silent_where_seen_; }
+
  private:
   struct Pending {
     std::int64_t revolution;
@@ -55,6 +60,9 @@ class Disambiguator {
   };
 
   void note_silence(const RevolutionMeasurements& measured);
+  bool should_see(Side side, const Sightlines& sightlines, const AxisCandidate& candidate) const;
+  std::optional<Side> silent_where_seen(const Sightlines& sightlines,
+                                        const AxisCandidate& candidate) const;
   bool breaks_constraint(const RevolutionMeasurements& measured, const Sightlines& sightlines,
                          const AxisCandidate& candidate) const;
   std::vector<std::size_t> possible_of(const RevolutionMeasurements& measured,
@@ -65,6 +73,8 @@ class Disambiguator {
 
   SpinConfig config_;
   std::array<int, 2> silent_revolutions_{};
+  std::array<bool, 2> heard_{};  ///< Ever.
+  std::optional<Side> silent_where_seen_;
   Dispersion dispersion_;
   std::optional<SteadyAxis> steady_;
   int contradictions_ = 0;       ///< Revolutions running that no candidate continued `steady_`.

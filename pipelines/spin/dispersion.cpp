@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/model_allowance.h"
 
 namespace spindrift {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/model_allowance.h"
 
 namespace spindrift {
 namespace {
@@ -13,7 +14,6 @@ constexpr double kEarthRadius_km = 6378.137;
 constexpr double kAlike = 0.01;
 // Beyond it no infrared sensor sees a disc; what is said to be there is in metres.
 constexpr double kFarthest_km = 1.0e6;
-constexpr double kPolarRadius_km = 6356.752314;  // WGS-84
 
 }  // namespace
 
@@ -29,19 +29,10 @@ Expected<double> earth_disc_half_angle_rad(double range_km, double co2_altitude_
   return std::asin(horizon_km / range_km);
 }
 
-double oblateness_rad(double disc_rad) {
-  return (1.0 - kPolarRadius_km / kEarthRadius_km) * std::sin(disc_rad);
-}
+double oblateness_rad(double disc_rad) { return kEarthFlattening * std::sin(disc_rad); }
 
 bool mounted_alike(double one_rad, double other_rad) {
   return std::abs(std::cos(one_rad) - std::cos(other_rad)) < kAlike;
-}
-
-double determinant(const OneChordInput& input) {
-  return std::cos(input.chord.mount_angle_rad) * std::sin(input.sun_angle_rad) *
-             std::cos(input.dihedral_rad) -
-         std::cos(input.sun_angle_rad) * std::sin(input.chord.mount_angle_rad) *
-             std::cos(0.5 * input.chord.chord_rad);
 }
 
 PredictedAngles predict_angles(const Eigen::Vector3d& axis_icrf, const Eigen::Vector3d& sun_icrf,

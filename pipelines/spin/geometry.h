@@ -59,22 +59,28 @@ T cos_disc_seen(const ChordOf<T>& chord, const T& earth_angle_rad) {
 
 /// The right-hand sides of the one-chord equations.
 template <class T>
-struct OneChordInputOf {
+struct OneChordInput {
   ChordOf<T> chord;
   T sun_angle_rad;
   T dihedral_rad;
   double sun_earth_rad;  ///< theta_se
   T disc_rad;            ///< rho
 };
-using OneChordInput = OneChordInputOf<double>;
 
 /// Delta = cos g sin(theta_s) cos(lambda) - cos(theta_s) sin g cos(Phi/2): the smaller, the less
 /// the two linear equations for theta_e differ.
-double determinant(const OneChordInput& input);
+template <class T>
+T determinant(const OneChordInput<T>& input) {
+  using std::cos, std::sin;
+  const T chord_sine = std::sin(input.chord.mount_angle_rad) * T{cos(0.5 * input.chord.chord_rad)};
+  return std::cos(input.chord.mount_angle_rad) * T{sin(input.sun_angle_rad)} *
+             T{cos(input.dihedral_rad)} -
+         T{cos(input.sun_angle_rad)} * chord_sine;
+}
 
 /// theta_e of the linear solution; good where |Delta| is large.
 template <class T>
-T earth_angle_linear(const OneChordInputOf<T>& input) {
+T earth_angle_linear(const OneChordInput<T>& input) {
   using std::atan2, std::cos, std::sin;
   const double cos_mount = std::cos(input.chord.mount_angle_rad);
   const T chord_sine = std::sin(input.chord.mount_angle_rad) * T{cos(0.5 * input.chord.chord_rad)};
@@ -121,19 +127,18 @@ ConeRootsOf<T> cone_roots(const T& a, const T& b, const T& c) {
 
 /// The axis that has the given angles to Sun and Earth, and the dihedral between them.
 template <class T>
-struct AxisInputOf {
+struct AxisInput {
   Eigen::Vector3d sun_icrf;
   Eigen::Vector3d earth_icrf;
   T sun_angle_rad;
   T earth_angle_rad;
   T dihedral_rad;
 };
-using AxisInput = AxisInputOf<double>;
 
 /// P from P.S, P.E and P.(S x E), not normalised: its length is 1 when the three agree.
 /// Sun and Earth must not be in line (the caller tests it).
 template <class T>
-Eigen::Matrix<T, 3, 1> axis_icrf(const AxisInputOf<T>& input) {
+Eigen::Matrix<T, 3, 1> axis_icrf(const AxisInput<T>& input) {
   using std::cos, std::sin;
   const Eigen::Vector3d normal = input.sun_icrf.cross(input.earth_icrf);
   const double cos_sun_earth = input.sun_icrf.dot(input.earth_icrf);

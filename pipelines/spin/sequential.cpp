@@ -8,16 +8,17 @@
 #include <numbers>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/model_allowance.h"
 
 namespace spindrift {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
-// A fix may rest on the spherical horizon: the ellipsoid's limb lies up to 1/298 rad inside.
-constexpr double kFlattening_rad = 1.0 / 298.257;
-// A fix so poor is no place to linearise at.
-constexpr double kPoorestFix_rad = 10.0 * kDegree_rad;
+// A fix so poor is no place to linearise at: a filter would take what two linearisations disagree
+// on for knowledge of what no edge measures.
+constexpr double kPoorestFix_rad = 3.0 * kDegree_rad;
+constexpr std::size_t kMostHypotheses = 8;
 // Across a silence in which the phase became this uncertain, whole turns can no longer be counted:
 // phase and rate start anew.
 constexpr double kPhaseLost_rad = 0.3;
@@ -25,24 +26,54 @@ constexpr double kPhaseLost_rad = 0.3;
 constexpr double kRecentEdge = 1.0 / 60.0;
 constexpr double kRecentRevolution = 0.1;
 constexpr double kMostGated = 0.5;
-// A candidate is out when the edges are e^20 times likelier under another one, which must fit them
-// itself: the mean of its squared innovations is 1 when it is true, and one edge in twenty that is
-// spurious adds 0.8.
+// A candidate is out when the edges are e^20 times likelier under another one.
 constexpr double kBeyondDoubt = 20.0;
-constexpr double kWorstFit = 2.0;
+// Of so many edges the mean squared innovation, 1 when all is well, says whether the noise is as
+// stated: chi-square of one degree of freedom each, beyond so many of its sigmas.
+constexpr double kFitEdges = 300.0;
+constexpr double kFitSigmas = 5.0;
+// From this share on the gated edges belong to the noise, and are not spurious.
+constexpr double kManyGated = 0.2;
+// The first edges pull the filter from its start to where they fit, and say nothing of the noise.
+constexpr double kFewestEdges = 60.0;
+// Mean squared angle between an axis that may point anywhere and any other.
+constexpr double kAnywhere_rad2 = (std::numbers::pi * std::numbers::pi - 4.0) / 2.0;
 // A fix contradicts the filter beyond so many sigmas of both, and beyond what may be wrong with
 // either model.
 constexpr double kContradictionSigmas = 5.0;
-constexpr double kModel_rad = 0.5 * kDegree_rad;
 constexpr int kMostContradictions = 10;
+// Where the edges do not speak against the filter, single fixes may all be off to one side: then
+// their mean must contradict it, and so many more of them than agree with it.
+constexpr int kManyContradictions = 30;
+constexpr double kMeanSigmas = 8.0;
 
-bool contradicts(const SpinFix& fix, const SpinFilter& filter) {
+/// A place where a filter may begin.
+struct Start {
+  Eigen::Vector3d axis_icrf;
+  Eigen::Matrix2d covariance_rad2;
+};
+
+bool well_known(const Eigen::Matrix2d& covariance_rad2) {
+  return covariance_rad2.trace() < kPoorestFix_rad * kPoorestFix_rad;
+}
+
+std::vector<Start> starts_of(const SpinFix& fix) {
+  std::vector<Start> starts{{fix.axis_icrf, fix.covariance_rad2}};
+  if (fix.resolution == Resolution::Ambiguous) {
+    for (std::size_t i = 0; i < fix.alternate_axes_icrf.size(); ++i) {
+      starts.push_back({fix.alternate_axes_icrf[i], fix.alternate_covariances_rad2[i]});
+    }
+  }
+  return starts;
+}
+
+bool contradicts(const Start& fix, const SpinFilter& filter) {
   const Eigen::Vector3d axis = filter.axis_icrf();
   const double apart_rad = angle_between_rad(axis, fix.axis_icrf);
   const Eigen::Vector2d towards = tangent_basis(axis).transpose() * (fix.axis_icrf - axis);
   const double length = towards.norm();
-  if (apart_rad <= kModel_rad || !(length > 0.0)) {
-    return apart_rad > kModel_rad;
+  if (apart_rad <= kModelLimit_rad || !(length > 0.0)) {
+    return apart_rad > kModelLimit_rad;
   }
   const Eigen::Vector2d apart = towards * (apart_rad / length);
   const Eigen::Matrix2d covariance = fix.covariance_rad2 + filter.axis_covariance_rad2();
@@ -52,7 +83,7 @@ bool contradicts(const SpinFix& fix, const SpinFilter& filter) {
 /// Both filters have come to one axis.
 bool agree(const SpinFilter& a, const SpinFilter& b) {
   const double apart_rad = angle_between_rad(a.axis_icrf(), b.axis_icrf());
-  return apart_rad < kModel_rad &&
+  return apart_rad < kModelLimit_rad &&
          apart_rad * apart_rad <
              std::min(a.axis_covariance_rad2().trace(), b.axis_covariance_rad2().trace());
 }
@@ -83,9 +114,10 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
       start(*first, revolution, sky);
     }
   } else {
-    if (accepted != nullptr && hypotheses_.size() > 1) {
+    if (accepted != nullptr && !settled_) {
       take_side(*accepted);
     }
+    add_unlike(settled, revolution, sky);
     work_in(revolution, sky);
   }
   if (hypotheses_.empty()) {
@@ -95,10 +127,55 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
   return SpinEstimate{.t = revolution.t_start,
                       .estimator = SpinEstimator::Sequential,
                       .axis_icrf = best.axis_icrf(),
-                      .covariance_rad2 = best.axis_covariance_rad2(),
+                      .covariance_rad2 = covariance_rad2(),
                       .spin_rate_rad_s = best.rate_rad_s(),
-                      .spin_rate_sigma_rad_s = best.rate_sigma_rad_s(),
+                      .spin_rate_sigma_rad_s = best.rate_sigma_rad_s() * std::sqrt(excess_noise()),
                       .status = status()};
+}
+
+/// How many times the variance of the edges is what their stated noise makes it, where that is
+/// significantly more than 1; else 1.
+double SequentialEstimator::excess_noise() const {
+  const double edges = std::clamp(hypotheses_.front().edges - kFewestEdges, 1.0, kFitEdges);
+  const bool significant = squared_innovation_ > 1.0 + kFitSigmas * std::sqrt(2.0 / edges);
+  return significant ? squared_innovation_ : 1.0;
+}
+
+Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
+  if (gated_share_ > kMostGated) {
+    return Eigen::Matrix2d::Identity() * (0.5 * kAnywhere_rad2);
+  }
+  return hypotheses_.front().filter.axis_covariance_rad2() * excess_noise();
+}
+
+/// Candidates of an AMBIGUOUS fix that no filter follows. What is settled is asked again only where
+/// the fix does not name its axis at all.
+void SequentialEstimator::add_unlike(std::span<const SpinFix> settled, const Revolution& revolution,
+                                     const Sky& sky) {
+  const SpinFix* const fix = last_ambiguous(settled);
+  if (fix == nullptr) {
+    return;
+  }
+  const std::vector<Start> starts = starts_of(*fix);
+  const auto followed = [&](const Start& start) {
+    return std::any_of(hypotheses_.begin(), hypotheses_.end(),
+                       [&](const auto& h) { return !contradicts(start, h.filter); });
+  };
+  if (settled_ && (excess_noise() == 1.0 || std::any_of(starts.begin(), starts.end(), followed))) {
+    return;
+  }
+  for (const Start& start : starts) {
+    if (hypotheses_.size() < kMostHypotheses && well_known(start.covariance_rad2) &&
+        !followed(start)) {
+      if (const auto filter =
+              SpinFilter::about(start.axis_icrf, start.covariance_rad2, config_, revolution, sky)) {
+        // The benefit of the doubt: as likely so far as the likeliest.
+        hypotheses_.push_back(
+            {.filter = *filter, .log_likelihood = hypotheses_.front().log_likelihood});
+        settled_ = false;
+      }
+    }
+  }
 }
 
 /// Only an accepted fix may start the filter again.
@@ -107,10 +184,13 @@ bool SequentialEstimator::restart_is_due(std::span<const SpinFix> settled) {
     return false;
   }
   for (const SpinFix& fix : settled) {
-    if (fix.accepted) {
-      const bool against = std::all_of(hypotheses_.begin(), hypotheses_.end(),
-                                       [&](const auto& h) { return contradicts(fix, h.filter); });
+    if (fix.accepted && !fix.grazing && well_known(fix.covariance_rad2)) {
+      const bool against = std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const auto& h) {
+        return contradicts({fix.axis_icrf, fix.covariance_rad2}, h.filter);
+      });
       contradicted_ = std::max(0, contradicted_ + (against ? 1 : -1));
+      contradicting_ = contradicted_ > 0 ? contradicting_ : MeanAxis{};
+      contradicting_.add(fix);
     }
   }
   if (last_accepted(settled) == nullptr) {
@@ -120,43 +200,55 @@ bool SequentialEstimator::restart_is_due(std::span<const SpinFix> settled) {
     restarted_ = "edges gated";
     return true;
   }
-  if (contradicted_ >= kMostContradictions) {
+  if (contradicted_ >= kMostContradictions && (excess_noise() > 1.0 || fixes_contradict())) {
     restarted_ = "fixes differ";
     return true;
   }
   return false;
 }
 
+bool SequentialEstimator::fixes_contradict() const {
+  if (contradicted_ < kManyContradictions) {
+    return false;
+  }
+  const Eigen::Vector3d mean_icrf = contradicting_.axis_icrf();
+  return std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const auto& h) {
+    const double sigma_rad = std::sqrt(contradicting_.covariance_rad2().trace() +
+                                       h.filter.axis_covariance_rad2().trace());
+    return angle_between_rad(mean_icrf, h.filter.axis_icrf()) >
+           std::hypot(kMeanSigmas * sigma_rad, kModelLimit_rad);
+  });
+}
+
 void SequentialEstimator::start(const SpinFix& fix, const Revolution& revolution, const Sky& sky) {
   std::vector<Hypothesis> started;
   const auto add = [&](const Eigen::Vector3d& axis_icrf, Eigen::Matrix2d axis_rad2) {
     if (config_.horizon.model == HorizonModel::Ellipsoid) {
-      axis_rad2 += kFlattening_rad * kFlattening_rad * Eigen::Matrix2d::Identity();
+      // Fixes rest on the spherical horizon.
+      axis_rad2 += kEarthFlattening * kEarthFlattening * Eigen::Matrix2d::Identity();
     }
-    if (axis_rad2.trace() < kPoorestFix_rad * kPoorestFix_rad) {
+    if (well_known(axis_rad2)) {
       if (const auto filter = SpinFilter::about(axis_icrf, axis_rad2, config_, revolution, sky)) {
         started.push_back({.filter = *filter});
       }
     }
   };
-  add(fix.axis_icrf, fix.covariance_rad2);
-  if (fix.resolution == Resolution::Ambiguous) {
-    for (std::size_t i = 0; i < fix.alternate_axes_icrf.size(); ++i) {
-      add(fix.alternate_axes_icrf[i], fix.alternate_covariances_rad2[i]);
-    }
-    // Without one of them the true one may be missing.
-    if (started.size() != 1 + fix.alternate_axes_icrf.size()) {
-      return;
-    }
+  const std::vector<Start> starts = starts_of(fix);
+  for (const Start& place : starts) {
+    add(place.axis_icrf, place.covariance_rad2);
   }
-  if (!started.empty()) {
+  // Without one of them the true one may be missing.
+  if (started.size() == starts.size()) {
     restarts_ += hypotheses_.empty() ? 0 : 1;
     hypotheses_ = std::move(started);
     revolutions_ = 0;
     gated_ = 0;
     gated_share_ = 0.0;
     channel_gated_share_ = {};
+    settled_ = fix.accepted;
+    squared_innovation_ = 1.0;
     contradicted_ = 0;
+    contradicting_ = MeanAxis{};
   }
 }
 
@@ -166,9 +258,10 @@ void SequentialEstimator::take_side(const SpinFix& fix) {
       hypotheses_.begin(), hypotheses_.end(), [&](const Hypothesis& a, const Hypothesis& b) {
         return a.filter.axis_icrf().dot(fix.axis_icrf) < b.filter.axis_icrf().dot(fix.axis_icrf);
       });
-  if (!contradicts(fix, nearest->filter)) {
+  if (!contradicts({fix.axis_icrf, fix.covariance_rad2}, nearest->filter)) {
     std::swap(hypotheses_.front(), *nearest);
     hypotheses_.erase(hypotheses_.begin() + 1, hypotheses_.end());
+    settled_ = true;
   }
 }
 
@@ -199,19 +292,40 @@ void SequentialEstimator::drop_the_beaten() {
     return a.log_likelihood > b.log_likelihood;
   });
   const Hypothesis best = hypotheses_.front();
-  const bool fits = best.squared_innovations < kWorstFit * best.edges;
+  const bool fits =
+      best.edges >= kFewestEdges &&
+      best.squared_innovations < best.edges + kFitSigmas * std::sqrt(2.0 * best.edges);
+  const std::size_t before = hypotheses_.size();
   const auto beaten = [&](const Hypothesis& other) {
     return agree(best.filter, other.filter) ||
            (fits && best.log_likelihood - other.log_likelihood > kBeyondDoubt);
   };
   hypotheses_.erase(std::remove_if(hypotheses_.begin() + 1, hypotheses_.end(), beaten),
                     hypotheses_.end());
+  settled_ = settled_ || (fits && before > 1 && hypotheses_.size() == 1);
+}
+
+void SequentialEstimator::note_fit(const EdgeTally& tally) {
+  const double counted = hypotheses_.front().edges - kFewestEdges;
+  if (counted <= 0.0) {
+    return;
+  }
+  const bool with_gated = gated_share_ > kManyGated;
+  const auto accepted = static_cast<double>(tally.accepted.count());
+  const auto gated = static_cast<double>(tally.gated.count());
+  const double edges = accepted + (with_gated ? gated : 0.0);
+  const double squares =
+      tally.squared_innovations -
+      (with_gated ? 0.0 : gated * SpinFilter::kGateSigmas * SpinFilter::kGateSigmas);
+  const double all = std::clamp(counted, std::max(edges, 1.0), kFitEdges);
+  squared_innovation_ += (squares - edges * squared_innovation_) / all;
 }
 
 void SequentialEstimator::count(const EdgeTally& tally) {
   const auto gated = static_cast<double>(tally.gated.count());
   const double edges = gated + static_cast<double>(tally.accepted.count());
   gated_share_ += kRecentEdge * (gated - edges * gated_share_);
+  note_fit(tally);
   // Of the first revolutions the plain mean: what starts wrong says so at once.
   const double recent = std::max(kRecentRevolution, 1.0 / static_cast<double>(revolutions_ + 1));
   for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
@@ -226,6 +340,9 @@ std::string SequentialEstimator::status() const {
   if (gated_share_ > kMostGated) {
     return fmt::format("LOST, {} edges gated, awaiting a fix", gated_);
   }
+  if (!settled_ && hypotheses_.size() == 1) {
+    return fmt::format("AMBIGUOUS, no fix has settled it, {} revolutions", revolutions_);
+  }
   if (hypotheses_.size() > 1) {
     const RaDec other = ra_dec_of(hypotheses_[1].filter.axis_icrf());
     return fmt::format("AMBIGUOUS, or ra {:.2f} dec {:.2f} deg, {} revolutions",
@@ -238,6 +355,10 @@ std::string SequentialEstimator::status() const {
                        kPulseChannelNames.at(static_cast<std::size_t>(
                            std::distance(channel_gated_share_.begin(), worst))),
                        revolutions_);
+  }
+  if (excess_noise() > 1.0) {
+    return fmt::format("DOUBTFUL, residuals {:.1f} x stated noise, {} revolutions",
+                       std::sqrt(excess_noise()), revolutions_);
   }
   const std::string counts =
       fmt::format("OK, {} revolutions, {} edges gated", revolutions_, gated_);

@@ -1,16 +1,20 @@
 /// @file
 /// The estimator `sequential`: axis and rate after every revolution, from all its good edges.
 ///
-/// A fix starts it. Where the fix is AMBIGUOUS one filter starts at each of its candidates; all see
-/// the same edges, the likeliest is published, and the others are dropped when a later fix settles
-/// the matter or the edges themselves do. A filter that finds most edges where it does not expect
-/// them, or whose fixes name another axis, starts again at the next accepted fix, and says so.
+/// A fix starts it. Where the fix is AMBIGUOUS one filter starts at each of its candidates, and at
+/// those of later ones that are near none of them; all see the same edges, the likeliest is
+/// published, and the others are dropped when a later fix settles the matter or the edges
+/// themselves do. Candidates known badly or grazing start none. A filter that finds most edges
+/// where it does not expect them, or whose fixes name another axis, starts again at the next
+/// accepted fix, and says so.
 ///
 /// The status begins with
 ///     OK         all is well
-///     AMBIGUOUS  another axis, named, fits as well or nearly so
-///     DOUBTFUL   most edges of the channel named are not where this axis has them
-///     LOST       most edges are not: the axis is no longer, or never was, the true one
+///     AMBIGUOUS  another axis, named, fits as well or nearly so, or nothing has settled it
+///     DOUBTFUL   the edges scatter more than their noise, and the covariance is raised to that; or
+///                most edges of the channel named are not where this axis has them
+///     LOST       most edges are not: the axis is no longer, or never was, the true one; the
+///                covariance is that of an axis which may point anywhere
 
 #pragma once
 
@@ -25,6 +29,7 @@
 
 #include "pipelines/spin/association.h"
 #include "pipelines/spin/config.h"
+#include "pipelines/spin/mean_axis.h"
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/sky.h"
 #include "pipelines/spin/spin_filter.h"
@@ -55,11 +60,16 @@ class SequentialEstimator {
     EdgeTally tally = {};  ///< Of the last revolution.
   };
 
+  double excess_noise() const;
+  Eigen::Matrix2d covariance_rad2() const;
+  void add_unlike(std::span<const SpinFix> settled, const Revolution& revolution, const Sky& sky);
+  bool fixes_contradict() const;
   void start(const SpinFix& fix, const Revolution& revolution, const Sky& sky);
   bool restart_is_due(std::span<const SpinFix> settled);
   void take_side(const SpinFix& fix);
   void work_in(const Revolution& revolution, const Sky& sky);
   void drop_the_beaten();
+  void note_fit(const EdgeTally& tally);
   void count(const EdgeTally& tally);
   std::string status() const;
 
@@ -70,7 +80,10 @@ class SequentialEstimator {
   double gated_share_ = 0.0;  ///< Of the recent edges.
   /// Of the recent revolutions, those in which the channel's edge was gated.
   std::array<double, kPulseChannels> channel_gated_share_ = {};
-  int contradicted_ = 0;  ///< Fixes against the axis, less those for it.
+  bool settled_ = false;             ///< By a fix, or by the edges beyond doubt.
+  double squared_innovation_ = 1.0;  ///< Mean of the recent edges, normalised.
+  int contradicted_ = 0;             ///< Fixes against the axis, less those for it.
+  MeanAxis contradicting_;           ///< All fixes since it was last 0.
   int restarts_ = 0;
   std::string_view restarted_;  ///< Why; empty: never.
 };

@@ -22,8 +22,6 @@ constexpr double kRateWander_rad_s_sqrt_s = 3e-6;
 constexpr double kFirstDrift_rad_s2 = 2.0 * (2.0 * std::numbers::pi / 60.0) / 3600.0;
 // A day makes 0.02 rpm/h of it.
 constexpr double kDriftWander_rad_s2_sqrt_s = 2e-9;
-// Four in a hundred thousand good edges lie farther out.
-constexpr double kGateSigmas = 4.1;
 // One edge in a thousand is spurious and anywhere on the circle.
 const double kLogSpurious = std::log(1e-3 / (2.0 * std::numbers::pi));
 // A correction of the axis beyond this (0.06 deg) is linearised anew where it ends, up to so many
@@ -142,7 +140,7 @@ SpinFilter::Error SpinFilter::update_linearised_here(const SpinFilter& prior,
   const auto gate = [&tally](const Pulse& edge) {
     tally.gated.set(index_of(edge.channel));
     tally.log_likelihood += kLogSpurious;
-    tally.squared_innovations += square(kGateSigmas);
+    tally.squared_innovations += square(SpinFilter::kGateSigmas);
   };
   for (const Pulse& edge : edges) {
     const auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
@@ -160,7 +158,7 @@ SpinFilter::Error SpinFilter::update_linearised_here(const SpinFilter& prior,
         wrapped_rad(phase_rad_ + (rate_rad_s_ + 0.5 * drift_rad_s2_ * dt_s) * dt_s -
                     predicted->phase_rad - slope.dot(error));
     const double squared_innovation = square(innovation) / variance;
-    if (squared_innovation > square(kGateSigmas)) {
+    if (squared_innovation > square(SpinFilter::kGateSigmas)) {
       gate(edge);
       continue;
     }

@@ -43,6 +43,9 @@ struct EdgeTally {
 
 class SpinFilter {
  public:
+  /// Four in a hundred thousand good edges lie farther out.
+  static constexpr double kGateSigmas = 4.1;
+
   /// A filter about a known axis, its phase and rate from one revolution: so widely that the
   /// revolution's edges, which the axis may rest on, do not count twice.
   /// @param covariance_rad2 Of the axis, in the tangent plane: east, north.

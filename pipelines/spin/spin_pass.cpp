@@ -12,6 +12,7 @@
 #include "pipelines/spin/axis_candidates.h"
 #include "pipelines/spin/edge_use.h"
 #include "pipelines/spin/geometry.h"
+#include "pipelines/spin/model_allowance.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift {
@@ -19,10 +20,7 @@ namespace {
 
 // So many fixes must agree on an axis before it speaks for or against a candidate.
 constexpr std::size_t kEstablishedFixes = 10;
-// What the geometry leaves out (the Earth's shape, a sensor off its drawing) may part fixes of
-// different cases by so much.
-constexpr double kModel_rad = 0.5 * std::numbers::pi / 180.0;
-// Beyond so many sigmas, and that, the axis is another one than before.
+// Beyond so many sigmas, and the model's limit, the axis is another one than before.
 constexpr double kMovedSigmas = 5.0;
 
 /// What the spherical horizon leaves out of an oblate Earth, as a covariance: taken as anywhere
@@ -336,7 +334,13 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   const Eigen::Matrix2d horizon_rad2 = horizon_error_rad2(config_, candidate.sightlines->disc_rad);
   bool mean_moved = false;
   for (const SpinFix& fix : fixes) {
-    if (!fix.accepted && fix.resolution != Resolution::Ambiguous) {
+    if (const auto side = disambiguator_.silent_where_seen()) {
+      say_once(fmt::format("the {} beam, said to be healthy, is silent where the axis says it must "
+                           "see the Earth: such fixes are not accepted; if the beam has failed, "
+                           "say healthy = false",
+                           *side == Side::North ? "north" : "south"),
+               out);
+    } else if (!fix.accepted && fix.resolution != Resolution::Ambiguous) {
       say_once(
           "measurements contradict each other, their fixes are not accepted: the length of the "
           "axis or the size of the Earth's disc comes out wrong; check the mission's mounting "
@@ -374,7 +378,7 @@ void SpinPass::start_again_where_moved(const SpinEstimate& sequential, SpinOutpu
   const double apart_rad = angle_between_rad(mean_axis_.axis_icrf(), sequential.axis_icrf);
   const double sigma_rad =
       std::sqrt(mean_covariance_rad2().trace() + sequential.covariance_rad2.trace());
-  if (apart_rad <= std::hypot(kMovedSigmas * sigma_rad, kModel_rad)) {
+  if (apart_rad <= std::hypot(kMovedSigmas * sigma_rad, kModelLimit_rad)) {
     return;
   }
   restarts_heeded_ = sequential_.restarts();
@@ -393,8 +397,9 @@ std::optional<KnownAxis> SpinPass::established_axis() const {
   if (mean_axis_.count() < kEstablishedFixes) {
     return std::nullopt;
   }
-  return KnownAxis{.axis_icrf = mean_axis_.axis_icrf(),
-                   .sigma_rad = std::hypot(std::sqrt(mean_covariance_rad2().trace()), kModel_rad)};
+  return KnownAxis{
+      .axis_icrf = mean_axis_.axis_icrf(),
+      .sigma_rad = std::hypot(std::sqrt(mean_covariance_rad2().trace()), kModelLimit_rad)};
 }
 
 /// Where a share s of the fixes is left out because nothing settles them, those that are settled

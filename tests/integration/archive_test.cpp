@@ -658,30 +658,6 @@ TEST_F(ArchiveTest, TablesOfEveryEdgeTakeNoOtherNamesThanThoseOfTheContract) {
   EXPECT_FALSE(takes("spin_estimate VALUES ('r', 1, 'mode', 1, 1, 1, 1, 0, 1, 1, 1, 'OK')"));
 }
 
-TEST_F(ArchiveTest, ALongLogReachesTheFileWhileTheArchiveIsOpen) {
-  constexpr std::int64_t kBatches = 100;
-  constexpr std::int64_t kRows = 6000;  // Of more than 60 bytes: the log is longer than it may be.
-  const auto archive = open();
-  ASSERT_TRUE(archive->submit(start_of("run")));
-  for (std::int64_t i = 0; i < kBatches; ++i) {
-    ArchiveBatch batch = batch_of("run");
-    for (std::int64_t row = 0; row < kRows; ++row) {
-      batch.pulses.push_back(pulse_at(i * kRows + row));
-    }
-    ASSERT_TRUE(archive->submit(std::move(batch)));
-  }
-  ASSERT_TRUE(archive->flush());
-
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes{1};
-  while (std::filesystem::file_size(path()) < 10'000'000 &&
-         std::chrono::steady_clock::now() < deadline) {
-    std::this_thread::sleep_for(std::chrono::milliseconds{10});
-  }
-  EXPECT_GE(std::filesystem::file_size(path()), 10'000'000U);
-  EXPECT_EQ(number("SELECT count(*) FROM pulse"), kBatches * kRows);
-  EXPECT_EQ(text("PRAGMA integrity_check"), "ok");
-}
-
 TEST_F(ArchiveTest, PathThatCannotBeThatOfAFileIsRefusedAndLeavesNoLock) {
   const std::filesystem::path folder = directory() / "folder";
   std::filesystem::create_directory(folder);

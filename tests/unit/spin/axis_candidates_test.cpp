@@ -158,11 +158,11 @@ TEST(AxisCandidates, ChordsOfAnotherDiscContradictTheOrbit) {
   }
 }
 
-/// The Sun on the body's equator and the Earth, 87 deg from the axis, behind it by a dihedral
+/// The Sun on the body's equator and the Earth, some degrees from the axis, behind it by a dihedral
 /// whose cosine is `determinant` / cos(85 deg): then Delta is `determinant`.
-Scene scene_of_determinant(double determinant) {
+Scene scene_of_determinant(double determinant, double earth_angle_deg = 87.0) {
   const double dihedral_rad = std::acos(determinant / std::cos(85.0 * kDegree_rad));
-  const double earth_angle_rad = 87.0 * kDegree_rad;
+  const double earth_angle_rad = earth_angle_deg * kDegree_rad;
   Scene scene{.sun_icrf = Eigen::Vector3d::UnitX(), .axis_icrf = Eigen::Vector3d::UnitZ()};
   scene.earth_icrf =
       direction_icrf({.ra_rad = dihedral_rad, .dec_rad = 0.5 * kPi - earth_angle_rad});
@@ -181,14 +181,24 @@ TEST(AxisCandidates, ALargeDeterminantLeavesNoAlternate) {
 }
 
 TEST(AxisCandidates, ASmallDeterminantLeavesTheOtherRootAsAlternate) {
-  for (const double delta : {0.0298, 0.0102, -0.0102, -0.0298}) {
-    const Scene scene = scene_of_determinant(delta);
+  for (const double delta : {0.0298, -0.02, -0.0298}) {
+    // The roots lie 15 deg on either side of the beam: noise and model move them by little.
+    const Scene scene = scene_of_determinant(delta, 70.0);
     const SpinFix fix = scene.fix().value();
     EXPECT_EQ(fix.resolution, Resolution::Geometry) << delta;
     EXPECT_TRUE(fix.accepted);
     EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
     ASSERT_EQ(fix.alternate_axes_icrf.size(), 1);
     EXPECT_GT(angle_between_rad(fix.alternate_axes_icrf.front(), scene.axis_icrf), kDegree_rad);
+  }
+}
+
+TEST(AxisCandidates, RootsThatTheModelMayExchangeAreAmbiguous) {
+  // Two degrees on either side of the beam, where a limb 0.15 deg off moves them by as much.
+  for (const double delta : {0.0298, 0.02, -0.02, -0.0298}) {
+    const SpinFix fix = scene_of_determinant(delta).fix().value();
+    EXPECT_EQ(fix.resolution, Resolution::Ambiguous) << delta;
+    EXPECT_EQ(fix.alternate_axes_icrf.size(), 1);
   }
 }
 
@@ -205,6 +215,38 @@ TEST(AxisCandidates, AVanishingDeterminantIsAmbiguousAndNotAccepted) {
         angle_between_rad(fix.alternate_axes_icrf.front(), scene.axis_icrf);
     EXPECT_LT(std::min(off_rad, alternate_off_rad), kExact_rad);
     EXPECT_GT(std::max(off_rad, alternate_off_rad), kDegree_rad);
+  }
+}
+
+/// The revolution with noise on every edge.
+Revolution noisy(const Scene& scene, Revolution revolution, std::mt19937_64& rng) {
+  std::normal_distribution<double> normal;
+  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+    const bool sun = channel < index_of(PulseChannel::NorthIn);
+    const double sigma_s = sun ? scene.config.noise.sun_s : scene.config.noise.infrared_s;
+    if (auto& edge = revolution.edges.at(channel)) {
+      edge = shifted(*edge, sigma_s * normal(rng));
+    }
+  }
+  return revolution;
+}
+
+TEST(AxisCandidates, ARootThatFitsBetterByNoiseAloneIsNotAccepted) {
+  std::mt19937_64 rng{5};
+  for (const double delta : {0.012, 0.02, 0.028, 0.035}) {
+    Scene scene = scene_of_determinant(delta);
+    scene.sun_icrf = Eigen::Vector3d{1.0, 0.0, 0.5}.normalized();
+    scene.rate_rad_s = 2.0 * kPi;
+    scene.config.noise.infrared_s = 1.5e-3;
+    const Revolution exact = scene.seen();
+    for (int draw = 0; draw < 300; ++draw) {
+      const auto fix =
+          testing::lone_fix(scene.config, noisy(scene, exact, rng), {}, scene.sightlines());
+      if (fix && fix->accepted) {
+        const double sigma_rad = std::sqrt(fix->covariance_rad2.trace());
+        EXPECT_LT(angle_between_rad(fix->axis_icrf, scene.axis_icrf), 6.0 * sigma_rad) << delta;
+      }
+    }
   }
 }
 

@@ -152,6 +152,29 @@ TEST(Disambiguation, AHealthyBeamThatIsSilentRulesOutTheAxisThatShowsItTheEarth)
   EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 1e-5);
 }
 
+TEST(Disambiguation, AHealthyBeamThatIsSilentSpeaksAgainstTheOnlyAxisToo) {
+  // Both beams see the Earth from the true axis; north says nothing.
+  for (const bool healthy : {true, false}) {
+    Scene scene;
+    scene.config.north->healthy = healthy;
+    Revolution revolution = scene.seen();
+    for (const PulseChannel channel : {PulseChannel::NorthIn, PulseChannel::NorthOut}) {
+      revolution.edges.at(index_of(channel)).reset();
+    }
+    Disambiguator disambiguator{scene.config};
+    for (int i = 0; i < 8; ++i) {
+      const SpinFix fix = settle(disambiguator, scene, revolution, {}).back();
+      EXPECT_EQ(fix.resolution, Resolution::Geometry);
+      EXPECT_NE(fix.accepted, healthy) << i;
+      EXPECT_EQ(disambiguator.silent_where_seen(),
+                healthy ? std::optional{Side::North} : std::nullopt);
+    }
+    EXPECT_TRUE(settle(disambiguator, scene, scene.seen(), {}).back().accepted);
+    // One that was heard may miss a revolution.
+    EXPECT_TRUE(settle(disambiguator, scene, revolution, {}).back().accepted);
+  }
+}
+
 TEST(Disambiguation, DispersionSettlesTheEarlierFixesOfItsWindowToo) {
   const Scene scene;
   Disambiguator disambiguator{scene.config};

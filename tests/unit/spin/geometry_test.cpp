@@ -48,21 +48,21 @@ TEST(SpinGeometry, TheFalseAxisHasTheSameConesAndTheOppositeDihedral) {
 }
 
 TEST(SpinGeometry, RecoversAKnownAxis) {
-  const Eigen::Vector3d axis = axis_icrf(AxisInput{.sun_icrf = kSun_icrf,
-                                                   .earth_icrf = kEarth_icrf,
-                                                   .sun_angle_rad = kSunAngle_rad,
-                                                   .earth_angle_rad = kEarthAngle_rad,
-                                                   .dihedral_rad = kDihedral_rad});
+  const Eigen::Vector3d axis = axis_icrf(AxisInput<double>{.sun_icrf = kSun_icrf,
+                                                           .earth_icrf = kEarth_icrf,
+                                                           .sun_angle_rad = kSunAngle_rad,
+                                                           .earth_angle_rad = kEarthAngle_rad,
+                                                           .dihedral_rad = kDihedral_rad});
   EXPECT_NEAR(axis.norm(), 1.0, 4.0 * kPrinted_rad);
   EXPECT_LT(angle_between_rad(axis, kAxis_icrf), 4.0 * kPrinted_rad);
 }
 
 TEST(SpinGeometry, TheOppositeDihedralGivesTheMirrorImageInThePlaneOfSunAndEarth) {
-  const Eigen::Vector3d axis = axis_icrf(AxisInput{.sun_icrf = kSun_icrf,
-                                                   .earth_icrf = kEarth_icrf,
-                                                   .sun_angle_rad = kSunAngle_rad,
-                                                   .earth_angle_rad = kEarthAngle_rad,
-                                                   .dihedral_rad = -kDihedral_rad});
+  const Eigen::Vector3d axis = axis_icrf(AxisInput<double>{.sun_icrf = kSun_icrf,
+                                                           .earth_icrf = kEarth_icrf,
+                                                           .sun_angle_rad = kSunAngle_rad,
+                                                           .earth_angle_rad = kEarthAngle_rad,
+                                                           .dihedral_rad = -kDihedral_rad});
   EXPECT_LT(angle_between_rad(axis, kFalseAxis_icrf), 4.0 * kPrinted_rad);
   const Eigen::Vector3d normal = kSun_icrf.cross(kEarth_icrf).normalized();
   const Eigen::Vector3d mirrored = kAxis_icrf - 2.0 * normal.dot(kAxis_icrf) * normal;
@@ -73,11 +73,11 @@ TEST(SpinGeometry, AnglesThatContradictEachOtherShowInTheLengthOfTheAxis) {
   // Sun and Earth a right angle apart, both 60 deg from the axis: squared length
   // 1/4 + 1/4 + (3/4 sin(lambda))^2, which is 1 for cos(lambda) = -1/3 only.
   const auto length_at = [](double dihedral_rad) {
-    return axis_icrf(AxisInput{.sun_icrf = Eigen::Vector3d::UnitX(),
-                               .earth_icrf = Eigen::Vector3d::UnitY(),
-                               .sun_angle_rad = kPi / 3.0,
-                               .earth_angle_rad = kPi / 3.0,
-                               .dihedral_rad = dihedral_rad})
+    return axis_icrf(AxisInput<double>{.sun_icrf = Eigen::Vector3d::UnitX(),
+                                       .earth_icrf = Eigen::Vector3d::UnitY(),
+                                       .sun_angle_rad = kPi / 3.0,
+                                       .earth_angle_rad = kPi / 3.0,
+                                       .dihedral_rad = dihedral_rad})
         .norm();
   };
   EXPECT_NEAR(length_at(std::acos(-1.0 / 3.0)), 1.0, kRounding);
@@ -180,20 +180,21 @@ TEST(SpinGeometry, AChordWiderThanTheDiscHasNoRootAndSaysByHowMuch) {
 
 TEST(SpinGeometry, DeterminantVanishesWhereBothEquationsAreTheSame) {
   // Sun on the equator, a quarter turn from the Earth.
-  const OneChordInput input{.chord = {.mount_angle_rad = 85.0 * kDegree_rad, .chord_rad = 0.5},
-                            .sun_angle_rad = kPi / 2.0,
-                            .dihedral_rad = kPi / 2.0,
-                            .sun_earth_rad = kPi / 2.0,
-                            .disc_rad = 0.4};
+  const OneChordInput<double> input{
+      .chord = {.mount_angle_rad = 85.0 * kDegree_rad, .chord_rad = 0.5},
+      .sun_angle_rad = kPi / 2.0,
+      .dihedral_rad = kPi / 2.0,
+      .sun_earth_rad = kPi / 2.0,
+      .disc_rad = 0.4};
   EXPECT_NEAR(determinant(input), 0.0, kRounding);
 }
 
 TEST(SpinGeometry, DeterminantIsThatOfTheTwoLinearEquations) {
-  const OneChordInput input{.chord = {.mount_angle_rad = 1.3, .chord_rad = 0.5},
-                            .sun_angle_rad = 1.1,
-                            .dihedral_rad = 0.6,
-                            .sun_earth_rad = 0.9,
-                            .disc_rad = 0.4};
+  const OneChordInput<double> input{.chord = {.mount_angle_rad = 1.3, .chord_rad = 0.5},
+                                    .sun_angle_rad = 1.1,
+                                    .dihedral_rad = 0.6,
+                                    .sun_earth_rad = 0.9,
+                                    .disc_rad = 0.4};
   Eigen::Matrix2d equations;
   equations << std::cos(1.3), std::sin(1.3) * std::cos(0.25),  //
       std::cos(1.1), std::sin(1.1) * std::cos(0.6);
@@ -300,12 +301,13 @@ TEST(SpinGeometry, EarthAngleOfOneChordIsThatOfTheOracle) {
     }
     const PredictedAngles angles =
         predict_angles(scene.axis_icrf, scene.sun_icrf, scene.earth_icrf);
-    const OneChordInput input{.chord = {.mount_angle_rad = scene.config.north->mount_angle_rad,
-                                        .chord_rad = between(scene, NorthIn, NorthOut)},
-                              .sun_angle_rad = angles.sun_angle_rad,
-                              .dihedral_rad = angles.dihedral_rad,
-                              .sun_earth_rad = angle_between_rad(scene.sun_icrf, scene.earth_icrf),
-                              .disc_rad = scene.disc_rad};
+    const OneChordInput<double> input{
+        .chord = {.mount_angle_rad = scene.config.north->mount_angle_rad,
+                  .chord_rad = between(scene, NorthIn, NorthOut)},
+        .sun_angle_rad = angles.sun_angle_rad,
+        .dihedral_rad = angles.dihedral_rad,
+        .sun_earth_rad = angle_between_rad(scene.sun_icrf, scene.earth_icrf),
+        .disc_rad = scene.disc_rad};
     if (std::abs(determinant(input)) < 0.03) {
       continue;
     }

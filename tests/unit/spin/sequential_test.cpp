@@ -330,6 +330,64 @@ TEST(Sequential, TheBetterOfTwoFalseAxesIsNotTrue) {
   }
 }
 
+TEST(Sequential, ACandidateThatOnlyLaterFixesNameIsFollowed) {
+  // The first AMBIGUOUS fix lacks the true axis, all others name it second.
+  Scene scene;
+  const auto seen = scene.seen(0.0, 60.0);
+  const Eigen::Vector3d sun_icrf = scene.around.sun_icrf(0.0);
+  const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {
+    return std::vector{
+        i == 0 ? ambiguous(scene.fix(), scene.turned_about(sun_icrf, 25.0),
+                           scene.turned_about_earth(-15.0))
+               : ambiguous(scene.fix(), scene.turned_about(sun_icrf, 25.0), scene.body.axis_icrf)};
+  });
+  for (const SpinEstimate& estimate : all) {
+    if (estimate.status.starts_with("OK")) {
+      EXPECT_LT(squared_error(estimate, scene.body.axis_icrf), kOneInTenThousand);
+    }
+  }
+  EXPECT_THAT(all.back().status, StartsWith("OK"));
+}
+
+TEST(Sequential, BiasedFixesDoNotOverthrowEdgesThatFit) {
+  Scene scene;
+  const auto seen = scene.seen(0.0, 60.0);
+  const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {
+    SpinFix fix = scene.fix();
+    if (i >= 10 && i < 30) {
+      fix.axis_icrf = scene.turned_about_earth(6.0);
+    }
+    return std::vector{fix};
+  });
+  EXPECT_THAT(all.back().status, Not(HasSubstr("restart")));
+  EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
+}
+
+TEST(Sequential, EdgesThatScatterMoreThanTheirNoiseAreDoubted) {
+  for (const double times : {1.0, 2.0, 5.0}) {
+    Scene scene;
+    const PulseNoise stated = scene.body.config.noise;
+    scene.body.config.noise = {.sun_s = times * stated.sun_s,
+                               .infrared_s = times * stated.infrared_s};
+    auto seen = scene.seen(0.0, 120.0);
+    scene.body.config.noise = stated;
+    const SpinEstimate last = estimates(scene.body.config, seen, at_first(scene.fix())).back();
+    EXPECT_EQ(last.status.starts_with("OK"), times == 1.0) << last.status;
+    EXPECT_EQ(last.status.starts_with("DOUBTFUL, residuals"), times == 2.0) << last.status;
+    EXPECT_LT(squared_error(last, scene.body.axis_icrf), kOneInTenThousand) << times;
+  }
+}
+
+TEST(Sequential, AnAxisThatIsLostMayPointAnywhere) {
+  Scene scene;
+  const auto seen = scene.seen(0.0, 40.0);
+  SpinFix wrong = scene.fix();
+  wrong.axis_icrf = scene.turned_about_earth(90.0);
+  const SpinEstimate last = estimates(scene.body.config, seen, at_first(wrong)).back();
+  EXPECT_THAT(last.status, StartsWith("LOST"));
+  EXPECT_GT(sigma_deg(last), 90.0);
+}
+
 class Silence : public ::testing::TestWithParam<double> {};
 
 TEST_P(Silence, TheFilterGoesOnAfterwards) {

@@ -1,0 +1,22 @@
+/// @file
+/// What the models of sensors and Earth are allowed to be wrong by. None of it is noise: it does
+/// not average out.
+
+#pragma once
+
+namespace spindrift {
+
+/// One standard deviation of what stays the same in every revolution: the beam's mounting angle,
+/// the place of the limb, sun angle, azimuth. Infrared sensors and sun slits are aligned to a tenth
+/// of a degree, and the height of the CO2 layer moves the limb by about as much.
+inline constexpr double kModelError_rad = 0.15 * 0.017453292519943295;
+
+/// Beyond this, and several sigmas of the noise, two things contradict each other: all of the above
+/// at three sigmas, or the oblate Earth's 0.2 deg together with two of them.
+inline constexpr double kModelLimit_rad = 0.5 * 0.017453292519943295;
+
+/// Of WGS-84. The limb of the ellipsoid lies up to this, times the sine of the disc's half-angle,
+/// inside that of the sphere.
+inline constexpr double kEarthFlattening = 1.0 / 298.257223563;
+
+}  // namespace spindrift
