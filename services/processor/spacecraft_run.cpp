@@ -119,6 +119,7 @@ SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples) {
   for (const CodedSample& sample : samples.coded) {
     sort(sample.frame, received_.frames, out);
   }
+  tell_both();
   received_.rejected_inputs += static_cast<std::int64_t>(samples.rejected.size());
 
   ArchiveBatch taken = batch();
@@ -132,6 +133,16 @@ SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples) {
   taken.source_counts = source_counts(samples.counts);
   out.batches.push_back(std::move(taken));
   return out;
+}
+
+void SpacecraftRun::tell_both() {
+  if (!told_both_ && received_.edges > 0 && received_.frames > 0) {
+    told_both_ = true;
+    spdlog::warn(
+        "{}: both pulses and coded frames arrive: an edge that both give is used as the one that "
+        "comes first",
+        spacecraft_id_);
+  }
 }
 
 std::vector<PassInput> SpacecraftRun::finish() {

@@ -85,6 +85,7 @@ class SpacecraftRun {
   void hand_on(const CodedFrame& frame, std::vector<PassInput>& inputs) const;
   void release_held(std::vector<PassInput>& inputs);
   void begin_new_pass(Taken& out);
+  void tell_both();
   std::vector<SourceCount> source_counts(const std::map<std::string, SequenceCounts>& by_source);
   ArchiveBatch batch() const;
 
@@ -100,6 +101,7 @@ class SpacecraftRun {
   std::map<std::string, SequenceCounts> latest_counts_;  ///< Since the service started.
   std::map<std::string, SequenceCounts> counts_before_;  ///< The run's, before a restart.
   std::map<std::string, SequenceCounts> counts_of_earlier_runs_;
+  bool told_both_ = false;
   PassWatch watch_;
   std::optional<StoredSamples> stored_;  ///< After a restart, until the pass has gone on.
   std::vector<Held> held_;               ///< In order of arrival, until the pass is known.

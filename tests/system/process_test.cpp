@@ -339,13 +339,55 @@ TEST(Process, RefusesTelemetryWithoutARow) {
   EXPECT_THAT(program.log(), HasSubstr("no row of pulses"));
 }
 
-TEST(Process, RefusesAnEmptyTelemetryFile) {
+TEST(Process, TakesAnEmptyTelemetryFileForRejectedInputBesideOthersOnly) {
   const PassCopy pass{"nominal"};
   pass.folder.write("empty.csv", "");
+  Program beside{pass.arguments_here()};
+  EXPECT_EQ(beside.exit_status(), 0) << beside.log();
+  EXPECT_EQ(nlohmann::json::parse(beside.out())["runs"][0]["input_rejected"], 1);
+  const auto rows = rows_of(pass.db, "SELECT source, line, reason FROM rejected_input");
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_THAT(rows[0], HasSubstr("empty.csv|1|the file is empty"));
+
+  auto strict = pass.arguments_here();
+  strict.emplace_back("--strict");
+  Program refused{strict};
+  EXPECT_EQ(refused.exit_status(), 2);
+
+  Program alone{arguments(pass.mission(), pass.folder.path() / "empty.csv", pass.db)};
+  EXPECT_EQ(alone.exit_status(), 2);
+  EXPECT_THAT(alone.log(), HasSubstr("no row of pulses"));
+}
+
+TEST(Process, CountsAnEdgeThatIsSentTwiceOnceAmongTheStored) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("again.csv", text_of(pass.folder.path() / "pulses.csv"));
   Program program{pass.arguments_here()};
-  EXPECT_EQ(program.exit_status(), 2);
-  EXPECT_THAT(program.log(), HasSubstr("empty.csv: is empty: must begin with a header line"));
-  EXPECT_FALSE(std::filesystem::exists(pass.db));
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  const auto run = nlohmann::json::parse(program.out())["runs"][0];
+  EXPECT_EQ(run["edges_received"], 7200);
+  EXPECT_EQ(run["edges_stored"], 3600);
+}
+
+TEST(Process, RefusesAnArchiveWhereNoFileCanBe) {
+  for (const char* const db : {"/no/folder/out.db", "/proc/out.db"}) {
+    Program program{arguments("nominal", db)};
+    EXPECT_EQ(program.exit_status(), 2) << program.log();
+    EXPECT_THAT(program.log(), HasSubstr("/"));
+  }
+}
+
+TEST(Process, SaysOnceThatPulsesAndCodedFramesOfASpacecraftCame) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("coded.csv",
+                    "t_tai_ns,period_s,sun2_s,north_in_s,north_out_s,south_in_s,south_out_s\n"
+                    "1795143637568806257,0.6,,,,,\n1795143638168806257,0.6,,,,,\n");
+  Program program{pass.arguments_here()};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  const std::string words = "both pulses and coded frames";
+  const std::string log = program.log();
+  EXPECT_THAT(log, HasSubstr(words));
+  EXPECT_EQ(log.find(words), log.rfind(words));
 }
 
 TEST(Process, CountsEveryKindOfImpossibleRowAndKeepsTheRest) {
