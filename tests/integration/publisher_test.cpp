@@ -268,7 +268,8 @@ TEST(PulsePublisher, PackedSamplesAllArriveInOrder) {
       PulsePublisher::create(sender, "replay", random_session(), bus::Sending::Packed).value();
   ASSERT_TRUE(publisher.wait_for_subscriber(std::chrono::seconds{30}));
   for (std::size_t i = 0; i < kCount; ++i) {
-    ASSERT_TRUE(publisher.publish("SPINNER", {.t = tai_from_ns(kTestTime_tai_ns)}, {}));
+    ASSERT_TRUE(publisher.publish(
+        "SPINNER", {.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::Sun1}, {}));
   }
   ASSERT_TRUE(publisher.wait_for_acknowledgments(std::chrono::seconds{30}));
   EXPECT_EQ(seqs_of(take_samples(reader, kCount)), first_seqs(kCount));
