@@ -119,6 +119,12 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                 " ra_deg, dec_deg, sigma_deg, cov_east_east_deg2, cov_east_north_deg2,"
                 " cov_north_north_deg2, alternate_ra_deg, alternate_dec_deg, resolution, norm,"
                 " accepted) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+      spin_fix_candidates_gone_{database,
+                                "DELETE FROM spin_fix_candidate WHERE run_id = ? AND"
+                                " revolution = ?"},
+      spin_fix_candidate_{database,
+                          "INSERT INTO spin_fix_candidate (run_id, revolution, candidate, ra_deg,"
+                          " dec_deg) VALUES (?, ?, ?, ?, ?)"},
       spin_estimate_{database,
                      "INSERT OR REPLACE INTO spin_estimate (run_id, t_tai_ns, estimator, ra_deg,"
                      " dec_deg, sigma_deg, cov_east_east_deg2, cov_east_north_deg2,"
@@ -183,8 +189,16 @@ void BatchWriter::withdraw(const ArchiveBatch& batch, TaiTime from) {
   };
   execute_for_run("UPDATE run SET finished_utc = NULL WHERE run_id = ?1 AND ?2 IS NOT NULL");
   execute_for_run(
-      "DELETE FROM spin_measurement WHERE run_id = ?1 AND revolution >="
-      " (SELECT min(revolution) FROM revolution WHERE run_id = ?1 AND t_tai_ns >= ?2)");
+      "DELETE FROM spin_measurement WHERE run_id = ?1 AND revolution >= (SELECT min(revolution) "
+      "FROM"
+      " (SELECT revolution FROM revolution WHERE run_id = ?1 AND t_tai_ns >= ?2"
+      // A revolution without sun1 is known by its edges and its fix only.
+      "  UNION ALL SELECT revolution FROM spin_fix WHERE run_id = ?1 AND t_tai_ns >= ?2"
+      "  UNION ALL SELECT revolution FROM pulse_use JOIN run USING (run_id, spacecraft_id)"
+      "   WHERE run_id = ?1 AND t_tai_ns >= ?2))");
+  execute_for_run(
+      "DELETE FROM spin_fix_candidate WHERE run_id = ?1 AND revolution IN"
+      " (SELECT revolution FROM spin_fix WHERE run_id = ?1 AND t_tai_ns >= ?2)");
   execute_for_run("DELETE FROM revolution WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run("DELETE FROM spin_fix WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run("DELETE FROM spin_estimate WHERE run_id = ?1 AND t_tai_ns >= ?2");
@@ -256,6 +270,20 @@ void BatchWriter::insert(const ArchiveBatch& batch, const SpinFix& fix) {
           ra_deg, dec_deg, covariance.sigma_deg, covariance.east_east_deg2,
           covariance.east_north_deg2, covariance.north_north_deg2, alternate_ra_deg,
           alternate_dec_deg, spindrift::name_of(fix.resolution), fix.norm, as_flag(fix.accepted));
+  insert_candidates(batch, fix);
+}
+
+void BatchWriter::insert_candidates(const ArchiveBatch& batch, const SpinFix& fix) {
+  // The fix may take the place of one that had others.
+  execute(spin_fix_candidates_gone_, batch.run_id, fix.revolution);
+  if (fix.alternate_axes_icrf.size() < 2) {
+    return;
+  }
+  std::int64_t candidate = 0;
+  for (const Eigen::Vector3d& axis_icrf : fix.alternate_axes_icrf) {
+    const auto [ra_deg, dec_deg] = place_deg(axis_icrf);
+    execute(spin_fix_candidate_, batch.run_id, fix.revolution, ++candidate, ra_deg, dec_deg);
+  }
 }
 
 void BatchWriter::insert(const ArchiveBatch& batch, const SpinEstimate& estimate) {

@@ -37,6 +37,7 @@ class BatchWriter {
   void insert(const ArchiveBatch& batch, const RevolutionProduct& revolution);
   void insert(const ArchiveBatch& batch, const SpinMeasurement& measurement);
   void insert(const ArchiveBatch& batch, const SpinFix& fix);
+  void insert_candidates(const ArchiveBatch& batch, const SpinFix& fix);
   void insert(const ArchiveBatch& batch, const SpinEstimate& estimate);
 
   SQLite::Database& database_;
@@ -52,6 +53,8 @@ class BatchWriter {
   SQLite::Statement revolution_;
   SQLite::Statement spin_measurement_;
   SQLite::Statement spin_fix_;
+  SQLite::Statement spin_fix_candidates_gone_;
+  SQLite::Statement spin_fix_candidate_;
   SQLite::Statement spin_estimate_;
 };
 

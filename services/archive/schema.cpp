@@ -16,15 +16,16 @@ extern const char* const schema_0001_tables;
 extern const char* const schema_0002_views;
 extern const char* const schema_0003_restart;
 extern const char* const schema_0004_quick_checks;
+extern const char* const schema_0005_fix_candidates;
 }  // namespace embedded
 
 namespace {
 
-constexpr std::size_t kMigrations = 4;
+constexpr std::size_t kMigrations = 5;
 
 std::array<const char*, kMigrations> migrations() {
   return {embedded::schema_0001_tables, embedded::schema_0002_views, embedded::schema_0003_restart,
-          embedded::schema_0004_quick_checks};
+          embedded::schema_0004_quick_checks, embedded::schema_0005_fix_candidates};
 }
 
 }  // namespace

@@ -134,4 +134,25 @@ Expected<std::optional<StoredPass>> find_stored_pass(const std::filesystem::path
   }
 }
 
+Expected<std::int64_t> count_stored_edges(const std::filesystem::path& archive,
+                                          const std::string& run_id) {
+  const auto database = open_for_reading(archive);
+  if (!database) {
+    return Unexpected{database.error()};
+  }
+  try {
+    SQLite::Statement query{
+        *database,
+        "SELECT count(*) FROM run JOIN pulse USING (spacecraft_id) WHERE run_id = ?"
+        " AND t_tai_ns >= first_tai_ns AND arrival >= first_arrival AND arrival < ifnull("
+        "(SELECT min(later.first_arrival) FROM run AS later WHERE later.spacecraft_id ="
+        " run.spacecraft_id AND later.first_arrival > run.first_arrival), 9223372036854775807)"};
+    query.bind(1, run_id);
+    query.executeStep();
+    return query.getColumn(0).getInt64();
+  } catch (const SQLite::Exception& exception) {
+    return Unexpected{archive_error(archive.string(), exception)};
+  }
+}
+
 }  // namespace spindrift

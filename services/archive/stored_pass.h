@@ -42,4 +42,10 @@ Expected<std::optional<StoredPass>> find_stored_pass(const std::filesystem::path
                                                      const std::string& spacecraft_id,
                                                      const RunStart& start);
 
+/// Edges that the archive took from the run's pulses, each once. Of the newest runs: a sample
+/// belongs to the run that took it last.
+/// @return as find_stored_pass.
+Expected<std::int64_t> count_stored_edges(const std::filesystem::path& archive,
+                                          const std::string& run_id);
+
 }  // namespace spindrift

@@ -39,8 +39,11 @@ std::string this_process() {
 }
 
 Unexpected failure(const std::filesystem::path& lock, int error) {
-  return Unexpected{{ErrorCode::Unavailable, fmt::format("cannot lock {}: {}", lock.string(),
-                                                         std::system_category().message(error))}};
+  // Where no file can be made is no place for an archive.
+  const bool no_place = error == ENOENT || error == EACCES || error == EROFS || error == EPERM;
+  return Unexpected{
+      {no_place ? ErrorCode::InvalidConfiguration : ErrorCode::Unavailable,
+       fmt::format("cannot lock {}: {}", lock.string(), std::system_category().message(error))}};
 }
 
 bool write_text(int file, const std::string& text) {

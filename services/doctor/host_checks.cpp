@@ -51,9 +51,9 @@ Check check_sqlite(int version) {
       fmt::format("version {}.{}.{}", version / 1'000'000, version / 1000 % 1000, version % 1000);
   return version < kFirstWithResetBug || version >= kFirstWithoutResetBug
              ? ok("SQLite", found)
-             : ok("SQLite",
-                  found + ", which can damage a file that two connections write or checkpoint",
-                  "spindrift has one such connection; let no other program write an archive");
+             : ok("SQLite", found + ", safe for spindrift, which writes by one connection",
+                  "let no other program write an archive: this version of SQLite may damage a "
+                  "file that two connections write or checkpoint");
 }
 
 }  // namespace

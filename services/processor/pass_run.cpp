@@ -2,10 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include <chrono>
-#include <cstdint>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -17,16 +14,7 @@
 namespace spindrift {
 namespace {
 
-/// So much of what was stored last is made again: longer than a pass holds anything back, since an
-/// orderly stop has settled early what was held.
-constexpr std::chrono::minutes kMadeAgain{10};
 constexpr std::size_t kProductsPerBatch = 4096;
-
-/// Products from here on are made again; all before are stored, for they are in order.
-TaiTime made_again_from(const StoredPass& stored) {
-  const auto reached = stored.last_revolution ? stored.last_revolution : stored.earliest;
-  return reached ? *reached - kMadeAgain : TaiTime::min();
-}
 
 /// The fix and the estimates in force, those that are announced, as they pass by.
 class LatestResults {
@@ -52,41 +40,20 @@ class LatestResults {
   std::map<std::string_view, SpinProduct> latest_;
 };
 
-/// Calls `feed` with each sample of `stored` in order of arrival until it gives an error.
-template <class Feed>
-Expected<void> in_order_of_arrival(const StoredPass& stored, const Feed& feed) {
-  auto frame = stored.frames.begin();
-  const auto feed_frames_before = [&](std::int64_t arrival) {
-    Expected<void> fed;
-    for (; fed && frame != stored.frames.end() && frame->arrival < arrival; ++frame) {
-      fed = feed(frame->frame);
-    }
-    return fed;
-  };
-  for (const StoredPulse& stored_pulse : stored.pulses) {
-    auto fed = feed_frames_before(stored_pulse.arrival);
-    if (fed) {
-      fed = feed(stored_pulse.pulse);
-    }
-    if (!fed) {
-      return fed;
-    }
-  }
-  return feed_frames_before(std::numeric_limits<std::int64_t>::max());
-}
-
 }  // namespace
 
-PassRun::PassRun(const Mission& mission, std::string run_id)
-    : config_{*mission.spin}, orbit_{*mission.orbit}, pass_{config_, orbit_} {
-  summary_.run_id = std::move(run_id);
-  summary_.spacecraft_id = mission.spacecraft_id;
+PassRun::PassRun(const Mission& mission, const std::string& run_id)
+    : spacecraft_id_{mission.spacecraft_id},
+      config_{*mission.spin},
+      orbit_{*mission.orbit},
+      pass_{config_, orbit_} {
+  begin(run_id);
 }
 
 void PassRun::begin(const std::string& run_id) {
   RunSummary fresh;
   fresh.run_id = run_id;
-  fresh.spacecraft_id = summary_.spacecraft_id;
+  fresh.spacecraft_id = spacecraft_id_;
   summary_ = std::move(fresh);
   pass_ = SpinPass{config_, orbit_};
 }
@@ -94,13 +61,13 @@ void PassRun::begin(const std::string& run_id) {
 ArchiveBatch PassRun::batch() const {
   ArchiveBatch batch;
   batch.run_id = summary_.run_id;
-  batch.spacecraft_id = summary_.spacecraft_id;
+  batch.spacecraft_id = spacecraft_id_;
   return batch;
 }
 
-Expected<void> PassRun::go_on(const StoredPass& stored, const Submit& submit) {
+Expected<void> PassRun::go_on(const StoredPass& stored, std::span<const PassInput> inputs,
+                              TaiTime again_from, const Submit& submit) {
   begin(stored.run_id);
-  const TaiTime again_from = made_again_from(stored);
   ArchiveBatch again = batch();
   again.continuation = Continuation{.t = again_from};
   LatestResults latest;
@@ -118,13 +85,21 @@ Expected<void> PassRun::go_on(const StoredPass& stored, const Submit& submit) {
     return again.products.size() < kProductsPerBatch ? Expected<void>{}
                                                      : submit(std::exchange(again, batch()));
   };
-  if (auto fed = in_order_of_arrival(stored, feed); !fed) {
-    return fed;
+  for (const PassInput& input : inputs) {
+    Expected<void> fed;
+    for (auto pulse = input.pulses.begin(); fed && pulse != input.pulses.end(); ++pulse) {
+      fed = feed(*pulse);
+    }
+    for (auto frame = input.frames.begin(); fed && frame != input.frames.end(); ++frame) {
+      fed = feed(*frame);
+    }
+    if (!fed) {
+      return fed;
+    }
   }
   latest.move_to(again.products);
-  spdlog::info("{}: continuing run {} after {} revolutions: {} samples read back",
-               summary_.spacecraft_id, stored.run_id, summary_.revolutions,
-               stored.pulses.size() + stored.frames.size());
+  spdlog::info("{}: continuing run {} after {} revolutions: {} samples read back", spacecraft_id_,
+               stored.run_id, summary_.revolutions, stored.pulses.size() + stored.frames.size());
   return submit(std::move(again));
 }
 
@@ -132,6 +107,7 @@ std::vector<ArchiveBatch> PassRun::compute(const PassInput& input) {
   std::vector<ArchiveBatch> batches;
   if (input.run_id != summary_.run_id) {
     batches.push_back(finish());
+    finished_.push_back(std::move(summary_));
     begin(input.run_id);
   }
   ArchiveBatch computed = batch();
@@ -154,9 +130,15 @@ ArchiveBatch PassRun::finish() {
   return last;
 }
 
+std::vector<RunSummary> PassRun::summaries() const {
+  std::vector<RunSummary> summaries = finished_;
+  summaries.push_back(summary_);
+  return summaries;
+}
+
 void PassRun::keep(SpinOutput output, std::vector<SpinProduct>* products) {
   for (const std::string& notice : output.notices) {
-    spdlog::warn("{}: {}", summary_.spacecraft_id, notice);
+    spdlog::warn("{}: {}", spacecraft_id_, notice);
   }
   for (const SpinProduct& product : output.products) {
     summary_.count(product);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,19 +31,21 @@ using Submit = std::function<Expected<void>(ArchiveBatch)>;
 class PassRun {
  public:
   /// @param mission Of a spinner.
-  PassRun(const Mission& mission, std::string run_id);
+  PassRun(const Mission& mission, const std::string& run_id);
 
-  /// Works itself through what `stored` holds to where its run stood. Stores again what the run may
-  /// not have got to, and the latest results, so that they are announced again.
-  Expected<void> go_on(const StoredPass& stored, const Submit& submit);
+  /// Works itself through `inputs`, the samples of `stored`, to where its run stood. Stores again
+  /// what was made from `again_from` on, which the run may not have got to, and the latest results,
+  /// so that they are announced again.
+  Expected<void> go_on(const StoredPass& stored, std::span<const PassInput> inputs,
+                       TaiTime again_from, const Submit& submit);
 
   std::vector<ArchiveBatch> compute(const PassInput& input);
 
   /// The pass has ended: what was still held, and the end of the run.
   ArchiveBatch finish();
 
-  /// But for what was received, which this side does not see.
-  const RunSummary& summary() const { return summary_; }
+  /// Of all runs so far, but for what was received, which this side does not see.
+  std::vector<RunSummary> summaries() const;
 
  private:
   void begin(const std::string& run_id);
@@ -50,8 +53,10 @@ class PassRun {
   /// @param products Where they go; none: they are counted only.
   void keep(SpinOutput output, std::vector<SpinProduct>* products);
 
+  std::string spacecraft_id_;
   SpinConfig config_;
   Orbit orbit_;
+  std::vector<RunSummary> finished_;
   RunSummary summary_;
   SpinPass pass_;
 };

@@ -3,14 +3,26 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <utility>
 
 namespace spindrift {
 namespace {
 
+/// So much of what was stored last is made again: longer than a pass holds anything back, since an
+/// orderly stop has settled early what was held.
+constexpr std::chrono::minutes kMadeAgain{10};
 constexpr std::size_t kMaxOthers = 256;
 constexpr const char* kOthers = "(others)";
+
+/// Products from here on are made again; all before are stored, for they are in order. An orderly
+/// stop may have made revolutions of samples from beyond what the pass has `reached`.
+TaiTime made_again_from(const StoredPass& stored, std::optional<TaiTime> reached) {
+  const auto last = stored.last_revolution ? stored.last_revolution : stored.earliest;
+  return last && reached ? std::min(*last, *reached) - kMadeAgain : TaiTime::min();
+}
 
 void append(std::vector<ArchiveBatch>& batches, std::vector<ArchiveBatch> more) {
   std::move(more.begin(), more.end(), std::back_inserter(batches));
@@ -58,15 +70,18 @@ Expected<void> Processor::go_on(const std::filesystem::path& archive, const Subm
     if (!stored) {
       return Unexpected{stored.error()};
     }
-    if (*stored) {
-      run.go_on(**stored);
-    }
-    auto submitted = *stored ? passes_[i].go_on(**stored, submit) : submit(run.begin());
+    auto submitted = *stored ? go_on(i, **stored, submit) : submit(run.begin());
     if (!submitted) {
       return submitted;
     }
   }
   return {};
+}
+
+Expected<void> Processor::go_on(std::size_t i, const StoredPass& stored, const Submit& submit) {
+  const SpacecraftRun::Taken taken = runs_[i].go_on(stored);
+  return passes_[i].go_on(stored, taken.inputs, made_again_from(stored, runs_[i].reached()),
+                          submit);
 }
 
 Routed Processor::route(SampleBatch samples) {
@@ -81,8 +96,10 @@ Routed Processor::route(SampleBatch samples) {
   for (auto& [run, of_run] : by_run) {
     SpacecraftRun::Taken taken = runs_.at(run).take(std::move(of_run));
     append(routed.samples, std::move(taken.batches));
-    if (!taken.input.pulses.empty() || !taken.input.frames.empty()) {
-      routed.work.push_back(std::move(taken.input));
+    for (PassInput& input : taken.inputs) {
+      if (!input.pulses.empty() || !input.frames.empty()) {
+        routed.work.push_back(std::move(input));
+      }
     }
   }
   return routed;
@@ -124,7 +141,9 @@ std::vector<ArchiveBatch> Processor::take(SampleBatch samples) {
 std::vector<ArchiveBatch> Processor::finish() {
   std::vector<ArchiveBatch> batches;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
-    append(batches, compute(runs_[i].finish()));
+    for (const PassInput& rest : runs_[i].finish()) {
+      append(batches, compute(rest));
+    }
     batches.push_back(passes_[i].finish());
   }
   return batches;
@@ -141,10 +160,13 @@ void Processor::count_other(const std::string& spacecraft) {
 std::vector<RunSummary> Processor::summaries() const {
   std::vector<RunSummary> summaries;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
-    summaries.push_back(passes_[i].summary());
-    summaries.back().edges_received = runs_[i].edges_received();
-    summaries.back().coded_frames_received = runs_[i].frames_received();
-    summaries.back().input_rejected = runs_[i].inputs_rejected();
+    for (RunSummary& summary : passes_[i].summaries()) {
+      const Received received = runs_[i].received(summary.run_id);
+      summary.edges_received = received.edges;
+      summary.coded_frames_received = received.frames;
+      summary.input_rejected = received.rejected_inputs;
+      summaries.push_back(std::move(summary));
+    }
   }
   return summaries;
 }

@@ -55,6 +55,7 @@ class Processor {
 
   std::vector<ArchiveBatch> finish();
 
+  /// Spacecraft by spacecraft, all runs of each.
   std::vector<RunSummary> summaries() const;
 
   /// Samples of spacecraft without a mission here; beyond 256 of them together, under "(others)".
@@ -66,6 +67,7 @@ class Processor {
   template <class Sample>
   void distribute(std::vector<Sample>& samples, std::vector<Sample> SampleBatch::*kind,
                   std::map<std::size_t, SampleBatch>& by_run);
+  Expected<void> go_on(std::size_t spacecraft, const StoredPass& stored, const Submit& submit);
   void count_other(const std::string& spacecraft);
 
   std::unordered_map<std::string, std::size_t> index_of_;  ///< Of a spacecraft, in both below.

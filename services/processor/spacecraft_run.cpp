@@ -4,8 +4,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
-#include <type_traits>
 #include <utility>
 
 #include "services/clock/wall_clock.h"
@@ -29,6 +29,22 @@ SequenceCounts counts_of(const SourceCount& count) {
 
 void lower(std::optional<TaiTime>& earliest, TaiTime t) {
   earliest = std::min(earliest.value_or(t), t);
+}
+
+/// Calls `see` with each sample of `stored` and its arrival.
+template <class See>
+void in_order_of_arrival(const StoredPass& stored, const See& see) {
+  auto frame = stored.frames.begin();
+  const auto see_frames_before = [&](std::int64_t arrival) {
+    for (; frame != stored.frames.end() && frame->arrival < arrival; ++frame) {
+      see(frame->frame, frame->arrival);
+    }
+  };
+  for (const StoredPulse& pulse : stored.pulses) {
+    see_frames_before(pulse.arrival);
+    see(pulse.pulse, pulse.arrival);
+  }
+  see_frames_before(std::numeric_limits<std::int64_t>::max());
 }
 
 }  // namespace
@@ -67,41 +83,49 @@ ArchiveBatch SpacecraftRun::begin() {
   return first;
 }
 
-void SpacecraftRun::go_on(const StoredPass& stored) {
+Received SpacecraftRun::received(const std::string& run_id) const {
+  const auto before = received_before_.find(run_id);
+  return before == received_before_.end() ? received_ : before->second;
+}
+
+SpacecraftRun::Taken SpacecraftRun::nothing_taken() const {
+  return {.batches = {}, .inputs = {{.spacecraft = index_, .run_id = run_id_}}};
+}
+
+SpacecraftRun::Taken SpacecraftRun::go_on(const StoredPass& stored) {
   run_id_ = stored.run_id;
-  const auto arrival_of = [](const auto& samples) {
-    return samples.empty() ? 0 : samples.back().arrival;
-  };
-  next_arrival_ =
-      std::max({next_arrival_, arrival_of(stored.pulses) + 1, arrival_of(stored.frames) + 1});
-  edges_received_ = static_cast<std::int64_t>(stored.pulses.size());
-  frames_received_ = static_cast<std::int64_t>(stored.frames.size());
-  inputs_rejected_ = stored.rejected_inputs;
-  earliest_ = stored.earliest;
+  received_ = {.edges = static_cast<std::int64_t>(stored.pulses.size()),
+               .frames = static_cast<std::int64_t>(stored.frames.size()),
+               .rejected_inputs = stored.rejected_inputs};
+  earliest_ = stored_earliest_ = stored.earliest;
   for (const SourceCount& count : stored.source_counts) {
     counts_before_.emplace(count.source, counts_of(count));
   }
-  restart_.emplace(stored);
+  Taken out = nothing_taken();
+  in_order_of_arrival(stored, [&](const auto& sample, std::int64_t arrival) {
+    next_arrival_ = std::max(next_arrival_, arrival + 1);
+    place(sample, arrival, out);
+  });
+  stored_.emplace(stored);
+  return out;
 }
 
 SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples) {
-  Taken out;
-  out.input.spacecraft = index_;
+  Taken out = nothing_taken();
   const std::int64_t arrival = next_arrival_;
-  const auto earliest_before = earliest_;
-  inputs_rejected_ += static_cast<std::int64_t>(samples.rejected.size());
   for (const PulseSample& sample : samples.pulses) {
-    sort(sample.pulse, held_pulses_, out.input.pulses, out);
+    sort(sample.pulse, received_.edges, out);
   }
   for (const CodedSample& sample : samples.coded) {
-    sort(sample.frame, held_frames_, out.input.frames, out);
+    sort(sample.frame, received_.frames, out);
   }
-  out.input.run_id = run_id_;
+  tell_both();
+  received_.rejected_inputs += static_cast<std::int64_t>(samples.rejected.size());
 
   ArchiveBatch taken = batch();
   taken.arrival = arrival;
-  if (earliest_ != earliest_before) {
-    taken.earliest = earliest_;
+  if (earliest_ != stored_earliest_) {
+    taken.earliest = stored_earliest_ = earliest_;
   }
   taken.pulses = std::move(samples.pulses);
   taken.coded = std::move(samples.coded);
@@ -111,83 +135,136 @@ SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples) {
   return out;
 }
 
-PassInput SpacecraftRun::finish() {
-  PassInput rest{.spacecraft = index_, .run_id = run_id_};
-  restart_.reset();
+void SpacecraftRun::tell_both() {
+  if (!told_both_ && received_.edges > 0 && received_.frames > 0) {
+    told_both_ = true;
+    spdlog::warn(
+        "{}: both pulses and coded frames arrive: an edge that both give is used as the one that "
+        "comes first",
+        spacecraft_id_);
+  }
+}
+
+std::vector<PassInput> SpacecraftRun::finish() {
+  std::vector<PassInput> rest = nothing_taken().inputs;
   release_held(rest);
   return rest;
 }
 
 template <class Sample>
-void SpacecraftRun::sort(const Sample& sample, std::vector<Sample>& held,
-                         std::vector<Sample>& input, Taken& out) {
+void SpacecraftRun::sort(const Sample& sample, std::int64_t& received, Taken& out) {
   const std::int64_t arrival = next_arrival_++;
-  ++(std::is_same_v<Sample, Pulse> ? edges_received_ : frames_received_);
+  ++received;
   lower(earliest_, sample.t);
-  const auto verdict = restart_ ? restart_->see(sample) : RestartWatch::Verdict::SamePass;
-  if (verdict == RestartWatch::Verdict::Stored) {
-    return;
-  }
-  if (verdict == RestartWatch::Verdict::SamePass) {
-    if (restart_) {
-      restart_.reset();
-      release_held(out.input);
-    }
-    input.push_back(sample);
-    return;
-  }
-  if (held_pulses_.empty() && held_frames_.empty()) {
-    held_arrival_ = arrival;
-  }
-  held.push_back(sample);
-  if (verdict == RestartWatch::Verdict::NewPass) {
-    begin_new_pass(out);
+  if (!is_known(sample)) {
+    place(sample, arrival, out);
   }
 }
 
-void SpacecraftRun::release_held(PassInput& input) {
-  input.pulses.insert(input.pulses.end(), held_pulses_.begin(), held_pulses_.end());
-  input.frames.insert(input.frames.end(), held_frames_.begin(), held_frames_.end());
-  held_pulses_ = {};
-  held_frames_ = {};
+/// Sent again: one sample is not to be believed for two.
+template <class Sample>
+bool SpacecraftRun::is_known(const Sample& sample) const {
+  const auto is_it = [&](const Held& held) {
+    const auto* const same_kind = std::get_if<Sample>(&held.sample);
+    return same_kind != nullptr && *same_kind == sample;
+  };
+  return (stored_ && stored_->hold(sample)) || std::any_of(held_.begin(), held_.end(), is_it);
+}
+
+template <class Sample>
+void SpacecraftRun::place(const Sample& sample, std::int64_t arrival, Taken& out) {
+  const PassWatch::Verdict verdict = watch_.see(sample.t);
+  if (verdict == PassWatch::Verdict::Within) {
+    hand_on(sample, out.inputs);
+  } else if (verdict == PassWatch::Verdict::Onward) {
+    stored_.reset();
+    release_held(out.inputs);
+    hand_on(sample, out.inputs);
+  } else {
+    held_.push_back({.arrival = arrival, .sample = sample});
+    if (verdict == PassWatch::Verdict::NewPass) {
+      begin_new_pass(out);
+    }
+  }
+}
+
+void SpacecraftRun::hand_on(const Pulse& pulse, std::vector<PassInput>& inputs) const {
+  if (!inputs.back().frames.empty()) {
+    inputs.push_back({.spacecraft = index_, .run_id = run_id_});
+  }
+  inputs.back().pulses.push_back(pulse);
+}
+
+void SpacecraftRun::hand_on(const CodedFrame& frame, std::vector<PassInput>& inputs) const {
+  inputs.back().frames.push_back(frame);
+}
+
+void SpacecraftRun::release_held(std::vector<PassInput>& inputs) {
+  for (const Held& held : std::exchange(held_, {})) {
+    std::visit([&](const auto& sample) { hand_on(sample, inputs); }, held.sample);
+  }
 }
 
 void SpacecraftRun::begin_new_pass(Taken& out) {
-  restart_.reset();
-  counts_before_.clear();
-  inputs_rejected_ = 0;
-  edges_received_ = static_cast<std::int64_t>(held_pulses_.size());
-  frames_received_ = static_cast<std::int64_t>(held_frames_.size());
-  earliest_.reset();
-  for (const Pulse& pulse : held_pulses_) {
-    lower(earliest_, pulse.t);
+  const std::vector<Held> its_first = std::exchange(held_, {});
+  const auto pulses = std::count_if(its_first.begin(), its_first.end(), [](const Held& held) {
+    return std::holds_alternative<Pulse>(held.sample);
+  });
+  const auto frames = static_cast<std::ptrdiff_t>(its_first.size()) - pulses;
+  received_.edges -= pulses;
+  received_.frames -= frames;
+  received_before_.emplace(run_id_, received_);
+  if (earliest_ != stored_earliest_) {
+    out.batches.push_back(batch());
+    out.batches.back().earliest = earliest_;
   }
-  for (const CodedFrame& frame : held_frames_) {
-    lower(earliest_, frame.t);
-  }
-  release_held(out.input);
+
   start_.started_utc = utc_now();
-  start_.first_arrival = held_arrival_;
+  start_.first_arrival = its_first.front().arrival;
   run_id_ = new_run_id(start_.started_utc);
-  ArchiveBatch first = begin();
-  first.earliest = earliest_;
-  out.batches.push_back(std::move(first));
+  out.batches.push_back(begin());
+  out.inputs.push_back({.spacecraft = index_, .run_id = run_id_});
+  received_ = {.edges = pulses, .frames = frames};
+  earliest_.reset();
+  stored_earliest_.reset();
+  counts_before_.clear();
+  counts_of_earlier_runs_ = latest_counts_;
+  stored_.reset();
+  watch_ = {};
+  for (const Held& held : its_first) {
+    std::visit(
+        [&](const auto& sample) {
+          lower(earliest_, sample.t);
+          place(sample, held.arrival, out);
+        },
+        held.sample);
+  }
   spdlog::info("{}: more than an hour of silence, a new run begins: {}", spacecraft_id_, run_id_);
 }
 
 std::vector<SourceCount> SpacecraftRun::source_counts(
-    const std::map<std::string, SequenceCounts>& by_source) const {
+    const std::map<std::string, SequenceCounts>& by_source) {
+  const auto find = [](const auto& counts, const std::string& source) {
+    const auto found = counts.find(source);
+    return found == counts.end() ? SequenceCounts{} : found->second;
+  };
   std::vector<SourceCount> counts;
   counts.reserve(by_source.size());
-  for (const auto& [source, since_restart] : by_source) {
-    const auto before = counts_before_.find(source);
-    SequenceCounts count = before == counts_before_.end() ? SequenceCounts{} : before->second;
-    count += since_restart;
+  for (const auto& [source, since_start] : by_source) {
+    latest_counts_.insert_or_assign(source, since_start);
+    SequenceCounts count = find(counts_before_, source);
+    count += since_start;
+    const SequenceCounts earlier = find(counts_of_earlier_runs_, source);
+    // A gap of an earlier run that was filled since is less than none of this one: sums over runs
+    // hold.
+    const auto of_run = [](std::uint64_t all, std::uint64_t before) {
+      return static_cast<std::int64_t>(all) - static_cast<std::int64_t>(before);
+    };
     counts.push_back({.source = source,
-                      .received = static_cast<std::int64_t>(count.received),
-                      .gaps = static_cast<std::int64_t>(count.missing),
-                      .duplicates = static_cast<std::int64_t>(count.duplicates),
-                      .disordered = static_cast<std::int64_t>(count.disordered)});
+                      .received = of_run(count.received, earlier.received),
+                      .gaps = of_run(count.missing, earlier.missing),
+                      .duplicates = of_run(count.duplicates, earlier.duplicates),
+                      .disordered = of_run(count.disordered, earlier.disordered)});
   }
   return counts;
 }

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "services/archive/records.h"
@@ -16,7 +17,8 @@
 #include "services/ingest/sample_batch.h"
 #include "services/mission/mission.h"
 #include "services/processor/pass_run.h"
-#include "services/processor/restart_watch.h"
+#include "services/processor/pass_watch.h"
+#include "services/processor/stored_samples.h"
 
 namespace spindrift {
 
@@ -26,7 +28,15 @@ struct TelemetrySource {
   std::string telemetry;  ///< File paths, one a line, or DDS domain and partition.
 };
 
+/// What arrived of a run.
+struct Received {
+  std::int64_t edges = 0;   ///< Duplicates too.
+  std::int64_t frames = 0;  ///< Coded ones; likewise.
+  std::int64_t rejected_inputs = 0;
+};
+
 /// Everything that arrived goes to the archive at once, whatever is computed from it and when.
+/// After a silence that ends a pass (PassWatch) what arrives is of a new run.
 class SpacecraftRun {
  public:
   /// @param mission Of a spinner. @param index Of it among the missions.
@@ -36,33 +46,47 @@ class SpacecraftRun {
   const std::string& run_id() const { return run_id_; }
   /// What a stored run must have in common with this one to be continued.
   const RunStart& start() const { return start_; }
-  std::int64_t edges_received() const { return edges_received_; }    ///< Duplicates too.
-  std::int64_t frames_received() const { return frames_received_; }  ///< Coded ones; likewise.
-  std::int64_t inputs_rejected() const { return inputs_rejected_; }
+  /// @param run_id Of the run, or of one before it.
+  Received received(const std::string& run_id) const;
 
   /// The run itself, before its first sample.
   ArchiveBatch begin();
 
-  /// In place of `begin`: the run is that of `stored` until a sample tells of a new pass.
-  void go_on(const StoredPass& stored);
-
   struct Taken {
     std::vector<ArchiveBatch> batches;
-    PassInput input;
+    std::vector<PassInput> inputs;  ///< Some may be empty.
   };
   Taken take(SampleBatch samples);
 
+  /// In place of `begin`: the run is that of `stored`, at the point to which its samples brought
+  /// it.
+  Taken go_on(const StoredPass& stored);
+
+  /// The pass has come so far: see PassWatch.
+  std::optional<TaiTime> reached() const { return watch_.reached(); }
+
   /// What waited for a sample to tell which pass it belongs to, and none came.
-  PassInput finish();
+  std::vector<PassInput> finish();
 
  private:
+  struct Held {
+    std::int64_t arrival;
+    std::variant<Pulse, CodedFrame> sample;
+  };
+
+  Taken nothing_taken() const;
   template <class Sample>
-  void sort(const Sample& sample, std::vector<Sample>& held, std::vector<Sample>& input,
-            Taken& out);
-  void release_held(PassInput& input);
+  void sort(const Sample& sample, std::int64_t& received, Taken& out);
+  template <class Sample>
+  bool is_known(const Sample& sample) const;
+  template <class Sample>
+  void place(const Sample& sample, std::int64_t arrival, Taken& out);
+  void hand_on(const Pulse& pulse, std::vector<PassInput>& inputs) const;
+  void hand_on(const CodedFrame& frame, std::vector<PassInput>& inputs) const;
+  void release_held(std::vector<PassInput>& inputs);
   void begin_new_pass(Taken& out);
-  std::vector<SourceCount> source_counts(
-      const std::map<std::string, SequenceCounts>& by_source) const;
+  void tell_both();
+  std::vector<SourceCount> source_counts(const std::map<std::string, SequenceCounts>& by_source);
   ArchiveBatch batch() const;
 
   std::string spacecraft_id_;
@@ -70,15 +94,17 @@ class SpacecraftRun {
   RunStart start_;
   std::string run_id_;
   std::int64_t next_arrival_;
-  std::int64_t edges_received_ = 0;
-  std::int64_t frames_received_ = 0;
-  std::int64_t inputs_rejected_ = 0;
+  Received received_;
+  std::map<std::string, Received> received_before_;  ///< Of the earlier runs, by run_id.
   std::optional<TaiTime> earliest_;
-  std::map<std::string, SequenceCounts> counts_before_;  ///< The run's, before the restart.
-  std::optional<RestartWatch> restart_;                  ///< Until the pass is known.
-  std::vector<Pulse> held_pulses_;                       ///< Meanwhile.
-  std::vector<CodedFrame> held_frames_;
-  std::int64_t held_arrival_ = 0;  ///< Of the first that is held.
+  std::optional<TaiTime> stored_earliest_;
+  std::map<std::string, SequenceCounts> latest_counts_;  ///< Since the service started.
+  std::map<std::string, SequenceCounts> counts_before_;  ///< The run's, before a restart.
+  std::map<std::string, SequenceCounts> counts_of_earlier_runs_;
+  bool told_both_ = false;
+  PassWatch watch_;
+  std::optional<StoredSamples> stored_;  ///< After a restart, until the pass has gone on.
+  std::vector<Held> held_;               ///< In order of arrival, until the pass is known.
 };
 
 }  // namespace spindrift

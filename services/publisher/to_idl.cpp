@@ -24,14 +24,20 @@ Expected<void> put_name(std::span<char> field, std::string_view name, std::strin
   return {};
 }
 
-/// Cut between characters, not within one of UTF-8.
+/// Cut where it is too long, between characters and not within one of UTF-8, and then ends in
+/// "...".
 void put_text(std::span<char> field, std::string_view text) {
-  std::size_t length = std::min(text.size(), field.size() - 1);
+  constexpr std::string_view kCut = "...";
+  const std::size_t room = field.size() - 1;
+  std::size_t length = text.size() <= room ? text.size() : room - kCut.size();
   while (length < text.size() && length > 0 &&
          (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) {
     --length;
   }
   std::copy_n(text.begin(), length, field.begin());
+  if (length < text.size()) {
+    std::copy(kCut.begin(), kCut.end(), field.begin() + static_cast<std::ptrdiff_t>(length));
+  }
 }
 
 }  // namespace

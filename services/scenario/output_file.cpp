@@ -20,7 +20,12 @@ Expected<OutputFile> OutputFile::create(const std::filesystem::path& path) {
   beside += ".partial";
   OutputFile file{path, beside, std::fopen(beside.c_str(), "wb")};
   if (!file.file_) {
-    return file.failed();
+    const bool no_place = errno != ENOSPC;
+    Unexpected failed = file.failed();
+    if (no_place) {
+      failed.value().code = ErrorCode::InvalidConfiguration;
+    }
+    return failed;
   }
   return file;
 }

@@ -106,8 +106,10 @@ Expected<void> prepare(const std::filesystem::path& folder,
   std::filesystem::create_directories(folder, failure);
   const std::filesystem::directory_iterator entries{folder, failure};
   if (failure) {
-    return Unexpected{{ErrorCode::Unavailable, fmt::format("{}: cannot be made or read: {}",
-                                                           folder.string(), failure.message())}};
+    const bool full = failure == std::errc::no_space_on_device;
+    return Unexpected{
+        {full ? ErrorCode::Unavailable : ErrorCode::InvalidConfiguration,
+         fmt::format("{}: cannot be made or read: {}", folder.string(), failure.message())}};
   }
   for (const auto& entry : entries) {
     if (entry.path().extension() == ".csv" &&

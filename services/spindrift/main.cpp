@@ -118,7 +118,7 @@ void add_simulate(CLI::App& app, Request& request) {
   spindrift::SimulateOptions& options = request.simulate;
   CLI::App& command = *app.add_subcommand("simulate", "Make a pass from a scenario");
   command.add_option("scenario", options.scenario, "Scenario file")->required();
-  CLI::Option_group& where = *command.add_option_group("where", "Where it goes");
+  CLI::Option_group& where = *command.add_option_group("Output", "One of these is needed");
   where.add_option("--out", options.out, "Folder to write, made where there is none");
   CLI::Option* const publish = where.add_flag("--publish", options.publish, "Onto DDS");
   where.require_option(1);

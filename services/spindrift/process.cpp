@@ -74,9 +74,9 @@ Expected<void> process(const ProcessOptions& options) {
   if (telemetry->bad_rows().count > 0) {
     spdlog::warn("{}", telemetry->bad_rows().text());
   }
-  fmt::print("{}", report(processor->summaries(), processor->other_spacecraft(), options.db,
-                          options.json));
-  return {};
+  return report(*processor, options.db, options.json).map([](const std::string& text) {
+    fmt::print("{}", text);
+  });
 }
 
 }  // namespace spindrift

@@ -204,9 +204,9 @@ Expected<void> serve(const ServeOptions& options) {
   if (auto outcome = outcome_of(done, (*archive)->close()); !outcome) {
     return outcome;
   }
-  fmt::print("{}", report(processor->summaries(), processor->other_spacecraft(), options.db,
-                          options.json));
-  return {};
+  return report(*processor, options.db, options.json).map([](const std::string& text) {
+    fmt::print("{}", text);
+  });
 }
 
 }  // namespace spindrift

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipelines/time/utc.h"
+#include "services/archive/stored_pass.h"
 #include "services/units/degrees.h"
 
 namespace spindrift {
@@ -88,14 +89,15 @@ nlohmann::json to_json(const SpinEstimate& estimate) {
 
 std::string to_text(const RunSummary& summary) {
   std::string text = fmt::format("{}  run {}\n", summary.spacecraft_id, summary.run_id);
-  text +=
-      fmt::format("  received     {} edges, {} coded frames, {} bad rows or samples\n",
-                  summary.edges_received, summary.coded_frames_received, summary.input_rejected);
+  text += fmt::format(
+      "  received     {} edges, {} of them stored, {} coded frames, {} bad rows or samples\n",
+      summary.edges_received, summary.edges_stored, summary.coded_frames_received,
+      summary.input_rejected);
   text += fmt::format("  edges        {} accepted\n", summary.edges_accepted);
   for (const auto& [test, count] : summary.edges_rejected) {
     text += fmt::format("               {} rejected: {}\n", count, test);
   }
-  text += fmt::format("  revolutions  {}\n", summary.revolutions);
+  text += fmt::format("  revolutions  {} with sun1\n", summary.revolutions);
   return text + fixes_text(summary) + axis_text(summary);
 }
 
@@ -103,6 +105,7 @@ nlohmann::json to_json(const RunSummary& summary) {
   nlohmann::json json{{"run_id", summary.run_id},
                       {"spacecraft", summary.spacecraft_id},
                       {"edges_received", summary.edges_received},
+                      {"edges_stored", summary.edges_stored},
                       {"coded_frames_received", summary.coded_frames_received},
                       {"edges_accepted", summary.edges_accepted},
                       {"edges_rejected", to_json(summary.edges_rejected)},
@@ -127,9 +130,17 @@ std::string to_text(const SpinEstimate& estimate) {
                      name_of(estimate.estimator), estimate.status);
 }
 
-std::string report(const std::vector<RunSummary>& summaries,
-                   const std::map<std::string, std::int64_t>& other_spacecraft,
-                   const std::filesystem::path& db, bool json) {
+Expected<std::string> report(const Processor& processor, const std::filesystem::path& db,
+                             bool json) {
+  const auto& other_spacecraft = processor.other_spacecraft();
+  std::vector<RunSummary> summaries = processor.summaries();
+  for (RunSummary& summary : summaries) {
+    const auto stored = count_stored_edges(db, summary.run_id);
+    if (!stored) {
+      return Unexpected{stored.error()};
+    }
+    summary.edges_stored = *stored;
+  }
   if (json) {
     nlohmann::json object{{"db", db.string()},
                           {"runs", nlohmann::json::array()},

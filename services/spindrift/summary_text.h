@@ -3,13 +3,12 @@
 
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
 
+#include "pipelines/core/expected.h"
+#include "services/processor/processor.h"
 #include "services/processor/run_summary.h"
 
 namespace spindrift {
@@ -23,9 +22,9 @@ nlohmann::json to_json(const RunSummary& summary);
 std::string to_text(const SpinEstimate& estimate);
 
 /// All runs of one command: text, or one JSON object with `db`, `runs` and `other_spacecraft`.
-/// @param other_spacecraft How many samples came of each spacecraft without a mission.
-std::string report(const std::vector<RunSummary>& summaries,
-                   const std::map<std::string, std::int64_t>& other_spacecraft,
-                   const std::filesystem::path& db, bool json);
+/// @param db Read for what is stored: the runs' products and samples must be in it.
+/// @return as count_stored_edges.
+Expected<std::string> report(const Processor& processor, const std::filesystem::path& db,
+                             bool json);
 
 }  // namespace spindrift

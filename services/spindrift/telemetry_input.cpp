@@ -34,6 +34,13 @@ Expected<void> find_bad_rows_of(const std::filesystem::path& path, BadRows& bad)
   }
 }
 
+/// A front-end that was stopped before its first line leaves such a file.
+RejectedInput empty_file(const TelemetryFile& file) {
+  return {.source = file.path.string(),
+          .line = 1,
+          .reason = "the file is empty: must begin with a header line"};
+}
+
 }  // namespace
 
 void BadRows::add(const RejectedInput& row) {
@@ -55,7 +62,9 @@ Expected<BadRows> find_bad_rows(std::span<const TelemetryFile> files) {
   BadRows bad;
   for (const TelemetryFile& file : files) {
     Expected<void> looked;
-    if (file.kind == TelemetryKind::Pulses) {
+    if (!file.kind) {
+      bad.add(empty_file(file));
+    } else if (file.kind == TelemetryKind::Pulses) {
       looked = find_bad_rows_of<Pulse>(file.path, bad);
     } else if (file.kind == TelemetryKind::Coded) {
       looked = find_bad_rows_of<CodedFrame>(file.path, bad);
@@ -74,9 +83,9 @@ Expected<TelemetryInput> TelemetryInput::open(std::span<const std::filesystem::p
     return Unexpected{std::move(files.error())};
   }
   for (const TelemetryFile& file : *files) {
-    if (file.kind != TelemetryKind::Pulses && file.kind != TelemetryKind::Coded) {
+    if (file.kind && file.kind != TelemetryKind::Pulses && file.kind != TelemetryKind::Coded) {
       spdlog::warn("{}: {} telemetry is left out: this version processes pulses and coded frames",
-                   file.path.string(), name_of(file.kind));
+                   file.path.string(), name_of(*file.kind));
     }
   }
   if (strict) {
@@ -100,6 +109,11 @@ Expected<TelemetryInput> TelemetryInput::open(std::span<const std::filesystem::p
     return Unexpected{{ErrorCode::InvalidConfiguration,
                        "no row of pulses or coded frames in the telemetry: files with the header "
                        "'t_tai_ns,channel' or 't_tai_ns,period_s,...' and rows are needed"}};
+  }
+  for (const TelemetryFile& file : *files) {
+    if (!file.kind) {
+      first->rejected.push_back(empty_file(file));
+    }
   }
   return TelemetryInput{std::move(*files), std::move(*stream), std::move(*first)};
 }

@@ -31,7 +31,7 @@ Expected<BadRows> find_bad_rows(std::span<const TelemetryFile> files);
 class TelemetryInput {
  public:
   /// The pulses and coded frames among `paths` (files, or directories of them). Files of another
-  /// kind are left out with a warning.
+  /// kind are left out with a warning; an empty file beside others is rejected input.
   /// @param spacecraft Of the rows, where a file does not say.
   /// @param strict     A bad row anywhere is an error.
   /// @return InvalidConfiguration for unreadable files, where there is no row at all, and for bad

@@ -36,6 +36,11 @@ Expected<std::vector<std::filesystem::path>> csv_files_in(const std::filesystem:
 }
 
 Expected<TelemetryFile> recognised(const std::filesystem::path& path) {
+  std::error_code unknown;
+  if (std::filesystem::is_regular_file(path, unknown) &&
+      std::filesystem::file_size(path, unknown) == 0) {
+    return TelemetryFile{.path = path, .kind = std::nullopt};
+  }
   auto lines = CsvLines::open(path);
   if (!lines) {
     return Unexpected{std::move(lines.error())};

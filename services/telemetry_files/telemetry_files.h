@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace spindrift {
 
 struct TelemetryFile {
   std::filesystem::path path;
-  TelemetryKind kind;
+  std::optional<TelemetryKind> kind;  ///< None: the file is empty, without even a header.
 };
 
 /// Every path is a CSV file or a directory, which means every *.csv in it, by name. In the order

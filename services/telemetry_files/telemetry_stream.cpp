@@ -18,11 +18,11 @@ struct Opening {
   std::size_t rows_held;
 };
 
-bool is_read(TelemetryKind kind) {
+bool is_read(std::optional<TelemetryKind> kind) {
   return kind == TelemetryKind::Pulses || kind == TelemetryKind::Coded;
 }
 
-std::size_t row_bytes(TelemetryKind kind) {
+std::size_t row_bytes(std::optional<TelemetryKind> kind) {
   return kind == TelemetryKind::Pulses ? sizeof(TelemetryRow<Pulse>)
                                        : sizeof(TelemetryRow<CodedFrame>);
 }

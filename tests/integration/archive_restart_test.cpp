@@ -168,6 +168,75 @@ TEST_F(ArchiveRestart, RunThatGoesOnIsNotFinishedAndItsLastProductsAreWithdrawn)
   EXPECT_EQ(stored()->last_revolution, tai_from_ns(30));
 }
 
+TEST_F(ArchiveRestart, MeasurementsOfRevolutionsWithoutSun1AreWithdrawnToo) {
+  const auto archive = open();
+  ArchiveBatch whole = start_of("run-1");
+  for (std::int64_t number = 0; number < 5; ++number) {
+    whole.products.emplace_back(
+        PulseUse{.pulse = {.t = tai_from_ns(number * 10), .channel = PulseChannel::Sun2},
+                 .revolution = number,
+                 .rejected_by = std::nullopt});
+    whole.products.emplace_back(SpinMeasurement{.revolution = number,
+                                                .quantity = SpinQuantity::NorthChord,
+                                                .value = 0.1,
+                                                .sigma = 0.1,
+                                                .rejected_by = std::nullopt});
+  }
+  ASSERT_TRUE(archive->submit(whole));
+  ArchiveBatch again = batch_of("run-1");
+  again.continuation = Continuation{.t = tai_from_ns(30)};
+  ASSERT_TRUE(archive->submit(again));
+  ASSERT_TRUE(archive->flush());
+
+  EXPECT_EQ(text("SELECT group_concat(revolution, ' ') FROM spin_measurement"), "0 1 2");
+  EXPECT_EQ(text("SELECT group_concat(revolution, ' ') FROM pulse_use"), "0 1 2");
+}
+
+SpinFix fix_with_alternates(std::size_t alternates) {
+  SpinFix fix{.revolution = 7,
+              .t = tai_from_ns(70),
+              .geometry_case = 5,
+              .axis_icrf = Eigen::Vector3d::UnitX(),
+              .covariance_rad2 = Eigen::Matrix2d::Identity(),
+              .alternate_axes_icrf = {},
+              .resolution = Resolution::Ambiguous,
+              .norm = 1.0,
+              .accepted = false};
+  const std::vector<Eigen::Vector3d> axes = {Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitX(),
+                                             -Eigen::Vector3d::UnitY()};
+  fix.alternate_axes_icrf.assign(axes.begin(),
+                                 axes.begin() + static_cast<std::ptrdiff_t>(alternates));
+  return fix;
+}
+
+TEST_F(ArchiveRestart, AllAxesOfAnAmbiguousFixAreStoredUntilItIsGivenAgainOrWithdrawn) {
+  const std::string stored_axes =
+      "SELECT group_concat(format('%d %d %.0f', revolution, candidate, ra_deg), '; ')"
+      " FROM spin_fix_candidate";
+  const auto archive = open();
+  ArchiveBatch batch = start_of("run-1");
+  batch.products = {fix_with_alternates(3)};
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+  EXPECT_EQ(text(stored_axes), "7 1 90; 7 2 180; 7 3 270");
+
+  ArchiveBatch decided = batch_of("run-1");
+  decided.products = {fix_with_alternates(1)};
+  ASSERT_TRUE(archive->submit(decided));
+  ASSERT_TRUE(archive->flush());
+  EXPECT_EQ(number("SELECT count(*) FROM spin_fix_candidate"), 0);
+  EXPECT_EQ(real("SELECT alternate_ra_deg FROM spin_fix"), 90.0);
+
+  ArchiveBatch again = batch_of("run-1");
+  again.products = {fix_with_alternates(2)};
+  ASSERT_TRUE(archive->submit(again));
+  ArchiveBatch withdrawn = batch_of("run-1");
+  withdrawn.continuation = Continuation{.t = tai_from_ns(70)};
+  ASSERT_TRUE(archive->submit(withdrawn));
+  ASSERT_TRUE(archive->flush());
+  EXPECT_EQ(number("SELECT count(*) FROM spin_fix_candidate"), 0);
+}
+
 TEST_F(ArchiveRestart, WhatBecomesOfAnEdgeLaterStandsButNotThatItIsLate) {
   const auto archive = open();
   const Pulse pulse = pulse_at(5).pulse;

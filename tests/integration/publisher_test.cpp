@@ -194,8 +194,9 @@ TEST(ToIdl, CutsStatusTextBetweenCharacters) {
   SpinEstimate estimate = an_estimate();
   estimate.status = std::string(64, 'x');
   EXPECT_EQ(to_idl("SPINNER", estimate).value().status, estimate.status);
-  estimate.status = std::string(63, 'x') + "\u00e9";  // Two bytes, the second of them the 65th.
-  EXPECT_EQ(to_idl("SPINNER", estimate).value().status, std::string(63, 'x'));
+  // Two bytes, of which the first alone would have a place.
+  estimate.status = std::string(60, 'x') + "\u00e9" + std::string(9, 'x');
+  EXPECT_EQ(to_idl("SPINNER", estimate).value().status, std::string(60, 'x') + "...");
 }
 
 /// What a subscriber that comes afterwards has of `count` pulses of source "replay".

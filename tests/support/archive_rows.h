@@ -52,6 +52,7 @@ inline std::vector<std::string> product_rows(const std::filesystem::path& db) {
            "SELECT revolution, t_tai_ns, geometry_case, ra_deg, dec_deg, sigma_deg,"
            " alternate_ra_deg, alternate_dec_deg, resolution, accepted, cov_east_east_deg2,"
            " cov_east_north_deg2, cov_north_north_deg2, norm FROM spin_fix ORDER BY 1",
+           "SELECT revolution, candidate, ra_deg, dec_deg FROM spin_fix_candidate ORDER BY 1, 2",
            "SELECT t_tai_ns, estimator, ra_deg, dec_deg, sigma_deg, spin_rate_rpm, sigma_rpm,"
            " status, cov_east_east_deg2, cov_east_north_deg2, cov_north_north_deg2"
            " FROM spin_estimate ORDER BY 1, 2"}) {

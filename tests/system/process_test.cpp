@@ -212,6 +212,54 @@ TEST(Process, GivesTheSameRowsWhateverTheOrderOfTheFile) {
   EXPECT_EQ(product_rows(in_order), product_rows(pass.db));
 }
 
+/// The recorded pass and, so much later, the same edges again.
+void append_a_second_pass(const PassCopy& pass, std::int64_t later_s) {
+  std::istringstream csv{text_of(pass.folder.path() / "pulses.csv")};
+  std::string line;
+  std::getline(csv, line);
+  std::string second = line + "\n";
+  while (std::getline(csv, line)) {
+    const std::size_t comma = line.find(',');
+    second +=
+        std::to_string(std::stoll(line) + later_s * 1'000'000'000) + line.substr(comma) + "\n";
+  }
+  pass.folder.write("second.csv", second);
+}
+
+TEST(Process, MakesARunOfEachPass) {
+  const PassCopy pass{"north-only"};
+  append_a_second_pass(pass, 7200);
+  Program program{pass.arguments_here()};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+
+  const auto runs = rows_of(pass.db,
+                            "SELECT run_id, min(revolution), count(*) FROM revolution JOIN run"
+                            " USING (run_id) GROUP BY run_id ORDER BY first_arrival");
+  ASSERT_EQ(runs.size(), 2U);
+  const auto report = nlohmann::json::parse(program.out())["runs"];
+  ASSERT_EQ(report.size(), 2U);
+  std::int64_t edges = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(runs[i], report[i]["run_id"].get<std::string>() + "|0|" +
+                           report[i]["revolutions"].dump() + "|");
+    edges += report[i]["edges_received"].get<std::int64_t>();
+  }
+  EXPECT_EQ(report[0]["edges_received"], report[1]["edges_received"]);
+  EXPECT_EQ(edges, number_of(pass.db, "SELECT count(*) FROM pulse_use"));
+
+  const TemporaryFolder alone;
+  Program one{arguments("north-only", alone.path() / "out.db")};
+  ASSERT_EQ(one.exit_status(), 0) << one.log();
+  const auto rows_of_run = [&](const std::filesystem::path& db, const std::string& run) {
+    return rows_of(db,
+                   "SELECT revolution, quantity, value, sigma FROM spin_measurement WHERE"
+                   " run_id = '" +
+                       run + "' ORDER BY 1, 2");
+  };
+  const std::string run = nlohmann::json::parse(one.out())["runs"][0]["run_id"];
+  EXPECT_EQ(rows_of_run(pass.db, report[0]["run_id"]), rows_of_run(alone.path() / "out.db", run));
+}
+
 TEST(Process, CountsAndStoresBadRowsWithTheirReason) {
   const PassCopy pass{"nominal"};
   pass.folder.write("more.csv",
@@ -291,13 +339,55 @@ TEST(Process, RefusesTelemetryWithoutARow) {
   EXPECT_THAT(program.log(), HasSubstr("no row of pulses"));
 }
 
-TEST(Process, RefusesAnEmptyTelemetryFile) {
+TEST(Process, TakesAnEmptyTelemetryFileForRejectedInputBesideOthersOnly) {
   const PassCopy pass{"nominal"};
   pass.folder.write("empty.csv", "");
+  Program beside{pass.arguments_here()};
+  EXPECT_EQ(beside.exit_status(), 0) << beside.log();
+  EXPECT_EQ(nlohmann::json::parse(beside.out())["runs"][0]["input_rejected"], 1);
+  const auto rows = rows_of(pass.db, "SELECT source, line, reason FROM rejected_input");
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_THAT(rows[0], HasSubstr("empty.csv|1|the file is empty"));
+
+  auto strict = pass.arguments_here();
+  strict.emplace_back("--strict");
+  Program refused{strict};
+  EXPECT_EQ(refused.exit_status(), 2);
+
+  Program alone{arguments(pass.mission(), pass.folder.path() / "empty.csv", pass.db)};
+  EXPECT_EQ(alone.exit_status(), 2);
+  EXPECT_THAT(alone.log(), HasSubstr("no row of pulses"));
+}
+
+TEST(Process, CountsAnEdgeThatIsSentTwiceOnceAmongTheStored) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("again.csv", text_of(pass.folder.path() / "pulses.csv"));
   Program program{pass.arguments_here()};
-  EXPECT_EQ(program.exit_status(), 2);
-  EXPECT_THAT(program.log(), HasSubstr("empty.csv: is empty: must begin with a header line"));
-  EXPECT_FALSE(std::filesystem::exists(pass.db));
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  const auto run = nlohmann::json::parse(program.out())["runs"][0];
+  EXPECT_EQ(run["edges_received"], 7200);
+  EXPECT_EQ(run["edges_stored"], 3600);
+}
+
+TEST(Process, RefusesAnArchiveWhereNoFileCanBe) {
+  for (const char* const db : {"/no/folder/out.db", "/proc/out.db"}) {
+    Program program{arguments("nominal", db)};
+    EXPECT_EQ(program.exit_status(), 2) << program.log();
+    EXPECT_THAT(program.log(), HasSubstr("/"));
+  }
+}
+
+TEST(Process, SaysOnceThatPulsesAndCodedFramesOfASpacecraftCame) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("coded.csv",
+                    "t_tai_ns,period_s,sun2_s,north_in_s,north_out_s,south_in_s,south_out_s\n"
+                    "1795143637568806257,0.6,,,,,\n1795143638168806257,0.6,,,,,\n");
+  Program program{pass.arguments_here()};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  const std::string words = "both pulses and coded frames";
+  const std::string log = program.log();
+  EXPECT_THAT(log, HasSubstr(words));
+  EXPECT_EQ(log.find(words), log.rfind(words));
 }
 
 TEST(Process, CountsEveryKindOfImpossibleRowAndKeepsTheRest) {

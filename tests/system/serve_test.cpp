@@ -363,9 +363,8 @@ TEST(Serve, PublishesWhatIsInForceAgainAfterARestart) {
   ASSERT_EQ(service.stop(), 0) << service.program().log();
 }
 
-TEST(Serve, BeginsANewRunForANewPassAfterARestart) {
-  Service service{"nominal"};
-  ASSERT_TRUE(service.ready()) << service.program().log();
+/// Two passes of one second a revolution with just over an hour between them.
+std::vector<Pulse> two_passes() {
   const auto pulse_at = [](std::int64_t t_s) {
     return Pulse{.t = tai_from_ns(kTestTime_tai_ns + t_s * 1'000'000'000),
                  .channel = PulseChannel::Sun1};
@@ -377,20 +376,40 @@ TEST(Serve, BeginsANewRunForANewPassAfterARestart) {
   for (std::int64_t t_s = 99 + 3601; t_s < 3800; ++t_s) {
     pulses.push_back(pulse_at(t_s));
   }
+  return pulses;
+}
+
+/// Of a service that is restarted when it has got so much of `two_passes`; 1: that never is.
+class ServeTwoPasses : public ::testing::TestWithParam<double> {};
+
+TEST_P(ServeTwoPasses, MakesTwoRunsHoweverTheServiceIsRestarted) {
+  Service service{"nominal"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  const std::vector<Pulse> pulses = two_passes();
   FrontEnd front_end{service.bus(), "SPINNER", pulses};
-  ASSERT_TRUE(front_end.send_until(0.5));
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
-  service.start();
-  // What the front-end still has of the old pass comes again first, and tells nothing.
-  ASSERT_TRUE(front_end.send_until(1.0));
+  ASSERT_TRUE(front_end.send_until(GetParam()));
+  if (GetParam() < 1.0) {
+    ASSERT_EQ(service.stop(), 0) << service.program().log();
+    service.start();
+    // What the front-end still has of the old pass comes again first, and tells nothing.
+    ASSERT_TRUE(front_end.send_until(1.0));
+  }
   ASSERT_EQ(service.stop(), 0) << service.program().log();
 
   EXPECT_EQ(rows_of(service.db(),
-                    "SELECT min(t_tai_ns), count(*) FROM revolution GROUP BY run_id ORDER BY 1"),
-            (std::vector<std::string>{std::to_string(tai_ns(pulses.at(0).t)) + "|100|",
-                                      std::to_string(tai_ns(pulses.at(100).t)) + "|100|"}));
+                    "SELECT min(t_tai_ns), min(revolution), max(revolution), count(*)"
+                    " FROM revolution GROUP BY run_id ORDER BY 1"),
+            (std::vector<std::string>{std::to_string(tai_ns(pulses.at(0).t)) + "|0|99|100|",
+                                      std::to_string(tai_ns(pulses.at(100).t)) + "|0|99|100|"}));
   EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NOT NULL"), 2);
+  EXPECT_EQ(rows_of(service.db(), "SELECT first_tai_ns FROM run ORDER BY first_arrival"),
+            (std::vector<std::string>{std::to_string(tai_ns(pulses.at(0).t)) + "|",
+                                      std::to_string(tai_ns(pulses.at(100).t)) + "|"}));
+  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM pulse_use"), 200);
 }
+
+// Before the silence, while the new pass is not believed yet, never.
+INSTANTIATE_TEST_SUITE_P(After, ServeTwoPasses, ::testing::Values(0.5, 0.515, 1.0));
 
 TEST(Serve, StopsAcceptingLoudlyWhenTheDiskIsFullAndEndsWithOne) {
   Service service{"gms5", "", 600};

@@ -171,11 +171,11 @@ TEST(Simulate, LeavesNothingHalfWrittenOnAFullDisk) {
   EXPECT_TRUE(std::filesystem::is_empty(out));
 }
 
-TEST(Simulate, FailsWhereTheFolderCannotBe) {
+TEST(Simulate, RefusesWhereTheFolderCannotBe) {
   const TemporaryFolder folder;
   const auto file = folder.write("file", "");
   Program program{{"simulate", kNominal, "--out", (file / "pass").string()}};
-  EXPECT_EQ(program.exit_status(), 1);
+  EXPECT_EQ(program.exit_status(), 2);
   EXPECT_THAT(program.log(), HasSubstr("cannot be made"));
 }
 

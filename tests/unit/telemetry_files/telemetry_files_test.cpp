@@ -103,11 +103,19 @@ TEST(TelemetryFiles, WithAnUnknownHeaderAreRefusedNamingFileLineAndWhatIsAllowed
 
 TEST(TelemetryFiles, WithoutAHeaderAreRefused) {
   const TemporaryFolder folder;
-  for (const char* text : {"", "\n\r\n\n", "\xEF\xBB\xBF"}) {
+  for (const char* text : {"\n\r\n\n", "\xEF\xBB\xBF"}) {
     const auto path = folder.write("empty.csv", text);
     EXPECT_THAT(error_of({path}),
                 HasSubstr(path.string() + ": is empty: must begin with a header"));
   }
+}
+
+TEST(TelemetryFiles, WithoutAByteAreOfNoKind) {
+  const TemporaryFolder folder;
+  const std::vector<std::filesystem::path> paths = {folder.write("empty.csv", "")};
+  const auto files = scan_telemetry(paths);
+  ASSERT_TRUE(files) << files.error().message;
+  EXPECT_EQ(files->front().kind, std::nullopt);
 }
 
 TEST(TelemetryFiles, ThatCannotBeReadAreNamedAllAtOnce) {
