@@ -216,6 +216,12 @@ void SpinPass::collect(Association association, SpinOutput& out) {
 }
 
 void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
+  if (const auto& off_turns = revolution.count_sigma_turns) {
+    out.notices.push_back(
+        fmt::format("after a silence the count of revolutions is uncertain by about {:.1f}, from "
+                    "revolution {} on",
+                    *off_turns, revolution.number));
+  }
   Candidate candidate{.revolution = revolution,
                       .measured = measure(config_, revolution),
                       .sightlines = {},
