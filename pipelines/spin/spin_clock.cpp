@@ -12,8 +12,9 @@ namespace {
 constexpr double kRateWander = 5e-7;
 // Turns a second squared, in a second.
 constexpr double kDriftWander = 3e-10;
-// Half a rpm an hour: eddy currents, warming and leaks seldom do more, and a few turns tell.
-constexpr double kFirstDrift_per_s2 = 0.5 / 60.0 / 3600.0;
+// 0.2 rpm an hour: eddy currents, warming and leaks seldom do more, a few turns tell of what does,
+// and a count through ten silent minutes stays sure.
+constexpr double kFirstDrift_per_s2 = 0.2 / 60.0 / 3600.0;
 
 }  // namespace
 

@@ -333,7 +333,7 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   std::optional<SpinEstimate> sequential;
   if (const auto sky = surroundings_.sky(revolution.t_start)) {
     sequential = sequential_.update(revolution, *sky, fixes);
-    if (sequential && sequential_.restarts() > restarts_heeded_) {
+    if (sequential && (sequential_.restarts() > restarts_heeded_ || recent_fixes_left_the_mean())) {
       start_again_where_moved(*sequential, out);
     }
   }
@@ -374,9 +374,16 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   }
 }
 
+/// They share what is wrong with the model, so that a difference is the axis's own.
+bool SpinPass::recent_fixes_left_the_mean() const {
+  const auto recent_icrf = recent_axes_.axis_icrf();
+  return recent_icrf && mean_axis_.count() > 0 &&
+         angle_between_rad(*recent_icrf, mean_axis_.axis_icrf()) > kModelLimit_rad;
+}
+
 /// After a manoeuvre a mean of the whole pass would lie where the axis never was. A restart of
-/// `sequential` raises the question; it may take some revolutions until its axis is known so well
-/// that the answer is clear.
+/// `sequential`, or recent fixes that lie elsewhere, raise the question; it may take some
+/// revolutions until its axis is known so well that the answer is clear.
 void SpinPass::start_again_where_moved(const SpinEstimate& sequential, SpinOutput& out) {
   if (mean_axis_.count() == 0) {
     return;

@@ -81,6 +81,7 @@ class SpinPass {
   std::vector<SpinFix> find_fixes(const Candidate& candidate, SpinOutput& out);
   void announce_axis(const Candidate& candidate, SpinOutput& out);
   std::optional<KnownAxis> established_axis() const;
+  bool recent_fixes_left_the_mean() const;
   void start_again_where_moved(const SpinEstimate& sequential, SpinOutput& out);
   Eigen::Matrix2d mean_covariance_rad2() const;
   SpinEstimate mean_estimate(const Candidate& candidate) const;

@@ -4,14 +4,20 @@ namespace spindrift {
 
 PassWatch::Verdict PassWatch::see(TaiTime t) {
   if (reached_ && t <= *reached_) {
+    ++within_;
     return Verdict::Within;
   }
-  if (!reached_ || t - *reached_ <= kLongestSilence) {
-    reached_ = t;
-    beyond_ = 0;
-    return Verdict::Onward;
+  const bool silent = reached_ && t - *reached_ > kLongestSilence;
+  if (silent && ++beyond_ < kBelieved) {
+    return Verdict::Undecided;
   }
-  return ++beyond_ < kBelieved ? Verdict::Undecided : Verdict::NewPass;
+  if (silent && within_ >= kBelieved) {
+    return Verdict::NewPass;
+  }
+  within_ += beyond_ + (silent ? 0 : 1);
+  reached_ = t;
+  beyond_ = 0;
+  return Verdict::Onward;
 }
 
 }  // namespace spindrift

@@ -21,6 +21,7 @@ class PassWatch {
 
   /// Within: not later than the pass has come, which says nothing of those from beyond. Onward: the
   /// pass goes on, and what came from beyond was wrong. Undecided: from beyond. NewPass: believed.
+  /// A few stray samples before are no pass of their own: then what is believed carries theirs on.
   enum class Verdict { Within, Onward, Undecided, NewPass };
 
   Verdict see(TaiTime t);
@@ -30,6 +31,7 @@ class PassWatch {
 
  private:
   std::optional<TaiTime> reached_;
+  std::size_t within_ = 0;  ///< Samples of the pass.
   std::size_t beyond_ = 0;
 };
 

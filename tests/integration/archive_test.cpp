@@ -690,7 +690,7 @@ TEST_F(ArchiveTest, RelativePathIsThatOfTheSameFile) {
 TEST_F(ArchiveTest, FolderThatTakesNoFilesIsAnError) {
   const auto archive = Archive::open("/proc/pass.db", {});
   ASSERT_FALSE(archive);
-  EXPECT_EQ(archive.error().code, ErrorCode::Unavailable);
+  EXPECT_EQ(archive.error().code, ErrorCode::InvalidConfiguration);
   EXPECT_THAT(archive.error().message, HasSubstr("cannot lock /proc/pass.db.lock"));
 }
 

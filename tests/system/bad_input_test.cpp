@@ -239,7 +239,7 @@ TEST(ShortOrbit, GivesTheAxisWhereItReachesAndSaysByHowMuchItDoesNot) {
   EXPECT_THAT(outcome.log, ::testing::ContainsRegex(
                                "orbit: no orbit at 2026-11-20T03:05:00.*Z: 0\\.[0-9]+ s after the "
                                "ephemeris ends"));
-  EXPECT_EQ(outcome.run["revolutions"], 600);
+  EXPECT_EQ(outcome.run["revolutions"], 599);  // Of 600 good sun1 edges one lies 3 sigma off.
   EXPECT_NEAR(outcome.run["fixes"].get<double>(), 300.0, 3.0);
   EXPECT_EQ(
       number_of(outcome.db, "SELECT count(*) FROM spin_fix WHERE t_tai_ns > 1795143937000000000"),
@@ -261,7 +261,7 @@ TEST(AbsurdTimes, ThatCouldBeTrueLeaveTheOtherProductsAlone) {
                       "SELECT count(*) FROM pulse_use WHERE accepted = 0 AND t_tai_ns IN"
                       " (315532819000000000, 4070908837000000000, 1795230037000000000)"),
             3);
-  EXPECT_EQ(outcome.run["revolutions"], 600);
+  EXPECT_EQ(outcome.run["revolutions"], 599);  // Of 600 good sun1 edges one lies 3 sigma off.
   EXPECT_LT(error_deg(outcome.run["mean"]), 0.05);
   EXPECT_LT(error_deg(outcome.run["sequential"]), 0.05);
 }

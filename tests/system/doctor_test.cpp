@@ -1,11 +1,14 @@
 // `spindrift doctor`: the real program before real archives, missions and other programs.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <spindrift.h>
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "pipelines/time/utc.h"
 #include "services/clock/wall_clock.h"
@@ -80,7 +83,11 @@ std::string current_mission(const TemporaryFolder& folder) {
     last = format_utc(now + hour * 1h, 3);
     last.pop_back();
     first = first.empty() ? last : first;
-    states += last + " 42164.0 0.0 0.0 0.0 3.0747 0.0\n";
+    const double turn_rad = 2.0 * std::numbers::pi * hour / 23.9345;
+    const double x = std::cos(turn_rad);
+    const double y = std::sin(turn_rad);
+    states += fmt::format("{} {} {} 0.0 {} {} 0.0\n", last, 42164.0 * x, 42164.0 * y, -3.0747 * y,
+                          3.0747 * x);
   }
   oem += "START_TIME = " + first + "\nSTOP_TIME = " + last +
          "\nINTERPOLATION = LAGRANGE\nINTERPOLATION_DEGREE = 1\nMETA_STOP\n\n" + states;
