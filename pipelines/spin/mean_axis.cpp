@@ -25,7 +25,7 @@ Eigen::Matrix2d MeanAxis::covariance_rad2() const {
 }
 
 void AxisWindow::add(const SpinFix& fix) {
-  weighted_icrf_.push_back(weight_of(fix) * fix.axis_icrf);
+  weighted_icrf_.emplace_back(weight_of(fix) * fix.axis_icrf);
   if (weighted_icrf_.size() > length_) {
     weighted_icrf_.pop_front();
   }

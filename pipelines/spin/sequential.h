@@ -25,6 +25,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "pipelines/spin/association.h"
@@ -38,7 +39,7 @@ namespace spindrift {
 
 class SequentialEstimator {
  public:
-  explicit SequentialEstimator(const SpinConfig& config) : config_{config} {}
+  explicit SequentialEstimator(SpinConfig config) : config_{std::move(config)} {}
 
   /// @param revolution Not earlier than the one before; only its good edges are used.
   /// @param settled The fixes that were settled since the revolution before, in any order.

@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "pipelines/spin/association.h"
 #include "pipelines/spin/config.h"
@@ -70,8 +71,11 @@ class SpinFilter {
   double phase_sigma_rad() const;
 
  private:
-  SpinFilter(TaiTime t, const Eigen::Quaterniond& q_icrf_spin, double phase_rad, double rate_rad_s)
-      : t_{t}, q_icrf_spin_{q_icrf_spin}, phase_rad_{phase_rad}, rate_rad_s_{rate_rad_s} {}
+  SpinFilter(TaiTime t, Eigen::Quaterniond q_icrf_spin, double phase_rad, double rate_rad_s)
+      : t_{t},
+        q_icrf_spin_{std::move(q_icrf_spin)},
+        phase_rad_{phase_rad},
+        rate_rad_s_{rate_rad_s} {}
 
   /// Tilt about the frame's first and second axes, phase, rate, drift.
   using Error = Eigen::Matrix<double, 5, 1>;

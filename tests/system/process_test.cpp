@@ -315,7 +315,8 @@ TEST(Process, StoresThePassAndSaysWhereTheOrbitDoesNotReach) {
   EXPECT_THAT(program.log(), HasSubstr("orbit: "));
   EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3600);
   EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM spin_fix"), 0);
-  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM revolution"), 599);  // One sun1 lies 3 sigma off.
+  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM revolution"),
+            599);  // One sun1 lies 3 sigma off.
 }
 
 TEST(Process, RefusesADatabaseThatIsNotOursAndLeavesItAlone) {
