@@ -8,10 +8,10 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "pipelines/frames/wgs84.h"
+
 namespace spindrift {
 namespace {
-
-constexpr double kEarthRadius_km = 6378.137;
 
 Unexpected refused(std::string message) {
   return Unexpected{{ErrorCode::InvalidConfiguration, std::move(message)}};
@@ -52,11 +52,12 @@ Expected<KeplerOrbit> KeplerOrbit::make(const KeplerElements& elements) {
     return refused(fmt::format("orbit: eccentricity {} must lie in [0, 1)", elements.eccentricity));
   }
   const double perigee_km = elements.semi_major_axis_km * (1.0 - elements.eccentricity);
-  if (!(std::isfinite(elements.semi_major_axis_km) && perigee_km > kEarthRadius_km)) {
+  if (!(std::isfinite(elements.semi_major_axis_km) && perigee_km > wgs84::kEquatorialRadius_km)) {
     return refused(fmt::format(
         "orbit: semi-major axis {} km with eccentricity {} puts the perigee at {:.3f} km from the "
         "Earth's centre; it must lie above {} km",
-        elements.semi_major_axis_km, elements.eccentricity, perigee_km, kEarthRadius_km));
+        elements.semi_major_axis_km, elements.eccentricity, perigee_km,
+        wgs84::kEquatorialRadius_km));
   }
   return KeplerOrbit{elements};
 }

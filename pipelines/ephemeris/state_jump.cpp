@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/frames/wgs84.h"
 
 namespace spindrift {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 constexpr double kIntegration_s = 30.0;
 constexpr double kTolerance_km = 10.0;
 constexpr double kToleranceOfWay = 0.05;
-constexpr double kEarthRadius_km = 6378.137;
 
 struct Slope {
   Eigen::Vector3d velocity_km_s;
@@ -52,7 +52,8 @@ OrbitState fallen(OrbitState state, double duration_s) {
 std::optional<double> jump_km(const EphemerisPoint& from, const EphemerisPoint& to) {
   const double least_range_km =
       std::min(from.state.position_icrf_km.norm(), to.state.position_icrf_km.norm());
-  if (to.t < from.t || to.t - from.t > std::chrono::hours{6} || least_range_km < kEarthRadius_km) {
+  if (to.t < from.t || to.t - from.t > std::chrono::hours{6} ||
+      least_range_km < wgs84::kEquatorialRadius_km) {
     return std::nullopt;
   }
   const double dt_s = seconds_between(from.t, to.t);

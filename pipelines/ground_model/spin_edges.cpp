@@ -10,14 +10,13 @@
 #include <utility>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/frames/wgs84.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift {
 namespace {
 
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-constexpr double kEquatorialRadius_km = 6378.137;
-constexpr double kPolarRadius_km = 6356.752314245;  // WGS-84.
 constexpr double kNarrowestHalfChord_rad = 0.25 * std::numbers::pi / 180.0;
 
 // A step this small changes no nanosecond; the last one is a hundred times better than it is long.
@@ -117,8 +116,9 @@ class BeamDepth {
 
 EarthFigure infrared_horizon(const Horizon& horizon, const Eigen::Vector3d& pole_icrf) {
   const bool sphere = horizon.model == HorizonModel::Sphere;
-  return {.equatorial_km = kEquatorialRadius_km + horizon.co2_altitude_km,
-          .polar_km = (sphere ? kEquatorialRadius_km : kPolarRadius_km) + horizon.co2_altitude_km,
+  return {.equatorial_km = wgs84::kEquatorialRadius_km + horizon.co2_altitude_km,
+          .polar_km = (sphere ? wgs84::kEquatorialRadius_km : wgs84::kPolarRadius_km) +
+                      horizon.co2_altitude_km,
           .pole_icrf = pole_icrf};
 }
 

@@ -5,12 +5,11 @@
 #include <cmath>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/model_allowance.h"
+#include "pipelines/frames/wgs84.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double kEarthRadius_km = 6378.137;
 constexpr double kAlike = 0.01;
 // Beyond it no infrared sensor sees a disc; what is said to be there is in metres.
 constexpr double kFarthest_km = 1.0e6;
@@ -18,7 +17,7 @@ constexpr double kFarthest_km = 1.0e6;
 }  // namespace
 
 Expected<double> earth_disc_half_angle_rad(double range_km, double co2_altitude_km) {
-  const double horizon_km = kEarthRadius_km + co2_altitude_km;
+  const double horizon_km = wgs84::kEquatorialRadius_km + co2_altitude_km;
   if (!(range_km > horizon_km && range_km < kFarthest_km)) {
     return Unexpected{
         {ErrorCode::Unobservable,
@@ -29,7 +28,7 @@ Expected<double> earth_disc_half_angle_rad(double range_km, double co2_altitude_
   return std::asin(horizon_km / range_km);
 }
 
-double oblateness_rad(double disc_rad) { return kEarthFlattening * std::sin(disc_rad); }
+double oblateness_rad(double disc_rad) { return wgs84::kFlattening * std::sin(disc_rad); }
 
 bool mounted_alike(double one_rad, double other_rad) {
   return std::abs(std::cos(one_rad) - std::cos(other_rad)) < kAlike;

@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/frames/wgs84.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double kEquatorialRadius_km = 6378.137;   // WGS-84
-constexpr double kPolarRadius_km = 6356.752314245;  // WGS-84
 // From the sphere's crossing, 0.2 deg away, Newton's steps square the error: three or four do.
 constexpr int kMostSteps = 12;
 constexpr double kConverged_rad = 1e-12;
@@ -65,8 +64,9 @@ std::optional<double> first_guess_rad(double radius_km, const Eigen::Vector3d& s
 
 HorizonAxes horizon_axes(const Horizon& horizon) {
   const bool sphere = horizon.model == HorizonModel::Sphere;
-  return {.equatorial_km = kEquatorialRadius_km + horizon.co2_altitude_km,
-          .polar_km = (sphere ? kEquatorialRadius_km : kPolarRadius_km) + horizon.co2_altitude_km};
+  return {.equatorial_km = wgs84::kEquatorialRadius_km + horizon.co2_altitude_km,
+          .polar_km = (sphere ? wgs84::kEquatorialRadius_km : wgs84::kPolarRadius_km) +
+                      horizon.co2_altitude_km};
 }
 
 std::optional<LimbCrossing> limb_crossing(const HorizonAxes& axes, const EarthView& earth,

@@ -15,8 +15,4 @@ inline constexpr double kModelError_rad = 0.15 * 0.017453292519943295;
 /// at three sigmas, or the oblate Earth's 0.2 deg together with two of them.
 inline constexpr double kModelLimit_rad = 0.5 * 0.017453292519943295;
 
-/// Of WGS-84. The limb of the ellipsoid lies up to this, times the sine of the disc's half-angle,
-/// inside that of the sphere.
-inline constexpr double kEarthFlattening = 1.0 / 298.257223563;
-
 }  // namespace spindrift

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/frames/wgs84.h"
 #include "pipelines/spin/model_allowance.h"
 
 namespace spindrift {
@@ -225,7 +226,7 @@ void SequentialEstimator::start(const SpinFix& fix, const Revolution& revolution
   const auto add = [&](const Eigen::Vector3d& axis_icrf, Eigen::Matrix2d axis_rad2) {
     if (config_.horizon.model == HorizonModel::Ellipsoid) {
       // Fixes rest on the spherical horizon.
-      axis_rad2 += kEarthFlattening * kEarthFlattening * Eigen::Matrix2d::Identity();
+      axis_rad2 += wgs84::kFlattening * wgs84::kFlattening * Eigen::Matrix2d::Identity();
     }
     if (well_known(axis_rad2)) {
       if (const auto filter = SpinFilter::about(axis_icrf, axis_rad2, config_, revolution, sky)) {

@@ -1,0 +1,12 @@
+/// @file
+/// The Earth's figure, WGS-84 (NIMA TR8350.2).
+
+#pragma once
+
+namespace spindrift::wgs84 {
+
+inline constexpr double kEquatorialRadius_km = 6378.137;
+inline constexpr double kFlattening = 1.0 / 298.257223563;
+inline constexpr double kPolarRadius_km = kEquatorialRadius_km * (1.0 - kFlattening);
+
+}  // namespace spindrift::wgs84
