@@ -166,10 +166,18 @@ Expected<std::int64_t> count_stored_edges(const std::filesystem::path& archive,
   try {
     SQLite::Statement query{
         *database,
-        "SELECT count(*) FROM run JOIN pulse USING (spacecraft_id) WHERE run_id = ?"
-        " AND t_tai_ns >= first_tai_ns AND arrival >= first_arrival AND arrival < ifnull("
-        "(SELECT min(later.first_arrival) FROM run AS later WHERE later.spacecraft_id ="
-        " run.spacecraft_id AND later.first_arrival > run.first_arrival), 9223372036854775807)"};
+        "WITH extent AS (SELECT spacecraft_id, first_tai_ns, first_arrival, ifnull("
+        "  (SELECT min(later.first_arrival) FROM run AS later WHERE later.spacecraft_id ="
+        "   run.spacecraft_id AND later.first_arrival > run.first_arrival), 9223372036854775807)"
+        "  AS end_arrival FROM run WHERE run_id = ?)"
+        " SELECT (SELECT count(*) FROM extent JOIN pulse USING (spacecraft_id)"
+        "   WHERE t_tai_ns >= first_tai_ns AND arrival >= first_arrival AND arrival < end_arrival)"
+        "  + (SELECT ifnull(sum(1 + (sun2_s IS NOT NULL) + (north_in_s IS NOT NULL)"
+        "    + (north_out_s IS NOT NULL) + (south_in_s IS NOT NULL) + (south_out_s IS NOT NULL)), "
+        "0)"
+        "   FROM extent JOIN coded_frame USING (spacecraft_id)"
+        "   WHERE t_tai_ns >= first_tai_ns AND arrival >= first_arrival AND arrival < "
+        "end_arrival)"};
     query.bind(1, run_id);
     query.executeStep();
     return query.getColumn(0).getInt64();

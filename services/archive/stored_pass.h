@@ -51,7 +51,7 @@ Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path
                                                      const std::string& spacecraft_id,
                                                      const RunStart& start);
 
-/// Edges that the archive took from the run's pulses, each once. Of the newest runs: a sample
+/// Edges in the run's pulses and coded frames, each sample once. Of the newest runs: a sample
 /// belongs to the run that took it last.
 /// @return as find_stored_passes.
 Expected<std::int64_t> count_stored_edges(const std::filesystem::path& archive,

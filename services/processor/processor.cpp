@@ -173,7 +173,7 @@ std::vector<RunSummary> Processor::summaries() const {
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     for (RunSummary& summary : passes_[i].summaries()) {
       const Received received = runs_[i].received(summary.run_id);
-      summary.edges_received = received.edges;
+      summary.edges_received = received.pulses + received.frame_edges;
       summary.coded_frames_received = received.frames;
       summary.input_rejected = received.rejected_inputs;
       summaries.push_back(std::move(summary));

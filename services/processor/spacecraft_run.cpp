@@ -37,9 +37,6 @@ void lower(std::optional<TaiTime>& earliest, TaiTime t) {
 const Pulse& value_of(const PulseSample& sample) { return sample.pulse; }
 const CodedFrame& value_of(const CodedSample& sample) { return sample.frame; }
 
-std::int64_t& count_of(const Pulse& /*pulse*/, Received& received) { return received.edges; }
-std::int64_t& count_of(const CodedFrame& /*frame*/, Received& received) { return received.frames; }
-
 void keep(PulseSample&& sample, ArchiveBatch& batch) { batch.pulses.push_back(std::move(sample)); }
 void keep(CodedSample&& sample, ArchiveBatch& batch) { batch.coded.push_back(std::move(sample)); }
 
@@ -60,6 +57,11 @@ void in_order_of_arrival(const StoredPass& stored, const See& see) {
 }
 
 }  // namespace
+
+void Received::count(const CodedFrame& frame) {
+  ++frames;
+  frame_edges += static_cast<std::int64_t>(edges_of(frame).size());
+}
 
 SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& source,
                              std::size_t index)
@@ -120,9 +122,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, Taken& out) {
     received_before_.emplace(run_id_, received_);
   }
   run_id_ = stored.run_id;
-  received_ = {.edges = static_cast<std::int64_t>(stored.pulses.size()),
-               .frames = static_cast<std::int64_t>(stored.frames.size()),
-               .rejected_inputs = stored.rejected_inputs};
+  received_ = {.rejected_inputs = stored.rejected_inputs};
   earliest_ = stored_earliest_ = stored.earliest;
   counts_before_.clear();
   for (const SourceCount& count : stored.source_counts) {
@@ -136,6 +136,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, Taken& out) {
   out.inputs.push_back({.spacecraft = index_, .run_id = run_id_});
   in_order_of_arrival(stored, [&](const auto& sample, std::int64_t arrival) {
     next_arrival_ = std::max(next_arrival_, arrival + 1);
+    received_.count(sample);
     place(sample, arrival, out);
   });
 }
@@ -165,7 +166,7 @@ void SpacecraftRun::note_earliest(ArchiveBatch& batch) {
 }
 
 void SpacecraftRun::tell_both() {
-  if (!told_both_ && received_.edges > 0 && received_.frames > 0) {
+  if (!told_both_ && received_.pulses > 0 && received_.frames > 0) {
     told_both_ = true;
     spdlog::warn(
         "{}: both pulses and coded frames arrive: an edge that both give is used as the one that "
@@ -184,7 +185,7 @@ template <class Sample>
 void SpacecraftRun::sort(Sample&& sample, Taken& out) {
   const std::int64_t arrival = next_arrival_++;
   const auto& value = value_of(sample);
-  ++count_of(value, received_);
+  received_.count(value);
   lower(earliest_, value.t);
   if (!is_known(value)) {
     place(value, arrival, out);
@@ -242,12 +243,13 @@ void SpacecraftRun::release_held(std::vector<PassInput>& inputs) {
 
 void SpacecraftRun::begin_new_pass(Taken& out) {
   const std::vector<Held> its_first = std::exchange(held_, {});
-  const auto pulses = std::count_if(its_first.begin(), its_first.end(), [](const Held& held) {
-    return std::holds_alternative<Pulse>(held.sample);
-  });
-  const auto frames = static_cast<std::ptrdiff_t>(its_first.size()) - pulses;
-  received_.edges -= pulses;
-  received_.frames -= frames;
+  Received its_own;
+  for (const Held& held : its_first) {
+    std::visit([&](const auto& sample) { its_own.count(sample); }, held.sample);
+  }
+  received_.pulses -= its_own.pulses;
+  received_.frames -= its_own.frames;
+  received_.frame_edges -= its_own.frame_edges;
   received_before_.emplace(run_id_, received_);
   note_earliest(out.batches.back());
 
@@ -257,7 +259,7 @@ void SpacecraftRun::begin_new_pass(Taken& out) {
   out.batches.push_back(begin());
   out.batches.back().arrival = its_first.back().arrival;
   out.inputs.push_back({.spacecraft = index_, .run_id = run_id_});
-  received_ = {.edges = pulses, .frames = frames};
+  received_ = its_own;
   earliest_.reset();
   stored_earliest_.reset();
   counts_before_.clear();

@@ -30,9 +30,13 @@ struct TelemetrySource {
 
 /// What arrived of a run.
 struct Received {
-  std::int64_t edges = 0;   ///< Duplicates too.
-  std::int64_t frames = 0;  ///< Coded ones; likewise.
+  std::int64_t pulses = 0;       ///< Duplicates too.
+  std::int64_t frames = 0;       ///< Coded ones; likewise.
+  std::int64_t frame_edges = 0;  ///< That they hold.
   std::int64_t rejected_inputs = 0;
+
+  void count(const Pulse& /*pulse*/) { ++pulses; }
+  void count(const CodedFrame& frame);
 };
 
 /// Everything that arrived goes to the archive at once, whatever is computed from it and when.
