@@ -68,7 +68,7 @@ class Processor {
   template <class Sample>
   void distribute(std::vector<Sample>& samples, std::vector<Sample> SampleBatch::*kind,
                   std::map<std::size_t, SampleBatch>& by_run);
-  void go_on(std::size_t spacecraft, const std::vector<StoredPass>& stored, Routed& routed);
+  void go_on(std::size_t i, const std::vector<StoredPass>& stored, Routed& routed);
   void count_other(const std::string& spacecraft);
 
   std::unordered_map<std::string, std::size_t> index_of_;  ///< Of a spacecraft, in both below.

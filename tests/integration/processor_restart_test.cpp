@@ -123,8 +123,9 @@ class ProcessorRestart : public testing::ArchiveFixture {
     for (const std::string& table :
          std::vector<std::string>{"revolution", "spin_fix", "pulse_use", "spin_estimate"}) {
       for (std::string& row :
-           rows_of(db, "SELECT '" + table + "', count(*), min(t_tai_ns), max(t_tai_ns) FROM " +
-                           table + " JOIN run USING (run_id) GROUP BY run_id ORDER BY 3")) {
+           rows_of(db, fmt::format("SELECT '{0}', count(*), min(t_tai_ns), max(t_tai_ns) FROM {0}"
+                                   " JOIN run USING (run_id) GROUP BY run_id ORDER BY 3",
+                                   table))) {
         all.push_back(std::move(row));
       }
     }
