@@ -1,6 +1,6 @@
 // A service that is killed while one pass ends and the next begins.
 
-#include <gmock/gmock.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
