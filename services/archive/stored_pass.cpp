@@ -18,17 +18,29 @@ std::optional<double> real_of(const SQLite::Column& column) {
   return column.isNull() ? std::nullopt : std::optional{column.getDouble()};
 }
 
-std::optional<StoredPass> find_run(const SQLite::Database& database,
-                                   const std::string& spacecraft_id, const RunStart& start) {
-  SQLite::Statement query{
-      database,
-      "SELECT run_id, first_arrival, first_tai_ns,"
-      " (SELECT t_tai_ns FROM revolution WHERE revolution.run_id = run.run_id"
-      "  ORDER BY revolution DESC LIMIT 1),"
-      " (SELECT count(*) FROM rejected_input WHERE rejected_input.run_id = run.run_id)"
-      " FROM run WHERE spacecraft_id = ? AND mode = ? AND telemetry = ? AND software_version = ?"
-      " AND config_sha256 = ? AND orbit_sha256 IS ? AND first_arrival IS NOT NULL"
-      " ORDER BY first_arrival DESC LIMIT 1"};
+constexpr const char* kFindRuns =
+    "SELECT run_id, first_arrival, first_tai_ns, next_arrival, next_tai_ns,"
+    " (SELECT t_tai_ns FROM revolution WHERE revolution.run_id = same.run_id"
+    "  ORDER BY revolution DESC LIMIT 1),"
+    " (SELECT count(*) FROM rejected_input WHERE rejected_input.run_id = same.run_id)"
+    " FROM (SELECT *, lead(first_arrival) OVER following AS next_arrival,"
+    "  lead(first_tai_ns) OVER following AS next_tai_ns"
+    "  FROM run WHERE spacecraft_id = ? AND mode = ? AND telemetry = ? AND software_version = ?"
+    "  AND config_sha256 = ? AND orbit_sha256 IS ? AND first_arrival IS NOT NULL"
+    "  WINDOW following AS (ORDER BY first_arrival)) AS same"
+    " WHERE finished_utc IS NULL OR next_arrival IS NULL ORDER BY first_arrival";
+
+std::optional<NextRun> next_run(const SQLite::Column& first_arrival,
+                                const SQLite::Column& earliest) {
+  if (first_arrival.isNull()) {
+    return std::nullopt;
+  }
+  return NextRun{.first_arrival = first_arrival.getInt64(), .earliest = time_of(earliest)};
+}
+
+std::vector<StoredPass> find_runs(const SQLite::Database& database,
+                                  const std::string& spacecraft_id, const RunStart& start) {
+  SQLite::Statement query{database, kFindRuns};
   query.bind(1, spacecraft_id);
   query.bind(2, start.mode);
   query.bind(3, start.telemetry);
@@ -37,17 +49,19 @@ std::optional<StoredPass> find_run(const SQLite::Database& database,
   if (start.orbit_sha256) {
     query.bind(6, *start.orbit_sha256);
   }
-  if (!query.executeStep()) {
-    return std::nullopt;
-  }
-  return StoredPass{.run_id = query.getColumn(0).getString(),
+  std::vector<StoredPass> runs;
+  while (query.executeStep()) {
+    runs.push_back({.run_id = query.getColumn(0).getString(),
                     .first_arrival = query.getColumn(1).getInt64(),
+                    .next = next_run(query.getColumn(3), query.getColumn(4)),
                     .earliest = time_of(query.getColumn(2)),
-                    .last_revolution = time_of(query.getColumn(3)),
-                    .rejected_inputs = query.getColumn(4).getInt64(),
+                    .last_revolution = time_of(query.getColumn(5)),
+                    .rejected_inputs = query.getColumn(6).getInt64(),
                     .source_counts = {},
                     .pulses = {},
-                    .frames = {}};
+                    .frames = {}});
+  }
+  return runs;
 }
 
 void read_source_counts(const SQLite::Database& database, StoredPass& pass) {
@@ -64,18 +78,27 @@ void read_source_counts(const SQLite::Database& database, StoredPass& pass) {
   }
 }
 
+constexpr const char* kExtent =
+    " WHERE spacecraft_id = ?1 AND t_tai_ns >= ?2 AND arrival >= ?3"
+    " AND (?4 IS NULL OR arrival < ?4 OR t_tai_ns < ?5)";
+
 void bind_extent(SQLite::Statement& query, const std::string& spacecraft_id,
                  const StoredPass& pass) {
   query.bind(1, spacecraft_id);
   query.bind(2, tai_ns(*pass.earliest));
   query.bind(3, pass.first_arrival);
+  if (pass.next) {
+    query.bind(4, pass.next->first_arrival);
+    if (pass.next->earliest) {
+      query.bind(5, tai_ns(*pass.next->earliest));
+    }
+  }
 }
 
 void read_pulses(const SQLite::Database& database, const std::string& spacecraft_id,
                  StoredPass& pass) {
   SQLite::Statement query{database,
-                          "SELECT arrival, t_tai_ns, channel FROM pulse"
-                          " WHERE spacecraft_id = ? AND t_tai_ns >= ? AND arrival >= ?"};
+                          std::string{"SELECT arrival, t_tai_ns, channel FROM pulse"} + kExtent};
   bind_extent(query, spacecraft_id, pass);
   while (query.executeStep()) {
     // The schema allows no other names.
@@ -91,9 +114,9 @@ void read_pulses(const SQLite::Database& database, const std::string& spacecraft
 void read_frames(const SQLite::Database& database, const std::string& spacecraft_id,
                  StoredPass& pass) {
   SQLite::Statement query{database,
-                          "SELECT arrival, t_tai_ns, period_s, sun2_s, north_in_s, north_out_s,"
-                          " south_in_s, south_out_s FROM coded_frame"
-                          " WHERE spacecraft_id = ? AND t_tai_ns >= ? AND arrival >= ?"};
+                          std::string{"SELECT arrival, t_tai_ns, period_s, sun2_s, north_in_s,"
+                                      " north_out_s, south_in_s, south_out_s FROM coded_frame"} +
+                              kExtent};
   bind_extent(query, spacecraft_id, pass);
   while (query.executeStep()) {
     StoredFrame stored{.arrival = query.getColumn(0).getInt64(),
@@ -112,7 +135,7 @@ void read_frames(const SQLite::Database& database, const std::string& spacecraft
 
 }  // namespace
 
-Expected<std::optional<StoredPass>> find_stored_pass(const std::filesystem::path& archive,
+Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path& archive,
                                                      const std::string& spacecraft_id,
                                                      const RunStart& start) {
   const auto database = open_for_reading(archive);
@@ -120,15 +143,15 @@ Expected<std::optional<StoredPass>> find_stored_pass(const std::filesystem::path
     return Unexpected{database.error()};
   }
   try {
-    auto pass = find_run(*database, spacecraft_id, start);
-    if (pass) {
-      read_source_counts(*database, *pass);
+    std::vector<StoredPass> passes = find_runs(*database, spacecraft_id, start);
+    for (StoredPass& pass : passes) {
+      read_source_counts(*database, pass);
+      if (pass.earliest) {
+        read_pulses(*database, spacecraft_id, pass);
+        read_frames(*database, spacecraft_id, pass);
+      }
     }
-    if (pass && pass->earliest) {
-      read_pulses(*database, spacecraft_id, *pass);
-      read_frames(*database, spacecraft_id, *pass);
-    }
-    return pass;
+    return passes;
   } catch (const SQLite::Exception& exception) {
     return Unexpected{archive_error(archive.string(), exception)};
   }
@@ -143,10 +166,18 @@ Expected<std::int64_t> count_stored_edges(const std::filesystem::path& archive,
   try {
     SQLite::Statement query{
         *database,
-        "SELECT count(*) FROM run JOIN pulse USING (spacecraft_id) WHERE run_id = ?"
-        " AND t_tai_ns >= first_tai_ns AND arrival >= first_arrival AND arrival < ifnull("
-        "(SELECT min(later.first_arrival) FROM run AS later WHERE later.spacecraft_id ="
-        " run.spacecraft_id AND later.first_arrival > run.first_arrival), 9223372036854775807)"};
+        "WITH extent AS (SELECT spacecraft_id, first_tai_ns, first_arrival, ifnull("
+        "  (SELECT min(later.first_arrival) FROM run AS later WHERE later.spacecraft_id ="
+        "   run.spacecraft_id AND later.first_arrival > run.first_arrival), 9223372036854775807)"
+        "  AS end_arrival FROM run WHERE run_id = ?)"
+        " SELECT (SELECT count(*) FROM extent JOIN pulse USING (spacecraft_id)"
+        "   WHERE t_tai_ns >= first_tai_ns AND arrival >= first_arrival AND arrival < end_arrival)"
+        "  + (SELECT ifnull(sum(1 + (sun2_s IS NOT NULL) + (north_in_s IS NOT NULL)"
+        "    + (north_out_s IS NOT NULL) + (south_in_s IS NOT NULL) + (south_out_s IS NOT NULL)), "
+        "0)"
+        "   FROM extent JOIN coded_frame USING (spacecraft_id)"
+        "   WHERE t_tai_ns >= first_tai_ns AND arrival >= first_arrival AND arrival < "
+        "end_arrival)"};
     query.bind(1, run_id);
     query.executeStep();
     return query.getColumn(0).getInt64();

@@ -24,9 +24,17 @@ struct StoredFrame {
   CodedFrame frame;
 };
 
+/// Where the next run begins. A sample from before its first one that arrived between those by
+/// which it began is still of the run before.
+struct NextRun {
+  std::int64_t first_arrival;
+  std::optional<TaiTime> earliest;
+};
+
 struct StoredPass {
   std::string run_id;
   std::int64_t first_arrival;
+  std::optional<NextRun> next;
   std::optional<TaiTime> earliest;         ///< Of its samples; empty: it has none.
   std::optional<TaiTime> last_revolution;  ///< The last one it has stored began then.
   std::int64_t rejected_inputs;
@@ -35,16 +43,17 @@ struct StoredPass {
   std::vector<StoredFrame> frames;
 };
 
-/// The newest run of `spacecraft_id` that was made as `start` says: same mode, telemetry, program,
-/// mission file and orbit. Reads by a connection of its own.
-/// @return empty when there is none; as open_for_reading; Unavailable when reading fails.
-Expected<std::optional<StoredPass>> find_stored_pass(const std::filesystem::path& archive,
+/// Of the runs of `spacecraft_id` that were made as `start` says (same mode, telemetry, program,
+/// mission file and orbit) those that are not finished, and the newest in any case; oldest first.
+/// Reads by a connection of its own.
+/// @return none when there is none; as open_for_reading; Unavailable when reading fails.
+Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path& archive,
                                                      const std::string& spacecraft_id,
                                                      const RunStart& start);
 
-/// Edges that the archive took from the run's pulses, each once. Of the newest runs: a sample
+/// Edges in the run's pulses and coded frames, each sample once. Of the newest runs: a sample
 /// belongs to the run that took it last.
-/// @return as find_stored_pass.
+/// @return as find_stored_passes.
 Expected<std::int64_t> count_stored_edges(const std::filesystem::path& archive,
                                           const std::string& run_id);
 

@@ -12,7 +12,8 @@
 
 namespace spindrift::bus {
 
-/// The UDP ports of a domain follow from its number; those of a higher one would pass 65535.
+/// DDS knows no higher one. The UDP ports of a domain follow from its number; see
+/// deploy/cyclonedds/README.md.
 inline constexpr std::uint32_t kMaxDomainId = 230;
 
 /// Cyclone creates a domain once a process. All who join it here share it; it goes with the last.

@@ -7,9 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <memory>
 
-#include "services/bus/loan.h"
+#include "services/bus/builtin_topics.h"
 #include "services/bus/policies.h"
 #include "services/bus/qos.h"
 
@@ -22,18 +21,6 @@ struct OurEndpoint {
   std::string partition;
   Qos qos;
 };
-
-std::vector<std::string> partitions_of(const dds_qos_t* qos) {
-  std::uint32_t count = 0;
-  char** names = nullptr;
-  std::vector<std::string> partitions;
-  if (dds_qget_partition(qos, &count, &names) && count > 0) {
-    partitions.assign(names, names + count);
-    std::for_each(names, names + count, dds_free);
-    dds_free(names);
-  }
-  return partitions.empty() ? std::vector<std::string>{""} : partitions;
-}
 
 Expected<OurEndpoint> our_endpoint(const Entity& entity) {
   std::array<char, 256> topic{};
@@ -61,41 +48,6 @@ bool share_partition(const OurEndpoint& ours, const dds_qos_t* theirs) {
   });
 }
 
-/// Calls `handler(const Sample&)` for everyone of whom a built-in topic says that he is there.
-template <class Sample, class Handler>
-Expected<void> for_each_present(const Entity& entity, dds_entity_t builtin_topic,
-                                const Handler& handler) {
-  const auto reader = Entity::own(
-      dds_create_reader(dds_get_participant(entity.handle()), builtin_topic, nullptr, nullptr),
-      "DDS reader of a built-in topic");
-  if (!reader) {
-    return Unexpected{reader.error()};
-  }
-  while (true) {
-    const Loan loan{*reader};
-    if (!loan.count()) {
-      return Unexpected{loan.count().error()};
-    }
-    if (*loan.count() == 0) {
-      return {};
-    }
-    for (std::size_t i = 0; i < *loan.count(); ++i) {
-      if (loan[i] != nullptr) {
-        handler(*static_cast<const Sample*>(loan[i]));
-      }
-    }
-  }
-}
-
-std::string property(const dds_qos_t* qos, const char* name) {
-  char* value = nullptr;
-  if (!dds_qget_prop(qos, name, &value)) {
-    return "unknown";
-  }
-  const std::unique_ptr<char, decltype(&dds_free)> owner{value, &dds_free};
-  return value;
-}
-
 /// "process foo (pid 12) on host h"; other vendors' participants do not tell, and have a GUID only.
 Expected<std::string> owner_of(const Entity& entity, const dds_guid_t& participant) {
   std::string owner = fmt::format("participant {:02x}", fmt::join(participant.v, ""));
@@ -105,8 +57,8 @@ Expected<std::string> owner_of(const Entity& entity, const dds_guid_t& participa
                           property(present.qos, "__Pid"), property(present.qos, "__Hostname"));
     }
   };
-  return for_each_present<dds_builtintopic_participant_t>(entity, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT,
-                                                          describe)
+  return for_each_present<dds_builtintopic_participant_t>(
+             entity.handle(), DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, describe)
       .map([&owner] { return owner; });
 }
 
@@ -129,7 +81,7 @@ Expected<std::vector<Mismatch>> mismatches(const Entity& entity, const OurEndpoi
       found.push_back({.participant = theirs.participant_key, .shortfalls = std::move(missing)});
     }
   };
-  return for_each_present<dds_builtintopic_endpoint_t>(entity, builtin_topic, look_at)
+  return for_each_present<dds_builtintopic_endpoint_t>(entity.handle(), builtin_topic, look_at)
       .map([&found] { return std::move(found); });
 }
 

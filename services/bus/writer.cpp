@@ -68,8 +68,10 @@ Expected<void> UntypedWriter::wait_for_reader(std::chrono::nanoseconds timeout) 
   }
 }
 
+void UntypedWriter::flush() const { dds_write_flush(writer_.handle()); }
+
 Expected<void> UntypedWriter::wait_for_acknowledgments(std::chrono::nanoseconds timeout) const {
-  dds_write_flush(writer_.handle());
+  flush();
   const dds_return_t result = dds_wait_for_acks(writer_.handle(), timeout.count());
   if (result < 0) {
     return Unexpected{error("waiting for the acknowledgment of samples on", result)};

@@ -22,7 +22,7 @@ struct WriterStatus {
 
 enum class Sending {
   AtOnce,  ///< Every sample goes out by itself.
-  Packed,  ///< When a packet is full: cheaper by far for all, when many samples come in a row.
+  Packed,  ///< When a packet is full, or on flush: cheaper by far for all, when many come in a row.
 };
 
 /// Everything about a writer that does not depend on the type of its samples.
@@ -35,6 +35,7 @@ class UntypedWriter {
   Expected<void> write(const void* sample) const;
   Expected<void> write(const void* sample, const std::stop_token& stop) const;
   Expected<void> wait_for_reader(std::chrono::nanoseconds timeout) const;
+  void flush() const;
   Expected<void> wait_for_acknowledgments(std::chrono::nanoseconds timeout) const;
   Expected<WriterStatus> status() const;
 
@@ -72,6 +73,9 @@ class Writer {
   Expected<void> wait_for_reader(std::chrono::nanoseconds timeout) const {
     return writer_.wait_for_reader(timeout);
   }
+
+  /// What is still packed goes out.
+  void flush() const { writer_.flush(); }
 
   /// Until all matched readers have everything, what is still packed too. @return Unavailable after
   /// `timeout`.

@@ -7,12 +7,11 @@
 #include <array>
 #include <chrono>
 #include <map>
-#include <memory>
 #include <string_view>
 #include <thread>
 #include <utility>
 
-#include "services/bus/loan.h"
+#include "services/bus/builtin_topics.h"
 #include "services/bus/qos.h"
 #include "services/bus/topics.h"
 #include "services/doctor/presence.h"
@@ -29,53 +28,6 @@ using Guid = std::string;
 
 Guid guid_of(const dds_guid_t& guid) { return fmt::format("{:02x}", fmt::join(guid.v, "")); }
 
-std::string property(const dds_qos_t* qos, const char* name) {
-  char* value = nullptr;
-  if (!dds_qget_prop(qos, name, &value)) {
-    return "unknown";
-  }
-  const std::unique_ptr<char, decltype(&dds_free)> owner{value, &dds_free};
-  return value;
-}
-
-std::vector<std::string> partitions_of(const dds_qos_t* qos) {
-  std::uint32_t count = 0;
-  char** names = nullptr;
-  std::vector<std::string> partitions;
-  if (dds_qget_partition(qos, &count, &names) && count > 0) {
-    partitions.assign(names, names + count);
-    std::for_each(names, names + count, dds_free);
-    dds_free(names);
-  }
-  return partitions.empty() ? std::vector<std::string>{""} : partitions;
-}
-
-/// Calls `handler(const Sample&)` for everyone of whom a built-in topic says that he is there.
-template <class Sample, class Handler>
-Expected<void> for_each_present(const bus::Participant& participant, dds_entity_t topic,
-                                const Handler& handler) {
-  const auto reader =
-      bus::Entity::own(dds_create_reader(participant.handle(), topic, nullptr, nullptr),
-                       "DDS reader of a built-in topic");
-  if (!reader) {
-    return Unexpected{reader.error()};
-  }
-  while (true) {
-    const bus::Loan loan{*reader};
-    if (!loan.count()) {
-      return Unexpected{loan.count().error()};
-    }
-    if (*loan.count() == 0) {
-      return {};
-    }
-    for (std::size_t i = 0; i < *loan.count(); ++i) {
-      if (loan[i] != nullptr) {
-        handler(*static_cast<const Sample*>(loan[i]));
-      }
-    }
-  }
-}
-
 std::string this_host() {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
@@ -86,16 +38,16 @@ Expected<std::map<Guid, std::string>> participants_of(const bus::Participant& pa
                                                       pid_t partner) {
   std::map<Guid, std::string> participants;
   const auto note = [&, host = this_host()](const dds_builtintopic_participant_t& present) {
-    const std::string pid = property(present.qos, "__Pid");
-    const std::string at = property(present.qos, "__Hostname");
+    const std::string pid = bus::property(present.qos, "__Pid");
+    const std::string at = bus::property(present.qos, "__Hostname");
     if (at == host && (pid == std::to_string(getpid()) || pid == std::to_string(partner))) {
       return;
     }
     participants[guid_of(present.key)] =
-        fmt::format("{} (pid {}) on {}", property(present.qos, "__ProcessName"), pid, at);
+        fmt::format("{} (pid {}) on {}", bus::property(present.qos, "__ProcessName"), pid, at);
   };
-  return for_each_present<dds_builtintopic_participant_t>(participant,
-                                                          DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, note)
+  return bus::for_each_present<dds_builtintopic_participant_t>(
+             participant.handle(), DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, note)
       .map([&] { return std::move(participants); });
 }
 
@@ -124,14 +76,14 @@ Expected<void> add_endpoints(const bus::Participant& participant,
     if (topic.starts_with(kOurTopics) && owner != owners.end()) {
       endpoints.push_back({.writes = writes,
                            .topic = std::string{topic},
-                           .partitions = partitions_of(present.qos),
+                           .partitions = bus::partitions_of(present.qos),
                            .owner = owner->second,
                            .shortfalls = shortfalls_of(topic, writes, present.qos)});
     }
   };
-  return for_each_present<dds_builtintopic_endpoint_t>(
-      participant, writes ? DDS_BUILTIN_TOPIC_DCPSPUBLICATION : DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION,
-      note);
+  return bus::for_each_present<dds_builtintopic_endpoint_t>(
+      participant.handle(),
+      writes ? DDS_BUILTIN_TOPIC_DCPSPUBLICATION : DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, note);
 }
 
 }  // namespace

@@ -3,44 +3,28 @@
 #include <spdlog/spdlog.h>
 
 #include <iterator>
-#include <map>
-#include <optional>
-#include <string_view>
 #include <utility>
 #include <variant>
 
 #include "services/clock/wall_clock.h"
 
 namespace spindrift {
-namespace {
-
-constexpr std::size_t kProductsPerBatch = 4096;
-
-/// The fix and the estimates in force, those that are announced, as they pass by.
-class LatestResults {
- public:
-  void note(const std::vector<SpinProduct>& products) {
-    for (const SpinProduct& product : products) {
-      if (const auto* estimate = std::get_if<SpinEstimate>(&product)) {
-        latest_.insert_or_assign(name_of(estimate->estimator), product);
-      } else if (const auto* fix = std::get_if<SpinFix>(&product);
-                 fix != nullptr && (fix->accepted || fix->resolution == Resolution::Ambiguous)) {
-        latest_.insert_or_assign("fix", product);
-      }
+void LatestResults::note(const std::vector<SpinProduct>& products) {
+  for (const SpinProduct& product : products) {
+    if (const auto* estimate = std::get_if<SpinEstimate>(&product)) {
+      latest_.insert_or_assign(name_of(estimate->estimator), product);
+    } else if (const auto* fix = std::get_if<SpinFix>(&product);
+               fix != nullptr && (fix->accepted || fix->resolution == Resolution::Ambiguous)) {
+      latest_.insert_or_assign("fix", product);
     }
   }
+}
 
-  void move_to(std::vector<SpinProduct>& products) {
-    for (auto& [name, product] : std::exchange(latest_, {})) {
-      products.push_back(std::move(product));
-    }
+void LatestResults::move_to(std::vector<SpinProduct>& products) {
+  for (auto& [name, product] : std::exchange(latest_, {})) {
+    products.push_back(std::move(product));
   }
-
- private:
-  std::map<std::string_view, SpinProduct> latest_;
-};
-
-}  // namespace
+}
 
 PassRun::PassRun(const Mission& mission, const std::string& run_id)
     : spacecraft_id_{mission.spacecraft_id},
@@ -56,6 +40,7 @@ void PassRun::begin(const std::string& run_id) {
   fresh.spacecraft_id = spacecraft_id_;
   summary_ = std::move(fresh);
   pass_ = SpinPass{config_, orbit_};
+  catch_up_.reset();
 }
 
 ArchiveBatch PassRun::batch() const {
@@ -65,42 +50,9 @@ ArchiveBatch PassRun::batch() const {
   return batch;
 }
 
-Expected<void> PassRun::go_on(const StoredPass& stored, std::span<const PassInput> inputs,
-                              TaiTime again_from, const Submit& submit) {
-  begin(stored.run_id);
-  ArchiveBatch again = batch();
-  again.continuation = Continuation{.t = again_from};
-  LatestResults latest;
-  bool is_again = false;
-  const auto feed = [&](const auto& sample) -> Expected<void> {
-    SpinOutput output = pass_.push(sample);
-    is_again = is_again || sample.t >= again_from;
-    if (!is_again) {
-      latest.note(output.products);
-      keep(std::move(output), nullptr);
-      return {};
-    }
-    latest.move_to(again.products);
-    keep(std::move(output), &again.products);
-    return again.products.size() < kProductsPerBatch ? Expected<void>{}
-                                                     : submit(std::exchange(again, batch()));
-  };
-  for (const PassInput& input : inputs) {
-    Expected<void> fed;
-    for (auto pulse = input.pulses.begin(); fed && pulse != input.pulses.end(); ++pulse) {
-      fed = feed(*pulse);
-    }
-    for (auto frame = input.frames.begin(); fed && frame != input.frames.end(); ++frame) {
-      fed = feed(*frame);
-    }
-    if (!fed) {
-      return fed;
-    }
-  }
-  latest.move_to(again.products);
-  spdlog::info("{}: continuing run {} after {} revolutions: {} samples read back", spacecraft_id_,
-               stored.run_id, summary_.revolutions, stored.pulses.size() + stored.frames.size());
-  return submit(std::move(again));
+void PassRun::go_on(const std::string& run_id, TaiTime again_from) {
+  begin(run_id);
+  catch_up_ = CatchUp{.again_from = again_from};
 }
 
 std::vector<ArchiveBatch> PassRun::compute(const PassInput& input) {
@@ -112,20 +64,39 @@ std::vector<ArchiveBatch> PassRun::compute(const PassInput& input) {
   }
   ArchiveBatch computed = batch();
   for (const Pulse& pulse : input.pulses) {
-    keep(pass_.push(pulse), &computed.products);
+    compute(pulse, computed);
   }
   for (const CodedFrame& frame : input.frames) {
-    keep(pass_.push(frame), &computed.products);
+    compute(frame, computed);
   }
-  if (!computed.products.empty()) {
+  if (!computed.products.empty() || computed.continuation) {
     batches.push_back(std::move(computed));
   }
   return batches;
 }
 
+template <class Sample>
+void PassRun::compute(const Sample& sample, ArchiveBatch& computed) {
+  SpinOutput output = pass_.push(sample);
+  note(output);
+  if (catch_up_ && sample.t >= catch_up_->again_from) {
+    computed.continuation = Continuation{.t = catch_up_->again_from};
+    catch_up_->latest.move_to(computed.products);
+    catch_up_.reset();
+  }
+  if (catch_up_) {
+    catch_up_->latest.note(output.products);
+  } else {
+    std::move(output.products.begin(), output.products.end(),
+              std::back_inserter(computed.products));
+  }
+}
+
 ArchiveBatch PassRun::finish() {
   ArchiveBatch last = batch();
-  keep(pass_.finish(), &last.products);
+  SpinOutput output = pass_.finish();
+  note(output);
+  last.products = std::move(output.products);
   last.finished_utc = utc_now();
   return last;
 }
@@ -136,15 +107,12 @@ std::vector<RunSummary> PassRun::summaries() const {
   return summaries;
 }
 
-void PassRun::keep(SpinOutput output, std::vector<SpinProduct>* products) {
+void PassRun::note(const SpinOutput& output) {
   for (const std::string& notice : output.notices) {
     spdlog::warn("{}: {}", spacecraft_id_, notice);
   }
   for (const SpinProduct& product : output.products) {
     summary_.count(product);
-  }
-  if (products != nullptr) {
-    std::move(output.products.begin(), output.products.end(), std::back_inserter(*products));
   }
 }
 

@@ -4,14 +4,14 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
-#include <span>
+#include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipelines/spin/spin_pass.h"
 #include "services/archive/records.h"
-#include "services/archive/stored_pass.h"
 #include "services/mission/mission.h"
 #include "services/processor/run_summary.h"
 
@@ -25,19 +25,25 @@ struct PassInput {
   std::vector<CodedFrame> frames = {};
 };
 
-/// Takes a batch over. @return an error when no more is wanted.
-using Submit = std::function<Expected<void>(ArchiveBatch)>;
+/// The fix and the estimates in force, those that are announced, as they pass by.
+class LatestResults {
+ public:
+  void note(const std::vector<SpinProduct>& products);
+  void move_to(std::vector<SpinProduct>& products);
+
+ private:
+  std::map<std::string_view, SpinProduct> latest_;
+};
 
 class PassRun {
  public:
   /// @param mission Of a spinner.
   PassRun(const Mission& mission, const std::string& run_id);
 
-  /// Works itself through `inputs`, the samples of `stored`, to where its run stood. Stores again
-  /// what was made from `again_from` on, which the run may not have got to, and the latest results,
-  /// so that they are announced again.
-  Expected<void> go_on(const StoredPass& stored, std::span<const PassInput> inputs,
-                       TaiTime again_from, const Submit& submit);
+  /// The run is `run_id`, which is stored, and its samples come again first. What was made from
+  /// `again_from` on, which the run may not have got to, is stored again, and with it the results
+  /// in force, so that they are announced again.
+  void go_on(const std::string& run_id, TaiTime again_from);
 
   std::vector<ArchiveBatch> compute(const PassInput& input);
 
@@ -50,8 +56,15 @@ class PassRun {
  private:
   void begin(const std::string& run_id);
   ArchiveBatch batch() const;
-  /// @param products Where they go; none: they are counted only.
-  void keep(SpinOutput output, std::vector<SpinProduct>* products);
+  template <class Sample>
+  void compute(const Sample& sample, ArchiveBatch& computed);
+  void note(const SpinOutput& output);
+
+  /// What is stored already comes by once more.
+  struct CatchUp {
+    TaiTime again_from;
+    LatestResults latest = {};
+  };
 
   std::string spacecraft_id_;
   SpinConfig config_;
@@ -59,6 +72,7 @@ class PassRun {
   std::vector<RunSummary> finished_;
   RunSummary summary_;
   SpinPass pass_;
+  std::optional<CatchUp> catch_up_;
 };
 
 }  // namespace spindrift

@@ -28,6 +28,15 @@ void append(std::vector<ArchiveBatch>& batches, std::vector<ArchiveBatch> more) 
   std::move(more.begin(), more.end(), std::back_inserter(batches));
 }
 
+void add(SpacecraftRun::Taken taken, Routed& routed) {
+  append(routed.samples, std::move(taken.batches));
+  for (PassInput& input : taken.inputs) {
+    if (!input.pulses.empty() || !input.frames.empty()) {
+      routed.work.push_back(std::move(input));
+    }
+  }
+}
+
 }  // namespace
 
 Expected<Processor> Processor::make(const std::vector<Mission>& missions,
@@ -63,25 +72,33 @@ std::vector<ArchiveBatch> Processor::begin() {
   return batches;
 }
 
-Expected<void> Processor::go_on(const std::filesystem::path& archive, const Submit& submit) {
+Expected<Routed> Processor::go_on(const std::filesystem::path& archive) {
+  Routed routed;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
-    SpacecraftRun& run = runs_[i];
-    const auto stored = find_stored_pass(archive, run.spacecraft_id(), run.start());
+    const auto stored = find_stored_passes(archive, runs_[i].spacecraft_id(), runs_[i].start());
     if (!stored) {
       return Unexpected{stored.error()};
     }
-    auto submitted = *stored ? go_on(i, **stored, submit) : submit(run.begin());
-    if (!submitted) {
-      return submitted;
+    if (stored->empty()) {
+      routed.samples.push_back(runs_[i].begin());
+    } else {
+      go_on(i, *stored, routed);
     }
   }
-  return {};
+  return routed;
 }
 
-Expected<void> Processor::go_on(std::size_t i, const StoredPass& stored, const Submit& submit) {
-  const SpacecraftRun::Taken taken = runs_[i].go_on(stored);
-  return passes_[i].go_on(stored, taken.inputs, made_again_from(stored, runs_[i].reached()),
-                          submit);
+void Processor::go_on(std::size_t i, const std::vector<StoredPass>& stored, Routed& routed) {
+  SpacecraftRun::Taken taken = runs_[i].go_on(stored);
+  // Products of a later run are never stored before the end of an earlier one.
+  const StoredPass& first = stored.front();
+  passes_[i].go_on(first.run_id,
+                   stored.size() > 1 ? TaiTime::min() : made_again_from(first, runs_[i].reached()));
+  add(std::move(taken), routed);
+  for (const StoredPass& pass : stored) {
+    spdlog::info("{}: continuing run {}: {} samples read back", runs_[i].spacecraft_id(),
+                 pass.run_id, pass.pulses.size() + pass.frames.size());
+  }
 }
 
 Routed Processor::route(SampleBatch samples) {
@@ -94,13 +111,7 @@ Routed Processor::route(SampleBatch samples) {
   distribute(samples.coded, &SampleBatch::coded, by_run);
   Routed routed;
   for (auto& [run, of_run] : by_run) {
-    SpacecraftRun::Taken taken = runs_.at(run).take(std::move(of_run));
-    append(routed.samples, std::move(taken.batches));
-    for (PassInput& input : taken.inputs) {
-      if (!input.pulses.empty() || !input.frames.empty()) {
-        routed.work.push_back(std::move(input));
-      }
-    }
+    add(runs_.at(run).take(std::move(of_run)), routed);
   }
   return routed;
 }
@@ -162,7 +173,7 @@ std::vector<RunSummary> Processor::summaries() const {
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     for (RunSummary& summary : passes_[i].summaries()) {
       const Received received = runs_[i].received(summary.run_id);
-      summary.edges_received = received.edges;
+      summary.edges_received = received.pulses + received.frame_edges;
       summary.coded_frames_received = received.frames;
       summary.input_rejected = received.rejected_inputs;
       summaries.push_back(std::move(summary));

@@ -39,9 +39,10 @@ class Processor {
 
   std::vector<ArchiveBatch> begin();
 
-  /// In place of `begin`: goes on with those runs that `archive` holds, and begins the others.
-  /// @return the first error of `submit`, or of reading the archive.
-  Expected<void> go_on(const std::filesystem::path& archive, const Submit& submit);
+  /// In place of `begin`: goes on with those runs that `archive` holds, and begins the others. Its
+  /// batches are committed before the next of `route` are submitted; its work comes first.
+  /// @return the error of reading the archive.
+  Expected<Routed> go_on(const std::filesystem::path& archive);
 
   /// What belongs to no spacecraft, rejected inputs and the counts of the sources, is stored under
   /// the first run only, so that sums over runs hold. A sample of a spacecraft without a mission
@@ -67,7 +68,7 @@ class Processor {
   template <class Sample>
   void distribute(std::vector<Sample>& samples, std::vector<Sample> SampleBatch::*kind,
                   std::map<std::size_t, SampleBatch>& by_run);
-  Expected<void> go_on(std::size_t spacecraft, const StoredPass& stored, const Submit& submit);
+  void go_on(std::size_t i, const std::vector<StoredPass>& stored, Routed& routed);
   void count_other(const std::string& spacecraft);
 
   std::unordered_map<std::string, std::size_t> index_of_;  ///< Of a spacecraft, in both below.

@@ -15,10 +15,10 @@ namespace spindrift {
 struct RunSummary {
   std::string run_id;
   std::string spacecraft_id;
-  std::int64_t edges_received = 0;         ///< Duplicates too.
-  std::int64_t edges_stored = 0;           ///< Each once, whoever knows the archive fills it in.
-  std::int64_t coded_frames_received = 0;  ///< Likewise; each holds up to six edges.
-  std::int64_t edges_accepted = 0;         ///< Those of coded frames too; likewise the following.
+  std::int64_t edges_received = 0;         ///< Those of coded frames too, as everywhere here.
+  std::int64_t edges_stored = 0;           ///< Whoever knows the archive fills it in.
+  std::int64_t coded_frames_received = 0;  ///< Each holds up to six edges.
+  std::int64_t edges_accepted = 0;
   std::map<std::string_view, std::int64_t> edges_rejected;  ///< By the test that did it.
   std::int64_t input_rejected = 0;                          ///< Rows and samples that are none.
   std::int64_t revolutions = 0;

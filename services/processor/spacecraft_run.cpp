@@ -14,6 +14,9 @@
 namespace spindrift {
 namespace {
 
+// So many are worked on before anybody looks whether there is time for more.
+constexpr std::size_t kSamplesPerInput = 1024;
+
 /// Unique over all archives that may ever be merged; sorts by time of start.
 std::string new_run_id(const std::string& started_utc) {
   std::random_device random;
@@ -30,6 +33,12 @@ SequenceCounts counts_of(const SourceCount& count) {
 void lower(std::optional<TaiTime>& earliest, TaiTime t) {
   earliest = std::min(earliest.value_or(t), t);
 }
+
+const Pulse& value_of(const PulseSample& sample) { return sample.pulse; }
+const CodedFrame& value_of(const CodedSample& sample) { return sample.frame; }
+
+void keep(PulseSample&& sample, ArchiveBatch& batch) { batch.pulses.push_back(std::move(sample)); }
+void keep(CodedSample&& sample, ArchiveBatch& batch) { batch.coded.push_back(std::move(sample)); }
 
 /// Calls `see` with each sample of `stored` and its arrival.
 template <class See>
@@ -48,6 +57,11 @@ void in_order_of_arrival(const StoredPass& stored, const See& see) {
 }
 
 }  // namespace
+
+void Received::count(const CodedFrame& frame) {
+  ++frames;
+  frame_edges += static_cast<std::int64_t>(edges_of(frame).size());
+}
 
 SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& source,
                              std::size_t index)
@@ -89,54 +103,70 @@ Received SpacecraftRun::received(const std::string& run_id) const {
 }
 
 SpacecraftRun::Taken SpacecraftRun::nothing_taken() const {
-  return {.batches = {}, .inputs = {{.spacecraft = index_, .run_id = run_id_}}};
+  Taken nothing{.batches = {batch()}, .inputs = {{.spacecraft = index_, .run_id = run_id_}}};
+  nothing.batches.back().arrival = next_arrival_;
+  return nothing;
 }
 
-SpacecraftRun::Taken SpacecraftRun::go_on(const StoredPass& stored) {
+SpacecraftRun::Taken SpacecraftRun::go_on(const std::vector<StoredPass>& stored) {
+  Taken out;
+  for (const StoredPass& pass : stored) {
+    go_on(pass, out);
+  }
+  stored_.emplace(stored.back());
+  return out;
+}
+
+void SpacecraftRun::go_on(const StoredPass& stored, Taken& out) {
+  if (!out.inputs.empty()) {
+    received_before_.emplace(run_id_, received_);
+  }
   run_id_ = stored.run_id;
-  received_ = {.edges = static_cast<std::int64_t>(stored.pulses.size()),
-               .frames = static_cast<std::int64_t>(stored.frames.size()),
-               .rejected_inputs = stored.rejected_inputs};
+  received_ = {.rejected_inputs = stored.rejected_inputs};
   earliest_ = stored_earliest_ = stored.earliest;
+  counts_before_.clear();
   for (const SourceCount& count : stored.source_counts) {
     counts_before_.emplace(count.source, counts_of(count));
   }
-  Taken out = nothing_taken();
+  watch_ = {};
+  held_.clear();
+  // Not finished, whatever becomes of this service; nothing of it is withdrawn yet.
+  out.batches.push_back(batch());
+  out.batches.back().continuation = Continuation{.t = TaiTime::max()};
+  out.inputs.push_back({.spacecraft = index_, .run_id = run_id_});
   in_order_of_arrival(stored, [&](const auto& sample, std::int64_t arrival) {
     next_arrival_ = std::max(next_arrival_, arrival + 1);
+    received_.count(sample);
     place(sample, arrival, out);
   });
-  stored_.emplace(stored);
-  return out;
 }
 
 SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples) {
   Taken out = nothing_taken();
-  const std::int64_t arrival = next_arrival_;
-  for (const PulseSample& sample : samples.pulses) {
-    sort(sample.pulse, received_.edges, out);
+  out.batches.back().pulses.reserve(samples.pulses.size());
+  for (PulseSample& sample : samples.pulses) {
+    sort(std::move(sample), out);
   }
-  for (const CodedSample& sample : samples.coded) {
-    sort(sample.frame, received_.frames, out);
+  for (CodedSample& sample : samples.coded) {
+    sort(std::move(sample), out);
   }
   tell_both();
   received_.rejected_inputs += static_cast<std::int64_t>(samples.rejected.size());
-
-  ArchiveBatch taken = batch();
-  taken.arrival = arrival;
-  if (earliest_ != stored_earliest_) {
-    taken.earliest = stored_earliest_ = earliest_;
-  }
-  taken.pulses = std::move(samples.pulses);
-  taken.coded = std::move(samples.coded);
-  taken.rejected = std::move(samples.rejected);
-  taken.source_counts = source_counts(samples.counts);
-  out.batches.push_back(std::move(taken));
+  ArchiveBatch& last = out.batches.back();
+  note_earliest(last);
+  last.rejected = std::move(samples.rejected);
+  last.source_counts = source_counts(samples.counts);
   return out;
 }
 
+void SpacecraftRun::note_earliest(ArchiveBatch& batch) {
+  if (earliest_ != stored_earliest_) {
+    batch.earliest = stored_earliest_ = earliest_;
+  }
+}
+
 void SpacecraftRun::tell_both() {
-  if (!told_both_ && received_.edges > 0 && received_.frames > 0) {
+  if (!told_both_ && received_.pulses > 0 && received_.frames > 0) {
     told_both_ = true;
     spdlog::warn(
         "{}: both pulses and coded frames arrive: an edge that both give is used as the one that "
@@ -152,13 +182,16 @@ std::vector<PassInput> SpacecraftRun::finish() {
 }
 
 template <class Sample>
-void SpacecraftRun::sort(const Sample& sample, std::int64_t& received, Taken& out) {
+void SpacecraftRun::sort(Sample&& sample, Taken& out) {
   const std::int64_t arrival = next_arrival_++;
-  ++received;
-  lower(earliest_, sample.t);
-  if (!is_known(sample)) {
-    place(sample, arrival, out);
+  const auto& value = value_of(sample);
+  received_.count(value);
+  lower(earliest_, value.t);
+  if (!is_known(value)) {
+    place(value, arrival, out);
   }
+  // A new pass that it begins has made a batch of its own.
+  keep(std::forward<Sample>(sample), out.batches.back());
 }
 
 /// Sent again: one sample is not to be believed for two.
@@ -189,13 +222,16 @@ void SpacecraftRun::place(const Sample& sample, std::int64_t arrival, Taken& out
 }
 
 void SpacecraftRun::hand_on(const Pulse& pulse, std::vector<PassInput>& inputs) const {
-  if (!inputs.back().frames.empty()) {
+  if (!inputs.back().frames.empty() || inputs.back().pulses.size() >= kSamplesPerInput) {
     inputs.push_back({.spacecraft = index_, .run_id = run_id_});
   }
   inputs.back().pulses.push_back(pulse);
 }
 
 void SpacecraftRun::hand_on(const CodedFrame& frame, std::vector<PassInput>& inputs) const {
+  if (inputs.back().frames.size() >= kSamplesPerInput) {
+    inputs.push_back({.spacecraft = index_, .run_id = run_id_});
+  }
   inputs.back().frames.push_back(frame);
 }
 
@@ -207,24 +243,23 @@ void SpacecraftRun::release_held(std::vector<PassInput>& inputs) {
 
 void SpacecraftRun::begin_new_pass(Taken& out) {
   const std::vector<Held> its_first = std::exchange(held_, {});
-  const auto pulses = std::count_if(its_first.begin(), its_first.end(), [](const Held& held) {
-    return std::holds_alternative<Pulse>(held.sample);
-  });
-  const auto frames = static_cast<std::ptrdiff_t>(its_first.size()) - pulses;
-  received_.edges -= pulses;
-  received_.frames -= frames;
-  received_before_.emplace(run_id_, received_);
-  if (earliest_ != stored_earliest_) {
-    out.batches.push_back(batch());
-    out.batches.back().earliest = earliest_;
+  Received its_own;
+  for (const Held& held : its_first) {
+    std::visit([&](const auto& sample) { its_own.count(sample); }, held.sample);
   }
+  received_.pulses -= its_own.pulses;
+  received_.frames -= its_own.frames;
+  received_.frame_edges -= its_own.frame_edges;
+  received_before_.emplace(run_id_, received_);
+  note_earliest(out.batches.back());
 
   start_.started_utc = utc_now();
   start_.first_arrival = its_first.front().arrival;
   run_id_ = new_run_id(start_.started_utc);
   out.batches.push_back(begin());
+  out.batches.back().arrival = its_first.back().arrival;
   out.inputs.push_back({.spacecraft = index_, .run_id = run_id_});
-  received_ = {.edges = pulses, .frames = frames};
+  received_ = its_own;
   earliest_.reset();
   stored_earliest_.reset();
   counts_before_.clear();
@@ -239,6 +274,7 @@ void SpacecraftRun::begin_new_pass(Taken& out) {
         },
         held.sample);
   }
+  note_earliest(out.batches.back());
   spdlog::info("{}: more than an hour of silence, a new run begins: {}", spacecraft_id_, run_id_);
 }
 

@@ -30,13 +30,18 @@ struct TelemetrySource {
 
 /// What arrived of a run.
 struct Received {
-  std::int64_t edges = 0;   ///< Duplicates too.
-  std::int64_t frames = 0;  ///< Coded ones; likewise.
+  std::int64_t pulses = 0;       ///< Duplicates too.
+  std::int64_t frames = 0;       ///< Coded ones; likewise.
+  std::int64_t frame_edges = 0;  ///< That they hold.
   std::int64_t rejected_inputs = 0;
+
+  void count(const Pulse& /*pulse*/) { ++pulses; }
+  void count(const CodedFrame& frame);
 };
 
 /// Everything that arrived goes to the archive at once, whatever is computed from it and when.
-/// After a silence that ends a pass (PassWatch) what arrives is of a new run.
+/// After a silence that ends a pass (PassWatch) what arrives is of a new run. A run begins in the
+/// batch of the sample that makes its first ones believed.
 class SpacecraftRun {
  public:
   /// @param mission Of a spinner. @param index Of it among the missions.
@@ -58,9 +63,9 @@ class SpacecraftRun {
   };
   Taken take(SampleBatch samples);
 
-  /// In place of `begin`: the run is that of `stored`, at the point to which its samples brought
-  /// it.
-  Taken go_on(const StoredPass& stored);
+  /// In place of `begin`: the runs of `stored`, oldest first, at the point to which their samples
+  /// brought them. The last of them is the one that goes on.
+  Taken go_on(const std::vector<StoredPass>& stored);
 
   /// The pass has come so far: see PassWatch.
   std::optional<TaiTime> reached() const { return watch_.reached(); }
@@ -76,7 +81,9 @@ class SpacecraftRun {
 
   Taken nothing_taken() const;
   template <class Sample>
-  void sort(const Sample& sample, std::int64_t& received, Taken& out);
+  void sort(Sample&& sample, Taken& out);
+  void go_on(const StoredPass& stored, Taken& out);
+  void note_earliest(ArchiveBatch& batch);
   template <class Sample>
   bool is_known(const Sample& sample) const;
   template <class Sample>

@@ -23,8 +23,7 @@ template <class Value, class Sample, class OnBus>
 class TelemetryPublisher {
  public:
   /// @param session  The same for all topics of a source. `participant` outlives the publisher.
-  /// @param sending  Packed: for samples that are published as fast as they are taken. The last
-  ///                 ones go out with wait_for_acknowledgments.
+  /// @param sending  Packed: whoever has nothing more to publish for a while calls `flush`.
   /// @return Unavailable when Cyclone refuses.
   static Expected<TelemetryPublisher> create(const bus::Participant& participant,
                                              std::string source,
@@ -36,6 +35,9 @@ class TelemetryPublisher {
   ///         meanwhile or the bus refuses; the seq is then not used up.
   Expected<void> publish(std::string_view spacecraft, const Value& value,
                          const std::stop_token& stop);
+
+  /// What is still packed goes out.
+  void flush() const { writer_.flush(); }
 
   /// Until somebody subscribes. @return Unavailable after `timeout`.
   Expected<void> wait_for_subscriber(std::chrono::nanoseconds timeout) const {

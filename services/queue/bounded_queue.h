@@ -8,8 +8,8 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <utility>
-#include <vector>
 
 namespace spindrift {
 
@@ -42,14 +42,16 @@ class BoundedQueue {
     return true;
   }
 
-  /// Waits for at least one item and takes all there are; empty only when closed and drained.
-  std::vector<T> take_all() {
+  /// Waits for the next item; empty only when closed and drained.
+  std::optional<T> take() {
     std::unique_lock lock{mutex_};
     filled_.wait(lock, [this] { return closed_ || !items_.empty(); });
-    std::vector<T> taken{std::make_move_iterator(items_.begin()),
-                         std::make_move_iterator(items_.end())};
-    items_.clear();
-    queued_ = 0;
+    if (items_.empty()) {
+      return std::nullopt;
+    }
+    std::optional<T> taken{std::move(items_.front())};
+    items_.pop_front();
+    queued_ -= weigh_(*taken);
     lock.unlock();
     room_.notify_all();
     return taken;

@@ -16,15 +16,18 @@ namespace spindrift {
 /// The first sample is due at once, a later one by as much later as its time is, over the speed.
 class Pacing {
  public:
+  using Clock = std::chrono::steady_clock;
+
   /// @param speed Times real time; 0: everything is due at once.
   explicit Pacing(double speed) : speed_{speed} {}
 
-  /// Until `t` is due, or a stop is requested.
-  void wait_until_due(TaiTime t, const std::stop_token& stop);
+  /// Empty: now, or the time has passed.
+  std::optional<Clock::time_point> due(TaiTime t);
+
+  /// Or until a stop is requested.
+  void wait_until(Clock::time_point due, const std::stop_token& stop);
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   double speed_;
   std::optional<TaiTime> first_;
   Clock::time_point start_;

@@ -25,11 +25,14 @@
 namespace spindrift {
 namespace {
 
-// Batches of up to 256 samples between the thread that takes and the one that routes.
-constexpr std::size_t kTakenBatches = 256;
+// Samples between the thread that takes and the one that routes.
+constexpr std::size_t kSamplesTaken = 65'536;
 // Samples between the thread that routes and the one that computes: a whole day's pass in a burst.
 constexpr std::size_t kSamplesToCompute = 1'000'000;
 constexpr std::chrono::milliseconds kStuckPoll{200};
+// A backlog of what was stored is computed for so long after the signal to stop. What is left then
+// is computed at the next start.
+constexpr std::chrono::seconds kComputedWhenStopped{3};
 
 Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::path>& paths) {
   std::vector<Mission> missions;
@@ -49,86 +52,113 @@ Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::
 }
 
 std::size_t sample_count(const PassInput& work) { return work.pulses.size() + work.frames.size(); }
+std::size_t sample_count(const SampleBatch& taken) {
+  return taken.pulses.size() + taken.coded.size() + taken.rejected.size();
+}
 
-/// Hands what is taken to the archive, then to `work`, until `taken` is closed and empty, the
-/// archive refuses or `work` is closed.
-Expected<void> route(BoundedQueue<SampleBatch>& taken, Processor& processor, Archive& archive,
-                     BoundedQueue<PassInput>& work) {
-  for (auto batches = taken.take_all(); !batches.empty(); batches = taken.take_all()) {
-    for (SampleBatch& batch : batches) {
-      Routed routed = processor.route(std::move(batch));
-      auto going = submit_all(archive, std::move(routed.samples));
-      bool wanted = going.has_value();
-      for (PassInput& input : routed.work) {
-        wanted = wanted && work.push(std::move(input));
-      }
-      if (!wanted) {
-        taken.close();  // Nobody empties it any more: the taking thread must not wait for room.
-        return going;
-      }
+/// Of a service that is told to stop.
+struct Patience {
+  std::atomic<bool> stopping = false;
+  std::atomic<bool> ended = false;  ///< What is stored is no longer computed.
+};
+
+/// First `again`. Then hands what is taken to the archive and on to `work`, until `taken` is closed
+/// and empty, or the archive refuses.
+Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
+                     Processor& processor, Archive& archive, BoundedQueue<PassInput>& work) {
+  for (PassInput& input : again) {
+    work.push(std::move(input));
+  }
+  while (auto batch = taken.take()) {
+    Routed routed = processor.route(std::move(*batch));
+    if (auto stored = submit_all(archive, std::move(routed.samples)); !stored) {
+      taken.close();  // Nobody empties it any more: the taking thread must not wait for room.
+      return stored;
+    }
+    for (PassInput& input : routed.work) {
+      work.push(std::move(input));
     }
   }
   return {};
 }
 
 /// Works until `work` is closed and empty, or the archive refuses.
-Expected<void> compute(BoundedQueue<PassInput>& work, Processor& processor, Archive& archive) {
-  for (auto inputs = work.take_all(); !inputs.empty(); inputs = work.take_all()) {
-    for (const PassInput& input : inputs) {
-      if (auto stored = submit_all(archive, processor.compute(input)); !stored) {
-        work.close();  // Nobody empties it any more.
-        return stored;
-      }
+/// @return samples that were left when patience ended.
+Expected<std::size_t> compute(BoundedQueue<PassInput>& work, Processor& processor, Archive& archive,
+                              const Patience& patience) {
+  std::size_t left = 0;
+  while (const auto input = work.take()) {
+    if (patience.ended) {
+      left += sample_count(*input);
+    } else if (auto stored = submit_all(archive, processor.compute(*input)); !stored) {
+      work.close();  // Nobody empties it any more.
+      return Unexpected{stored.error()};
     }
   }
-  return {};
+  return left;
 }
 
-/// Both at once: samples reach the archive however long the mathematics takes.
-Expected<void> route_and_compute(BoundedQueue<SampleBatch>& taken, BoundedQueue<PassInput>& work,
-                                 Processor& processor, Archive& archive) {
-  Expected<void> computed;
-  std::thread computing{[&] { computed = compute(work, processor, archive); }};
-  const auto routed = route(taken, processor, archive, work);
+/// Both at once: samples reach the archive however long the mathematics takes. In the end runs are
+/// finished of which all samples are computed.
+Expected<void> route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
+                                 BoundedQueue<PassInput>& work, Processor& processor,
+                                 Archive& archive, const Patience& patience) {
+  Expected<std::size_t> left;
+  std::thread computing{[&] { left = compute(work, processor, archive, patience); }};
+  const auto routed = route(std::move(again), taken, processor, archive, work);
   work.close();
   computing.join();
-  return routed ? computed : routed;
+  if (!routed || !left) {
+    return routed ? Unexpected{left.error()} : routed;
+  }
+  if (*left > 0) {
+    spdlog::warn("{} samples are stored and not computed yet: the next start of the service will",
+                 *left);
+    return {};
+  }
+  return submit_all(archive, processor.finish());
 }
 
-/// While writing fails, submitting waits. A service that is told to stop does not wait for ever: it
-/// makes the last attempt now.
-void give_up_when_stuck(const std::stop_token& done, const std::atomic<bool>& stopping,
-                        BoundedQueue<SampleBatch>& queue, Archive& archive) {
+/// A service that is told to stop waits a while for the mathematics, and while writing fails not at
+/// all: it makes the last attempt now.
+void lose_patience(const std::stop_token& done, Patience& patience,
+                   BoundedQueue<SampleBatch>& queue, Archive& archive) {
+  std::chrono::milliseconds waited{0};
   while (!done.stop_requested()) {
-    if (stopping && archive.statistics().failure) {
+    if (patience.stopping && archive.statistics().failure) {
       queue.close();
       static_cast<void>(
           archive.close());  // What it could not store is said when it is closed again.
       return;
     }
+    waited += patience.stopping ? kStuckPoll : std::chrono::milliseconds{0};
+    patience.ended = waited >= kComputedWhenStopped;
     std::this_thread::sleep_for(kStuckPoll);
   }
 }
 
 /// From "ready" until a signal, or a failure, and everything taken is with the archive.
-Expected<void> run(const bus::Participant& participant, const ResultPublisher& publisher,
-                   Processor& processor, Archive& archive, StopSignal& stop_signal) {
-  BoundedQueue<SampleBatch> queue{kTakenBatches};
-  BoundedQueue<PassInput> work{kSamplesToCompute, sample_count};
+Expected<void> run(std::vector<PassInput> again, const bus::Participant& participant,
+                   const ResultPublisher& publisher, Processor& processor, Archive& archive,
+                   StopSignal& stop_signal) {
+  BoundedQueue<SampleBatch> queue{kSamplesTaken,
+                                  [](const SampleBatch& taken) { return sample_count(taken); }};
+  BoundedQueue<PassInput> work{kSamplesToCompute,
+                               [](const PassInput& input) { return sample_count(input); }};
   auto started = TelemetrySubscriber::start(participant, queue);
   if (!started) {
     return Unexpected{started.error()};
   }
   TelemetrySubscriber& subscriber = **started;
-  std::atomic<bool> stopping = false;
+  Patience patience;
   stop_signal.on_stop([&] {
     spdlog::info("stopping");
-    stopping = true;
+    patience.stopping = true;
     subscriber.stop();
     queue.close();
   });
-  const std::jthread give_up{
-      [&](const std::stop_token& done) { give_up_when_stuck(done, stopping, queue, archive); }};
+  const std::jthread watching{
+      [&](const std::stop_token& done) { lose_patience(done, patience, queue, archive); }};
   Expected<void> worked;
   {
     const Heartbeat heartbeat{{.subscriber = subscriber,
@@ -138,7 +168,7 @@ Expected<void> run(const bus::Participant& participant, const ResultPublisher& p
                                .publisher = publisher},
                               &StopSignal::raise};
     spdlog::info("ready");
-    worked = route_and_compute(queue, work, processor, archive);
+    worked = route_and_compute(std::move(again), queue, work, processor, archive, patience);
   }
   if (!worked) {
     StopSignal::raise();
@@ -151,8 +181,7 @@ Expected<void> run(const bus::Participant& participant, const ResultPublisher& p
   } else if (worked && !status->failure.empty()) {
     worked = Unexpected{{ErrorCode::Unavailable, status->failure}};
   }
-  const auto finished = submit_all(archive, processor.finish());
-  return worked ? finished : worked;
+  return worked;
 }
 
 }  // namespace
@@ -196,10 +225,14 @@ Expected<void> serve(const ServeOptions& options) {
   }
   spdlog::info("archive {}", options.db.string());
 
-  auto done = processor->go_on(
-      options.db, [&](ArchiveBatch batch) { return (*archive)->submit(std::move(batch)); });
+  auto stored = processor->go_on(options.db);
+  auto done = stored ? submit_all(**archive, std::move(stored->samples)).and_then([&] {
+    return (*archive)->flush();
+  })
+                     : Unexpected{stored.error()};
   if (done) {
-    done = run(*participant, *publisher, *processor, **archive, stop_signal);
+    done =
+        run(std::move(stored->work), *participant, *publisher, *processor, **archive, stop_signal);
   }
   if (auto outcome = outcome_of(done, (*archive)->close()); !outcome) {
     return outcome;

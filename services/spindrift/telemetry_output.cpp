@@ -106,11 +106,11 @@ Expected<PublishedCounts> send_telemetry(
   }
   spdlog::info("{}", participant->description());
   const std::uint64_t session = random_session();
-  auto pulses = PulsePublisher::create(*participant, sending.source, session);
+  auto pulses = PulsePublisher::create(*participant, sending.source, session, bus::Sending::Packed);
   if (!pulses) {
     return Unexpected{std::move(pulses.error())};
   }
-  auto coded = CodedPublisher::create(*participant, sending.source, session);
+  auto coded = CodedPublisher::create(*participant, sending.source, session, bus::Sending::Packed);
   if (!coded) {
     return Unexpected{std::move(coded.error())};
   }

@@ -56,8 +56,17 @@ class TelemetryOutput {
  private:
   template <class Publisher, class Value>
   Expected<void> send(Publisher& publisher, std::string_view spacecraft, const Value& value) {
-    pacing_.wait_until_due(value.t, stop_);
+    wait_until_due(value.t);
     return publisher.publish(spacecraft, value, stop_).map([&] { reached_ = value.t; });
+  }
+
+  /// What is due together goes out packed; nothing that is out waits for what is not due.
+  void wait_until_due(TaiTime t) {
+    if (const auto due = pacing_.due(t)) {
+      pulses_.flush();
+      coded_.flush();
+      pacing_.wait_until(*due, stop_);
+    }
   }
 
   PulsePublisher pulses_;

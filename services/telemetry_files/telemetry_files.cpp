@@ -41,15 +41,9 @@ Expected<TelemetryFile> recognised(const std::filesystem::path& path) {
       std::filesystem::file_size(path, unknown) == 0) {
     return TelemetryFile{.path = path, .kind = std::nullopt};
   }
-  auto lines = CsvLines::open(path);
-  if (!lines) {
-    return Unexpected{std::move(lines.error())};
-  }
-  const auto layout = read_layout(*lines, path);
-  if (!layout) {
-    return Unexpected{layout.error()};
-  }
-  return TelemetryFile{.path = path, .kind = layout->kind};
+  return open_telemetry(path).map([&](const OpenTelemetry& opened) {
+    return TelemetryFile{.path = path, .kind = opened.layout.kind};
+  });
 }
 
 }  // namespace

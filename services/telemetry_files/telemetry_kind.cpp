@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace spindrift {
@@ -31,12 +32,6 @@ std::string all_headers() {
     all += fmt::format("{}\"{}\" ({})", all.empty() ? "" : ", ", kind.header, kind.name);
   }
   return all;
-}
-
-}  // namespace
-
-std::string_view name_of(TelemetryKind kind) {
-  return kKinds.at(static_cast<std::size_t>(kind)).name;
 }
 
 Expected<TelemetryLayout> read_layout(CsvLines& lines, const std::filesystem::path& path) {
@@ -71,6 +66,22 @@ Expected<TelemetryLayout> read_layout(CsvLines& lines, const std::filesystem::pa
   return TelemetryLayout{.kind = static_cast<TelemetryKind>(kind - kKinds.begin()),
                          .columns = count,
                          .spacecraft_column = spacecraft_column};
+}
+
+}  // namespace
+
+std::string_view name_of(TelemetryKind kind) {
+  return kKinds.at(static_cast<std::size_t>(kind)).name;
+}
+
+Expected<OpenTelemetry> open_telemetry(const std::filesystem::path& path) {
+  auto lines = CsvLines::open(path);
+  if (!lines) {
+    return Unexpected{std::move(lines.error())};
+  }
+  return read_layout(*lines, path).map([&](const TelemetryLayout& layout) {
+    return OpenTelemetry{.lines = std::move(*lines), .layout = layout};
+  });
 }
 
 }  // namespace spindrift

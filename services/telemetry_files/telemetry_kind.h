@@ -24,10 +24,14 @@ struct TelemetryLayout {
   std::optional<std::size_t> spacecraft_column;  ///< From 0.
 };
 
-/// Reads the header line, the first that is not empty.
-/// @param path  For the message.
-/// @return InvalidConfiguration with path and line for no header or one that is not known, saying
-///         which there are; Unavailable when reading fails.
-Expected<TelemetryLayout> read_layout(CsvLines& lines, const std::filesystem::path& path);
+struct OpenTelemetry {
+  CsvLines lines;  ///< Those behind the header.
+  TelemetryLayout layout;
+};
+
+/// Opens a file and reads its header line, the first that is not empty.
+/// @return InvalidConfiguration with path and line for what is not a readable file, no header or
+///         one that is not known, saying which there are; Unavailable when reading fails.
+Expected<OpenTelemetry> open_telemetry(const std::filesystem::path& path);
 
 }  // namespace spindrift

@@ -29,20 +29,17 @@ constexpr TelemetryKind kKindOf =
 template <class Value>
 Expected<TelemetryRows<Value>> TelemetryRows<Value>::open(const std::filesystem::path& path,
                                                           std::string spacecraft) {
-  auto lines = CsvLines::open(path);
-  if (!lines) {
-    return Unexpected{std::move(lines.error())};
+  auto opened = open_telemetry(path);
+  if (!opened) {
+    return Unexpected{std::move(opened.error())};
   }
-  const auto layout = read_layout(*lines, path);
-  if (!layout) {
-    return Unexpected{layout.error()};
-  }
-  if (layout->kind != kKindOf<Value>) {
+  const TelemetryLayout& layout = opened->layout;
+  if (layout.kind != kKindOf<Value>) {
     return Unexpected{{ErrorCode::InvalidConfiguration,
                        fmt::format("{}: holds {} telemetry, must hold {}", path.string(),
-                                   name_of(layout->kind), name_of(kKindOf<Value>))}};
+                                   name_of(layout.kind), name_of(kKindOf<Value>))}};
   }
-  return TelemetryRows{std::move(*lines), *layout, path, std::move(spacecraft)};
+  return TelemetryRows{std::move(opened->lines), layout, path, std::move(spacecraft)};
 }
 
 template <class Value>

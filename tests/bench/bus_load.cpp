@@ -62,10 +62,13 @@ void publish(PulsePublisher& publisher, const std::vector<Pulse>& pulses,
              const std::string& spacecraft, double rate) {
   const auto start = steady_clock::now();
   for (std::size_t i = 0; i < pulses.size(); ++i) {
-    if (rate > 0.0) {
-      std::this_thread::sleep_until(
-          start + std::chrono::duration_cast<steady_clock::duration>(
-                      std::chrono::duration<double>{static_cast<double>(i) / rate}));
+    const auto due = rate > 0.0
+                         ? start + std::chrono::duration_cast<steady_clock::duration>(
+                                       std::chrono::duration<double>{static_cast<double>(i) / rate})
+                         : start;
+    if (due > steady_clock::now()) {
+      publisher.flush();
+      std::this_thread::sleep_until(due);
     }
     or_exit(publisher.publish(spacecraft, pulses[i], std::stop_token{}));
   }
@@ -76,8 +79,8 @@ void run(const std::string& file, const std::string& spacecraft, const std::stri
          double rate, std::uint32_t domain) {
   const std::vector<Pulse> pulses = bench::read_pulses(file);
   const auto participant = or_exit(bus::Participant::create({.domain = domain}));
-  const auto sending = rate > 0.0 ? bus::Sending::AtOnce : bus::Sending::Packed;
-  auto publisher = or_exit(PulsePublisher::create(participant, "load", random_session(), sending));
+  auto publisher =
+      or_exit(PulsePublisher::create(participant, "load", random_session(), bus::Sending::Packed));
   or_exit(publisher.wait_for_subscriber(std::chrono::seconds{30}));
 
   Query last{archive, "SELECT max(t_tai_ns) FROM pulse WHERE spacecraft_id = '" + spacecraft + "'"};

@@ -70,13 +70,11 @@ class Station {
  private:
   void consume() {
     gate_.wait();
-    for (auto batches = queue_.take_all(); !batches.empty(); batches = queue_.take_all()) {
-      for (SampleBatch& batch : batches) {
-        std::move(batch.pulses.begin(), batch.pulses.end(), std::back_inserter(arrived_.pulses));
-        std::move(batch.coded.begin(), batch.coded.end(), std::back_inserter(arrived_.coded));
-        std::move(batch.rejected.begin(), batch.rejected.end(),
-                  std::back_inserter(arrived_.rejected));
-      }
+    while (auto batch = queue_.take()) {
+      std::move(batch->pulses.begin(), batch->pulses.end(), std::back_inserter(arrived_.pulses));
+      std::move(batch->coded.begin(), batch->coded.end(), std::back_inserter(arrived_.coded));
+      std::move(batch->rejected.begin(), batch->rejected.end(),
+                std::back_inserter(arrived_.rejected));
     }
   }
 
@@ -410,10 +408,8 @@ TEST(TelemetrySubscriber, HandsOverWhatIsAcknowledgedWhenStopped) {
 
   std::size_t arrived = 0;
   std::thread consumer{[&] {
-    for (auto batches = queue.take_all(); !batches.empty(); batches = queue.take_all()) {
-      for (const SampleBatch& batch : batches) {
-        arrived += batch.pulses.size();
-      }
+    while (const auto batch = queue.take()) {
+      arrived += batch->pulses.size();
     }
   }};
   subscriber->stop();

@@ -118,14 +118,22 @@ TEST(Coded, SimulatedPassOfBothKindsIsPublishedAsBoth) {
   EXPECT_EQ(number_of(served, "SELECT count(*) FROM coded_frame"), 600);
 }
 
-TEST(Coded, SummaryCountsFramesApartFromEdges) {
+TEST(Coded, SummaryCountsFramesAndTheEdgesInThem) {
   const TemporaryFolder folder;
+  const auto db = folder.path() / "out.db";
   Program program{{"process", "--mission", kMission, "--telemetry", kPass.string(), "--db",
-                   (folder.path() / "out.db").string(), "--json"}};
+                   db.string(), "--json"}};
   ASSERT_EQ(program.exit_status(), 0) << program.log();
   const auto run = nlohmann::json::parse(program.out())["runs"][0];
   EXPECT_EQ(run["coded_frames_received"], 299);
-  EXPECT_EQ(run["edges_received"], 0);
+  const std::int64_t edges = number_of(
+      db,
+      "SELECT sum(1 + (sun2_s IS NOT NULL) + (north_in_s IS NOT NULL) + (north_out_s IS NOT NULL)"
+      " + (south_in_s IS NOT NULL) + (south_out_s IS NOT NULL)) FROM coded_frame");
+  EXPECT_GT(edges, 5 * 299);
+  EXPECT_EQ(run["edges_received"], edges);
+  EXPECT_EQ(run["edges_stored"], edges);
+  EXPECT_EQ(run["edges_accepted"], number_of(db, "SELECT sum(accepted) FROM pulse_use"));
 }
 
 }  // namespace

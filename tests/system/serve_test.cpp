@@ -139,6 +139,20 @@ TEST(Serve, PublishesItsResultsForThoseWhoComeLater) {
   EXPECT_THAT(estimators, UnorderedElementsAre("mean", "sequential"));
 }
 
+TEST(Serve, HasAReplayedSampleAsSoonAsItIsDue) {
+  Service service{"nominal"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  // The second edge is due after a minute.
+  Program replay{{"replay", "--mission", service.mission(), "--telemetry",
+                  (kPasses / "nominal").string(), "--speed", "0.001", "--domain",
+                  std::to_string(service.bus().domain), "--partition", service.bus().partition}};
+  EXPECT_TRUE(
+      eventually([&] { return number_of(service.db(), "SELECT count(*) FROM pulse") == 1; }));
+  replay.signal(SIGTERM);
+  EXPECT_EQ(replay.exit_status(), 1);
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+}
+
 TEST(Serve, StoresAnEdgeOnceHoweverOftenItArrives) {
   Service service{"nominal"};
   ASSERT_TRUE(service.ready()) << service.program().log();

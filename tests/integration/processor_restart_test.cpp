@@ -1,0 +1,189 @@
+// A service that is killed while one pass ends and the next begins.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/mission/mission.h"
+#include "services/processor/processor.h"
+#include "services/telemetry_files/telemetry_files.h"
+#include "services/telemetry_files/telemetry_stream.h"
+#include "tests/integration/archive_fixture.h"
+#include "tests/support/archive_rows.h"
+
+namespace spindrift {
+namespace {
+
+using Batches = std::vector<ArchiveBatch>;
+
+constexpr std::size_t kEdgesOfAPass = 120;
+// The one in which the second pass is believed, 117 to 129, begins in the first; its eighth edge
+// does not end it.
+constexpr std::size_t kEdgesABatch = 13;
+constexpr std::chrono::hours kSilence{2};
+
+const std::filesystem::path kPass = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin" / "nominal";
+
+/// Twenty revolutions, and the same again after the silence, for which there is no orbit.
+std::vector<PulseSample> two_passes() {
+  const std::vector<TelemetryFile> files{
+      {.path = kPass / "pulses.csv", .kind = TelemetryKind::Pulses}};
+  std::vector<PulseSample> all =
+      TelemetryStream::open(files, "SPINNER").value().next().value().pulses;
+  all.resize(kEdgesOfAPass);
+  for (std::size_t i = 0; i < kEdgesOfAPass; ++i) {
+    PulseSample later = all[i];
+    later.pulse.t += kSilence;
+    later.origin.seq += 100'000;
+    all.push_back(std::move(later));
+  }
+  return all;
+}
+
+Processor new_processor() {
+  return Processor::make({load_mission(kPass / "mission.toml").value()},
+                         {.mode = "live", .telemetry = "DDS domain 0, partition live"})
+      .value();
+}
+
+/// What goes to the archive, in the order in which it does. Samples pass products there.
+struct Submitted {
+  Batches samples;
+  Batches products;
+  std::vector<std::size_t> samples_before;  ///< Of each batch of products: it waits for those.
+
+  void add_products(Batches batches) {
+    for (ArchiveBatch& batch : batches) {
+      samples_before.push_back(samples.size());
+      products.push_back(std::move(batch));
+    }
+  }
+};
+
+void work(Processor& processor, Routed routed, Submitted& out) {
+  for (ArchiveBatch& batch : routed.samples) {
+    out.samples.push_back(std::move(batch));
+  }
+  for (const PassInput& input : routed.work) {
+    out.add_products(processor.compute(input));
+  }
+}
+
+void receive(Processor& processor, const std::vector<PulseSample>& pulses, Submitted& out) {
+  for (std::size_t i = 0; i < pulses.size(); i += kEdgesABatch) {
+    const auto first = pulses.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto end =
+        pulses.begin() + static_cast<std::ptrdiff_t>(std::min(i + kEdgesABatch, pulses.size()));
+    work(processor, processor.route({.pulses = {first, end}}), out);
+  }
+}
+
+class ProcessorRestart : public testing::ArchiveFixture {
+ protected:
+  std::filesystem::path db(const std::string& name) const { return directory() / (name + ".db"); }
+
+  static void store(const std::filesystem::path& db, Batches batches) {
+    const auto archive = Archive::open(db, {}).value();
+    for (ArchiveBatch& batch : batches) {
+      ASSERT_TRUE(archive->submit(std::move(batch)));
+    }
+    ASSERT_TRUE(archive->close());
+  }
+
+  /// Goes on with what `db` holds, and receives what of `sent` it does not.
+  static Submitted go_on(const std::filesystem::path& db, const std::vector<PulseSample>& sent) {
+    std::set<std::string> stored;
+    for (const std::string& row : rows_of(db, "SELECT t_tai_ns, channel FROM pulse")) {
+      stored.insert(row);
+    }
+    std::vector<PulseSample> missing;
+    std::copy_if(
+        sent.begin(), sent.end(), std::back_inserter(missing), [&](const PulseSample& sample) {
+          return !stored.contains(
+              fmt::format("{}|{}|", tai_ns(sample.pulse.t), name_of(sample.pulse.channel)));
+        });
+    Processor processor = new_processor();
+    Submitted out;
+    work(processor, processor.go_on(db).value(), out);
+    receive(processor, missing, out);
+    out.add_products(processor.finish());
+    return out;
+  }
+
+  /// Products run by run, and the runs themselves.
+  static std::vector<std::string> rows(const std::filesystem::path& db) {
+    std::vector<std::string> all = product_rows(db);
+    std::sort(all.begin(), all.end());
+    for (const std::string& table :
+         std::vector<std::string>{"revolution", "spin_fix", "pulse_use", "spin_estimate"}) {
+      for (std::string& row :
+           rows_of(db, fmt::format("SELECT '{0}', count(*), min(t_tai_ns), max(t_tai_ns) FROM {0}"
+                                   " JOIN run USING (run_id) GROUP BY run_id ORDER BY 3",
+                                   table))) {
+        all.push_back(std::move(row));
+      }
+    }
+    for (std::string& row : rows_of(db,
+                                    "SELECT first_tai_ns, finished_utc IS NOT NULL FROM run"
+                                    " ORDER BY first_arrival")) {
+      all.push_back(std::move(row));
+    }
+    return all;
+  }
+
+  static Batches first(const Submitted& all, std::size_t samples, std::size_t products) {
+    Batches batches{all.samples.begin(),
+                    all.samples.begin() + static_cast<std::ptrdiff_t>(samples)};
+    batches.insert(batches.end(), all.products.begin(),
+                   all.products.begin() + static_cast<std::ptrdiff_t>(products));
+    return batches;
+  }
+
+  static std::size_t most_products(const Submitted& all, std::size_t samples) {
+    return static_cast<std::size_t>(
+        std::count_if(all.samples_before.begin(), all.samples_before.end(),
+                      [samples](std::size_t before) { return before <= samples; }));
+  }
+};
+
+TEST_F(ProcessorRestart, KilledAtAnyPointBetweenTwoPassesGivesWhatNoRestartWouldHave) {
+  const std::vector<PulseSample> sent = two_passes();
+  Processor processor = new_processor();
+  Submitted all;
+  all.samples = processor.begin();
+  receive(processor, sent, all);
+  Submitted unstopped = all;
+  unstopped.add_products(processor.finish());
+  store(db("whole"), first(unstopped, unstopped.samples.size(), unstopped.products.size()));
+  const std::vector<std::string> whole = rows(db("whole"));
+  ASSERT_EQ(number_of(db("whole"), "SELECT count(*) FROM run"), 2);
+  ASSERT_EQ(number_of(db("whole"), "SELECT count(*) FROM revolution"), 2 * 20);
+
+  const auto begun = std::find_if(all.samples.begin() + 1, all.samples.end(),
+                                  [](const ArchiveBatch& batch) { return batch.start; });
+  ASSERT_NE(begun, all.samples.end());
+  const auto before = static_cast<std::size_t>(begun - all.samples.begin());
+  for (std::size_t samples = before - 2; samples < before + 4; ++samples) {
+    const std::size_t most = most_products(all, samples);
+    for (std::size_t products = most < 4 ? 0 : most - 4; products <= most; ++products) {
+      SCOPED_TRACE(fmt::format("{} batches of samples and {} of products", samples, products));
+      const auto killed = db(fmt::format("killed-{}-{}", samples, products));
+      store(killed, first(all, samples, products));
+      const Submitted again = go_on(killed, sent);
+      // Killed once more, with all samples and half of the products.
+      store(killed, first(again, again.samples.size(), again.products.size() / 2));
+      const Submitted rest = go_on(killed, sent);
+      store(killed, first(rest, rest.samples.size(), rest.products.size()));
+      ASSERT_EQ(rows(killed), whole);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spindrift
