@@ -27,13 +27,13 @@ std::uint64_t random_session() {
 
 template <class Value, class Sample, class OnBus>
 Expected<TelemetryPublisher<Value, Sample, OnBus>> TelemetryPublisher<Value, Sample, OnBus>::create(
-    const bus::Participant& participant, std::string source, std::uint64_t session,
+    const bus::Participant& participant, const std::string& source, std::uint64_t session,
     bus::Sending sending) {
   return bus::Writer<OnBus>::create(participant, topic_of<OnBus>(), bus::telemetry_writer_qos(),
                                     sending)
       .map([&](bus::Writer<OnBus>&& writer) {
         return TelemetryPublisher{std::move(writer),
-                                  {.source = std::move(source), .session = session, .seq = 0}};
+                                  {.source = source, .session = session, .seq = 0}};
       });
 }
 

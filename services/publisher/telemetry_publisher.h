@@ -26,7 +26,7 @@ class TelemetryPublisher {
   /// @param sending  Packed: whoever has nothing more to publish for a while calls `flush`.
   /// @return Unavailable when Cyclone refuses.
   static Expected<TelemetryPublisher> create(const bus::Participant& participant,
-                                             std::string source,
+                                             const std::string& source,
                                              std::uint64_t session = random_session(),
                                              bus::Sending sending = bus::Sending::AtOnce);
 

@@ -22,7 +22,7 @@ Expected<SimulatedPass> simulated_pass(const Scenario& scenario) {
       return Unexpected{{ErrorCode::InvalidConfiguration, more.error().message}};
     }
     edges.insert(edges.end(), more->begin(), more->end());
-    progress.advance_to(slice);
+    progress.advance_to(static_cast<std::uint64_t>(slice));
   }
   return SimulatedPass{.received = receive(scenario.link, edges, scenario.truth.start,
                                            scenario.duration_s, source.revolutions()),

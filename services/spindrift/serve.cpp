@@ -32,7 +32,7 @@ constexpr std::size_t kSamplesToCompute = 1'000'000;
 constexpr std::chrono::milliseconds kStuckPoll{200};
 // A backlog of what was stored is computed for so long after the signal to stop. What is left then
 // is computed at the next start.
-constexpr std::chrono::seconds kComputedWhenStopped{3};
+constexpr std::chrono::seconds kComputedWhenStopped{10};
 
 Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::path>& paths) {
   std::vector<Mission> missions;
