@@ -12,13 +12,10 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/measurement.h"
+#include "pipelines/spin/model_allowance.h"
 #include "pipelines/spin/sightlines.h"
 
 namespace spindrift {
-
-/// What is the same in every revolution and unlike noise does not average out: where the limb lies
-/// for the north and the south beam (its mounting angle included), sun angle, azimuth.
-inline constexpr int kModelErrors = 4;
 
 struct AxisCandidate {
   Eigen::Vector3d axis_icrf;        ///< Unit.

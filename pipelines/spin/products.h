@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "pipelines/spin/model_allowance.h"
 #include "pipelines/spin/pulse.h"
 #include "pipelines/time/tai_time.h"
 
@@ -90,6 +91,9 @@ struct SpinFix {
   bool grazing = false;
   /// Of the alternates, each in its own tangent plane.
   std::vector<Eigen::Matrix2d> alternate_covariances_rad2 = {};
+  /// What each error of the model moves the axis by, for every radian of it; in ICRF.
+  Eigen::Matrix<double, 3, kModelErrors> model_shift_icrf =
+      Eigen::Matrix<double, 3, kModelErrors>::Zero();
 };
 
 enum class SpinEstimator { Mean, Sequential, Batch };

@@ -22,6 +22,8 @@ namespace {
 constexpr std::size_t kEstablishedFixes = 10;
 // Beyond so many sigmas, and the model's limit, the axis is another one than before.
 constexpr double kMovedSigmas = 5.0;
+// A mean that is known so well is near enough for angles to be linear about it.
+constexpr double kLinear_rad = std::numbers::pi / 180.0;
 
 /// What the spherical horizon leaves out of an oblate Earth, as a covariance: taken as anywhere
 /// between none and the whole displacement of the limb, in any direction. Unlike the noise of the
@@ -100,6 +102,7 @@ SpinPass::SpinPass(const SpinConfig& config, Orbit orbit)
       screening_{config.screening},
       recent_axes_{static_cast<std::size_t>(config.screening.window)},
       disambiguator_{config},
+      model_check_{config},
       sequential_{config} {}
 
 SpinOutput SpinPass::push(const Pulse& pulse) {
@@ -359,6 +362,9 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
     if (fix.accepted && !(moved_at_ && fix.t < *moved_at_)) {
       recent_axes_.add(fix);
       mean_axis_.add(fix);
+      if (fix.revolution == revolution.number) {
+        check_model(candidate);
+      }
       mean_moved = true;
     }
     unsettled_ += fix.resolution == Resolution::Ambiguous ? 1 : 0;
@@ -398,6 +404,8 @@ void SpinPass::start_again_where_moved(const SpinEstimate& sequential, SpinOutpu
   moved_at_ = sequential.t;
   unsettled_ = 0;
   mean_axis_ = MeanAxis{};
+  model_check_ = ModelCheck{config_};
+  model_verdict_ = {};
   recent_axes_ = AxisWindow{static_cast<std::size_t>(config_.screening.window)};
   screening_ = ScreeningWindow{config_.screening};
   disambiguator_ = Disambiguator{config_};
@@ -421,7 +429,39 @@ Eigen::Matrix2d SpinPass::mean_covariance_rad2() const {
   const auto settled = static_cast<double>(mean_axis_.count());
   const double unsettled = std::max(0.0, static_cast<double>(unsettled_));
   const double share = unsettled / (settled + unsettled);
-  return mean_axis_.covariance_rad2() * (1.0 + settled * share * share);
+  const Eigen::Matrix<double, 2, kModelErrors> shift = mean_axis_.model_shift();
+  return mean_axis_.covariance_rad2() * (1.0 + settled * share * share) *
+             model_verdict_.excess_noise +
+         shift * model_verdict_.errors_rad2 * shift.transpose();
+}
+
+/// What is wrong beyond expectation comes first, and makes the mean doubtful.
+std::string SpinPass::mean_status() const {
+  const ModelVerdict& verdict = model_verdict_;
+  const bool doubtful = verdict.beyond_allowance || verdict.excess_noise > 1.0;
+  std::string status = fmt::format("{}{} fixes", doubtful ? "DOUBTFUL, " : "", mean_axis_.count());
+  if (moved_at_) {
+    status += " since " + format_utc(*moved_at_, 0);
+  }
+  if (verdict.error_rad > 0.0) {
+    status +=
+        fmt::format(", model off by {:.2g} deg", verdict.error_rad * 180.0 / std::numbers::pi);
+  }
+  if (verdict.excess_noise > 1.0) {
+    status += fmt::format(", residuals {:.1f} x stated noise", std::sqrt(verdict.excess_noise));
+  }
+  return status + ", spherical horizon";
+}
+
+void SpinPass::check_model(const Candidate& candidate) {
+  if (mean_axis_.count() < kEstablishedFixes ||
+      mean_axis_.covariance_rad2().trace() > kLinear_rad * kLinear_rad) {
+    return;
+  }
+  model_check_.add(candidate.measured, *candidate.sightlines, mean_axis_.axis_icrf());
+  model_verdict_ = model_check_.verdict(config_.horizon.model == HorizonModel::Sphere
+                                            ? 0.0
+                                            : oblateness_rad(candidate.sightlines->disc_rad));
 }
 
 SpinEstimate SpinPass::mean_estimate(const Candidate& candidate) const {
@@ -433,9 +473,7 @@ SpinEstimate SpinPass::mean_estimate(const Candidate& candidate) const {
           .covariance_rad2 = mean_covariance_rad2(),
           .spin_rate_rad_s = rate_rad_s,
           .spin_rate_sigma_rad_s = rate_rad_s / period.period_s * period.sigma_s,
-          .status = moved_at_ ? fmt::format("{} fixes since {}, spherical horizon",
-                                            mean_axis_.count(), format_utc(*moved_at_, 0))
-                              : fmt::format("{} fixes, spherical horizon", mean_axis_.count())};
+          .status = mean_status()};
 }
 
 }  // namespace spindrift
