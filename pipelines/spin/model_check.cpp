@@ -221,6 +221,9 @@ ModelVerdict ModelCheck::verdict(double allowed_rad) const {
   const Errors score =
       right_.tail<kModelErrors>() - coupling.transpose() * axis.solve(right_.head<2>());
   const Spectrum spectrum{information, score, verdict.excess_noise};
+  if (spectrum.freedom() == 0.0) {
+    return verdict;
+  }
   const double significant = chi_square_quantile(spectrum.freedom(), kSignificant);
   const double allowed_rad2 = allowed_rad * allowed_rad;
   if (!(spectrum.chi_square(allowed_rad2) > significant)) {

@@ -454,8 +454,7 @@ std::string SpinPass::mean_status() const {
 }
 
 void SpinPass::check_model(const Candidate& candidate) {
-  if (mean_axis_.count() < kEstablishedFixes ||
-      mean_axis_.covariance_rad2().trace() > kLinear_rad * kLinear_rad) {
+  if (mean_axis_.covariance_rad2().trace() > kLinear_rad * kLinear_rad) {
     return;
   }
   model_check_.add(candidate.measured, *candidate.sightlines, mean_axis_.axis_icrf());
