@@ -426,6 +426,14 @@ int geometry_case_of(const RevolutionMeasurements& measured) {
   return which == 0 ? 8 : 10;
 }
 
+bool contradicts_itself(const Expected<AxisCandidates>& found) {
+  if (!found) {
+    return found.error().code == ErrorCode::InvalidInput;
+  }
+  return std::none_of(found->candidates.begin(), found->candidates.end(),
+                      [](const AxisCandidate& candidate) { return candidate.consistent; });
+}
+
 Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
                                          const RevolutionMeasurements& measured,
                                          const Sightlines& sightlines) {
@@ -445,7 +453,8 @@ Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
   }
   const Solutions found = solve(input);
   if (found.places.empty()) {
-    return unobservable(found.reason);
+    return found.grazing ? unobservable(found.reason)
+                         : Unexpected{{ErrorCode::InvalidInput, found.reason}};
   }
   for (const Place& place : found.places) {
     result.candidates.push_back(candidate_at(input, place));

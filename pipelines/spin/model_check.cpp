@@ -16,9 +16,10 @@ constexpr int kMostAngles = 5;
 using Errors = Eigen::Matrix<double, kModelErrors, 1>;
 using ErrorMatrix = Eigen::Matrix<double, kModelErrors, kModelErrors>;
 
-// Chances as sigmas of a normal variable: that right models are called wrong, one in a thousand;
+// Chances as sigmas of a normal variable: that right models are called wrong, one in ten thousand,
+// since a pass asks a thousand times;
 // that the errors are greater than said, one in ten.
-constexpr double kSignificant = 3.09;
+constexpr double kSignificant = 3.72;
 constexpr double kUpperEnd = 1.28;
 // A combination of errors that is known no better than this is not seen.
 constexpr double kUnseen_rad = 0.1;

@@ -85,7 +85,9 @@ struct SpinFix {
   std::vector<Eigen::Vector3d> alternate_axes_icrf;  ///< The other candidates, best first; unit.
   Resolution resolution;
   double norm;    ///< |P| before normalising: 1 for measurements that agree.
-  bool accepted;  ///< Neither AMBIGUOUS nor from measurements that contradict each other.
+  /// Neither AMBIGUOUS nor from measurements that contradict each other, in this revolution or in
+  /// most of the last ones.
+  bool accepted;
   /// The candidates lie where they come together and vanish, within the noise: the covariance is
   /// too small, and the true one may be missing.
   bool grazing = false;

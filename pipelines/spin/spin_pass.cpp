@@ -103,6 +103,7 @@ SpinPass::SpinPass(const SpinConfig& config, Orbit orbit)
       recent_axes_{static_cast<std::size_t>(config.screening.window)},
       disambiguator_{config},
       model_check_{config},
+      trust_{static_cast<double>(config.screening.window)},
       sequential_{config} {}
 
 SpinOutput SpinPass::push(const Pulse& pulse) {
@@ -268,6 +269,13 @@ void SpinPass::settle_first(SpinOutput& out) {
       predict(candidate, axis_icrf);
     }
   }
+  // Beforehand, so that all of them judge the first.
+  for (Candidate& candidate : first_) {
+    screen(candidate);
+    if (candidate.sightlines) {
+      trust_.count(axis_candidates(config_, candidate.measured, *candidate.sightlines));
+    }
+  }
   for (Candidate& candidate : std::exchange(first_, {})) {
     settle(candidate, out);
   }
@@ -318,6 +326,7 @@ void SpinPass::settle(Candidate& candidate, SpinOutput& out) {
 std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate, SpinOutput& out) {
   const Revolution& revolution = candidate.revolution;
   const auto found = axis_candidates(config_, candidate.measured, *candidate.sightlines);
+  trust_.count(found);
   if (!found) {
     // The measurements stand; this revolution alone gives no axis.
     say_first("fix",
@@ -326,8 +335,12 @@ std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate, SpinOutput
               out);
     return {};
   }
-  return disambiguator_.settle(revolution.number, revolution.t_start, candidate.measured,
-                               *candidate.sightlines, *found, established_axis());
+  auto fixes = disambiguator_.settle(revolution.number, revolution.t_start, candidate.measured,
+                                     *candidate.sightlines, *found, established_axis());
+  for (SpinFix& fix : fixes) {
+    fix.accepted = fix.accepted && trust_.deserved();
+  }
+  return fixes;
 }
 
 void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
@@ -335,7 +348,8 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   const std::vector<SpinFix> fixes = find_fixes(candidate, out);
   std::optional<SpinEstimate> sequential;
   if (const auto sky = surroundings_.sky(revolution.t_start)) {
-    sequential = sequential_.update(revolution, *sky, fixes);
+    sequential = sequential_.update(revolution, *sky,
+                                    trust_.deserved() ? std::span{fixes} : std::span<SpinFix>{});
     if (sequential && (sequential_.restarts() > restarts_heeded_ || recent_fixes_left_the_mean())) {
       start_again_where_moved(*sequential, out);
     }
@@ -343,7 +357,12 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   const Eigen::Matrix2d horizon_rad2 = horizon_error_rad2(config_, candidate.sightlines->disc_rad);
   bool mean_moved = false;
   for (const SpinFix& fix : fixes) {
-    if (const auto side = disambiguator_.silent_where_seen()) {
+    if (!trust_.deserved()) {
+      say_once(
+          "the measurements of most revolutions contradict each other: no fix is accepted, as "
+          "others may agree by accident; check the mission's mounting angles, azimuths and orbit",
+          out);
+    } else if (const auto side = disambiguator_.silent_where_seen()) {
       say_once(fmt::format("the {} beam, said to be healthy, is silent where the axis says it must "
                            "see the Earth: such fixes are not accepted; if the beam has failed, "
                            "say healthy = false",

@@ -34,6 +34,7 @@
 #include "pipelines/spin/screening.h"
 #include "pipelines/spin/sequential.h"
 #include "pipelines/spin/surroundings.h"
+#include "pipelines/spin/trust.h"
 
 namespace spindrift {
 
@@ -106,6 +107,7 @@ class SpinPass {
   MeanAxis mean_axis_;
   ModelCheck model_check_;  ///< Of the revolutions with a fix in the mean.
   ModelVerdict model_verdict_;
+  Trust trust_;
   std::int64_t unsettled_ = 0;       ///< AMBIGUOUS fixes since the mean began.
   std::optional<TaiTime> moved_at_;  ///< When the axis last did, and the mean began anew.
   SequentialEstimator sequential_;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "pipelines/spin/spin_pass.h"
+#include "tests/support/information_limit.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
@@ -80,6 +81,29 @@ TEST(SpinStatistics, ErrorsOfTwoHundredPassesAreThoseThatTheirSigmasPromise) {
   EXPECT_LT(sums.sequential, 457.31);
   EXPECT_GT(sums.rate, 162.73);  // 200 degrees of freedom.
   EXPECT_LT(sums.rate, 241.06);
+}
+
+TEST(SpinStatistics, SigmasAreNearTheInformationLimitThroughTheWholePass) {
+  const Orbit orbit = testing::transfer_orbit();
+  const testing::Surroundings around =
+      testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  std::mt19937_64 rng{123};
+  for (int pass = 0; pass < 8; ++pass) {
+    SCOPED_TRACE(pass);
+    // Beams across the middle of the disc know least of the axis across: good geometry is beside.
+    const testing::SpinningBody body = testing::random_body(around, 4.0 * kDegree_rad, rng);
+    const double duration_s = kRevolutions * 2.0 * std::numbers::pi / body.rate_rad_s;
+    const auto edges = testing::edges_between(body, around, 0.0, duration_s);
+    const SpinOutput output =
+        testing::run(SpinPass{body.config, orbit},
+                     testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
+    const double limit_rad = std::sqrt(testing::cramer_rao_rad2(body, around, duration_s).trace());
+    const double sequential_rad =
+        testing::sigma_rad(testing::last_estimate(output, SpinEstimator::Sequential));
+    const double mean_rad = testing::sigma_rad(testing::last_estimate(output, SpinEstimator::Mean));
+    std::printf("%d seq %.3f mean %.3f\n", pass, sequential_rad / limit_rad, mean_rad / limit_rad);
+    EXPECT_NEAR(sequential_rad / limit_rad, 1.0, 0.2);
+  }
 }
 
 }  // namespace
