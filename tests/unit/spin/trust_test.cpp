@@ -6,8 +6,11 @@ namespace spindrift {
 namespace {
 
 AxisCandidates found(bool consistent) {
-  AxisCandidate candidate{};
-  candidate.consistent = consistent;
+  const AxisCandidate candidate{.axis_icrf = Eigen::Vector3d::UnitX(),
+                                .covariance_rad2 = Eigen::Matrix2d::Identity(),
+                                .norm = 1.0,
+                                .consistent = consistent,
+                                .model_shift_icrf = Eigen::Matrix<double, 3, kModelErrors>::Zero()};
   return {.geometry_case = 1, .candidates = {candidate}, .told_apart = true, .grazing = false};
 }
 
