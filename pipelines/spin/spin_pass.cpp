@@ -414,8 +414,10 @@ void SpinPass::start_again_where_moved(const SpinEstimate& sequential, SpinOutpu
     return;
   }
   const double apart_rad = angle_between_rad(mean_axis_.axis_icrf(), sequential.axis_icrf);
-  const double sigma_rad =
-      std::sqrt(mean_covariance_rad2().trace() + sequential.covariance_rad2.trace());
+  // A wrong model moves the mean and lets residuals scatter as before; a move does not.
+  const Eigen::Matrix2d mean_rad2 =
+      model_verdict_.excess_noise > 1.0 ? mean_noise_rad2() : mean_covariance_rad2();
+  const double sigma_rad = std::sqrt(mean_rad2.trace() + sequential.covariance_rad2.trace());
   if (apart_rad <= std::hypot(kMovedSigmas * sigma_rad, kModelLimit_rad)) {
     return;
   }
@@ -444,32 +446,33 @@ std::optional<KnownAxis> SpinPass::established_axis() const {
 
 /// Where a share s of the fixes is left out because nothing settles them, those that are settled
 /// lie to one side: by up to s sigma of a single fix, which their number does not reduce.
-Eigen::Matrix2d SpinPass::mean_covariance_rad2() const {
+Eigen::Matrix2d SpinPass::mean_noise_rad2() const {
   const auto settled = static_cast<double>(mean_axis_.count());
   const double unsettled = std::max(0.0, static_cast<double>(unsettled_));
   const double share = unsettled / (settled + unsettled);
+  return mean_axis_.covariance_rad2() * (1.0 + settled * share * share);
+}
+
+Eigen::Matrix2d SpinPass::mean_covariance_rad2() const {
   const Eigen::Matrix<double, 2, kModelErrors> shift = mean_axis_.model_shift();
-  return mean_axis_.covariance_rad2() * (1.0 + settled * share * share) *
-             model_verdict_.excess_noise +
+  return mean_noise_rad2() * model_verdict_.excess_noise +
          shift * model_verdict_.errors_rad2 * shift.transpose();
 }
 
-/// What is wrong beyond expectation comes first, and makes the mean doubtful.
 std::string SpinPass::mean_status() const {
-  const ModelVerdict& verdict = model_verdict_;
-  const bool doubtful = verdict.beyond_allowance || verdict.excess_noise > 1.0;
-  std::string status = fmt::format("{}{} fixes", doubtful ? "DOUBTFUL, " : "", mean_axis_.count());
-  if (moved_at_) {
-    status += " since " + format_utc(*moved_at_, 0);
+  const bool noisy = model_verdict_.excess_noise > 1.0;
+  const bool off = model_verdict_.error_rad > 0.0;
+  const std::string fixes = fmt::format("{} fixes", mean_axis_.count());
+  if (!noisy && !off) {
+    return fmt::format("{}{}, spherical horizon", fixes,
+                       moved_at_ ? " since " + format_utc(*moved_at_, 0) : "");
   }
-  if (verdict.error_rad > 0.0) {
-    status +=
-        fmt::format(", model off by {:.2g} deg", verdict.error_rad * 180.0 / std::numbers::pi);
-  }
-  if (verdict.excess_noise > 1.0) {
-    status += fmt::format(", residuals {:.1f} x stated noise", std::sqrt(verdict.excess_noise));
-  }
-  return status + ", spherical horizon";
+  return fmt::format(
+      "{}{}{}{}", model_verdict_.beyond_allowance || noisy ? "DOUBTFUL, " : "", fixes,
+      off ? fmt::format(", model off by {:.2g} deg",
+                        model_verdict_.error_rad * 180.0 / std::numbers::pi)
+          : "",
+      noisy ? fmt::format(", noise x {:.1f}", std::sqrt(model_verdict_.excess_noise)) : "");
 }
 
 void SpinPass::check_model(const Candidate& candidate) {

@@ -86,6 +86,7 @@ class SpinPass {
   void check_model(const Candidate& candidate);
   bool recent_fixes_left_the_mean() const;
   void start_again_where_moved(const SpinEstimate& sequential, SpinOutput& out);
+  Eigen::Matrix2d mean_noise_rad2() const;
   Eigen::Matrix2d mean_covariance_rad2() const;
   std::string mean_status() const;
   SpinEstimate mean_estimate(const Candidate& candidate) const;
