@@ -12,6 +12,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/measurement.h"
@@ -37,7 +38,7 @@ struct ModelVerdict {
 
 class ModelCheck {
  public:
-  explicit ModelCheck(const SpinConfig& config) : config_{config} {}
+  explicit ModelCheck(SpinConfig config) : config_{std::move(config)} {}
 
   /// @param axis_icrf Unit; so near the true one that the angles are linear in between.
   void add(const RevolutionMeasurements& measured, const Sightlines& sightlines,
