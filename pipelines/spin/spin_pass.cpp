@@ -343,6 +343,27 @@ std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate, SpinOutput
   return fixes;
 }
 
+void SpinPass::say_why_not_accepted(const SpinFix& fix, SpinOutput& out) {
+  if (!trust_.deserved()) {
+    say_once(
+        "the measurements of most revolutions contradict each other: no fix is accepted, as "
+        "others may agree by accident; check the mission's mounting angles, azimuths and orbit",
+        out);
+  } else if (const auto side = disambiguator_.silent_where_seen()) {
+    say_once(fmt::format("the {} beam, said to be healthy, is silent where the axis says it must "
+                         "see the Earth: such fixes are not accepted; if the beam has failed, "
+                         "say healthy = false",
+                         *side == Side::North ? "north" : "south"),
+             out);
+  } else if (!fix.accepted && fix.resolution != Resolution::Ambiguous) {
+    say_once(
+        "measurements contradict each other, their fixes are not accepted: the length of the "
+        "axis or the size of the Earth's disc comes out wrong; check the mission's mounting "
+        "angles, azimuths and orbit",
+        out);
+  }
+}
+
 void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   const Revolution& revolution = candidate.revolution;
   const std::vector<SpinFix> fixes = find_fixes(candidate, out);
@@ -357,24 +378,7 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   const Eigen::Matrix2d horizon_rad2 = horizon_error_rad2(config_, candidate.sightlines->disc_rad);
   bool mean_moved = false;
   for (const SpinFix& fix : fixes) {
-    if (!trust_.deserved()) {
-      say_once(
-          "the measurements of most revolutions contradict each other: no fix is accepted, as "
-          "others may agree by accident; check the mission's mounting angles, azimuths and orbit",
-          out);
-    } else if (const auto side = disambiguator_.silent_where_seen()) {
-      say_once(fmt::format("the {} beam, said to be healthy, is silent where the axis says it must "
-                           "see the Earth: such fixes are not accepted; if the beam has failed, "
-                           "say healthy = false",
-                           *side == Side::North ? "north" : "south"),
-               out);
-    } else if (!fix.accepted && fix.resolution != Resolution::Ambiguous) {
-      say_once(
-          "measurements contradict each other, their fixes are not accepted: the length of the "
-          "axis or the size of the Earth's disc comes out wrong; check the mission's mounting "
-          "angles, azimuths and orbit",
-          out);
-    }
+    say_why_not_accepted(fix, out);
     SpinFix announced = fix;
     announced.covariance_rad2 += horizon_rad2;
     out.products.emplace_back(std::move(announced));

@@ -81,6 +81,7 @@ class SpinPass {
   void predict(Candidate& candidate, const Eigen::Vector3d& axis_icrf);
   void screen(Candidate& candidate) const;
   std::vector<SpinFix> find_fixes(const Candidate& candidate, SpinOutput& out);
+  void say_why_not_accepted(const SpinFix& fix, SpinOutput& out);
   void announce_axis(const Candidate& candidate, SpinOutput& out);
   std::optional<KnownAxis> established_axis() const;
   void check_model(const Candidate& candidate);
