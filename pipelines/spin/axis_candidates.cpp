@@ -13,7 +13,6 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/geometry.h"
 #include "pipelines/spin/mixed_azimuth.h"
-#include "pipelines/spin/model_allowance.h"
 
 namespace spindrift {
 namespace {
@@ -35,7 +34,6 @@ constexpr double kDeterminantSigmas = 5.0;
 /// of its time, then to each error of the model for a radian of it.
 constexpr int kEdges = static_cast<int>(kPulseChannels);
 using Value = Eigen::AutoDiffScalar<Eigen::Matrix<double, kEdges + kModelErrors, 1>>;
-enum ModelError { NorthLimb, SouthLimb, SunAngleError, AzimuthError };
 
 double noise_of(const Value& value) { return value.derivatives().head<kEdges>().norm(); }
 
@@ -111,16 +109,23 @@ void note_grazing(const Value& excess, Solutions& found) {
   found.told_apart = found.told_apart && !grazing;
 }
 
+/// An azimuth that is the mean of those of the beams that have one.
+Value with_azimuth_errors(Value value, bool north, bool south) {
+  const double share = north && south ? 0.5 : 1.0;
+  value.derivatives()(kEdges + NorthAzimuth) += north ? share : 0.0;
+  value.derivatives()(kEdges + SouthAzimuth) += south ? share : 0.0;
+  return value;
+}
+
 std::optional<Value> dihedral_of(const RevolutionMeasurements& measured) {
   const auto north = good_value_of(measured, SpinQuantity::NorthDihedral);
   const auto south = good_value_of(measured, SpinQuantity::SouthDihedral);
-  if (north && south) {
-    return value_of(mean_round_the_circle(*north, *south));
+  if (!north && !south) {
+    return std::nullopt;
   }
-  if (north || south) {
-    return value_of(north ? *north : *south);
-  }
-  return std::nullopt;
+  const Measured mean =
+      north && south ? mean_round_the_circle(*north, *south) : (north ? *north : *south);
+  return with_azimuth_errors(value_of(mean), north.has_value(), south.has_value());
 }
 
 Input input_of(const SpinConfig& config, const RevolutionMeasurements& measured,
@@ -136,11 +141,12 @@ Input input_of(const SpinConfig& config, const RevolutionMeasurements& measured,
   if (const auto sun = good_value_of(measured, SpinQuantity::SunAngle)) {
     input.sun_angle = with_model_error(value_of(*sun), SunAngleError);
   }
-  if (input.dihedral) {
-    input.dihedral = with_model_error(*input.dihedral, AzimuthError);
-  }
   if (const auto mixed = good_value_of(measured, SpinQuantity::MixedAzimuth)) {
-    input.mixed_azimuth = with_model_error(value_of(*mixed), AzimuthError);
+    const auto takes_part = [&](Side side) {
+      return good_value_of(measured, kChords.at(index_of(side))).has_value();
+    };
+    input.mixed_azimuth =
+        with_azimuth_errors(value_of(*mixed), takes_part(Side::North), takes_part(Side::South));
   }
   for (const Side side : kSides) {
     const auto chord = good_value_of(measured, kChords.at(index_of(side)));
@@ -420,6 +426,14 @@ int geometry_case_of(const RevolutionMeasurements& measured) {
   return which == 0 ? 8 : 10;
 }
 
+bool contradicts_itself(const Expected<AxisCandidates>& found) {
+  if (!found) {
+    return found.error().code == ErrorCode::InvalidInput;
+  }
+  return std::none_of(found->candidates.begin(), found->candidates.end(),
+                      [](const AxisCandidate& candidate) { return candidate.consistent; });
+}
+
 Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
                                          const RevolutionMeasurements& measured,
                                          const Sightlines& sightlines) {
@@ -439,7 +453,8 @@ Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
   }
   const Solutions found = solve(input);
   if (found.places.empty()) {
-    return unobservable(found.reason);
+    return found.grazing ? unobservable(found.reason)
+                         : Unexpected{{ErrorCode::InvalidInput, found.reason}};
   }
   for (const Place& place : found.places) {
     result.candidates.push_back(candidate_at(input, place));

@@ -12,13 +12,10 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/measurement.h"
+#include "pipelines/spin/model_allowance.h"
 #include "pipelines/spin/sightlines.h"
 
 namespace spindrift {
-
-/// What is the same in every revolution and unlike noise does not average out: where the limb lies
-/// for the north and the south beam (its mounting angle included), sun angle, azimuth.
-inline constexpr int kModelErrors = 4;
 
 struct AxisCandidate {
   Eigen::Vector3d axis_icrf;        ///< Unit.
@@ -49,9 +46,13 @@ int geometry_case_of(const RevolutionMeasurements& measured);
 /// two axes in which the cones about Sun and Earth meet. Cases 4 to 7 solve theta_s from the angle
 /// between Sun and Earth. Beams mounted alike are one beam.
 /// @return Unobservable for a cone (cases 8 to 10), Sun and Earth within 3 deg of one line, and
-///         measurements that no axis explains.
+///         measurements that no axis explains, within their noise; InvalidInput beyond it.
 Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
                                          const RevolutionMeasurements& measured,
                                          const Sightlines& sightlines);
+
+/// The measurements have enough in them for a fix, but no consistent one: sensors, orbit or edges
+/// are not what they are said to be.
+bool contradicts_itself(const Expected<AxisCandidates>& found);
 
 }  // namespace spindrift

@@ -101,7 +101,9 @@ SpinFix fix_of(std::int64_t revolution, TaiTime t, const AxisCandidates& found, 
               .resolution = resolution,
               .norm = candidate.norm,
               .accepted = candidate.consistent && resolution != Resolution::Ambiguous,
-              .grazing = found.grazing};
+              .grazing = found.grazing,
+              .alternate_covariances_rad2 = {},
+              .model_shift_icrf = candidate.model_shift_icrf};
   for (std::size_t i = 0; i < found.candidates.size(); ++i) {
     if (i != chosen) {
       fix.alternate_axes_icrf.push_back(found.candidates[i].axis_icrf);

@@ -15,6 +15,7 @@ void MeanAxis::add(const SpinFix& fix) {
   const double weight = weight_of(fix);
   sum_icrf_ += weight * fix.axis_icrf;
   covariance_sum_ += weight * weight * basis * fix.covariance_rad2 * basis.transpose();
+  shift_sum_icrf_ += weight * fix.model_shift_icrf;
   weight_sum_ += weight;
   ++count_;
 }
@@ -22,6 +23,10 @@ void MeanAxis::add(const SpinFix& fix) {
 Eigen::Matrix2d MeanAxis::covariance_rad2() const {
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(axis_icrf());
   return basis.transpose() * covariance_sum_ * basis / (weight_sum_ * weight_sum_);
+}
+
+Eigen::Matrix<double, 2, kModelErrors> MeanAxis::model_shift() const {
+  return tangent_basis(axis_icrf()).transpose() * shift_sum_icrf_ / weight_sum_;
 }
 
 void AxisWindow::add(const SpinFix& fix) {

@@ -6,6 +6,12 @@
 
 namespace spindrift {
 
+/// What stays the same in every revolution and unlike noise does not average out: where the limb
+/// lies for the north and the south beam (its mounting angle included), the sun angle, the azimuths
+/// of the beams behind sun slit 1.
+enum ModelError { NorthLimb, SouthLimb, SunAngleError, NorthAzimuth, SouthAzimuth };
+inline constexpr int kModelErrors = 5;
+
 /// One standard deviation of what stays the same in every revolution: the beam's mounting angle,
 /// the place of the limb, sun angle, azimuth. Infrared sensors and sun slits are aligned to a tenth
 /// of a degree, and the height of the CO2 layer moves the limb by about as much.

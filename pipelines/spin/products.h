@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "pipelines/spin/model_allowance.h"
 #include "pipelines/spin/pulse.h"
 #include "pipelines/time/tai_time.h"
 
@@ -84,12 +85,17 @@ struct SpinFix {
   std::vector<Eigen::Vector3d> alternate_axes_icrf;  ///< The other candidates, best first; unit.
   Resolution resolution;
   double norm;    ///< |P| before normalising: 1 for measurements that agree.
-  bool accepted;  ///< Neither AMBIGUOUS nor from measurements that contradict each other.
+  /// Neither AMBIGUOUS nor from measurements that contradict each other, in this revolution or in
+  /// most of the last ones.
+  bool accepted;
   /// The candidates lie where they come together and vanish, within the noise: the covariance is
   /// too small, and the true one may be missing.
   bool grazing = false;
   /// Of the alternates, each in its own tangent plane.
   std::vector<Eigen::Matrix2d> alternate_covariances_rad2 = {};
+  /// What each error of the model moves the axis by, for every radian of it; in ICRF.
+  Eigen::Matrix<double, 3, kModelErrors> model_shift_icrf =
+      Eigen::Matrix<double, 3, kModelErrors>::Zero();
 };
 
 enum class SpinEstimator { Mean, Sequential, Batch };

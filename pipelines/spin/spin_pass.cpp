@@ -22,6 +22,8 @@ namespace {
 constexpr std::size_t kEstablishedFixes = 10;
 // Beyond so many sigmas, and the model's limit, the axis is another one than before.
 constexpr double kMovedSigmas = 5.0;
+// A mean that is known so well is near enough for angles to be linear about it.
+constexpr double kLinear_rad = std::numbers::pi / 180.0;
 
 /// What the spherical horizon leaves out of an oblate Earth, as a covariance: taken as anywhere
 /// between none and the whole displacement of the limb, in any direction. Unlike the noise of the
@@ -100,6 +102,8 @@ SpinPass::SpinPass(const SpinConfig& config, Orbit orbit)
       screening_{config.screening},
       recent_axes_{static_cast<std::size_t>(config.screening.window)},
       disambiguator_{config},
+      model_check_{config},
+      trust_{static_cast<double>(config.screening.window)},
       sequential_{config} {}
 
 SpinOutput SpinPass::push(const Pulse& pulse) {
@@ -265,6 +269,13 @@ void SpinPass::settle_first(SpinOutput& out) {
       predict(candidate, axis_icrf);
     }
   }
+  // Beforehand, so that all of them judge the first.
+  for (Candidate& candidate : first_) {
+    screen(candidate);
+    if (candidate.sightlines) {
+      trust_.count(axis_candidates(config_, candidate.measured, *candidate.sightlines));
+    }
+  }
   for (Candidate& candidate : std::exchange(first_, {})) {
     settle(candidate, out);
   }
@@ -315,6 +326,7 @@ void SpinPass::settle(Candidate& candidate, SpinOutput& out) {
 std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate, SpinOutput& out) {
   const Revolution& revolution = candidate.revolution;
   const auto found = axis_candidates(config_, candidate.measured, *candidate.sightlines);
+  trust_.count(found);
   if (!found) {
     // The measurements stand; this revolution alone gives no axis.
     say_first("fix",
@@ -323,8 +335,33 @@ std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate, SpinOutput
               out);
     return {};
   }
-  return disambiguator_.settle(revolution.number, revolution.t_start, candidate.measured,
-                               *candidate.sightlines, *found, established_axis());
+  auto fixes = disambiguator_.settle(revolution.number, revolution.t_start, candidate.measured,
+                                     *candidate.sightlines, *found, established_axis());
+  for (SpinFix& fix : fixes) {
+    fix.accepted = fix.accepted && trust_.deserved();
+  }
+  return fixes;
+}
+
+void SpinPass::say_why_not_accepted(const SpinFix& fix, SpinOutput& out) {
+  if (!trust_.deserved()) {
+    say_once(
+        "the measurements of most revolutions contradict each other: no fix is accepted, as "
+        "others may agree by accident; check the mission's mounting angles, azimuths and orbit",
+        out);
+  } else if (const auto side = disambiguator_.silent_where_seen()) {
+    say_once(fmt::format("the {} beam, said to be healthy, is silent where the axis says it must "
+                         "see the Earth: such fixes are not accepted; if the beam has failed, "
+                         "say healthy = false",
+                         *side == Side::North ? "north" : "south"),
+             out);
+  } else if (!fix.accepted && fix.resolution != Resolution::Ambiguous) {
+    say_once(
+        "measurements contradict each other, their fixes are not accepted: the length of the "
+        "axis or the size of the Earth's disc comes out wrong; check the mission's mounting "
+        "angles, azimuths and orbit",
+        out);
+  }
 }
 
 void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
@@ -332,7 +369,8 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   const std::vector<SpinFix> fixes = find_fixes(candidate, out);
   std::optional<SpinEstimate> sequential;
   if (const auto sky = surroundings_.sky(revolution.t_start)) {
-    sequential = sequential_.update(revolution, *sky, fixes);
+    sequential = sequential_.update(revolution, *sky,
+                                    trust_.deserved() ? std::span{fixes} : std::span<SpinFix>{});
     if (sequential && (sequential_.restarts() > restarts_heeded_ || recent_fixes_left_the_mean())) {
       start_again_where_moved(*sequential, out);
     }
@@ -340,25 +378,16 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   const Eigen::Matrix2d horizon_rad2 = horizon_error_rad2(config_, candidate.sightlines->disc_rad);
   bool mean_moved = false;
   for (const SpinFix& fix : fixes) {
-    if (const auto side = disambiguator_.silent_where_seen()) {
-      say_once(fmt::format("the {} beam, said to be healthy, is silent where the axis says it must "
-                           "see the Earth: such fixes are not accepted; if the beam has failed, "
-                           "say healthy = false",
-                           *side == Side::North ? "north" : "south"),
-               out);
-    } else if (!fix.accepted && fix.resolution != Resolution::Ambiguous) {
-      say_once(
-          "measurements contradict each other, their fixes are not accepted: the length of the "
-          "axis or the size of the Earth's disc comes out wrong; check the mission's mounting "
-          "angles, azimuths and orbit",
-          out);
-    }
+    say_why_not_accepted(fix, out);
     SpinFix announced = fix;
     announced.covariance_rad2 += horizon_rad2;
     out.products.emplace_back(std::move(announced));
     if (fix.accepted && !(moved_at_ && fix.t < *moved_at_)) {
       recent_axes_.add(fix);
       mean_axis_.add(fix);
+      if (fix.revolution == revolution.number) {
+        check_model(candidate);
+      }
       mean_moved = true;
     }
     unsettled_ += fix.resolution == Resolution::Ambiguous ? 1 : 0;
@@ -389,8 +418,10 @@ void SpinPass::start_again_where_moved(const SpinEstimate& sequential, SpinOutpu
     return;
   }
   const double apart_rad = angle_between_rad(mean_axis_.axis_icrf(), sequential.axis_icrf);
-  const double sigma_rad =
-      std::sqrt(mean_covariance_rad2().trace() + sequential.covariance_rad2.trace());
+  // A wrong model moves the mean and lets residuals scatter as before; a move does not.
+  const Eigen::Matrix2d mean_rad2 =
+      model_verdict_.excess_noise > 1.0 ? mean_noise_rad2() : mean_covariance_rad2();
+  const double sigma_rad = std::sqrt(mean_rad2.trace() + sequential.covariance_rad2.trace());
   if (apart_rad <= std::hypot(kMovedSigmas * sigma_rad, kModelLimit_rad)) {
     return;
   }
@@ -398,6 +429,8 @@ void SpinPass::start_again_where_moved(const SpinEstimate& sequential, SpinOutpu
   moved_at_ = sequential.t;
   unsettled_ = 0;
   mean_axis_ = MeanAxis{};
+  model_check_ = ModelCheck{config_};
+  model_verdict_ = {};
   recent_axes_ = AxisWindow{static_cast<std::size_t>(config_.screening.window)};
   screening_ = ScreeningWindow{config_.screening};
   disambiguator_ = Disambiguator{config_};
@@ -417,11 +450,43 @@ std::optional<KnownAxis> SpinPass::established_axis() const {
 
 /// Where a share s of the fixes is left out because nothing settles them, those that are settled
 /// lie to one side: by up to s sigma of a single fix, which their number does not reduce.
-Eigen::Matrix2d SpinPass::mean_covariance_rad2() const {
+Eigen::Matrix2d SpinPass::mean_noise_rad2() const {
   const auto settled = static_cast<double>(mean_axis_.count());
   const double unsettled = std::max(0.0, static_cast<double>(unsettled_));
   const double share = unsettled / (settled + unsettled);
   return mean_axis_.covariance_rad2() * (1.0 + settled * share * share);
+}
+
+Eigen::Matrix2d SpinPass::mean_covariance_rad2() const {
+  const Eigen::Matrix<double, 2, kModelErrors> shift = mean_axis_.model_shift();
+  return mean_noise_rad2() * model_verdict_.excess_noise +
+         shift * model_verdict_.errors_rad2 * shift.transpose();
+}
+
+std::string SpinPass::mean_status() const {
+  const bool noisy = model_verdict_.excess_noise > 1.0;
+  const bool off = model_verdict_.error_rad > 0.0;
+  const std::string fixes = fmt::format("{} fixes", mean_axis_.count());
+  if (!noisy && !off) {
+    return fmt::format("{}{}, spherical horizon", fixes,
+                       moved_at_ ? " since " + format_utc(*moved_at_, 0) : "");
+  }
+  return fmt::format(
+      "{}{}{}{}", model_verdict_.beyond_allowance || noisy ? "DOUBTFUL, " : "", fixes,
+      off ? fmt::format(", model off by {:.2g} deg",
+                        model_verdict_.error_rad * 180.0 / std::numbers::pi)
+          : "",
+      noisy ? fmt::format(", noise x {:.1f}", std::sqrt(model_verdict_.excess_noise)) : "");
+}
+
+void SpinPass::check_model(const Candidate& candidate) {
+  if (mean_axis_.covariance_rad2().trace() > kLinear_rad * kLinear_rad) {
+    return;
+  }
+  model_check_.add(candidate.measured, *candidate.sightlines, mean_axis_.axis_icrf());
+  model_verdict_ = model_check_.verdict(config_.horizon.model == HorizonModel::Sphere
+                                            ? 0.0
+                                            : oblateness_rad(candidate.sightlines->disc_rad));
 }
 
 SpinEstimate SpinPass::mean_estimate(const Candidate& candidate) const {
@@ -433,9 +498,7 @@ SpinEstimate SpinPass::mean_estimate(const Candidate& candidate) const {
           .covariance_rad2 = mean_covariance_rad2(),
           .spin_rate_rad_s = rate_rad_s,
           .spin_rate_sigma_rad_s = rate_rad_s / period.period_s * period.sigma_s,
-          .status = moved_at_ ? fmt::format("{} fixes since {}, spherical horizon",
-                                            mean_axis_.count(), format_utc(*moved_at_, 0))
-                              : fmt::format("{} fixes, spherical horizon", mean_axis_.count())};
+          .status = mean_status()};
 }
 
 }  // namespace spindrift

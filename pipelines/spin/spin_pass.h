@@ -28,11 +28,13 @@
 #include "pipelines/spin/interference.h"
 #include "pipelines/spin/mean_axis.h"
 #include "pipelines/spin/measurement.h"
+#include "pipelines/spin/model_check.h"
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/reorder_window.h"
 #include "pipelines/spin/screening.h"
 #include "pipelines/spin/sequential.h"
 #include "pipelines/spin/surroundings.h"
+#include "pipelines/spin/trust.h"
 
 namespace spindrift {
 
@@ -79,11 +81,15 @@ class SpinPass {
   void predict(Candidate& candidate, const Eigen::Vector3d& axis_icrf);
   void screen(Candidate& candidate) const;
   std::vector<SpinFix> find_fixes(const Candidate& candidate, SpinOutput& out);
+  void say_why_not_accepted(const SpinFix& fix, SpinOutput& out);
   void announce_axis(const Candidate& candidate, SpinOutput& out);
   std::optional<KnownAxis> established_axis() const;
+  void check_model(const Candidate& candidate);
   bool recent_fixes_left_the_mean() const;
   void start_again_where_moved(const SpinEstimate& sequential, SpinOutput& out);
+  Eigen::Matrix2d mean_noise_rad2() const;
   Eigen::Matrix2d mean_covariance_rad2() const;
+  std::string mean_status() const;
   SpinEstimate mean_estimate(const Candidate& candidate) const;
   static void leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out);
   void say_once(const std::string& notice, SpinOutput& out);
@@ -101,6 +107,9 @@ class SpinPass {
   AxisWindow recent_axes_;
   Disambiguator disambiguator_;
   MeanAxis mean_axis_;
+  ModelCheck model_check_;  ///< Of the revolutions with a fix in the mean.
+  ModelVerdict model_verdict_;
+  Trust trust_;
   std::int64_t unsettled_ = 0;       ///< AMBIGUOUS fixes since the mean began.
   std::optional<TaiTime> moved_at_;  ///< When the axis last did, and the mean began anew.
   SequentialEstimator sequential_;

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sequential.h"
+#include "tests/support/information_limit.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/spinning_body.h"
 
@@ -116,48 +116,6 @@ TEST(SpinFilterStatistics, ErrorsAreThoseThatTheCovariancePromises) {
   }
 }
 
-/// Fisher's information on the axis (its tangent plane), with phase and rate unknown besides: how
-/// the edges of the oracle move when its body is changed a little, each way.
-Eigen::Matrix2d cramer_rao_rad2(const SpinningBody& body, const Surroundings& around,
-                                double duration_s) {
-  constexpr double kStep = 1e-4;  // rad; of the rate, rad over the whole pass.
-  const Eigen::Matrix<double, 3, 2> basis = tangent_basis(body.axis_icrf);
-  const auto moved = [&](Eigen::Index component, double step) {
-    SpinningBody other = body;
-    if (component < 2) {
-      // Turned about an axis across: the oracle's own frame then turns with it a little about the
-      // axis, which the unknown phase takes up.
-      other.axis_icrf = (body.axis_icrf + step * basis.col(component)).normalized();
-    } else if (component == 2) {
-      other.first_turn_rad += step;
-    } else {
-      other.rate_rad_s += step / duration_s;
-    }
-    return testing::edges_between(other, around, 0.0, duration_s);
-  };
-  const auto truth = testing::edges_between(body, around, 0.0, duration_s);
-  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(truth.size()), 4);
-  for (Eigen::Index component = 0; component < 4; ++component) {
-    for (const double step : {kStep, -kStep}) {
-      const auto edges = moved(component, step);
-      for (std::size_t i = 0; i < truth.size(); ++i) {
-        // An edge at either end of the pass may have come or gone: then it has no partner here.
-        for (const testing::Edge& edge : edges) {
-          if (edge.channel == truth[i].channel && std::abs(edge.t_s - truth[i].t_s) < 0.05) {
-            const double sigma_s = edge.channel == Sun1 || edge.channel == Sun2
-                                       ? body.config.noise.sun_s
-                                       : body.config.noise.infrared_s;
-            slopes(static_cast<Eigen::Index>(i), component) +=
-                (edge.t_s - truth[i].t_s) / step / 2.0 / sigma_s;
-          }
-        }
-      }
-    }
-  }
-  const Eigen::Matrix4d information = slopes.transpose() * slopes;
-  return information.inverse().topLeftCorner<2, 2>();
-}
-
 TEST(SpinFilterStatistics, SigmaIsThatOfTheInformationLimit) {
   const Orbit orbit = testing::transfer_orbit();
   const Surroundings around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
@@ -171,7 +129,7 @@ TEST(SpinFilterStatistics, SigmaIsThatOfTheInformationLimit) {
         testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
     const SpinFix fix = testing::drawn_fix(body.axis_icrf, kFixSigma_rad, rng);
     const SpinEstimate estimate = last_estimate(body.config, revolutions, fix);
-    const double limit_rad = std::sqrt(cramer_rao_rad2(body, around, duration_s).trace());
+    const double limit_rad = std::sqrt(testing::cramer_rao_rad2(body, around, duration_s).trace());
     const double sigma_rad = std::sqrt(estimate.covariance_rad2.trace());
     // One of 40 revolutions is left to the fix, whose own weight is about as much.
     EXPECT_NEAR(sigma_rad / limit_rad, 1.0, 0.05) << "pass " << pass;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "pipelines/spin/spin_pass.h"
+#include "tests/support/information_limit.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
@@ -24,6 +25,7 @@ struct SquaredErrors {
   double mean = 0.0;
   double sequential = 0.0;
   double rate = 0.0;  ///< Of the mean.
+  int model_off = 0;  ///< Means that say so, of models that are right.
 };
 
 double squared_error(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
@@ -47,6 +49,8 @@ SquaredErrors squared_errors_of(int passes, std::uint64_t seed) {
     const SpinEstimate mean = testing::last_estimate(output, SpinEstimator::Mean);
     const SpinEstimate sequential = testing::last_estimate(output, SpinEstimator::Sequential);
     EXPECT_TRUE(sequential.status.starts_with("OK")) << sequential.status;
+    EXPECT_FALSE(mean.status.starts_with("DOUBTFUL")) << mean.status;
+    sums.model_off += mean.status.find("model off") != std::string::npos ? 1 : 0;
     sums.mean += squared_error(mean, body.axis_icrf);
     sums.sequential += squared_error(sequential, body.axis_icrf);
     sums.rate += std::pow((mean.spin_rate_rad_s - body.rate_rad_s) / mean.spin_rate_sigma_rad_s, 2);
@@ -59,6 +63,7 @@ TEST(SpinStatistics, ErrorsOfFortyPassesAreThoseThatTheirSigmasPromise) {
   RecordProperty("mean", std::to_string(sums.mean));
   RecordProperty("sequential", std::to_string(sums.sequential));
   RecordProperty("rate", std::to_string(sums.rate));
+  RecordProperty("model_off", sums.model_off);
   // 0.05 % and 99.95 % points of chi-square: 99.9 % of all seeds lie between.
   EXPECT_GT(sums.mean, 44.79);  // 80 degrees of freedom.
   EXPECT_LT(sums.mean, 128.26);
@@ -73,6 +78,9 @@ TEST(SpinStatistics, ErrorsOfTwoHundredPassesAreThoseThatTheirSigmasPromise) {
   RecordProperty("mean", std::to_string(sums.mean));
   RecordProperty("sequential", std::to_string(sums.sequential));
   RecordProperty("rate", std::to_string(sums.rate));
+  RecordProperty("model_off", sums.model_off);
+  // One look in ten thousand, and a pass has 150 that depend on each other.
+  EXPECT_LE(sums.model_off, 2);
   // 2.5 % and 97.5 % points of chi-square.
   EXPECT_GT(sums.mean, 346.48);  // 400 degrees of freedom.
   EXPECT_LT(sums.mean, 457.31);
@@ -80,6 +88,26 @@ TEST(SpinStatistics, ErrorsOfTwoHundredPassesAreThoseThatTheirSigmasPromise) {
   EXPECT_LT(sums.sequential, 457.31);
   EXPECT_GT(sums.rate, 162.73);  // 200 degrees of freedom.
   EXPECT_LT(sums.rate, 241.06);
+}
+
+TEST(SpinStatistics, SigmaOfWholePassesIsThatOfTheInformationLimit) {
+  const Orbit orbit = testing::transfer_orbit();
+  const testing::Surroundings around =
+      testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  std::mt19937_64 rng{123};
+  for (int pass = 0; pass < 8; ++pass) {
+    SCOPED_TRACE(pass);
+    const testing::SpinningBody body = testing::random_body(around, 4.0 * kDegree_rad, rng);
+    const double duration_s = kRevolutions * 2.0 * std::numbers::pi / body.rate_rad_s;
+    const auto edges = testing::edges_between(body, around, 0.0, duration_s);
+    const SpinOutput output =
+        testing::run(SpinPass{body.config, orbit},
+                     testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
+    const double limit_rad = std::sqrt(testing::cramer_rao_rad2(body, around, duration_s).trace());
+    const double sequential_rad =
+        testing::sigma_rad(testing::last_estimate(output, SpinEstimator::Sequential));
+    EXPECT_NEAR(sequential_rad / limit_rad, 1.0, 0.05);
+  }
 }
 
 }  // namespace

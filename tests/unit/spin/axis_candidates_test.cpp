@@ -267,7 +267,7 @@ TEST(AxisCandidates, AChordWiderThanTheDiscIsRefusedWithItsMeasure) {
   revolution.edges.at(index_of(PulseChannel::NorthOut)) = shifted(in, 0.9 / scene.rate_rad_s);
   const auto fix = testing::lone_fix(scene.config, revolution, {}, scene.sightlines());
   ASSERT_FALSE(fix);
-  EXPECT_EQ(fix.error().code, ErrorCode::Unobservable);
+  EXPECT_EQ(fix.error().code, ErrorCode::InvalidInput);
   EXPECT_NE(fix.error().message.find("chord 51.5662 deg"), std::string::npos)
       << fix.error().message;
 }
@@ -527,6 +527,24 @@ TEST(AxisCandidates, CovariancesAreThoseOfCentralDifferencesInEveryCase) {
   }
 }
 
+TEST(AxisCandidates, OnlyWhatCouldGiveAFixCanContradictItself) {
+  Scene scene;
+  const auto contradicts = [&](const RevolutionMeasurements& measured) {
+    return contradicts_itself(axis_candidates(scene.config, measured, scene.sightlines()));
+  };
+  EXPECT_FALSE(contradicts(measure(scene.config, scene.seen())));
+  RevolutionMeasurements cones =
+      testing::measured_without(scene.config, scene.seen(), {NorthDihedral, SouthDihedral});
+  cones.sun_angle->value_rad = 10.0 * kDegree_rad;
+  EXPECT_TRUE(contradicts(cones));
+  const Revolution seen = scene.seen();
+  EXPECT_FALSE(
+      contradicts(testing::measured_without(scene.config, seen, {NorthChord, SouthChord})));
+  scene.config.north->mount_angle_rad = 20.0 * kDegree_rad;
+  scene.config.south->mount_angle_rad = 160.0 * kDegree_rad;
+  EXPECT_TRUE(contradicts(measure(scene.config, seen)));
+}
+
 TEST(AxisCandidates, ConesAreNamedInWords) {
   using enum PulseChannel;
   const Scene scene;
@@ -555,7 +573,7 @@ TEST(AxisCandidates, ConesThatDoNotMeetAreRefused) {
   measured.sun_angle->value_rad = 10.0 * kDegree_rad;
   const auto found = axis_candidates(scene.config, measured, scene.sightlines());
   ASSERT_FALSE(found);
-  EXPECT_EQ(found.error().code, ErrorCode::Unobservable);
+  EXPECT_EQ(found.error().code, ErrorCode::InvalidInput);
   EXPECT_NE(found.error().message.find("do not meet"), std::string::npos);
 }
 

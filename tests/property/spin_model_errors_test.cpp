@@ -1,0 +1,121 @@
+/// Passes of satellites that are not what their mission file says: the mean has an error that no
+/// number of fixes reduces, and must not claim to be better than it is.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "pipelines/spin/spin_pass.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/product_text.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+constexpr double kRevolutions = 300.0;
+constexpr int kBodies = 4;
+
+/// What the mission file says differs from the body by so much.
+struct Mistake {
+  std::string name;
+  std::function<void(SpinConfig& said)> make;
+};
+
+std::vector<Mistake> mistakes(double size_rad) {
+  std::vector<Mistake> all;
+  for (const double off_rad : {size_rad, -size_rad}) {
+    all.push_back(
+        {"separation", [=](SpinConfig& said) { said.sun_sensor.slit_separation_rad += off_rad; }});
+    all.push_back({"cant", [=](SpinConfig& said) { said.sun_sensor.slit_cant_rad += off_rad; }});
+    all.push_back(
+        {"north mount", [=](SpinConfig& said) { said.north->mount_angle_rad += off_rad; }});
+    all.push_back(
+        {"south mount", [=](SpinConfig& said) { said.south->mount_angle_rad += off_rad; }});
+    all.push_back({"north azimuth", [=](SpinConfig& said) { said.north->azimuth_rad += off_rad; }});
+    all.push_back({"south azimuth", [=](SpinConfig& said) { said.south->azimuth_rad += off_rad; }});
+  }
+  return all;
+}
+
+struct Outcome {
+  std::string mistake;
+  double sigmas;  ///< The error over what the mean says of it.
+  std::string status;
+
+  bool model_off() const { return status.find("model off by") != std::string::npos; }
+  bool doubtful() const { return status.starts_with("DOUBTFUL"); }
+};
+
+/// Every mistake on every body, whose north chords are too long by `excess_rad`.
+std::vector<Outcome> outcomes_of(const std::vector<Mistake>& mistakes, double excess_rad) {
+  const Orbit orbit = testing::transfer_orbit();
+  const testing::Surroundings around =
+      testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  std::mt19937_64 rng{77};
+  std::vector<Outcome> outcomes;
+  for (int i = 0; i < kBodies; ++i) {
+    const testing::SpinningBody body = testing::random_body(around, 8.0 * kDegree_rad, rng);
+    auto edges = testing::edges_between(body, around, 0.0,
+                                        kRevolutions * 2.0 * std::numbers::pi / body.rate_rad_s);
+    for (testing::Edge& edge : edges) {
+      const double late_s = 0.5 * excess_rad / body.rate_rad_s;
+      edge.t_s += edge.channel == PulseChannel::NorthOut ? late_s : 0.0;
+      edge.t_s -= edge.channel == PulseChannel::NorthIn ? late_s : 0.0;
+    }
+    const auto pulses =
+        testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng);
+    for (const Mistake& mistake : mistakes) {
+      SpinConfig said = body.config;
+      mistake.make(said);
+      const SpinEstimate mean =
+          testing::last_estimate(testing::run(SpinPass{said, orbit}, pulses), SpinEstimator::Mean);
+      outcomes.push_back({.mistake = mistake.name,
+                          .sigmas = testing::error_rad(mean.axis_icrf, body.axis_icrf).norm() /
+                                    testing::sigma_rad(mean),
+                          .status = mean.status});
+    }
+  }
+  return outcomes;
+}
+
+TEST(SpinModelErrors, OfADegreeAreCoveredWhereverTheyShow) {
+  for (const Outcome& outcome : outcomes_of(mistakes(1.0 * kDegree_rad), 0.0)) {
+    SCOPED_TRACE(outcome.mistake + ": " + outcome.status);
+    // With Sun and Earth both across the axis, the cant touches nothing that could be compared.
+    EXPECT_TRUE(outcome.model_off() || outcome.mistake == "cant");
+    EXPECT_TRUE(outcome.doubtful() || !outcome.mistake.ends_with("azimuth"));
+    EXPECT_LT(outcome.model_off() ? outcome.sigmas : 0.0, 3.5);
+  }
+}
+
+TEST(SpinModelErrors, OfThreeTenthsOfADegreeAreCoveredWhereverTheyShow) {
+  int shown = 0;
+  for (const Outcome& outcome : outcomes_of(mistakes(0.3 * kDegree_rad), 0.0)) {
+    SCOPED_TRACE(outcome.mistake + ": " + outcome.status);
+    shown += outcome.model_off() ? 1 : 0;
+    EXPECT_TRUE(outcome.model_off() || !outcome.mistake.ends_with("azimuth"));
+    EXPECT_LT(outcome.model_off() ? outcome.sigmas : 0.0, 3.5);
+    EXPECT_FALSE(outcome.doubtful());  // Two sigmas of what is allowed for.
+  }
+  EXPECT_GT(shown, 24);  // Of 48.
+}
+
+TEST(SpinModelErrors, OfAChordAreCovered) {
+  const Mistake none{"none", [](SpinConfig&) {}};
+  for (const double excess_rad : {0.3 * kDegree_rad, -0.3 * kDegree_rad}) {
+    for (const Outcome& outcome : outcomes_of({none}, excess_rad)) {
+      SCOPED_TRACE(outcome.status);
+      EXPECT_TRUE(outcome.model_off());
+      EXPECT_LT(outcome.sigmas, 3.5);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spindrift

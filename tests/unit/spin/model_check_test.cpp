@@ -1,0 +1,133 @@
+#include "pipelines/spin/model_check.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "pipelines/frames/celestial.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree_rad = kPi / 180.0;
+constexpr double kRange_km = 16000.0;
+const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+
+const Eigen::Vector3d kSun = Eigen::Vector3d{1.0, 0.2, 0.1}.normalized();
+const Eigen::Vector3d kEarth = Eigen::Vector3d{0.3, 1.0, -0.02}.normalized();
+const Eigen::Vector3d kAxis = Eigen::Vector3d{0.1, -0.05, 1.0}.normalized();
+const Sightlines kSightlines{
+    .sun_icrf = kSun, .earth_icrf = kEarth, .disc_rad = std::asin(6418.137 / kRange_km)};
+
+Revolution seen() {
+  return testing::revolution_seen({.axis_icrf = kAxis,
+                                   .rate_rad_s = 2.0 * kPi,
+                                   .first_turn_rad = 0.1,
+                                   .config = testing::usual_config()},
+                                  testing::at_rest(kSun, kRange_km * kEarth), kStart);
+}
+
+Revolution with_noise(Revolution revolution, const PulseNoise& noise, std::mt19937_64& rng) {
+  std::normal_distribution<double> normal;
+  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+    auto& edge = revolution.edges.at(channel);
+    const bool sun =
+        channel == index_of(PulseChannel::Sun1) || channel == index_of(PulseChannel::Sun2);
+    edge = shifted(edge.value(), (sun ? noise.sun_s : noise.infrared_s) * normal(rng));
+  }
+  return revolution;
+}
+
+/// Of many revolutions of a body that is not quite what `config` says, with `noise_times` the noise
+/// that it states.
+ModelCheck check_of(const SpinConfig& config, double noise_times = 1.0, int revolutions = 400) {
+  std::mt19937_64 rng{17};
+  const PulseNoise noise{.sun_s = noise_times * config.noise.sun_s,
+                         .infrared_s = noise_times * config.noise.infrared_s};
+  const Revolution exact = seen();
+  ModelCheck check{config};
+  for (int i = 0; i < revolutions; ++i) {
+    check.add(measure(config, with_noise(exact, noise, rng)), kSightlines, kAxis);
+  }
+  return check;
+}
+
+void expect_silence(const ModelVerdict& verdict) {
+  EXPECT_EQ(verdict.excess_noise, 1.0);
+  EXPECT_EQ(verdict.error_rad, 0.0);
+  EXPECT_TRUE(verdict.errors_rad2.isZero());
+  EXPECT_FALSE(verdict.beyond_allowance);
+}
+
+TEST(ModelCheck, SaysNothingWithoutRevolutionsAndOfModelsThatAreRight) {
+  expect_silence(ModelCheck{testing::usual_config()}.verdict(0.0));
+  expect_silence(check_of(testing::usual_config()).verdict(0.0));
+}
+
+TEST(ModelCheck, DoesNotMindAnAxisBesideTheTrueOne) {
+  // Without noise, and so many that a slope wrong by a twentieth would show.
+  const SpinConfig config = testing::usual_config();
+  const RevolutionMeasurements measured = measure(config, seen());
+  const Eigen::Matrix<double, 3, 2> basis = tangent_basis(kAxis);
+  for (const double turned_rad : {0.0, 0.5 * kPi, 1.0, -2.0}) {
+    const Eigen::Vector3d beside =
+        (kAxis +
+         0.1 * kDegree_rad * (basis * Eigen::Vector2d{std::cos(turned_rad), std::sin(turned_rad)}))
+            .normalized();
+    ModelCheck check{config};
+    for (int i = 0; i < 40000; ++i) {
+      check.add(measured, kSightlines, beside);
+    }
+    expect_silence(check.verdict(0.0));
+  }
+}
+
+TEST(ModelCheck, SeesAnAzimuthThatIsWrong) {
+  for (const ModelError error : {NorthAzimuth, SouthAzimuth}) {
+    SpinConfig config = testing::usual_config();
+    auto& sensor = error == NorthAzimuth ? config.north : config.south;
+    sensor->azimuth_rad -= 1.0 * kDegree_rad;
+    const ModelVerdict verdict = check_of(config).verdict(0.0);
+    EXPECT_TRUE(verdict.beyond_allowance);
+    EXPECT_GT(verdict.error_rad, 0.3 * kDegree_rad);
+    EXPECT_LT(verdict.error_rad, 3.0 * kDegree_rad);
+    const auto truth =
+        (1.0 * kDegree_rad * Eigen::Matrix<double, kModelErrors, 1>::Unit(error)).eval();
+    EXPECT_LT(truth.dot(verdict.errors_rad2.ldlt().solve(truth)), 9.0);
+    EXPECT_EQ(verdict.excess_noise, 1.0);
+  }
+}
+
+TEST(ModelCheck, SeesASunAngleAndALimbThatAreWrong) {
+  SpinConfig slit = testing::usual_config();
+  // Across Sun and Earth both, as this axis nearly is, a sun angle hardly touches the others.
+  slit.sun_sensor.slit_separation_rad += 10.0 * kDegree_rad;
+  EXPECT_TRUE(check_of(slit).verdict(0.0).beyond_allowance);
+  SpinConfig beam = testing::usual_config();
+  beam.north->mount_angle_rad += 4.0 * kDegree_rad;
+  EXPECT_TRUE(check_of(beam).verdict(0.0).beyond_allowance);
+}
+
+TEST(ModelCheck, ShowsWhatTheAllowanceExcusesWithoutDoubt) {
+  SpinConfig config = testing::usual_config();
+  config.north->azimuth_rad += 0.15 * kDegree_rad;
+  const ModelCheck check = check_of(config);
+  EXPECT_GT(check.verdict(0.0).error_rad, 0.0);
+  EXPECT_FALSE(check.verdict(0.0).beyond_allowance);
+  expect_silence(check.verdict(0.15 * kDegree_rad));
+}
+
+TEST(ModelCheck, MeasuresNoiseThatIsMoreThanStated) {
+  const ModelVerdict verdict = check_of(testing::usual_config(), 3.0).verdict(0.0);
+  // 2000 angles: the scatter of their mean square is 3 %.
+  EXPECT_NEAR(verdict.excess_noise, 9.0, 1.2);
+  EXPECT_EQ(verdict.error_rad, 0.0);
+}
+
+}  // namespace
+}  // namespace spindrift
