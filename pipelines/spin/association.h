@@ -39,7 +39,7 @@ struct Revolution {
   /// The interval that ends at its sun1, or what the spacecraft said of it; without sun1 at all,
   /// the interval that ends at the edge that the clock is set by.
   std::optional<PeriodCandidate> period_candidate;
-  SpinPeriod period;  ///< In force when the revolution closed.
+  SpinPeriod period;  ///< At t_start.
   /// After a silence through which the turns could not be counted for certain: one standard
   /// deviation of the number.
   std::optional<double> count_sigma_turns = {};
@@ -54,6 +54,10 @@ struct Revolution {
   std::optional<TaiTime> good_edge(PulseChannel channel) const {
     return edge_rejections.at(index_of(channel)) ? std::nullopt : edge(channel);
   }
+  /// Spin rate at an instant.
+  double rate_rad_s(TaiTime t) const;
+  /// How far the body turns from one instant to another.
+  double turned_rad(TaiTime from, TaiTime to) const;
 };
 
 struct Association {
@@ -109,6 +113,7 @@ class Associator {
 
   TaiTime zero_of(TaiTime t, double turn) const;
   double reference_wander() const;
+  SpinPeriod period_at(TaiTime t) const;
   double reach_turns(PulseChannel channel, double phase_turns) const;
 
   SpinConfig config_;
@@ -124,7 +129,6 @@ class Associator {
   std::deque<ReferenceEdge> recent_reference_;
   ExpectedPhases phases_;
 
-  SpinPeriod period_{};
   SpinPeriodWindow period_window_;
   std::optional<IntervalStart> interval_start_;
 
