@@ -32,6 +32,10 @@ constexpr int kSilentReference = 10;
 // From so many good edges in a row on a channel is fit to set the clock.
 constexpr int kFitReference = 3;
 
+// Channels that interfere spoil each other on every other turn at least: for so many turns they do
+// not escape once in a million.
+constexpr double kLately_turns = 20.0;
+
 constexpr std::array<PulseChannel, kPulseChannels> kChannels = {
     PulseChannel::Sun1,     PulseChannel::Sun2,    PulseChannel::NorthIn,
     PulseChannel::NorthOut, PulseChannel::SouthIn, PulseChannel::SouthOut};
@@ -300,9 +304,9 @@ void Associator::close_front(Association& out) {
   revolution.count_sigma_turns = std::exchange(count_sigma_turns_, std::nullopt);
   judge_reference(revolution);
   judge_others(revolution);
+  revolution.t_start = t_start_of(revolution);
   judge_neighbours(revolution);
   judge_period(revolution);
-  revolution.t_start = t_start_of(revolution);
   revolution.period = period_at(revolution.t_start);
   count_silence(revolution);
   phases_.keep_chords_near();
@@ -348,23 +352,36 @@ void Associator::judge_neighbours(Revolution& revolution) {
   if (!(config_.screening.interference_s > 0.0)) {
     return;
   }
-  const auto turn = static_cast<double>(revolution.number);
-  const auto interfere = [&](PulseChannel one, PulseChannel other) {
-    const double apart_s =
-        clock_->period_s() * std::remainder(phases_.at(one, turn) - phases_.at(other, turn), 1.0);
-    const double noise_s = std::hypot(noise_of(config_.noise, one), noise_of(config_.noise, other));
-    return std::abs(apart_s) < config_.screening.interference_s + config_.screening.sigma * noise_s;
-  };
   for (const PulseChannel channel : kChannels) {
-    const bool spoilt = std::any_of(kChannels.begin(), kChannels.end(), [&](PulseChannel other) {
-      return channel != other && phases_.knows(channel) && phases_.knows(other) &&
-             interfere(channel, other);
-    });
     std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
-    if (spoilt && revolution.edge(channel) && !rejection) {
+    if (revolution.edge(channel) && !rejection &&
+        std::any_of(kChannels.begin(), kChannels.end(), [&](PulseChannel other) {
+          return channel != other && interfere(channel, other, revolution);
+        })) {
       rejection = Rejection::Interference;
     }
   }
+}
+
+/// The places of two channels are learnt from the edges that escape. Where they do interfere, these
+/// are up to half the window off, each away from the other.
+bool Associator::interfere(PulseChannel one, PulseChannel other,
+                           const Revolution& revolution) const {
+  if (!phases_.knows(one) || !phases_.knows(other)) {
+    return false;
+  }
+  const auto turn = static_cast<double>(revolution.number);
+  const double apart_s = std::abs(
+      clock_->period_s() * std::remainder(phases_.at(one, turn) - phases_.at(other, turn), 1.0));
+  const double noise_s = std::hypot(noise_of(config_.noise, one), noise_of(config_.noise, other));
+  const double reach_s = config_.screening.interference_s + config_.screening.sigma * noise_s;
+  const bool lately = spoilt_lately(one, revolution) && spoilt_lately(other, revolution);
+  return apart_s < reach_s + (lately ? config_.screening.interference_s : 0.0);
+}
+
+bool Associator::spoilt_lately(PulseChannel channel, const Revolution& revolution) const {
+  const auto& t = spoilt_at_.at(index_of(channel));
+  return t && std::abs(elapsed_s(revolution.t_start, *t)) < kLately_turns * clock_->period_s();
 }
 
 void Associator::judge_period(Revolution& revolution) {

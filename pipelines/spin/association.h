@@ -72,6 +72,10 @@ class Associator {
   /// @param pulse Not earlier than the one before.
   Association push(const Pulse& pulse);
 
+  /// An edge that one of another channel has spoilt: it has no place, but says that the two
+  /// channels interfere.
+  void note_spoilt(const Pulse& pulse) { spoilt_at_.at(index_of(pulse.channel)) = pulse.t; }
+
   /// What the spacecraft itself says of its period (coded telemetry), before the edges of that
   /// frame: a pass of a few frames needs no more to start the clock, and the value is tested as the
   /// revolution's candidate where no interval ends at its sun1.
@@ -105,6 +109,8 @@ class Associator {
   void judge_reference(Revolution& revolution);
   void judge_others(Revolution& revolution);
   void judge_neighbours(Revolution& revolution);
+  bool interfere(PulseChannel one, PulseChannel other, const Revolution& revolution) const;
+  bool spoilt_lately(PulseChannel channel, const Revolution& revolution) const;
   void judge_period(Revolution& revolution);
   std::optional<PeriodCandidate> noted_candidate(const Revolution& revolution);
   void count_silence(const Revolution& revolution);
@@ -128,6 +134,7 @@ class Associator {
   int turns_without_reference_ = 0;
   std::deque<ReferenceEdge> recent_reference_;
   ExpectedPhases phases_;
+  std::array<std::optional<TaiTime>, kPulseChannels> spoilt_at_;  ///< The last of each channel.
 
   SpinPeriodWindow period_window_;
   std::optional<IntervalStart> interval_start_;

@@ -27,6 +27,9 @@ constexpr std::size_t kNotesToAgree = 3;
 // whole.
 constexpr double kHidden_scatters = 3.0;
 constexpr double kSamePeriod = 0.01;
+// A pass begins where so many edges follow within so many turns.
+constexpr std::ptrdiff_t kFewestOfRun = 3;
+constexpr double kOneRun_turns = 10.0;
 // Slower or faster than this is no spin period.
 constexpr double kShortestNote_s = 0.1;
 constexpr double kLongestNote_s = 60.0;
@@ -43,16 +46,26 @@ std::vector<TaiTime> times_of(std::span<const Pulse> pulses, PulseChannel channe
   return times;
 }
 
-/// The setting with its turns counted so that the first edge near the comb is on turn 0.
+/// The setting with its turns counted so that the first edge near the comb is on turn 0; a stray
+/// one before, which happens to be near it as well, has few behind it.
 SpinClock counted_from(SpinClock::Setting setting, const std::vector<TaiTime>& edges,
                        PulseChannel channel, double phase_turns) {
   const SpinClock clock{setting};
+  std::vector<double> turns;
   for (const TaiTime t : edges) {
     const double count = clock.phase_turns(t) - phase_turns;
-    if (std::abs(count - std::round(count)) <= gate_turns(channel)) {
-      setting.turn = -static_cast<std::int64_t>(std::round(count));
-      break;
+    const double turn = std::round(count);
+    if (std::abs(count - turn) <= gate_turns(channel) && (turns.empty() || turn > turns.back())) {
+      turns.push_back(turn);
     }
+  }
+  const auto begins_here = [&](const double& turn) {
+    const auto end = std::upper_bound(turns.begin(), turns.end(), turn + kOneRun_turns);
+    return end - (turns.begin() + (&turn - turns.data())) >= kFewestOfRun;
+  };
+  const auto first = std::find_if(turns.begin(), turns.end(), begins_here);
+  if (!turns.empty()) {
+    setting.turn = -static_cast<std::int64_t>(first == turns.end() ? turns.front() : *first);
   }
   return SpinClock{setting};
 }
