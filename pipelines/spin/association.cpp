@@ -14,8 +14,6 @@ namespace {
 // Without a clock no more than this is kept: noise alone must not fill the memory.
 constexpr std::size_t kMostWaiting = 1024;
 constexpr std::size_t kMostNotes = 16;
-// The window's period is believed from so many candidates on, until then that of the start.
-constexpr std::size_t kStartIntervals = 9;
 // After this many turns of refused intervals it is the edge that they start from that is doubtful.
 constexpr std::int64_t kMostTurnsRefused = 5;
 // A revolution stays open at least this long, so that a channel seen for the first time finds it.
@@ -34,6 +32,10 @@ constexpr int kSilentReference = 10;
 // From so many good edges in a row on a channel is fit to set the clock.
 constexpr int kFitReference = 3;
 
+// Channels that interfere spoil each other on every other turn at least: for so many turns they do
+// not escape once in a million.
+constexpr double kLately_turns = 20.0;
+
 constexpr std::array<PulseChannel, kPulseChannels> kChannels = {
     PulseChannel::Sun1,     PulseChannel::Sun2,    PulseChannel::NorthIn,
     PulseChannel::NorthOut, PulseChannel::SouthIn, PulseChannel::SouthOut};
@@ -43,6 +45,15 @@ PulseUse unassociated(const Pulse& pulse) {
 }
 
 }  // namespace
+
+double Revolution::rate_rad_s(TaiTime t) const {
+  return 2.0 * std::numbers::pi *
+         (1.0 / period.period_s + period.drift_per_s2 * elapsed_s(t_start, t));
+}
+
+double Revolution::turned_rad(TaiTime from, TaiTime to) const {
+  return rate_rad_s(from + (to - from) / 2) * elapsed_s(from, to);
+}
 
 Associator::Associator(const SpinConfig& config)
     : config_{config}, phases_{config}, period_window_{config.screening, config.noise.sun_s} {}
@@ -95,7 +106,6 @@ void Associator::try_to_start(bool at_end, Association& out) {
     return;
   }
   clock_ = start->clock;
-  period_ = start->period;
   reference_ = start->reference;
   sun1_known_ = reference_ == PulseChannel::Sun1;
   period_window_ = SpinPeriodWindow{config_.screening, noise_of(config_.noise, start->reference)};
@@ -170,15 +180,7 @@ void Associator::restart_after_step(const Pulse& pulse) {
   if (!comb) {
     return;
   }
-  const auto count = static_cast<double>(comb->edges);
-  SpinClock::Setting setting{
-      .t = comb->t,
-      .turn = 0,
-      .period_s = comb->period_s,
-      .period_sigma_s = comb->scatter_s * std::sqrt(12.0 / count) / std::max(1.0, comb->turns),
-      .sigma_s = 2.0 * comb->scatter_s / std::sqrt(count),
-      .drift_per_s2 = comb->drift_per_s2,
-      .scale = comb->scatter_s / noise_s};
+  SpinClock::Setting setting = setting_of(*comb, noise_s);
   const SpinClock teeth{setting};
   const auto behind_comb = [&](TaiTime t) { return std::remainder(teeth.phase_turns(t), 1.0); };
   // Most of the edges that the clock thinks good lie on the comb: it is the clock's own.
@@ -197,10 +199,6 @@ void Associator::restart_after_step(const Pulse& pulse) {
   setting.t = later_by_s(comb->t, -expected * comb->period_s);
   setting.turn = number - static_cast<std::int64_t>(std::llround(teeth.phase_turns(pulse.t)));
   clock_ = SpinClock{setting};
-  period_ = {
-      .period_s = comb->period_s,
-      .sigma_s = std::hypot(std::numbers::sqrt2 * comb->scatter_s / std::max(1.0, comb->turns),
-                            apparent_motion_s(reference_, comb->period_s))};
   period_window_ = SpinPeriodWindow{config_.screening, noise_s};
   interval_start_.reset();
   recent_reference_.clear();
@@ -219,6 +217,13 @@ double Associator::clock_sigma_turns(double phase_turns) const {
 
 double Associator::reference_wander() const {
   return sees_the_sun(reference_) ? 0.0 : earth_wander_turns(reference_, clock_->period_s());
+}
+
+/// The clock's, which cannot tell the Earth's apparent motion from the body's.
+SpinPeriod Associator::period_at(TaiTime t) const {
+  SpinPeriod period = clock_->period_at(t, reference_wander());
+  period.sigma_s = std::hypot(period.sigma_s, apparent_motion_s(reference_, period.period_s));
+  return period;
 }
 
 /// How far from its expectation an edge is still counted with a turn: further when a silence has
@@ -299,10 +304,10 @@ void Associator::close_front(Association& out) {
   revolution.count_sigma_turns = std::exchange(count_sigma_turns_, std::nullopt);
   judge_reference(revolution);
   judge_others(revolution);
+  revolution.t_start = t_start_of(revolution);
   judge_neighbours(revolution);
   judge_period(revolution);
-  revolution.period = period_;
-  revolution.t_start = t_start_of(revolution);
+  revolution.period = period_at(revolution.t_start);
   count_silence(revolution);
   phases_.keep_chords_near();
   out.closed.push_back(revolution);
@@ -347,23 +352,36 @@ void Associator::judge_neighbours(Revolution& revolution) {
   if (!(config_.screening.interference_s > 0.0)) {
     return;
   }
-  const auto turn = static_cast<double>(revolution.number);
-  const auto interfere = [&](PulseChannel one, PulseChannel other) {
-    const double apart_s =
-        clock_->period_s() * std::remainder(phases_.at(one, turn) - phases_.at(other, turn), 1.0);
-    const double noise_s = std::hypot(noise_of(config_.noise, one), noise_of(config_.noise, other));
-    return std::abs(apart_s) < config_.screening.interference_s + config_.screening.sigma * noise_s;
-  };
   for (const PulseChannel channel : kChannels) {
-    const bool spoilt = std::any_of(kChannels.begin(), kChannels.end(), [&](PulseChannel other) {
-      return channel != other && phases_.knows(channel) && phases_.knows(other) &&
-             interfere(channel, other);
-    });
     std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
-    if (spoilt && revolution.edge(channel) && !rejection) {
+    if (revolution.edge(channel) && !rejection &&
+        std::any_of(kChannels.begin(), kChannels.end(), [&](PulseChannel other) {
+          return channel != other && interfere(channel, other, revolution);
+        })) {
       rejection = Rejection::Interference;
     }
   }
+}
+
+/// The places of two channels are learnt from the edges that escape. Where they do interfere, these
+/// are up to half the window off, each away from the other.
+bool Associator::interfere(PulseChannel one, PulseChannel other,
+                           const Revolution& revolution) const {
+  if (!phases_.knows(one) || !phases_.knows(other)) {
+    return false;
+  }
+  const auto turn = static_cast<double>(revolution.number);
+  const double apart_s = std::abs(
+      clock_->period_s() * std::remainder(phases_.at(one, turn) - phases_.at(other, turn), 1.0));
+  const double noise_s = std::hypot(noise_of(config_.noise, one), noise_of(config_.noise, other));
+  const double reach_s = config_.screening.interference_s + config_.screening.sigma * noise_s;
+  const bool lately = spoilt_lately(one, revolution) && spoilt_lately(other, revolution);
+  return apart_s < reach_s + (lately ? config_.screening.interference_s : 0.0);
+}
+
+bool Associator::spoilt_lately(PulseChannel channel, const Revolution& revolution) const {
+  const auto& t = spoilt_at_.at(index_of(channel));
+  return t && std::abs(elapsed_s(revolution.t_start, *t)) < kLately_turns * clock_->period_s();
 }
 
 void Associator::judge_period(Revolution& revolution) {
@@ -380,15 +398,13 @@ void Associator::judge_period(Revolution& revolution) {
     return;
   }
   const std::int64_t turns = revolution.number - interval_start_->revolution;
-  PeriodCandidate candidate = good ? period_window_.add(interval_start_->t, *edge, turns)
-                                   : period_window_.refused(interval_start_->t, *edge, turns);
+  const TaiTime middle = interval_start_->t + (*edge - interval_start_->t) / 2;
+  PeriodCandidate candidate =
+      good ? period_window_.add(interval_start_->t, *edge, turns, period_at(middle).period_s)
+           : period_window_.refused(interval_start_->t, *edge, turns);
   candidate.sigma_s =
       std::hypot(candidate.sigma_s, apparent_motion_s(reference_, candidate.period_s));
   revolution.period_candidate = candidate;
-  if (period_window_.size() >= kStartIntervals && period_window_.period()) {
-    period_ = *period_window_.period();
-    period_.sigma_s = std::hypot(period_.sigma_s, apparent_motion_s(reference_, period_.period_s));
-  }
   if (candidate.accepted || (good && turns >= kMostTurnsRefused)) {
     interval_start_ = {.t = *edge, .revolution = revolution.number};
   }
@@ -402,7 +418,7 @@ std::optional<PeriodCandidate> Associator::noted_candidate(const Revolution& rev
   if (note == notes_.end() || !(note->period_s > 0.0)) {
     return std::nullopt;
   }
-  return period_window_.add(note->period_s);
+  return period_window_.add(note->period_s, period_at(*sun1).period_s);
 }
 
 /// Hands the clock over: to sun1 as soon as it is fit, to another channel when the reference has

@@ -39,7 +39,7 @@ struct Revolution {
   /// The interval that ends at its sun1, or what the spacecraft said of it; without sun1 at all,
   /// the interval that ends at the edge that the clock is set by.
   std::optional<PeriodCandidate> period_candidate;
-  SpinPeriod period;  ///< In force when the revolution closed.
+  SpinPeriod period;  ///< At t_start.
   /// After a silence through which the turns could not be counted for certain: one standard
   /// deviation of the number.
   std::optional<double> count_sigma_turns = {};
@@ -54,6 +54,10 @@ struct Revolution {
   std::optional<TaiTime> good_edge(PulseChannel channel) const {
     return edge_rejections.at(index_of(channel)) ? std::nullopt : edge(channel);
   }
+  /// Spin rate at an instant.
+  double rate_rad_s(TaiTime t) const;
+  /// How far the body turns from one instant to another.
+  double turned_rad(TaiTime from, TaiTime to) const;
 };
 
 struct Association {
@@ -67,6 +71,10 @@ class Associator {
 
   /// @param pulse Not earlier than the one before.
   Association push(const Pulse& pulse);
+
+  /// An edge that one of another channel has spoilt: it has no place, but says that the two
+  /// channels interfere.
+  void note_spoilt(const Pulse& pulse) { spoilt_at_.at(index_of(pulse.channel)) = pulse.t; }
 
   /// What the spacecraft itself says of its period (coded telemetry), before the edges of that
   /// frame: a pass of a few frames needs no more to start the clock, and the value is tested as the
@@ -101,6 +109,8 @@ class Associator {
   void judge_reference(Revolution& revolution);
   void judge_others(Revolution& revolution);
   void judge_neighbours(Revolution& revolution);
+  bool interfere(PulseChannel one, PulseChannel other, const Revolution& revolution) const;
+  bool spoilt_lately(PulseChannel channel, const Revolution& revolution) const;
   void judge_period(Revolution& revolution);
   std::optional<PeriodCandidate> noted_candidate(const Revolution& revolution);
   void count_silence(const Revolution& revolution);
@@ -109,6 +119,7 @@ class Associator {
 
   TaiTime zero_of(TaiTime t, double turn) const;
   double reference_wander() const;
+  SpinPeriod period_at(TaiTime t) const;
   double reach_turns(PulseChannel channel, double phase_turns) const;
 
   SpinConfig config_;
@@ -123,8 +134,8 @@ class Associator {
   int turns_without_reference_ = 0;
   std::deque<ReferenceEdge> recent_reference_;
   ExpectedPhases phases_;
+  std::array<std::optional<TaiTime>, kPulseChannels> spoilt_at_;  ///< The last of each channel.
 
-  SpinPeriod period_{};
   SpinPeriodWindow period_window_;
   std::optional<IntervalStart> interval_start_;
 

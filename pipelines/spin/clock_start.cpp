@@ -22,7 +22,14 @@ constexpr std::size_t kFewestSun1 = 7;
 constexpr std::size_t kFewestOthers = 20;
 constexpr std::size_t kFewestAtEnd = 3;
 constexpr std::size_t kNotesToAgree = 3;
+// A bend of the comb is not seen where it leaves its edges less than about this many scatters from
+// a straight line; there its ends lie off by as much, and their slope by twice that along the
+// whole.
+constexpr double kHidden_scatters = 3.0;
 constexpr double kSamePeriod = 0.01;
+// A pass begins where so many edges follow within so many turns.
+constexpr std::ptrdiff_t kFewestOfRun = 3;
+constexpr double kOneRun_turns = 10.0;
 // Slower or faster than this is no spin period.
 constexpr double kShortestNote_s = 0.1;
 constexpr double kLongestNote_s = 60.0;
@@ -39,21 +46,26 @@ std::vector<TaiTime> times_of(std::span<const Pulse> pulses, PulseChannel channe
   return times;
 }
 
-/// By how much the period changes along the comb.
-double drifted_s(const Comb& comb) {
-  return comb.drift_per_s2 * std::pow(comb.period_s, 3) * comb.turns;
-}
-
-/// The setting with its turns counted so that the first edge near the comb is on turn 0.
+/// The setting with its turns counted so that the first edge near the comb is on turn 0; a stray
+/// one before, which happens to be near it as well, has few behind it.
 SpinClock counted_from(SpinClock::Setting setting, const std::vector<TaiTime>& edges,
                        PulseChannel channel, double phase_turns) {
   const SpinClock clock{setting};
+  std::vector<double> turns;
   for (const TaiTime t : edges) {
     const double count = clock.phase_turns(t) - phase_turns;
-    if (std::abs(count - std::round(count)) <= gate_turns(channel)) {
-      setting.turn = -static_cast<std::int64_t>(std::round(count));
-      break;
+    const double turn = std::round(count);
+    if (std::abs(count - turn) <= gate_turns(channel) && (turns.empty() || turn > turns.back())) {
+      turns.push_back(turn);
     }
+  }
+  const auto begins_here = [&](const double& turn) {
+    const auto end = std::upper_bound(turns.begin(), turns.end(), turn + kOneRun_turns);
+    return end - (turns.begin() + (&turn - turns.data())) >= kFewestOfRun;
+  };
+  const auto first = std::find_if(turns.begin(), turns.end(), begins_here);
+  if (!turns.empty()) {
+    setting.turn = -static_cast<std::int64_t>(first == turns.end() ? turns.front() : *first);
   }
   return SpinClock{setting};
 }
@@ -76,6 +88,16 @@ double apparent_motion_s(PulseChannel channel, double period_s) {
                                : kEarthRate_rad_s * period_s * period_s / (2.0 * std::numbers::pi);
 }
 
+SpinClock::Setting setting_of(const Comb& comb, double noise_s) {
+  return {.t = comb.t,
+          .turn = 0,
+          .period_s = comb.period_s,
+          .period_sigma_s = kHidden_scatters * 2.0 * comb.scatter_s / std::max(1.0, comb.turns),
+          .sigma_s = kHidden_scatters * comb.scatter_s,
+          .drift_per_s2 = comb.drift_per_s2,
+          .scale = comb.scatter_s / noise_s};
+}
+
 std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const Pulse> waiting,
                                       bool at_end) {
   for (const PulseChannel channel : kByPreference) {
@@ -88,23 +110,10 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
       continue;
     }
     const double phase_turns = defined_phase_turns(config, channel);
-    const auto count = static_cast<double>(comb->edges);
-    const double period_sigma_s =
-        comb->scatter_s * std::sqrt(12.0 / count) / std::max(1.0, comb->turns);
-    return ClockStart{
-        .reference = channel,
-        .clock = counted_from({.t = later_by_s(comb->t, -phase_turns * comb->period_s),
-                               .turn = 0,
-                               .period_s = comb->period_s,
-                               .period_sigma_s = period_sigma_s,
-                               .sigma_s = 2.0 * comb->scatter_s / std::sqrt(count),
-                               .drift_per_s2 = comb->drift_per_s2,
-                               .scale = comb->scatter_s / noise_s},
-                              edges, channel, phase_turns),
-        .period = {.period_s = comb->period_s,
-                   .sigma_s = std::hypot(
-                       std::numbers::sqrt2 * comb->scatter_s / std::max(1.0, comb->turns),
-                       apparent_motion_s(channel, comb->period_s), drifted_s(*comb))}};
+    SpinClock::Setting setting = setting_of(*comb, noise_s);
+    setting.t = later_by_s(setting.t, -phase_turns * comb->period_s);
+    return ClockStart{.reference = channel,
+                      .clock = counted_from(setting, edges, channel, phase_turns)};
   }
   return std::nullopt;
 }
@@ -138,9 +147,7 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
                                         .turn = 0,
                                         .period_s = period_s,
                                         .period_sigma_s = sigma_s,
-                                        .sigma_s = config.noise.sun_s}},
-                    .period = {.period_s = period_s,
-                               .sigma_s = sigma_s / std::sqrt(static_cast<double>(agreeing))}};
+                                        .sigma_s = config.noise.sun_s}}};
 }
 
 }  // namespace spindrift

@@ -7,9 +7,9 @@
 #include <span>
 
 #include "pipelines/spin/config.h"
+#include "pipelines/spin/period_search.h"
 #include "pipelines/spin/pulse.h"
 #include "pipelines/spin/spin_clock.h"
-#include "pipelines/spin/spin_period.h"
 
 namespace spindrift {
 
@@ -20,7 +20,6 @@ double defined_phase_turns(const SpinConfig& config, PulseChannel channel);
 struct ClockStart {
   PulseChannel reference;  ///< The channel that sets the clock.
   SpinClock clock;         ///< Phase 0 belongs to the first of its edges.
-  SpinPeriod period;
 };
 
 /// What a spacecraft says of its own period.
@@ -28,6 +27,10 @@ struct PeriodNote {
   TaiTime t_sun1;
   double period_s;
 };
+
+/// By a comb, with phase 0 on its first tooth. Its edges are still to be followed one by one, so
+/// that the setting is left uncertain by what a drift may hide in their scatter.
+SpinClock::Setting setting_of(const Comb& comb, double noise_s);
 
 /// By sun1; by another channel, sun2 rather than an infrared one, only when that has gone on for
 /// twenty edges without sun1.

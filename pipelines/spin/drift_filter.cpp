@@ -58,6 +58,10 @@ double DriftFilter::sigma_at(double x, const DriftNoise& noise) const {
   return std::sqrt(covariance_at(x, noise)(0, 0));
 }
 
+double DriftFilter::change_sigma_at(double x, const DriftNoise& noise) const {
+  return std::sqrt(covariance_at(x, noise)(1, 1));
+}
+
 bool DriftFilter::accepts(double x, double measured, const DriftNoise& noise,
                           const DriftGate& gate) const {
   const double sigma = std::hypot(sigma_at(x, noise), scale_ * noise.measured);
@@ -81,9 +85,21 @@ bool DriftFilter::follow(double x, double measured, const DriftNoise& noise,
     const Eigen::Vector3d gain = before.col(0) / variance;
     state_ = Eigen::Vector3d{at(x), state_[1] + state_[2] * ahead, state_[2]} + gain * off;
     x_ = x;
-    covariance_ = before - gain * before.row(0);
+    // Joseph's form: no variance becomes negative by rounding, however much was unknown before.
+    Eigen::Matrix3d kept = Eigen::Matrix3d::Identity();
+    kept.col(0) -= gain;
+    covariance_ = kept * before * kept.transpose() +
+                  gain * measured_sigma * measured_sigma * gain.transpose();
   }
   return accepted;
+}
+
+DriftFilter DriftFilter::supposing_bend(double bend, double sigma) const {
+  DriftFilter supposed = *this;
+  const Eigen::Vector3d gain = covariance_.col(2) / (covariance_(2, 2) + sigma * sigma);
+  supposed.state_ += gain * (bend - state_[2]);
+  supposed.covariance_ -= gain * covariance_.row(2);
+  return supposed;
 }
 
 void DriftFilter::shift(double x, double value, double change) {

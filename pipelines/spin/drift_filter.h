@@ -47,14 +47,21 @@ class DriftFilter {
   /// At the last abscissa that was taken in.
   double value() const { return state_[0]; }
   double change() const { return state_[1]; }
+  double bend() const { return state_[2]; }
+  double change_at(double x) const { return state_[1] + state_[2] * (x - x_); }
   double scale() const { return scale_; }
   /// Standard deviation of the value.
   double sigma_at(double x, const DriftNoise& noise) const;
+  /// The same of the change.
+  double change_sigma_at(double x, const DriftNoise& noise) const;
 
   /// Whether the measurement lies within the gate.
   bool accepts(double x, double measured, const DriftNoise& noise, const DriftGate& gate) const;
   /// The same, and takes it in when it does.
   bool follow(double x, double measured, const DriftNoise& noise, const DriftGate& gate);
+
+  /// The same, had the bend been measured besides.
+  DriftFilter supposing_bend(double bend, double sigma) const;
 
   /// Moves value (at `x`) and change.
   void shift(double x, double value, double change);

@@ -27,22 +27,26 @@ std::optional<Rejection> rejection_of(const Revolution& revolution,
   return std::nullopt;
 }
 
-/// Azimuth of a crossing's middle behind a sun slit's pulse, less that of the beam.
-Measured azimuth_behind(PulseChannel slit, TaiTime t_slit, Side side, TaiTime t_in, double width_s,
-                        double rate_rad_s, const SpinConfig& config) {
-  const double delay_s = seconds_between(t_slit, t_in) + 0.5 * width_s;
+/// Azimuth of a crossing's middle behind a sun slit's pulse, less that of the beam. The revolution
+/// has all three edges.
+Measured azimuth_behind(PulseChannel slit, Side side, const Revolution& revolution,
+                        const SpinConfig& config) {
+  const TaiTime t_slit = *revolution.edge(slit);
+  const double middle_rad =
+      0.5 * (revolution.turned_rad(t_slit, *revolution.edge(kInChannels.at(index_of(side)))) +
+             revolution.turned_rad(t_slit, *revolution.edge(kOutChannels.at(index_of(side)))));
+  const double rate_rad_s = revolution.rate_rad_s(t_slit);
   EdgeNoise noise_rad = EdgeNoise::Zero();
   noise_rad(static_cast<Eigen::Index>(slit)) = -rate_rad_s * config.noise.sun_s;
   for (const PulseChannel channel :
        {kInChannels.at(index_of(side)), kOutChannels.at(index_of(side))}) {
     noise_rad(static_cast<Eigen::Index>(channel)) = 0.5 * rate_rad_s * config.noise.infrared_s;
   }
-  return measured_from(wrapped_rad(rate_rad_s * delay_s - sensor_of(config, side)->azimuth_rad),
-                       noise_rad);
+  return measured_from(wrapped_rad(middle_rad - sensor_of(config, side)->azimuth_rad), noise_rad);
 }
 
 std::optional<EarthCrossing> crossing_of(const SpinConfig& config, const Revolution& revolution,
-                                         Side side, double rate_rad_s) {
+                                         Side side) {
   const PulseChannel in_channel = kInChannels.at(index_of(side));
   const PulseChannel out_channel = kOutChannels.at(index_of(side));
   const std::optional<TaiTime>& in = revolution.edge(in_channel);
@@ -50,11 +54,11 @@ std::optional<EarthCrossing> crossing_of(const SpinConfig& config, const Revolut
   if (!sensor_of(config, side) || !in || !out) {
     return std::nullopt;
   }
-  const double width_s = seconds_between(*in, *out);
-  const double chord_rad = rate_rad_s * width_s;
+  const double chord_rad = revolution.turned_rad(*in, *out);
   if (!(chord_rad > 0.0 && chord_rad < std::numbers::pi)) {
     return std::nullopt;
   }
+  const double rate_rad_s = revolution.rate_rad_s(*in);
   EdgeNoise noise_rad = EdgeNoise::Zero();
   noise_rad(static_cast<Eigen::Index>(in_channel)) = -rate_rad_s * config.noise.infrared_s;
   noise_rad(static_cast<Eigen::Index>(out_channel)) = rate_rad_s * config.noise.infrared_s;
@@ -62,8 +66,8 @@ std::optional<EarthCrossing> crossing_of(const SpinConfig& config, const Revolut
                          .chord = measured_from(chord_rad, noise_rad),
                          .dihedral = {}};
   crossing.chord->rejected_by = rejection_of(revolution, {in_channel, out_channel});
-  if (const std::optional<TaiTime>& sun1 = revolution.edge(Sun1)) {
-    crossing.dihedral = azimuth_behind(Sun1, *sun1, side, *in, width_s, rate_rad_s, config);
+  if (revolution.edge(Sun1)) {
+    crossing.dihedral = azimuth_behind(Sun1, side, revolution, config);
     crossing.dihedral->rejected_by = rejection_of(revolution, {Sun1, in_channel, out_channel});
   }
   return crossing;
@@ -85,22 +89,16 @@ std::vector<Side> sides_to_use(const RevolutionMeasurements& measured) {
 }
 
 std::optional<Measured> mixed_azimuth_of(const SpinConfig& config, const Revolution& revolution,
-                                         const RevolutionMeasurements& measured,
-                                         double rate_rad_s) {
-  const std::optional<TaiTime>& sun2 = revolution.edge(Sun2);
+                                         const RevolutionMeasurements& measured) {
   const std::vector<Side> sides = sides_to_use(measured);
-  if (!sun2 || sides.empty()) {
+  if (!revolution.edge(Sun2) || sides.empty()) {
     return std::nullopt;
   }
   std::vector<Measured> found;
   for (const Side side : sides) {
-    const PulseChannel in_channel = kInChannels.at(index_of(side));
-    const PulseChannel out_channel = kOutChannels.at(index_of(side));
-    const TaiTime t_in = *revolution.edge(in_channel);
-    found.push_back(azimuth_behind(Sun2, *sun2, side, t_in,
-                                   seconds_between(t_in, *revolution.edge(out_channel)), rate_rad_s,
-                                   config));
-    found.back().rejected_by = rejection_of(revolution, {Sun2, in_channel, out_channel});
+    found.push_back(azimuth_behind(Sun2, side, revolution, config));
+    found.back().rejected_by = rejection_of(
+        revolution, {Sun2, kInChannels.at(index_of(side)), kOutChannels.at(index_of(side))});
   }
   Measured mean = mean_round_the_circle(found.front(), found.back());
   mean.rejected_by = found.front().rejected_by;
@@ -175,7 +173,6 @@ void reject(RevolutionMeasurements& measured, SpinQuantity quantity, Rejection w
 }
 
 RevolutionMeasurements measure(const SpinConfig& config, const Revolution& revolution) {
-  const double rate_rad_s = 2.0 * std::numbers::pi / revolution.period.period_s;
   RevolutionMeasurements measured{.t_sun1 = revolution.good_edge(Sun1),
                                   .sun_angle = {},
                                   .mixed_azimuth = {},
@@ -185,18 +182,19 @@ RevolutionMeasurements measure(const SpinConfig& config, const Revolution& revol
   const std::optional<TaiTime>& sun2 = revolution.edge(Sun2);
   if (sun1 && sun2) {
     measured.sun_angle =
-        sun_angle(config.sun_sensor, seconds_between(*sun1, *sun2), rate_rad_s, config.noise.sun_s);
+        sun_angle(config.sun_sensor, seconds_between(*sun1, *sun2),
+                  revolution.rate_rad_s(*sun1 + (*sun2 - *sun1) / 2), config.noise.sun_s);
     if (measured.sun_angle) {
       measured.sun_angle->rejected_by = rejection_of(revolution, {Sun1, Sun2});
     }
   }
   for (const Side side : kSides) {
-    measured.crossings.at(index_of(side)) = crossing_of(config, revolution, side, rate_rad_s);
+    measured.crossings.at(index_of(side)) = crossing_of(config, revolution, side);
     measured.silent.at(index_of(side)) = !revolution.edge(kInChannels.at(index_of(side))) &&
                                          !revolution.edge(kOutChannels.at(index_of(side)));
   }
   if (!measured.t_sun1) {
-    measured.mixed_azimuth = mixed_azimuth_of(config, revolution, measured, rate_rad_s);
+    measured.mixed_azimuth = mixed_azimuth_of(config, revolution, measured);
   }
   return measured;
 }

@@ -61,7 +61,7 @@ struct PulseUse {
 struct RevolutionProduct {
   std::int64_t revolution;
   TaiTime t_sun1;
-  double period_s;  ///< The spin period in force: mean of the window, not this turn's own interval.
+  double period_s;  ///< The clock's, at t_sun1: not this turn's own interval.
 };
 
 struct SpinMeasurement {

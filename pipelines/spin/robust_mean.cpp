@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdint>
+#include <iterator>
 #include <numeric>
+#include <span>
 
 namespace spindrift {
 namespace {
@@ -44,7 +45,7 @@ std::span<const double> kept_by(const RobustMean& mean, std::span<const double> 
   return {first, end};
 }
 
-RobustMean robust_mean_of_sorted(std::span<const double> sorted, const ClipRule& rule) {
+RobustMean robust_mean(std::span<const double> sorted, const ClipRule& rule) {
   const double floor = sorted.size() < kFewValues ? rule.sigma * rule.stated : rule.stated;
   RobustMean result{};
   result.mean = median_of_sorted(sorted);
@@ -79,13 +80,6 @@ RobustMean robust_mean_of_sorted(std::span<const double> sorted, const ClipRule&
 
 bool RobustMean::keeps(double value) const { return std::abs(value - mean) <= limit; }
 
-RobustMean robust_mean(std::span<const double> values, const ClipRule& rule) {
-  assert(!values.empty());
-  std::vector<double> sorted(values.begin(), values.end());
-  std::sort(sorted.begin(), sorted.end());
-  return robust_mean_of_sorted(sorted, rule);
-}
-
 SlidingRobustMean::SlidingRobustMean(std::size_t length) : length_{length} {
   assert(length > 0);
   ring_.reserve(length);
@@ -105,7 +99,7 @@ void SlidingRobustMean::add(double value) {
 
 RobustMean SlidingRobustMean::mean(const ClipRule& rule) const {
   assert(!sorted_.empty());
-  return robust_mean_of_sorted(sorted_, rule);
+  return robust_mean(sorted_, rule);
 }
 
 }  // namespace spindrift

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 namespace spindrift {
@@ -24,17 +23,15 @@ struct RobustMean {
   bool keeps(double value) const;
 };
 
+/// Robust mean of the last `length` values of a sequence, kept in order of size: a value more costs
+/// a few passes over the window, without sorting and without allocation.
+///
 /// Starts at median and MAD, then mean and standard deviation of what lies within the limit, until
 /// the set no longer changes.
 ///
 /// A value within one stated sigma of the mean is never an outlier: without that floor, values on a
 /// coarse telemetry grid would reject each other. With fewer than ten values the empirical scatter
 /// is itself uncertain by a quarter, and the floor is `rule.sigma` stated sigmas.
-/// @param values At least one, finite.
-RobustMean robust_mean(std::span<const double> values, const ClipRule& rule);
-
-/// The same of the last `length` values of a sequence, kept in order of size: a value more costs a
-/// few passes over the window, without sorting and without allocation.
 class SlidingRobustMean {
  public:
   /// @param length At least one.

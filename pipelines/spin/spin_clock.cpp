@@ -12,9 +12,12 @@ namespace {
 constexpr double kRateWander = 5e-7;
 // Turns a second squared, in a second.
 constexpr double kDriftWander = 3e-10;
-// 0.2 rpm an hour: eddy currents, warming and leaks seldom do more, a few turns tell of what does,
-// and a count through ten silent minutes stays sure.
-constexpr double kFirstDrift_per_s2 = 0.2 / 60.0 / 3600.0;
+constexpr double kRpmPerHour_per_s2 = 1.0 / 60.0 / 3600.0;
+// As in the spin filter.
+constexpr double kFirstDrift_per_s2 = 2.0 * kRpmPerHour_per_s2;
+// Eddy currents, warming and leaks seldom do more. A few turns tell of what does; before, to be
+// ready for any drift would leave the count uncertain through a silence of minutes.
+constexpr double kUsualDrift_per_s2 = 0.2 * kRpmPerHour_per_s2;
 
 }  // namespace
 
@@ -29,14 +32,23 @@ SpinClock::SpinClock(const Setting& setting)
                      .change_sigma = setting.period_sigma_s / (setting.period_s * setting.period_s),
                      .bend = setting.drift_per_s2,
                      .bend_sigma = kFirstDrift_per_s2,
-                     .scale = setting.scale}} {}
+                     .scale = setting.scale}},
+      usual_{turns_.supposing_bend(0.0, kUsualDrift_per_s2)} {}
 
 double SpinClock::phase_turns(TaiTime t) const {
-  return epoch_turn_ + turns_.at(elapsed_s(epoch_, t));
+  return epoch_turn_ + usual_.at(elapsed_s(epoch_, t));
 }
 
 TaiTime SpinClock::t_of(double phase_turns) const {
-  return later_by_s(epoch_, turns_.x_of(phase_turns - epoch_turn_));
+  return later_by_s(epoch_, usual_.x_of(phase_turns - epoch_turn_));
+}
+
+SpinPeriod SpinClock::period_at(TaiTime t, double earth_turns) const {
+  const double x = elapsed_s(epoch_, t);
+  const double period_s = 1.0 / turns_.change_at(x);
+  return {.period_s = period_s,
+          .sigma_s = period_s * period_s * turns_.change_sigma_at(x, noise(0.0, earth_turns)),
+          .drift_per_s2 = turns_.bend()};
 }
 
 DriftNoise SpinClock::noise(double noise_s, double earth_turns) const {
@@ -47,7 +59,7 @@ DriftNoise SpinClock::noise(double noise_s, double earth_turns) const {
 }
 
 double SpinClock::sigma_s(double phase_turns, double earth_turns) const {
-  return turns_.sigma_at(turns_.x_of(phase_turns - epoch_turn_), noise(0.0, earth_turns)) *
+  return usual_.sigma_at(usual_.x_of(phase_turns - epoch_turn_), noise(0.0, earth_turns)) *
          period_s();
 }
 
@@ -59,13 +71,16 @@ bool SpinClock::accepts(std::int64_t turn, TaiTime t, double noise_s, double ear
 
 bool SpinClock::follow(std::int64_t turn, TaiTime t, double noise_s, double earth_turns,
                        const DriftGate& gate_turns) {
-  return turns_.follow(elapsed_s(epoch_, t), static_cast<double>(turn) - epoch_turn_,
-                       noise(noise_s, earth_turns), gate_turns);
+  const bool good = turns_.follow(elapsed_s(epoch_, t), static_cast<double>(turn) - epoch_turn_,
+                                  noise(noise_s, earth_turns), gate_turns);
+  usual_ = turns_.supposing_bend(0.0, kUsualDrift_per_s2);
+  return good;
 }
 
 void SpinClock::shift(std::int64_t turn, double phase_turns, double drift) {
   turns_.shift(turns_.x_of(static_cast<double>(turn) - epoch_turn_), -phase_turns,
                -drift * turns_.change());
+  usual_ = turns_.supposing_bend(0.0, kUsualDrift_per_s2);
 }
 
 }  // namespace spindrift

@@ -6,12 +6,14 @@
 #include <cstdint>
 
 #include "pipelines/spin/drift_filter.h"
+#include "pipelines/spin/spin_period.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
 
 /// Phase n is where the sun1 edge of turn n is expected (or whatever stands in for it). The spin
-/// rate may drift evenly, by up to about 2 rpm an hour, and wander a little about that.
+/// rate may drift evenly, by a few rpm an hour, and wander a little about that. As long as nothing
+/// is known of the drift, turns are counted as with a small one, but the period is not stated so.
 class SpinClock {
  public:
   struct Setting {
@@ -28,6 +30,8 @@ class SpinClock {
   double phase_turns(TaiTime t) const;
   TaiTime t_of(double phase_turns) const;
   double period_s() const { return 1.0 / turns_.change(); }
+  /// @param earth_turns See follow.
+  SpinPeriod period_at(TaiTime t, double earth_turns) const;
   double scale() const { return turns_.scale(); }
   double sigma_s(double phase_turns, double earth_turns) const;
 
@@ -51,6 +55,7 @@ class SpinClock {
   TaiTime epoch_;
   double epoch_turn_;
   DriftFilter turns_;  ///< Behind epoch_turn_, over the seconds behind epoch_.
+  DriftFilter usual_;  ///< The same, supposing a usual drift.
 };
 
 }  // namespace spindrift

@@ -13,6 +13,7 @@
 #include "pipelines/spin/edge_use.h"
 #include "pipelines/spin/geometry.h"
 #include "pipelines/spin/model_allowance.h"
+#include "pipelines/spin/time_span.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift {
@@ -141,6 +142,9 @@ SpinOutput SpinPass::finish() {
       take(frame, out);
     }
   }
+  for (const Pulse& edge : std::exchange(of_next_turn_, {})) {
+    take(edge, out);
+  }
   const ReorderWindow::Rest rest = reorder_.release_all();
   sort_out(rest.in_time, out);
   associate(interference_.finish(), out);
@@ -159,7 +163,15 @@ void SpinPass::take(const CodedFrame& frame, SpinOutput& out) {
   if (frame.period_s) {
     associator_.note_period(frame.t, *frame.period_s);
   }
-  for (const Pulse& edge : edges_of(frame)) {
+  std::vector<Pulse> edges = std::exchange(of_next_turn_, edges_of(frame));
+  const auto in_this_turn =
+      std::partition_point(of_next_turn_.begin(), of_next_turn_.end(), [&](const Pulse& edge) {
+        return !frame.period_s || edge.t < later_by_s(frame.t, *frame.period_s);
+      });
+  edges.insert(edges.end(), of_next_turn_.begin(), in_this_turn);
+  of_next_turn_.erase(of_next_turn_.begin(), in_this_turn);
+  std::sort(edges.begin(), edges.end());
+  for (const Pulse& edge : edges) {
     take(edge, out);
   }
 }
@@ -205,6 +217,7 @@ void SpinPass::sort_out(const std::vector<Pulse>& in_time, SpinOutput& out) {
 void SpinPass::associate(const InterferenceWindow::Sorted& sorted, SpinOutput& out) {
   for (const Pulse& pulse : sorted.spoilt) {
     leave_out(pulse, Rejection::Interference, out);
+    associator_.note_spoilt(pulse);
   }
   for (const Pulse& pulse : sorted.clean) {
     collect(associator_.push(pulse), out);

@@ -1,12 +1,10 @@
 /// @file
-/// Spin period from successive edges of one channel, and its rationality test.
+/// Spin period, and the rationality test of the intervals between successive edges of one channel.
 
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <optional>
 
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/robust_mean.h"
@@ -21,12 +19,15 @@ struct PeriodCandidate {
   bool accepted;
 };
 
+/// At an instant.
 struct SpinPeriod {
   double period_s;
   double sigma_s;
+  double drift_per_s2 = 0.0;  ///< Of the spin rate in turns a second.
 };
 
-/// Sliding window of period candidates: one alone is unreliable.
+/// Sliding window of period candidates: one alone is unreliable. What is tested is by how much each
+/// differs from the period expected at its time, so that a rate that drifts widens no limit.
 ///
 /// Rejected candidates stay in the window: when the rate really changes they become the majority,
 /// and the test follows.
@@ -36,38 +37,20 @@ class SpinPeriodWindow {
   SpinPeriodWindow(const SpinScreening& screening, double edge_sigma_s);
 
   /// Tests the interval `from` -> `to`, `turns` > 0 revolutions long, and adds it.
-  PeriodCandidate add(TaiTime from, TaiTime to, std::int64_t turns);
+  PeriodCandidate add(TaiTime from, TaiTime to, std::int64_t turns, double expected_s);
   /// The same for one turn timed elsewhere.
-  PeriodCandidate add(double period_s) { return add(period_s, 1.0); }
+  PeriodCandidate add(double period_s, double expected_s) { return add(period_s, 1.0, expected_s); }
   /// An interval that ends at an edge known to be wrong: it is not added.
   PeriodCandidate refused(TaiTime from, TaiTime to, std::int64_t turns) const;
 
-  /// At the end of the window: the mean of its intervals, carried on by the difference of its
-  /// halves, since a rate that drifts would leave the mean behind and the axis with it. The
-  /// accepted intervals follow one another from edge to edge, so that the noise of the edges
-  /// between cancels: what was accepted is not judged again. Below kTrendIntervals the mean alone,
-  /// unless the halves differ by more than their noise.
-  /// Empty before the first candidate accepted.
-  std::optional<SpinPeriod> period() const { return period_; }
-  std::size_t size() const { return entries_.size(); }
-
-  static constexpr std::size_t kTrendIntervals = 20;
+  std::size_t size() const { return differences_s_.size(); }
 
  private:
-  struct Entry {
-    double period_s;
-    double turns;
-    bool accepted;
-  };
-
-  PeriodCandidate add(double period_s, double turns);
-  std::optional<SpinPeriod> period_now(double edge_sigma_s) const;
+  PeriodCandidate add(double period_s, double turns, double expected_s);
 
   SpinScreening screening_;
-  double edge_sigma_s_;
-  std::deque<Entry> entries_;
-  SlidingRobustMean periods_s_;
-  std::optional<SpinPeriod> period_;
+  double candidate_sigma_s_;  ///< Of one turn.
+  SlidingRobustMean differences_s_;
 };
 
 }  // namespace spindrift

@@ -11,6 +11,8 @@
 #include <numbers>
 #include <random>
 #include <set>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
@@ -92,6 +94,15 @@ void expect_found(const SpinOutput& output, const SpinningBody& body) {
   EXPECT_NEAR(sequential.spin_rate_rad_s, body.rate_rad_s, 5.0 * sequential.spin_rate_sigma_rad_s);
 }
 
+/// Turns between the first and the last revolution, by their numbers less what the rate says.
+std::int64_t miscounted(const SpinOutput& output, const SpinningBody& body) {
+  const auto revolutions = all_of<RevolutionProduct>(output);
+  const double turns = body.rate_rad_s *
+                       seconds_between(revolutions.front().t_sun1, revolutions.back().t_sun1) /
+                       (2.0 * kPi);
+  return revolutions.back().revolution - revolutions.front().revolution - std::llround(turns);
+}
+
 TEST(SpinPassDirt, AxisAndRateAreFoundHoweverDirtyThePass) {
   const Scene scene;
   std::mt19937_64 rng{701};
@@ -133,12 +144,92 @@ TEST(SpinPassDirt, TurnsAreCountedThroughSilencesOfMinutes) {
     const auto later = scene.seen(body, 120.0 + silence_s, 240.0 + silence_s, rng);
     pulses.insert(pulses.end(), later.begin(), later.end());
     const SpinOutput output = scene.run(body, pulses);
-    const auto revolutions = all_of<RevolutionProduct>(output);
-    const double turns = body.rate_rad_s *
-                         seconds_between(revolutions.front().t_sun1, revolutions.back().t_sun1) /
-                         (2.0 * kPi);
-    EXPECT_EQ(revolutions.back().revolution - revolutions.front().revolution, std::llround(turns));
+    EXPECT_EQ(miscounted(output, body), 0);
     expect_found(output, body);
+  }
+}
+
+TEST(SpinPassDirt, CountAndRateAreRightAtAnyRateUnknownBeforehand) {
+  const Scene scene;
+  std::mt19937_64 rng{707};
+  std::bernoulli_distribution doubled{0.05};
+  std::uniform_real_distribution<double> behind_s{1e-4, 2e-3};
+  for (const double rpm : {5.0, 20.0, 60.0, 100.0, 150.0, 200.0}) {
+    for (int seed = 0; seed < 3; ++seed) {
+      SCOPED_TRACE(::testing::Message() << rpm << " rpm, trial " << seed);
+      SpinningBody body = testing::random_body(scene.around, 3.0 * kDegree_rad, rng);
+      body.rate_rad_s = rpm * 2.0 * kPi / 60.0;
+      const double period_s = 60.0 / rpm;
+      std::vector<Pulse> pulses = testing::dirty(scene.seen(body, 0.0, 120.0 * period_s, rng),
+                                                 period_s, {.lost = 0.1, .spurious = 0.05}, rng)
+                                      .pulses;
+      for (std::size_t i = 0, sent = pulses.size(); i < sent; ++i) {
+        if (doubled(rng)) {
+          const Pulse again = pulses[i];
+          pulses.push_back({.t = shifted(again.t, behind_s(rng)), .channel = again.channel});
+        }
+      }
+      std::sort(pulses.begin(), pulses.end());
+      const SpinOutput output = scene.run(body, pulses);
+      EXPECT_EQ(miscounted(output, body), 0);
+      const SpinEstimate mean = testing::last_estimate(output, SpinEstimator::Mean);
+      EXPECT_NEAR(mean.spin_rate_rad_s, body.rate_rad_s, 4.0 * mean.spin_rate_sigma_rad_s);
+      EXPECT_LT(mean.spin_rate_sigma_rad_s, 1e-4 * body.rate_rad_s);
+    }
+  }
+}
+
+TEST(SpinPassDirt, AfterAnHourOfSilenceTheCountIsRightOrSaidToBeUncertain) {
+  const Scene scene;
+  std::mt19937_64 rng{708};
+  constexpr double kSilence_s = 62.0 * 60.0;
+  for (const bool sun1_only : {false, true}) {
+    for (const double heard_s : {8.0, 600.0}) {
+      SCOPED_TRACE(::testing::Message() << heard_s << " s heard, sun1 only: " << sun1_only);
+      const SpinningBody body = testing::random_body(scene.around, 2.0 * kDegree_rad, rng);
+      std::vector<Pulse> pulses = scene.seen(body, 0.0, heard_s, rng);
+      const auto later = scene.seen(body, heard_s + kSilence_s, heard_s + kSilence_s + 60.0, rng);
+      pulses.insert(pulses.end(), later.begin(), later.end());
+      if (sun1_only) {
+        std::erase_if(pulses, [](const Pulse& pulse) { return pulse.channel != Sun1; });
+      }
+      const SpinOutput output = scene.run(body, pulses);
+      const bool said =
+          std::any_of(output.notices.begin(), output.notices.end(), [](const std::string& notice) {
+            return notice.starts_with("after a silence the count of revolutions is uncertain by");
+          });
+      // Eight turns leave the drift open, ten minutes do not.
+      EXPECT_EQ(said, heard_s < 60.0);
+      if (!said) {
+        EXPECT_EQ(miscounted(output, body), 0);
+      }
+      EXPECT_GE(all_of<RevolutionProduct>(output).size(), 60U);
+    }
+  }
+}
+
+TEST(SpinPassDirt, AnEdgeStampedAYearOffMovesNothing) {
+  const Scene scene;
+  std::mt19937_64 rng{709};
+  const SpinningBody body = testing::random_body(scene.around, 2.0 * kDegree_rad, rng);
+  const std::vector<Pulse> pulses = scene.seen(body, 0.0, 120.0, rng);
+  const SpinOutput expected = scene.run(body, pulses);
+  for (const double days : {-365.0, 365.0}) {
+    SCOPED_TRACE(days);
+    const Pulse stray{.t = shifted(pulses[300].t, days * 86400.0), .channel = Sun1};
+    std::vector<Pulse> with_it = pulses;
+    with_it.insert(with_it.begin() + 300, stray);
+    const SpinOutput output = scene.run(body, with_it);
+    std::vector<std::string> texts;
+    for (const SpinProduct& product : output.products) {
+      const auto* const use = std::get_if<PulseUse>(&product);
+      if (use != nullptr && use->pulse == stray) {
+        EXPECT_EQ(use->rejected_by, days < 0.0 ? Rejection::Late : Rejection::OutOfTime);
+      } else {
+        texts.push_back(testing::text_of(product));
+      }
+    }
+    EXPECT_EQ(texts, testing::texts_of(expected));
   }
 }
 

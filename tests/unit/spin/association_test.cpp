@@ -375,6 +375,31 @@ TEST(Association, EdgesBeforeTheFirstSun1AreLeftOver) {
       all, without(edges, [](const MadeEdge& edge) { return edge.turn == 0; }));
 }
 
+// Nearer to the pass it could be a first edge with some lost behind it.
+TEST(Association, AStrayEdgeBeforeThePassIsNotItsFirst) {
+  const auto edges = made({.noise_s = 1e-4});
+  const Pulse& first = edges.front().pulse;
+  for (const PulseChannel channel : {Sun1, Sun2, NorthIn}) {
+    for (int strays = 1; strays <= 2; ++strays) {
+      for (double before_turns = 10.5; before_turns < 70.0; before_turns += 0.97) {
+        SCOPED_TRACE(::testing::Message() << strays << " of " << name_of(channel) << ", "
+                                          << before_turns << " turns before");
+        std::vector<Pulse> pulses = pulses_of(edges);
+        for (int i = 1; i <= strays; ++i) {
+          pulses.insert(pulses.begin(),
+                        {.t = shifted(first.t, -i * before_turns * kPeriod_s), .channel = channel});
+        }
+        const Association all = associate(pulses);
+        EXPECT_GE(all.left_over.size(), static_cast<std::size_t>(strays));
+        ASSERT_FALSE(all.closed.empty());
+        EXPECT_EQ(all.closed.front().number, 0);
+        EXPECT_EQ(all.closed.front().edge(Sun1), first.t);
+        EXPECT_EQ(all.closed.size(), 100U);
+      }
+    }
+  }
+}
+
 TEST(Association, AChannelThatBeginsLateFindsItsRevolutions) {
   const auto edges = without(made({}), [](const MadeEdge& edge) {
     return edge.turn < 50 && edge.pulse.channel != Sun1 && edge.pulse.channel != Sun2;

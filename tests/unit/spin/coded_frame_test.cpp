@@ -5,6 +5,7 @@
 
 #include <array>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -12,6 +13,8 @@
 
 #include "pipelines/spin/association.h"
 #include "pipelines/spin/reorder_window.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
 
 namespace spindrift {
@@ -105,6 +108,46 @@ TEST(CodedFrame, OneAloneIsARevolutionWithItsPeriod) {
   ASSERT_TRUE(revolution.period_candidate);
   EXPECT_TRUE(revolution.period_candidate->accepted);
   EXPECT_DOUBLE_EQ(revolution.period_candidate->period_s, 1.0);
+}
+
+TEST(CodedFrame, AChordThatStraddlesTheNextSun1StaysInOnePiece) {
+  CodedFrame frame = frame_at(0.0);
+  frame.delay_s = {std::nullopt, 0.1, 0.95, 0.05, 0.7, 0.9};
+  EXPECT_THAT(edges_of(frame),
+              ElementsAre(edge_at(0.0, Sun1), edge_at(0.1, Sun2), edge_at(0.7, SouthIn),
+                          edge_at(0.9, SouthOut), edge_at(0.95, NorthIn), edge_at(1.05, NorthOut)));
+  const Association alone = associate({frame});
+  ASSERT_EQ(alone.closed.size(), 1U);
+  EXPECT_TRUE(alone.left_over.empty());
+  EXPECT_EQ(alone.closed.front().edge(NorthIn), shifted(kStart, 0.95));
+  EXPECT_EQ(alone.closed.front().edge(NorthOut), shifted(kStart, 1.05));
+}
+
+TEST(CodedFrame, ChordsThatStraddleSun1AreWholeHoweverSlowTheSpinAndWideTheGaps) {
+  for (const double period_s : {0.5, 12.0}) {
+    SCOPED_TRACE(period_s);
+    std::vector<CodedFrame> frames;
+    for (int turn = 0; turn < 60; ++turn) {
+      if (turn % 7 < 4) {
+        frames.push_back({.t = shifted(kStart, turn * period_s),
+                          .period_s = period_s,
+                          .delay_s = {std::nullopt, 0.1 * period_s, 0.9 * period_s, 0.2 * period_s,
+                                      0.7 * period_s, 0.8 * period_s}});
+      }
+    }
+    const SpinOutput output =
+        testing::run(SpinPass{testing::usual_config(), testing::transfer_orbit()}, frames);
+    std::map<std::int64_t, int> edges_of_turn;
+    for (const PulseUse& use : testing::all_of<PulseUse>(output)) {
+      ASSERT_TRUE(use.revolution) << name_of(use.pulse.channel);
+      ++edges_of_turn[*use.revolution];
+    }
+    ASSERT_EQ(edges_of_turn.size(), frames.size());
+    for (const auto& [turn, edges] : edges_of_turn) {
+      EXPECT_EQ(edges, 6) << turn;
+      EXPECT_LT(turn % 7, 4);
+    }
+  }
 }
 
 TEST(CodedFrame, OneWithoutAPeriodIsLeftOver) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace spindrift {
@@ -65,6 +67,23 @@ TEST(Interference, WithoutAWindowEverythingPassesAtOnce) {
   EXPECT_THAT(window.push(pulse_at(0, Sun1)).clean, ElementsAre(pulse_at(0, Sun1)));
   EXPECT_THAT(window.push(pulse_at(0, Sun2)).clean, ElementsAre(pulse_at(0, Sun2)));
   EXPECT_THAT(window.finish().clean, IsEmpty());
+}
+
+// The cost of an edge does not grow with the number of those that are held: this comes to an end.
+TEST(Interference, AFloodWithinOneWindowComesOutWholeAndInOrder) {
+  constexpr std::size_t kFlood = 1'000'000;
+  std::vector<Pulse> flood(kFlood);
+  for (std::size_t i = 0; i < kFlood; ++i) {
+    flood[i] = {.t = tai_from_ns(static_cast<std::int64_t>(i / 2)),
+                .channel = i % 2 == 0 ? Sun1 : Sun2};
+  }
+  EXPECT_EQ(sorted(kWindow_s, flood).spoilt, flood);
+  for (Pulse& pulse : flood) {
+    pulse.channel = Sun1;
+  }
+  EXPECT_EQ(sorted(kWindow_s, flood).clean, flood);
+  flood.back().channel = Sun2;
+  EXPECT_EQ(sorted(kWindow_s, flood).spoilt, flood);
 }
 
 }  // namespace

@@ -60,6 +60,28 @@ TEST(SpinMeasurements, SunAngleIsThatOfTheOracle) {
   }
 }
 
+TEST(SpinMeasurements, ADriftOfTheRateChangesNoAngle) {
+  const Scene scene;
+  Revolution even = seen(scene);
+  even.t_start = even.edge(Sun1).value();
+  Revolution drifting = even;
+  // What takes t at an even rate takes t - t^2 / 200 s: the rate gains a hundredth in a second.
+  drifting.period.drift_per_s2 = 0.01 / even.period.period_s;
+  for (auto& edge : drifting.edges) {
+    const double t_s = seconds_between(even.t_start, edge.value());
+    edge = shifted(even.t_start, 2.0 * t_s / (1.0 + std::sqrt(1.0 + 2.0 * 0.01 * t_s)));
+  }
+  const RevolutionMeasurements expected = measure(scene.config, even);
+  const RevolutionMeasurements measured = measure(scene.config, drifting);
+  for (const SpinQuantity quantity : kMeasuredAngles) {
+    ASSERT_EQ(value_of(measured, quantity).has_value(), value_of(expected, quantity).has_value());
+    if (const auto value = value_of(measured, quantity)) {
+      EXPECT_NEAR(value->value_rad, value_of(expected, quantity)->value_rad, 2.0 * kNanosecond_rad)
+          << name_of(quantity);
+    }
+  }
+}
+
 TEST(SpinMeasurements, SlitLagOfTheOracleIsTheOneOfTheHandbook) {
   for (const double cant_deg : {15.0, 30.0, 45.0}) {
     for (const double angle_deg : {60.0, 75.0, 90.0, 110.0}) {

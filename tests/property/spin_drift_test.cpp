@@ -1,0 +1,115 @@
+/// Passes of a body whose rate drifts: rate and axis are right and their sigma means what it says,
+/// at every time of the pass.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/spin_pass.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/product_text.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+using testing::all_of;
+using testing::SpinningBody;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree_rad = kPi / 180.0;
+constexpr double kRpm_rad_s = 2.0 * kPi / 60.0;
+
+struct DriftingPass {
+  Orbit orbit = testing::transfer_orbit();
+  double rate_rad_s;  ///< At the start.
+  double drift_rad_s2;
+
+  double rate_at(double t_s) const { return rate_rad_s + drift_rad_s2 * t_s; }
+  /// When a body of constant rate would have turned as far.
+  double even_s(double t_s) const { return t_s + 0.5 * drift_rad_s2 / rate_rad_s * t_s * t_s; }
+  /// The inverse.
+  double drifting_s(double even_s) const {
+    const double rate_then = std::sqrt(1.0 + 2.0 * drift_rad_s2 / rate_rad_s * even_s);
+    return 2.0 * even_s / (1.0 + rate_then);
+  }
+
+  /// Sun and Earth as the body sees them, by the time of constant rate.
+  testing::Surroundings around() const {
+    const auto seen = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+    const DriftingPass pass = *this;
+    return {.sun_icrf = [pass, seen](double t_s) { return seen.sun_icrf(pass.drifting_s(t_s)); },
+            .earth_icrf_km = [pass, seen](double t_s) -> Eigen::Vector3d {
+              return seen.earth_icrf_km(pass.drifting_s(t_s));
+            },
+            .horizon_km = seen.horizon_km};
+  }
+
+  std::vector<Pulse> pulses(const SpinningBody& body, double duration_s,
+                            std::mt19937_64& rng) const {
+    std::vector<testing::Edge> edges =
+        testing::edges_between(body, around(), 0.0, even_s(duration_s));
+    for (testing::Edge& edge : edges) {
+      edge.t_s = drifting_s(edge.t_s);
+    }
+    return testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng);
+  }
+};
+
+struct Share {
+  int estimates = 0;
+  int beyond_three = 0;
+
+  void add(double normalised_error) {
+    ++estimates;
+    beyond_three += std::abs(normalised_error) > 3.0 ? 1 : 0;
+  }
+};
+
+TEST(SpinDrift, RateAndAxisMeanWhatTheirSigmasSay) {
+  std::mt19937_64 rng{801};
+  Share mean;
+  Share sequential;
+  for (const double rpm : {5.5, 20.0, 60.0, 200.0}) {
+    for (const double drift_rpm_h : {-2.0, -1.0, 0.1, 2.0}) {
+      SCOPED_TRACE(::testing::Message() << rpm << " rpm, " << drift_rpm_h << " rpm/h");
+      const DriftingPass pass{.rate_rad_s = rpm * kRpm_rad_s,
+                              .drift_rad_s2 = drift_rpm_h * kRpm_rad_s / 3600.0};
+      SpinningBody body = testing::random_body(pass.around(), 2.0 * kDegree_rad, rng);
+      body.rate_rad_s = pass.rate_rad_s;
+      // As good in angle at every rate.
+      body.config.noise = {.sun_s = 6e-3 / rpm, .infrared_s = 3e-2 / rpm};
+      const double duration_s = std::clamp(200.0 * 60.0 / rpm, 120.0, 1200.0);
+      const SpinOutput output =
+          testing::run(SpinPass{body.config, pass.orbit}, pass.pulses(body, duration_s, rng));
+      for (const SpinEstimate& estimate : all_of<SpinEstimate>(output)) {
+        const double rate_rad_s =
+            pass.rate_at(seconds_between(testing::kTransferStart, estimate.t));
+        (estimate.estimator == SpinEstimator::Mean ? mean : sequential)
+            .add((estimate.spin_rate_rad_s - rate_rad_s) / estimate.spin_rate_sigma_rad_s);
+      }
+      for (const SpinEstimator estimator : {SpinEstimator::Mean, SpinEstimator::Sequential}) {
+        const SpinEstimate last = testing::last_estimate(output, estimator);
+        EXPECT_GT(seconds_between(testing::kTransferStart, last.t), duration_s - 3.0 * 60.0 / rpm);
+        EXPECT_LT(angle_between_rad(last.axis_icrf, body.axis_icrf),
+                  4.0 * testing::sigma_rad(last));
+        EXPECT_EQ(last.status.find("restart"), std::string::npos) << last.status;
+        // Half an rpm an hour, seen for a minute.
+        EXPECT_LT(last.spin_rate_sigma_rad_s, 0.5 / 60.0 * kRpm_rad_s);
+      }
+    }
+  }
+  for (const Share& share : {mean, sequential}) {
+    EXPECT_GT(share.estimates, 3000);
+    EXPECT_LT(share.beyond_three, 0.01 * share.estimates);
+  }
+}
+
+}  // namespace
+}  // namespace spindrift
