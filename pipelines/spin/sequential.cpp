@@ -28,6 +28,9 @@ constexpr double kRecentRevolution = 0.1;
 constexpr double kMostGated = 0.5;
 // A candidate is out when the edges are e^20 times likelier under another one.
 constexpr double kBeyondDoubt = 20.0;
+// A prior's candidate is in doubt when they are e^5 times likelier under another one: were it
+// true, that would happen in one pass of 150 at most (Ville's inequality).
+constexpr double kPriorInDoubt = 5.0;
 // Of so many edges the mean squared innovation, 1 when all is well, says whether the noise is as
 // stated: chi-square of one degree of freedom each, beyond so many of its sigmas.
 constexpr double kFitEdges = 300.0;
@@ -57,9 +60,14 @@ bool well_known(const Eigen::Matrix2d& covariance_rad2) {
   return covariance_rad2.trace() < kPoorestFix_rad * kPoorestFix_rad;
 }
 
+/// It names a candidate, or none, and has not ruled out the others.
+bool leaves_open(const SpinFix& fix) {
+  return fix.resolution == Resolution::Ambiguous || fix.resolution == Resolution::Prior;
+}
+
 std::vector<Start> starts_of(const SpinFix& fix) {
   std::vector<Start> starts{{fix.axis_icrf, fix.covariance_rad2}};
-  if (fix.resolution == Resolution::Ambiguous) {
+  if (leaves_open(fix)) {
     for (std::size_t i = 0; i < fix.alternate_axes_icrf.size(); ++i) {
       starts.push_back({fix.alternate_axes_icrf[i], fix.alternate_covariances_rad2[i]});
     }
@@ -89,14 +97,15 @@ bool agree(const SpinFilter& a, const SpinFilter& b) {
 }
 
 const SpinFix* last_accepted(std::span<const SpinFix> fixes) {
-  const auto found =
-      std::find_if(fixes.rbegin(), fixes.rend(), [](const SpinFix& fix) { return fix.accepted; });
+  const auto found = std::find_if(fixes.rbegin(), fixes.rend(), [](const SpinFix& fix) {
+    return fix.accepted && !fix.grazing;
+  });
   return found == fixes.rend() ? nullptr : &*found;
 }
 
-const SpinFix* last_ambiguous(std::span<const SpinFix> fixes) {
+const SpinFix* last_open(std::span<const SpinFix> fixes) {
   const auto found = std::find_if(fixes.rbegin(), fixes.rend(), [](const SpinFix& fix) {
-    return fix.resolution == Resolution::Ambiguous && !fix.grazing;
+    return leaves_open(fix) && !fix.grazing;
   });
   return found == fixes.rend() ? nullptr : &*found;
 }
@@ -109,7 +118,7 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
   const SpinFix* const accepted = last_accepted(settled);
   const bool restart = restart_is_due(settled);
   if (hypotheses_.empty() || restart) {
-    const SpinFix* const first = accepted != nullptr ? accepted : last_ambiguous(settled);
+    const SpinFix* const first = accepted != nullptr ? accepted : last_open(settled);
     if (first != nullptr) {
       start(*first, revolution, sky);
     }
@@ -148,11 +157,11 @@ Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
   return hypotheses_.front().filter.axis_covariance_rad2() * excess_noise();
 }
 
-/// Candidates of an AMBIGUOUS fix that no filter follows. What is settled is asked again only where
+/// Candidates of a fix that leaves them open, which no filter follows. What is settled is asked again only where
 /// the fix does not name its axis at all.
 void SequentialEstimator::add_unlike(std::span<const SpinFix> settled, const Revolution& revolution,
                                      const Sky& sky) {
-  const SpinFix* const fix = last_ambiguous(settled);
+  const SpinFix* const fix = last_open(settled);
   if (fix == nullptr) {
     return;
   }
@@ -173,6 +182,7 @@ void SequentialEstimator::add_unlike(std::span<const SpinFix> settled, const Rev
         hypotheses_.push_back(
             {.filter = *filter, .log_likelihood = hypotheses_.front().log_likelihood});
         settled_ = false;
+        settled_by_edges_ = false;
       }
     }
   }
@@ -186,7 +196,10 @@ bool SequentialEstimator::restart_is_due(std::span<const SpinFix> settled) {
   for (const SpinFix& fix : settled) {
     if (fix.accepted && !fix.grazing && well_known(fix.covariance_rad2)) {
       const bool against = std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const auto& h) {
-        return contradicts({fix.axis_icrf, fix.covariance_rad2}, h.filter);
+        const std::vector<Start> starts = starts_of(fix);
+        return std::all_of(starts.begin(), starts.end(), [&](const Start& start) {
+          return contradicts(start, h.filter);
+        });
       });
       contradicted_ = std::max(0, contradicted_ + (against ? 1 : -1));
       contradicting_ = contradicted_ > 0 ? contradicting_ : MeanAxis{};
@@ -222,6 +235,7 @@ bool SequentialEstimator::fixes_contradict() const {
 
 void SequentialEstimator::start(const SpinFix& fix, const Revolution& revolution, const Sky& sky) {
   std::vector<Hypothesis> started;
+  const bool by_prior = fix.resolution == Resolution::Prior;
   const auto add = [&](const Eigen::Vector3d& axis_icrf, Eigen::Matrix2d axis_rad2) {
     if (config_.horizon.model == HorizonModel::Ellipsoid) {
       // Fixes rest on the spherical horizon.
@@ -229,7 +243,8 @@ void SequentialEstimator::start(const SpinFix& fix, const Revolution& revolution
     }
     if (well_known(axis_rad2)) {
       if (const auto filter = SpinFilter::about(axis_icrf, axis_rad2, config_, revolution, sky)) {
-        started.push_back({.filter = *filter});
+        // The fix's own axis comes first.
+        started.push_back({.filter = *filter, .favoured = by_prior && started.empty()});
       }
     }
   };
@@ -245,7 +260,8 @@ void SequentialEstimator::start(const SpinFix& fix, const Revolution& revolution
     gated_ = 0;
     gated_share_ = 0.0;
     channel_gated_share_ = {};
-    settled_ = fix.accepted;
+    settled_ = fix.accepted && hypotheses_.size() == 1;
+    settled_by_edges_ = false;
     squared_innovation_ = 1.0;
     contradicted_ = 0;
     contradicting_ = MeanAxis{};
@@ -258,7 +274,14 @@ void SequentialEstimator::take_side(const SpinFix& fix) {
       hypotheses_.begin(), hypotheses_.end(), [&](const Hypothesis& a, const Hypothesis& b) {
         return a.filter.axis_icrf().dot(fix.axis_icrf) < b.filter.axis_icrf().dot(fix.axis_icrf);
       });
-  if (!contradicts({fix.axis_icrf, fix.covariance_rad2}, nearest->filter)) {
+  if (contradicts({fix.axis_icrf, fix.covariance_rad2}, nearest->filter)) {
+    return;
+  }
+  if (fix.resolution == Resolution::Prior) {
+    for (Hypothesis& hypothesis : hypotheses_) {
+      hypothesis.favoured = !prior_refuted_ && &hypothesis == &*nearest;
+    }
+  } else {
     std::swap(hypotheses_.front(), *nearest);
     hypotheses_.erase(hypotheses_.begin() + 1, hypotheses_.end());
     settled_ = true;
@@ -291,18 +314,45 @@ void SequentialEstimator::drop_the_beaten() {
   std::stable_sort(hypotheses_.begin(), hypotheses_.end(), [](const auto& a, const auto& b) {
     return a.log_likelihood > b.log_likelihood;
   });
-  const Hypothesis best = hypotheses_.front();
+  Hypothesis& best = hypotheses_.front();
   const bool fits =
       best.edges >= kFewestEdges &&
       best.squared_innovations < best.edges + kFitSigmas * std::sqrt(2.0 * best.edges);
   const std::size_t before = hypotheses_.size();
   const auto beaten = [&](const Hypothesis& other) {
-    return agree(best.filter, other.filter) ||
-           (fits && best.log_likelihood - other.log_likelihood > kBeyondDoubt);
+    const bool same = agree(best.filter, other.filter);
+    const bool out = fits && best.log_likelihood - other.log_likelihood > kBeyondDoubt;
+    best.favoured = best.favoured || (same && other.favoured);
+    if (!same && out && other.favoured) {
+      prior_refuted_ = true;
+      ++restarts_;
+    }
+    return same || out;
   };
   hypotheses_.erase(std::remove_if(hypotheses_.begin() + 1, hypotheses_.end(), beaten),
                     hypotheses_.end());
-  settled_ = settled_ || (fits && before > 1 && hypotheses_.size() == 1);
+  settled_by_edges_ = settled_by_edges_ || (fits && before > 1 && hypotheses_.size() == 1);
+  settled_ = settled_ || settled_by_edges_;
+  // Unbeaten, the prior's candidate stands before likelier ones.
+  std::stable_partition(hypotheses_.begin(), hypotheses_.end(),
+                        [](const Hypothesis& h) { return h.favoured; });
+}
+
+/// No other hypothesis is so much likelier than the one that the prior chose.
+bool SequentialEstimator::prior_stands() const {
+  const Hypothesis& first = hypotheses_.front();
+  return first.favoured &&
+         std::all_of(hypotheses_.begin() + 1, hypotheses_.end(), [&](const Hypothesis& other) {
+           return other.log_likelihood - first.log_likelihood < kPriorInDoubt;
+         });
+}
+
+std::optional<KnownAxis> SequentialEstimator::settled_by_edges() const {
+  if (!settled_by_edges_ || hypotheses_.size() > 1 || gated_share_ > kMostGated) {
+    return std::nullopt;
+  }
+  return KnownAxis{.axis_icrf = hypotheses_.front().filter.axis_icrf(),
+                   .sigma_rad = std::hypot(std::sqrt(covariance_rad2().trace()), kModelLimit_rad)};
 }
 
 void SequentialEstimator::note_fit(const EdgeTally& tally) {
@@ -340,10 +390,10 @@ std::string SequentialEstimator::status() const {
   if (gated_share_ > kMostGated) {
     return fmt::format("LOST, {} edges gated, awaiting a fix", gated_);
   }
-  if (!settled_ && hypotheses_.size() == 1) {
+  if (!settled_ && hypotheses_.size() == 1 && !prior_stands()) {
     return fmt::format("AMBIGUOUS, no fix has settled it, {} revolutions", revolutions_);
   }
-  if (hypotheses_.size() > 1) {
+  if (hypotheses_.size() > 1 && !prior_stands()) {
     const RaDec other = ra_dec_of(hypotheses_[1].filter.axis_icrf());
     return fmt::format("AMBIGUOUS, or ra {:.2f} dec {:.2f} deg, {} revolutions",
                        other.ra_rad / kDegree_rad, other.dec_rad / kDegree_rad, revolutions_);
@@ -362,6 +412,9 @@ std::string SequentialEstimator::status() const {
   }
   const std::string counts =
       fmt::format("OK, {} revolutions, {} edges gated", revolutions_, gated_);
+  if (prior_refuted_) {
+    return counts + ", prior refuted";
+  }
   return restarted_.empty() ? counts : fmt::format("{}, restart: {}", counts, restarted_);
 }
 

@@ -4,7 +4,9 @@
 /// A fix starts it. Where the fix is AMBIGUOUS one filter starts at each of its candidates, and at
 /// those of later ones that are near none of them; all see the same edges, the likeliest is
 /// published, and the others are dropped when a later fix settles the matter or the edges
-/// themselves do. Candidates known badly or grazing start none. A filter that finds most edges
+/// themselves do. Likewise where only a PRIOR settled the fix: its candidate is published, and the
+/// others stay until the edges beat them; where they beat the prior's, the axis is theirs, and
+/// the status says so. Candidates known badly or grazing start none. A filter that finds most edges
 /// where it does not expect them, or whose fixes name another axis, starts again at the next
 /// accepted fix, and says so.
 ///
@@ -30,6 +32,7 @@
 
 #include "pipelines/spin/association.h"
 #include "pipelines/spin/config.h"
+#include "pipelines/spin/known_axis.h"
 #include "pipelines/spin/mean_axis.h"
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/sky.h"
@@ -47,13 +50,20 @@ class SequentialEstimator {
   std::optional<SpinEstimate> update(const Revolution& revolution, const Sky& sky,
                                      std::span<const SpinFix> settled);
 
-  /// How often it gave up its axis for that of a fix.
+  /// How often it gave up its axis for another.
   int restarts() const { return restarts_; }
+
+  /// The edges have beaten the candidate that a prior had chosen.
+  bool prior_refuted() const { return prior_refuted_; }
+
+  /// The axis that the edges settled beyond doubt among several.
+  std::optional<KnownAxis> settled_by_edges() const;
 
  private:
   /// One candidate for the axis and what speaks for it.
   struct Hypothesis {
     SpinFilter filter;
+    bool favoured = false;  ///< By a prior.
     double edges = 0.0;
     double log_likelihood = 0.0;  ///< Of them.
     double squared_innovations =
@@ -68,6 +78,7 @@ class SequentialEstimator {
   void start(const SpinFix& fix, const Revolution& revolution, const Sky& sky);
   bool restart_is_due(std::span<const SpinFix> settled);
   void take_side(const SpinFix& fix);
+  bool prior_stands() const;
   void work_in(const Revolution& revolution, const Sky& sky);
   void drop_the_beaten();
   void note_fit(const EdgeTally& tally);
@@ -82,6 +93,8 @@ class SequentialEstimator {
   /// Of the recent revolutions, those in which the channel's edge was gated.
   std::array<double, kPulseChannels> channel_gated_share_ = {};
   bool settled_ = false;             ///< By a fix, or by the edges beyond doubt.
+  bool settled_by_edges_ = false;
+  bool prior_refuted_ = false;
   double squared_innovation_ = 1.0;  ///< Mean of the recent edges, normalised.
   int contradicted_ = 0;             ///< Fixes against the axis, less those for it.
   MeanAxis contradicting_;           ///< All fixes since it was last 0.
