@@ -31,14 +31,10 @@ constexpr double kBeyondDoubt = 20.0;
 // A prior's candidate is in doubt when they are e^5 times likelier under another one: were it
 // true, that would happen in one pass of 150 at most (Ville's inequality).
 constexpr double kPriorInDoubt = 5.0;
-// Of so many edges the mean squared innovation, 1 when all is well, says whether the noise is as
-// stated: chi-square of one degree of freedom each, beyond so many of its sigmas.
-constexpr double kFitEdges = 300.0;
-constexpr double kFitSigmas = 5.0;
-// From this share on the gated edges belong to the noise, and are not spurious.
-constexpr double kManyGated = 0.2;
-// The first edges pull the filter from its start to where they fit, and say nothing of the noise.
+// So many edges say whether a hypothesis fits them: the sum of their squared innovations, chi-square
+// of one degree of freedom each, within so many of its sigmas.
 constexpr double kFewestEdges = 60.0;
+constexpr double kFitSigmas = 5.0;
 // Mean squared angle between an axis that may point anywhere and any other.
 constexpr double kAnywhere_rad2 = (std::numbers::pi * std::numbers::pi - 4.0) / 2.0;
 // A fix contradicts the filter beyond so many sigmas of both, and beyond what may be wrong with
@@ -138,23 +134,18 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
                       .axis_icrf = best.axis_icrf(),
                       .covariance_rad2 = covariance_rad2(),
                       .spin_rate_rad_s = best.rate_rad_s(),
-                      .spin_rate_sigma_rad_s = best.rate_sigma_rad_s() * std::sqrt(excess_noise()),
+                      .spin_rate_sigma_rad_s = best.rate_sigma_rad_s() * std::sqrt(watch_.excess_noise()),
                       .status = status()};
-}
-
-/// How many times the variance of the edges is what their stated noise makes it, where that is
-/// significantly more than 1; else 1.
-double SequentialEstimator::excess_noise() const {
-  const double edges = std::clamp(hypotheses_.front().edges - kFewestEdges, 1.0, kFitEdges);
-  const bool significant = squared_innovation_ > 1.0 + kFitSigmas * std::sqrt(2.0 / edges);
-  return significant ? squared_innovation_ : 1.0;
 }
 
 Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
   if (gated_share_ > kMostGated) {
     return Eigen::Matrix2d::Identity() * (0.5 * kAnywhere_rad2);
   }
-  return hypotheses_.front().filter.axis_covariance_rad2() * excess_noise();
+  const SpinFilter& filter = hypotheses_.front().filter;
+  const Eigen::Matrix<double, 2, kPulseChannels> moved =
+      filter.axis_of_errors() * watch_.channel_error_rad();
+  return filter.axis_covariance_rad2() * watch_.excess_noise() + moved * moved.transpose();
 }
 
 /// Candidates of a fix that leaves them open, which no filter follows. What is settled is asked again only where
@@ -170,7 +161,7 @@ void SequentialEstimator::add_unlike(std::span<const SpinFix> settled, const Rev
     return std::any_of(hypotheses_.begin(), hypotheses_.end(),
                        [&](const auto& h) { return !contradicts(start, h.filter); });
   };
-  if (settled_ && (excess_noise() == 1.0 || std::any_of(starts.begin(), starts.end(), followed))) {
+  if (settled_ && (watch_.excess_noise() == 1.0 || std::any_of(starts.begin(), starts.end(), followed))) {
     return;
   }
   for (const Start& start : starts) {
@@ -213,7 +204,7 @@ bool SequentialEstimator::restart_is_due(std::span<const SpinFix> settled) {
     restarted_ = "edges gated";
     return true;
   }
-  if (contradicted_ >= kMostContradictions && (excess_noise() > 1.0 || fixes_contradict())) {
+  if (contradicted_ >= kMostContradictions && (watch_.excess_noise() > 1.0 || fixes_contradict())) {
     restarted_ = "fixes differ";
     return true;
   }
@@ -262,7 +253,6 @@ void SequentialEstimator::start(const SpinFix& fix, const Revolution& revolution
     channel_gated_share_ = {};
     settled_ = fix.accepted && hypotheses_.size() == 1;
     settled_by_edges_ = false;
-    squared_innovation_ = 1.0;
     contradicted_ = 0;
     contradicting_ = MeanAxis{};
   }
@@ -355,27 +345,11 @@ std::optional<KnownAxis> SequentialEstimator::settled_by_edges() const {
                    .sigma_rad = std::hypot(std::sqrt(covariance_rad2().trace()), kModelLimit_rad)};
 }
 
-void SequentialEstimator::note_fit(const EdgeTally& tally) {
-  const double counted = hypotheses_.front().edges - kFewestEdges;
-  if (counted <= 0.0) {
-    return;
-  }
-  const bool with_gated = gated_share_ > kManyGated;
-  const auto accepted = static_cast<double>(tally.accepted.count());
-  const auto gated = static_cast<double>(tally.gated.count());
-  const double edges = accepted + (with_gated ? gated : 0.0);
-  const double squares =
-      tally.squared_innovations -
-      (with_gated ? 0.0 : gated * SpinFilter::kGateSigmas * SpinFilter::kGateSigmas);
-  const double all = std::clamp(counted, std::max(edges, 1.0), kFitEdges);
-  squared_innovation_ += (squares - edges * squared_innovation_) / all;
-}
-
 void SequentialEstimator::count(const EdgeTally& tally) {
   const auto gated = static_cast<double>(tally.gated.count());
   const double edges = gated + static_cast<double>(tally.accepted.count());
   gated_share_ += kRecentEdge * (gated - edges * gated_share_);
-  note_fit(tally);
+  watch_.note(tally);
   // Of the first revolutions the plain mean: what starts wrong says so at once.
   const double recent = std::max(kRecentRevolution, 1.0 / static_cast<double>(revolutions_ + 1));
   for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
@@ -406,9 +380,13 @@ std::string SequentialEstimator::status() const {
                            std::distance(channel_gated_share_.begin(), worst))),
                        revolutions_);
   }
-  if (excess_noise() > 1.0) {
+  if (watch_.excess_noise() > 1.0) {
     return fmt::format("DOUBTFUL, residuals {:.1f} x stated noise, {} revolutions",
-                       std::sqrt(excess_noise()), revolutions_);
+                       std::sqrt(watch_.excess_noise()), revolutions_);
+  }
+  if (const auto channel = watch_.biased_channel()) {
+    return fmt::format("DOUBTFUL, {} early or late on average, {} revolutions",
+                       name_of(*channel), revolutions_);
   }
   const std::string counts =
       fmt::format("OK, {} revolutions, {} edges gated", revolutions_, gated_);

@@ -13,8 +13,9 @@
 /// The status begins with
 ///     OK         all is well
 ///     AMBIGUOUS  another axis, named, fits as well or nearly so, or nothing has settled it
-///     DOUBTFUL   the edges scatter more than their noise, and the covariance is raised to that; or
-///                most edges of the channel named are not where this axis has them
+///     DOUBTFUL   the edges scatter more than their noise, or those of the channel named are early
+///                or late on average: the model is wrong, and the covariance is raised to cover it;
+///                or most edges of the channel named are not where this axis has them
 ///     LOST       most edges are not: the axis is no longer, or never was, the true one; the
 ///                covariance is that of an axis which may point anywhere
 
@@ -32,6 +33,7 @@
 
 #include "pipelines/spin/association.h"
 #include "pipelines/spin/config.h"
+#include "pipelines/spin/innovation_watch.h"
 #include "pipelines/spin/known_axis.h"
 #include "pipelines/spin/mean_axis.h"
 #include "pipelines/spin/products.h"
@@ -71,7 +73,6 @@ class SequentialEstimator {
     EdgeTally tally = {};  ///< Of the last revolution.
   };
 
-  double excess_noise() const;
   Eigen::Matrix2d covariance_rad2() const;
   void add_unlike(std::span<const SpinFix> settled, const Revolution& revolution, const Sky& sky);
   bool fixes_contradict() const;
@@ -81,7 +82,6 @@ class SequentialEstimator {
   bool prior_stands() const;
   void work_in(const Revolution& revolution, const Sky& sky);
   void drop_the_beaten();
-  void note_fit(const EdgeTally& tally);
   void count(const EdgeTally& tally);
   std::string status() const;
 
@@ -95,7 +95,7 @@ class SequentialEstimator {
   bool settled_ = false;             ///< By a fix, or by the edges beyond doubt.
   bool settled_by_edges_ = false;
   bool prior_refuted_ = false;
-  double squared_innovation_ = 1.0;  ///< Mean of the recent edges, normalised.
+  InnovationWatch watch_;            ///< Over the restarts: noise and model stay what they are.
   int contradicted_ = 0;             ///< Fixes against the axis, less those for it.
   MeanAxis contradicting_;           ///< All fixes since it was last 0.
   int restarts_ = 0;

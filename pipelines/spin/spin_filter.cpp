@@ -94,6 +94,8 @@ void SpinFilter::predict(TaiTime t) {
   }
   phase_rad_ = wrapped_rad(phase_rad_ + (rate_rad_s_ + 0.5 * drift_rad_s2_ * dt_s) * dt_s);
   rate_rad_s_ += drift_rad_s2_ * dt_s;
+  of_errors_.row(kPhase) += dt_s * (of_errors_.row(kRate) + 0.5 * dt_s * of_errors_.row(kDrift));
+  of_errors_.row(kRate) += dt_s * of_errors_.row(kDrift);
   covariance_.row(kPhase) += dt_s * (covariance_.row(kRate) + 0.5 * dt_s * covariance_.row(kDrift));
   covariance_.col(kPhase) += dt_s * (covariance_.col(kRate) + 0.5 * dt_s * covariance_.col(kDrift));
   covariance_.row(kRate) += dt_s * covariance_.row(kDrift);
@@ -136,6 +138,7 @@ SpinFilter::Error SpinFilter::update_linearised_here(const SpinFilter& prior,
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin_.conjugate().toRotationMatrix();
   tally = {};
   covariance_ = prior.covariance_;
+  of_errors_ = prior.of_errors_;
   Error error = error_of(prior);
   const auto gate = [&tally](const Pulse& edge) {
     tally.gated.set(index_of(edge.channel));
@@ -162,6 +165,13 @@ SpinFilter::Error SpinFilter::update_linearised_here(const SpinFilter& prior,
       gate(edge);
       continue;
     }
+    // A channel that is late by an angle looks as if the phase were ahead by it.
+    Eigen::Matrix<double, 1, kPulseChannels> innovation_of_errors = slope.transpose() * of_errors_;
+    innovation_of_errors[static_cast<Eigen::Index>(index_of(edge.channel))] += 1.0;
+    of_errors_ -= gain_unscaled * innovation_of_errors / variance;
+    tally.innovation_of_errors.row(static_cast<Eigen::Index>(index_of(edge.channel))) =
+        innovation_of_errors / std::sqrt(variance);
+    tally.innovations.at(index_of(edge.channel)) = innovation / std::sqrt(variance);
     error += gain_unscaled * (innovation / variance);
     covariance_ -= gain_unscaled * gain_unscaled.transpose() / variance;
     tally.accepted.set(index_of(edge.channel));
@@ -194,6 +204,10 @@ void SpinFilter::correct(const Error& error) {
 Eigen::Matrix2d SpinFilter::axis_covariance_rad2() const {
   const Eigen::Matrix2d turned = tangent_from_tilts(q_icrf_spin_);
   return turned * covariance_.topLeftCorner<2, 2>() * turned.transpose();
+}
+
+Eigen::Matrix<double, 2, kPulseChannels> SpinFilter::axis_of_errors() const {
+  return tangent_from_tilts(q_icrf_spin_) * of_errors_.topRows<2>();
 }
 
 double SpinFilter::rate_sigma_rad_s() const { return std::sqrt(covariance_(kRate, kRate)); }
