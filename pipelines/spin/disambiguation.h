@@ -54,7 +54,7 @@ class Disambiguator {
     std::int64_t revolution;
     TaiTime t;
     AxisCandidates found;
-    std::vector<std::size_t> possible;  ///< Those that break no constraint.
+    std::vector<std::size_t> possible;    ///< Those that break no constraint.
     std::optional<std::size_t> by_prior;  ///< The one that the mission's prior chooses.
   };
 

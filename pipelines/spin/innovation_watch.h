@@ -25,6 +25,12 @@ class InnovationWatch {
  public:
   void note(const EdgeTally& tally);
 
+  /// What was seen so far shall weigh little beside what comes: a filter begins anew.
+  void fade();
+
+  /// The filter has come from its start to where its edges fit: what that took is no noise.
+  void forget_the_start();
+
   /// How many times the variance of the edges is what their stated noise makes it, where that is
   /// significantly more than 1; else 1.
   double excess_noise() const;

@@ -31,8 +31,8 @@ constexpr double kBeyondDoubt = 20.0;
 // A prior's candidate is in doubt when they are e^5 times likelier under another one: were it
 // true, that would happen in one pass of 150 at most (Ville's inequality).
 constexpr double kPriorInDoubt = 5.0;
-// So many edges say whether a hypothesis fits them: the sum of their squared innovations, chi-square
-// of one degree of freedom each, within so many of its sigmas.
+// So many edges say whether a hypothesis fits them: the sum of their squared innovations,
+// chi-square of one degree of freedom each, within so many of its sigmas.
 constexpr double kFewestEdges = 60.0;
 constexpr double kFitSigmas = 5.0;
 // Mean squared angle between an axis that may point anywhere and any other.
@@ -93,9 +93,8 @@ bool agree(const SpinFilter& a, const SpinFilter& b) {
 }
 
 const SpinFix* last_accepted(std::span<const SpinFix> fixes) {
-  const auto found = std::find_if(fixes.rbegin(), fixes.rend(), [](const SpinFix& fix) {
-    return fix.accepted && !fix.grazing;
-  });
+  const auto found = std::find_if(fixes.rbegin(), fixes.rend(),
+                                  [](const SpinFix& fix) { return fix.accepted && !fix.grazing; });
   return found == fixes.rend() ? nullptr : &*found;
 }
 
@@ -126,16 +125,18 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
     work_in(revolution, sky);
   }
   if (hypotheses_.empty()) {
+    unheard_ += settled.empty() ? 0 : 1;
     return std::nullopt;
   }
   const SpinFilter& best = hypotheses_.front().filter;
-  return SpinEstimate{.t = revolution.t_start,
-                      .estimator = SpinEstimator::Sequential,
-                      .axis_icrf = best.axis_icrf(),
-                      .covariance_rad2 = covariance_rad2(),
-                      .spin_rate_rad_s = best.rate_rad_s(),
-                      .spin_rate_sigma_rad_s = best.rate_sigma_rad_s() * std::sqrt(watch_.excess_noise()),
-                      .status = status()};
+  return SpinEstimate{
+      .t = revolution.t_start,
+      .estimator = SpinEstimator::Sequential,
+      .axis_icrf = best.axis_icrf(),
+      .covariance_rad2 = covariance_rad2(),
+      .spin_rate_rad_s = best.rate_rad_s(),
+      .spin_rate_sigma_rad_s = best.rate_sigma_rad_s() * std::sqrt(watch_.excess_noise()),
+      .status = status()};
 }
 
 Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
@@ -148,8 +149,8 @@ Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
   return filter.axis_covariance_rad2() * watch_.excess_noise() + moved * moved.transpose();
 }
 
-/// Candidates of a fix that leaves them open, which no filter follows. What is settled is asked again only where
-/// the fix does not name its axis at all.
+/// Candidates of a fix that leaves them open, which no filter follows. What is settled is asked
+/// again only where the fix does not name its axis at all.
 void SequentialEstimator::add_unlike(std::span<const SpinFix> settled, const Revolution& revolution,
                                      const Sky& sky) {
   const SpinFix* const fix = last_open(settled);
@@ -161,7 +162,8 @@ void SequentialEstimator::add_unlike(std::span<const SpinFix> settled, const Rev
     return std::any_of(hypotheses_.begin(), hypotheses_.end(),
                        [&](const auto& h) { return !contradicts(start, h.filter); });
   };
-  if (settled_ && (watch_.excess_noise() == 1.0 || std::any_of(starts.begin(), starts.end(), followed))) {
+  if (settled_ &&
+      (watch_.excess_noise() == 1.0 || std::any_of(starts.begin(), starts.end(), followed))) {
     return;
   }
   for (const Start& start : starts) {
@@ -188,9 +190,8 @@ bool SequentialEstimator::restart_is_due(std::span<const SpinFix> settled) {
     if (fix.accepted && !fix.grazing && well_known(fix.covariance_rad2)) {
       const bool against = std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const auto& h) {
         const std::vector<Start> starts = starts_of(fix);
-        return std::all_of(starts.begin(), starts.end(), [&](const Start& start) {
-          return contradicts(start, h.filter);
-        });
+        return std::all_of(starts.begin(), starts.end(),
+                           [&](const Start& start) { return contradicts(start, h.filter); });
       });
       contradicted_ = std::max(0, contradicted_ + (against ? 1 : -1));
       contradicting_ = contradicted_ > 0 ? contradicting_ : MeanAxis{};
@@ -246,6 +247,8 @@ void SequentialEstimator::start(const SpinFix& fix, const Revolution& revolution
   // Without one of them the true one may be missing.
   if (started.size() == starts.size()) {
     restarts_ += hypotheses_.empty() ? 0 : 1;
+    noise_at_restart_ = watch_.excess_noise();
+    watch_.fade();
     hypotheses_ = std::move(started);
     revolutions_ = 0;
     gated_ = 0;
@@ -280,6 +283,7 @@ void SequentialEstimator::take_side(const SpinFix& fix) {
 
 void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) {
   const GoodEdges edges{revolution};
+  const double gate_noise = std::min(watch_.excess_noise(), noise_at_restart_);
   for (Hypothesis& hypothesis : hypotheses_) {
     SpinFilter& filter = hypothesis.filter;
     filter.predict(revolution.t_start);
@@ -289,7 +293,7 @@ void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) 
                    .value_or(filter);
       hypothesis.tally = {};
     } else {
-      hypothesis.tally = filter.update(config_, sky, edges.span());
+      hypothesis.tally = filter.update(config_, sky, edges.span(), gate_noise);
     }
     const EdgeTally& tally = hypothesis.tally;
     hypothesis.edges += static_cast<double>(tally.accepted.count() + tally.gated.count());
@@ -328,10 +332,11 @@ void SequentialEstimator::drop_the_beaten() {
                         [](const Hypothesis& h) { return h.favoured; });
 }
 
-/// No other hypothesis is so much likelier than the one that the prior chose.
+/// No other hypothesis is so much likelier than the one that the prior chose. What passed before
+/// the filters began might have contradicted it: until they have seen as much, nothing is said.
 bool SequentialEstimator::prior_stands() const {
   const Hypothesis& first = hypotheses_.front();
-  return first.favoured &&
+  return first.favoured && revolutions_ >= unheard_ &&
          std::all_of(hypotheses_.begin() + 1, hypotheses_.end(), [&](const Hypothesis& other) {
            return other.log_likelihood - first.log_likelihood < kPriorInDoubt;
          });
@@ -350,6 +355,11 @@ void SequentialEstimator::count(const EdgeTally& tally) {
   const double edges = gated + static_cast<double>(tally.accepted.count());
   gated_share_ += kRecentEdge * (gated - edges * gated_share_);
   watch_.note(tally);
+  // The first edges pull the filter from its start to where they fit.
+  const double before = hypotheses_.front().edges - edges;
+  if (before < kFewestEdges && before + edges >= kFewestEdges) {
+    watch_.forget_the_start();
+  }
   // Of the first revolutions the plain mean: what starts wrong says so at once.
   const double recent = std::max(kRecentRevolution, 1.0 / static_cast<double>(revolutions_ + 1));
   for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
@@ -385,8 +395,8 @@ std::string SequentialEstimator::status() const {
                        std::sqrt(watch_.excess_noise()), revolutions_);
   }
   if (const auto channel = watch_.biased_channel()) {
-    return fmt::format("DOUBTFUL, {} early or late on average, {} revolutions",
-                       name_of(*channel), revolutions_);
+    return fmt::format("DOUBTFUL, {} early or late on average, {} revolutions", name_of(*channel),
+                       revolutions_);
   }
   const std::string counts =
       fmt::format("OK, {} revolutions, {} edges gated", revolutions_, gated_);

@@ -87,17 +87,20 @@ class SequentialEstimator {
 
   SpinConfig config_;
   std::vector<Hypothesis> hypotheses_;  ///< The likeliest first; empty before the first fix.
-  std::int64_t revolutions_ = 0;        ///< Since the start; likewise the following.
+  std::int64_t unheard_ = 0;      ///< Revolutions with fixes before the first that could start it.
+  std::int64_t revolutions_ = 0;  ///< Since the start; likewise the following.
   std::int64_t gated_ = 0;
   double gated_share_ = 0.0;  ///< Of the recent edges.
   /// Of the recent revolutions, those in which the channel's edge was gated.
   std::array<double, kPulseChannels> channel_gated_share_ = {};
-  bool settled_ = false;             ///< By a fix, or by the edges beyond doubt.
+  bool settled_ = false;  ///< By a fix, or by the edges beyond doubt.
   bool settled_by_edges_ = false;
   bool prior_refuted_ = false;
-  InnovationWatch watch_;            ///< Over the restarts: noise and model stay what they are.
-  int contradicted_ = 0;             ///< Fixes against the axis, less those for it.
-  MeanAxis contradicting_;           ///< All fixes since it was last 0.
+  /// The gate opens for noise that made the filter begin anew before: then it was not the axis.
+  double noise_at_restart_ = 1.0;
+  InnovationWatch watch_;   ///< Over the restarts: noise and model stay what they are.
+  int contradicted_ = 0;    ///< Fixes against the axis, less those for it.
+  MeanAxis contradicting_;  ///< All fixes since it was last 0.
   int restarts_ = 0;
   std::string_view restarted_;  ///< Why; empty: never.
 };

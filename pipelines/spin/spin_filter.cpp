@@ -116,12 +116,13 @@ void SpinFilter::predict(TaiTime t) {
   t_ = t;
 }
 
-EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky,
-                             std::span<const Pulse> edges) {
+EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges,
+                             double excess_noise) {
   const SpinFilter prior = *this;
+  const double gate = square(kGateSigmas) * excess_noise;
   EdgeTally tally;
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    const Error moved = update_linearised_here(prior, config, sky, edges, tally);
+    const Error moved = update_linearised_here(prior, config, sky, edges, gate, tally);
     if (moved.head<2>().norm() < kFarFromLinear_rad) {
       break;
     }
@@ -133,22 +134,23 @@ EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky,
 /// the sharper, come first to the gate.
 SpinFilter::Error SpinFilter::update_linearised_here(const SpinFilter& prior,
                                                      const SpinConfig& config, const Sky& sky,
-                                                     std::span<const Pulse> edges,
+                                                     std::span<const Pulse> edges, double gate,
                                                      EdgeTally& tally) {
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin_.conjugate().toRotationMatrix();
   tally = {};
+  tally.squared_gate = gate;
   covariance_ = prior.covariance_;
   of_errors_ = prior.of_errors_;
   Error error = error_of(prior);
-  const auto gate = [&tally](const Pulse& edge) {
+  const auto leave_out = [&tally, gate](const Pulse& edge) {
     tally.gated.set(index_of(edge.channel));
     tally.log_likelihood += kLogSpurious;
-    tally.squared_innovations += square(SpinFilter::kGateSigmas);
+    tally.squared_innovations += gate;
   };
   for (const Pulse& edge : edges) {
     const auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
     if (!predicted) {
-      gate(edge);
+      leave_out(edge);
       continue;
     }
     const double dt_s = seconds_between(t_, edge.t);
@@ -161,8 +163,8 @@ SpinFilter::Error SpinFilter::update_linearised_here(const SpinFilter& prior,
         wrapped_rad(phase_rad_ + (rate_rad_s_ + 0.5 * drift_rad_s2_ * dt_s) * dt_s -
                     predicted->phase_rad - slope.dot(error));
     const double squared_innovation = square(innovation) / variance;
-    if (squared_innovation > square(SpinFilter::kGateSigmas)) {
-      gate(edge);
+    if (squared_innovation > gate) {
+      leave_out(edge);
       continue;
     }
     // A channel that is late by an angle looks as if the phase were ahead by it.

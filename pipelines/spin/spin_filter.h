@@ -40,6 +40,7 @@ struct EdgeTally {
   /// Natural logarithm of the edges' probability density, 1/rad each, gated ones as spurious.
   double log_likelihood = 0.0;
   double squared_innovations = 0.0;  ///< Normalised, their sum; gated ones as at the gate.
+  double squared_gate = 0.0;
   /// By channel, of the accepted edges: normalised, each N(0, 1) and independent when all is well.
   std::array<double, kPulseChannels> innovations = {};
   /// By channel: what they would be for constant errors of the channels, a row per rad of each.
@@ -65,7 +66,10 @@ class SpinFilter {
   void predict(TaiTime t);
 
   /// Works in the edges of about one revolution near the reference time.
-  EdgeTally update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges);
+  /// @param excess_noise How many times their variance is what their stated noise makes it: the
+  ///        gate opens by so much, the weights stay.
+  EdgeTally update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges,
+                   double excess_noise = 1.0);
 
   TaiTime t() const { return t_; }
   Eigen::Vector3d axis_icrf() const { return q_icrf_spin_ * Eigen::Vector3d::UnitZ(); }
@@ -88,7 +92,7 @@ class SpinFilter {
   using Error = Eigen::Matrix<double, 5, 1>;
 
   Error update_linearised_here(const SpinFilter& prior, const SpinConfig& config, const Sky& sky,
-                               std::span<const Pulse> edges, EdgeTally& tally);
+                               std::span<const Pulse> edges, double gate, EdgeTally& tally);
   Error error_of(const SpinFilter& truth) const;
   void correct(const Error& error);
 
