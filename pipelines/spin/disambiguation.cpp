@@ -146,6 +146,7 @@ std::vector<SpinFix> Disambiguator::settle(std::int64_t revolution, TaiTime t,
     return {fix_of(revolution, t, candidates, *nearest, Resolution::Prior)};
   }
   if (candidates.grazing) {
+    dispersion_.note_unlike();
     return {fix_of(revolution, t, candidates, possible.front(), Resolution::Ambiguous)};
   }
   return settle_by_dispersion({.revolution = revolution,
@@ -216,6 +217,10 @@ std::vector<std::size_t> Disambiguator::possible_of(const RevolutionMeasurements
 }
 
 std::vector<SpinFix> Disambiguator::settle_by_dispersion(Pending pending) {
+  constexpr int kLastOfCones = 3;  // Later cases have roots that are no mirror images.
+  if (pending.found.geometry_case > kLastOfCones) {
+    dispersion_.note_unlike();
+  }
   if (!steady_) {
     std::vector<AxisCandidate> possible;
     for (const std::size_t i : pending.possible) {
