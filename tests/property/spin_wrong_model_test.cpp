@@ -18,7 +18,7 @@ namespace spindrift {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
-constexpr double kEnd_s = 200.0;
+constexpr double kEnd_s = 400.0;
 
 struct Tally {
   int passes = 0;
