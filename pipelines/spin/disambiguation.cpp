@@ -142,16 +142,20 @@ std::vector<SpinFix> Disambiguator::settle(std::int64_t revolution, TaiTime t,
   if (!known && config_.prior) {
     known = KnownAxis{.axis_icrf = config_.prior->axis_icrf, .sigma_rad = config_.prior->sigma_rad};
   }
-  if (known) {
-    if (const auto nearest = nearest_to(*known, candidates, possible)) {
-      return {fix_of(revolution, t, candidates, *nearest, Resolution::Prior)};
-    }
+  const auto nearest = known ? nearest_to(*known, candidates, possible) : std::nullopt;
+  // What the pass itself has established needs no further test.
+  if (nearest && (established || candidates.grazing)) {
+    return {fix_of(revolution, t, candidates, *nearest, Resolution::Prior)};
   }
   if (candidates.grazing) {
+    dispersion_.note_unlike();
     return {fix_of(revolution, t, candidates, possible.front(), Resolution::Ambiguous)};
   }
-  return settle_by_dispersion(
-      {.revolution = revolution, .t = t, .found = candidates, .possible = std::move(possible)});
+  return settle_by_dispersion({.revolution = revolution,
+                               .t = t,
+                               .found = candidates,
+                               .possible = std::move(possible),
+                               .by_prior = nearest});
 }
 
 void Disambiguator::note_silence(const RevolutionMeasurements& measured) {
@@ -215,6 +219,10 @@ std::vector<std::size_t> Disambiguator::possible_of(const RevolutionMeasurements
 }
 
 std::vector<SpinFix> Disambiguator::settle_by_dispersion(Pending pending) {
+  constexpr int kLastOfCones = 3;  // Later cases have roots that are no mirror images.
+  if (pending.found.geometry_case > kLastOfCones) {
+    dispersion_.note_unlike();
+  }
   if (!steady_) {
     std::vector<AxisCandidate> possible;
     for (const std::size_t i : pending.possible) {
@@ -225,7 +233,8 @@ std::vector<SpinFix> Disambiguator::settle_by_dispersion(Pending pending) {
   std::vector<SpinFix> fixes;
   if (steady_) {
     for (const Pending& earlier : std::exchange(pending_, {})) {
-      if (const auto chosen = continues(*steady_, earlier.found, earlier.possible)) {
+      const auto chosen = continues(*steady_, earlier.found, earlier.possible);
+      if (chosen && chosen != earlier.by_prior) {
         fixes.push_back(
             fix_of(earlier.revolution, earlier.t, earlier.found, *chosen, Resolution::Dispersion));
       }
@@ -238,8 +247,10 @@ std::vector<SpinFix> Disambiguator::settle_by_dispersion(Pending pending) {
     }
     follow(pending, std::nullopt);
   }
-  fixes.push_back(fix_of(pending.revolution, pending.t, pending.found, pending.possible.front(),
-                         Resolution::Ambiguous));
+  const bool by_prior = !steady_ && pending.by_prior;
+  fixes.push_back(fix_of(pending.revolution, pending.t, pending.found,
+                         by_prior ? *pending.by_prior : pending.possible.front(),
+                         by_prior ? Resolution::Prior : Resolution::Ambiguous));
   if (!steady_) {
     pending_.push_back(std::move(pending));
     if (pending_.size() > static_cast<std::size_t>(config_.screening.window)) {

@@ -12,17 +12,13 @@
 #include "pipelines/spin/axis_candidates.h"
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/dispersion.h"
+#include "pipelines/spin/known_axis.h"
 #include "pipelines/spin/measurement.h"
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/sightlines.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
-
-struct KnownAxis {
-  Eigen::Vector3d axis_icrf;  ///< Unit.
-  double sigma_rad;
-};
 
 /// Asks in this order, and the first that answers settles it:
 ///   GEOMETRY    the measurements themselves tell the candidates apart; not accepted where a
@@ -33,6 +29,8 @@ struct KnownAxis {
 ///   PRIOR       one candidate is within three sigmas of the axis that is known already, and nearer
 ///               to it than every other by more than a sigma (that of the candidates included);
 ///   DISPERSION  one branch of candidates stays where it is while the others drift.
+/// The mission's prior may be false: the dispersion is asked as well, and where it answers it
+/// overrules the prior. What the pass has established is not asked again.
 /// Otherwise the fix is AMBIGUOUS and not accepted. When the dispersion settles, the AMBIGUOUS
 /// fixes of the window are given again; later ones are the candidates that continue that axis, as
 /// long as no other comes near it.
@@ -56,7 +54,8 @@ class Disambiguator {
     std::int64_t revolution;
     TaiTime t;
     AxisCandidates found;
-    std::vector<std::size_t> possible;  ///< Those that break no constraint.
+    std::vector<std::size_t> possible;    ///< Those that break no constraint.
+    std::optional<std::size_t> by_prior;  ///< The one that the mission's prior chooses.
   };
 
   void note_silence(const RevolutionMeasurements& measured);
@@ -78,7 +77,7 @@ class Disambiguator {
   Dispersion dispersion_;
   std::optional<SteadyAxis> steady_;
   int contradictions_ = 0;       ///< Revolutions running that no candidate continued `steady_`.
-  std::deque<Pending> pending_;  ///< AMBIGUOUS so far.
+  std::deque<Pending> pending_;  ///< AMBIGUOUS so far, or settled by the mission's prior alone.
 };
 
 }  // namespace spindrift

@@ -14,6 +14,12 @@ namespace spindrift {
 namespace {
 
 constexpr double kLevel = 1e-8;
+// Likewise by the likelihood ratio, which sees a slow drift that the F-test spreads over all
+// blocks: the branches come from the same measurements, so that their noise is in both squares and
+// the difference is what the other has drifted. e^30 to one. But where candidates are known so
+// badly, or grazed, their curvature would be taken for a drift.
+constexpr double kDecisive = 60.0;
+constexpr double kNearlyLinear_rad = 1.2 * 0.017453292519943295;
 // A branch whose scatter is much more than that of its noise does not stay where it is.
 constexpr double kSteadyVariance = 2.5;
 constexpr std::size_t kFewestBlocks = 3;
@@ -286,9 +292,19 @@ std::optional<SteadyAxis> Dispersion::steady() const {
   }
   // A scatter below that of the noise is the model's caution, and nothing to compare with.
   const double noise = std::max(variance(*least), 1.0);
+  const bool linear =
+      !unlike_ && std::all_of(branches_.begin(), branches_.end(), [](const Branch& branch) {
+        const Block& last = branch.blocks.back();
+        return last.covariance_sum_rad2.trace() <
+               last.count * kNearlyLinear_rad * kNearlyLinear_rad;
+      });
+  const auto scatters_more = [&](const Scatter& other) {
+    return variance_ratio_tail(other.half_freedom, least->half_freedom, variance(other) / noise) <
+               kLevel ||
+           (linear && other.squares - least->squares > kDecisive * noise);
+  };
   for (const Scatter& other : scatters) {
-    if (&other != &*least && !(variance_ratio_tail(other.half_freedom, least->half_freedom,
-                                                   variance(other) / noise) < kLevel)) {
+    if (&other != &*least && !scatters_more(other)) {
       return std::nullopt;
     }
   }

@@ -38,7 +38,8 @@ struct SteadyAxis {
 /// the model, normalised by the candidates' own covariances, so that branches of unequal noise
 /// compare. It is steady when its scatter is that of noise, and less than that of every other
 /// branch at a level of 1e-8: with some hundred looks at a pass, a false choice is one in a
-/// million.
+/// million. Or, where the candidates mirror each other and are known well, when its squares are so
+/// much less that it is e^30 times likelier to be constant.
 class Dispersion {
  public:
   /// @param window Most blocks that a branch keeps.
@@ -49,6 +50,10 @@ class Dispersion {
   /// crossed, or moved: what is known of them is given up.
   /// @return The steady branch, when there is one.
   std::optional<SteadyAxis> add(std::span<const AxisCandidate> candidates);
+
+  /// The candidates are no mirror images, or some graze and those that do not are a selection:
+  /// their noise is unlike, and only the F-test decides from here on.
+  void note_unlike() { unlike_ = true; }
 
  private:
   struct Block {
@@ -92,6 +97,7 @@ class Dispersion {
   int block_length_ = 1;
   long revolutions_ = 0;
   int skipped_ = 0;
+  bool unlike_ = false;
 };
 
 }  // namespace spindrift

@@ -29,14 +29,13 @@ constexpr double kRecentRevolution = 0.1;
 constexpr double kMostGated = 0.5;
 // A candidate is out when the edges are e^20 times likelier under another one.
 constexpr double kBeyondDoubt = 20.0;
-// Of so many edges the mean squared innovation, 1 when all is well, says whether the noise is as
-// stated: chi-square of one degree of freedom each, beyond so many of its sigmas.
-constexpr double kFitEdges = 300.0;
-constexpr double kFitSigmas = 5.0;
-// From this share on the gated edges belong to the noise, and are not spurious.
-constexpr double kManyGated = 0.2;
-// The first edges pull the filter from its start to where they fit, and say nothing of the noise.
+// A prior's candidate is in doubt when they are e^5 times likelier under another one: were it
+// true, that would happen in one pass of 150 at most (Ville's inequality).
+constexpr double kPriorInDoubt = 5.0;
+// So many edges say whether a hypothesis fits them: the sum of their squared innovations,
+// chi-square of one degree of freedom each, within so many of its sigmas.
 constexpr double kFewestEdges = 60.0;
+constexpr double kFitSigmas = 5.0;
 // Mean squared angle between an axis that may point anywhere and any other.
 constexpr double kAnywhere_rad2 = (std::numbers::pi * std::numbers::pi - 4.0) / 2.0;
 // A fix contradicts the filter beyond so many sigmas of both, and beyond what may be wrong with
@@ -58,9 +57,14 @@ bool well_known(const Eigen::Matrix2d& covariance_rad2) {
   return covariance_rad2.trace() < kPoorestFix_rad * kPoorestFix_rad;
 }
 
+/// It names a candidate, or none, and has not ruled out the others.
+bool leaves_open(const SpinFix& fix) {
+  return fix.resolution == Resolution::Ambiguous || fix.resolution == Resolution::Prior;
+}
+
 std::vector<Start> starts_of(const SpinFix& fix) {
   std::vector<Start> starts{{fix.axis_icrf, fix.covariance_rad2}};
-  if (fix.resolution == Resolution::Ambiguous) {
+  if (leaves_open(fix)) {
     for (std::size_t i = 0; i < fix.alternate_axes_icrf.size(); ++i) {
       starts.push_back({fix.alternate_axes_icrf[i], fix.alternate_covariances_rad2[i]});
     }
@@ -90,14 +94,14 @@ bool agree(const SpinFilter& a, const SpinFilter& b) {
 }
 
 const SpinFix* last_accepted(std::span<const SpinFix> fixes) {
-  const auto found =
-      std::find_if(fixes.rbegin(), fixes.rend(), [](const SpinFix& fix) { return fix.accepted; });
+  const auto found = std::find_if(fixes.rbegin(), fixes.rend(),
+                                  [](const SpinFix& fix) { return fix.accepted && !fix.grazing; });
   return found == fixes.rend() ? nullptr : &*found;
 }
 
-const SpinFix* last_ambiguous(std::span<const SpinFix> fixes) {
+const SpinFix* last_open(std::span<const SpinFix> fixes) {
   const auto found = std::find_if(fixes.rbegin(), fixes.rend(), [](const SpinFix& fix) {
-    return fix.resolution == Resolution::Ambiguous && !fix.grazing;
+    return leaves_open(fix) && !fix.grazing;
   });
   return found == fixes.rend() ? nullptr : &*found;
 }
@@ -110,7 +114,7 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
   const SpinFix* const accepted = last_accepted(settled);
   const bool restart = restart_is_due(settled);
   if (hypotheses_.empty() || restart) {
-    const SpinFix* const first = accepted != nullptr ? accepted : last_ambiguous(settled);
+    const SpinFix* const first = accepted != nullptr ? accepted : last_open(settled);
     if (first != nullptr) {
       start(*first, revolution, sky);
     }
@@ -122,38 +126,35 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
     work_in(revolution, sky);
   }
   if (hypotheses_.empty()) {
+    unheard_ += settled.empty() ? 0 : 1;
     return std::nullopt;
   }
   const SpinFilter& best = hypotheses_.front().filter;
-  return SpinEstimate{.t = revolution.t_start,
-                      .estimator = SpinEstimator::Sequential,
-                      .axis_icrf = best.axis_icrf(),
-                      .covariance_rad2 = covariance_rad2(),
-                      .spin_rate_rad_s = best.rate_rad_s(),
-                      .spin_rate_sigma_rad_s = best.rate_sigma_rad_s() * std::sqrt(excess_noise()),
-                      .status = status()};
-}
-
-/// How many times the variance of the edges is what their stated noise makes it, where that is
-/// significantly more than 1; else 1.
-double SequentialEstimator::excess_noise() const {
-  const double edges = std::clamp(hypotheses_.front().edges - kFewestEdges, 1.0, kFitEdges);
-  const bool significant = squared_innovation_ > 1.0 + kFitSigmas * std::sqrt(2.0 / edges);
-  return significant ? squared_innovation_ : 1.0;
+  return SpinEstimate{
+      .t = revolution.t_start,
+      .estimator = SpinEstimator::Sequential,
+      .axis_icrf = best.axis_icrf(),
+      .covariance_rad2 = covariance_rad2(),
+      .spin_rate_rad_s = best.rate_rad_s(),
+      .spin_rate_sigma_rad_s = best.rate_sigma_rad_s() * std::sqrt(watch_.excess_noise()),
+      .status = status()};
 }
 
 Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
   if (gated_share_ > kMostGated) {
     return Eigen::Matrix2d::Identity() * (0.5 * kAnywhere_rad2);
   }
-  return hypotheses_.front().filter.axis_covariance_rad2() * excess_noise();
+  const SpinFilter& filter = hypotheses_.front().filter;
+  const Eigen::Matrix<double, 2, kPulseChannels> moved =
+      filter.axis_of_errors() * watch_.channel_error_rad();
+  return filter.axis_covariance_rad2() * watch_.excess_noise() + moved * moved.transpose();
 }
 
-/// Candidates of an AMBIGUOUS fix that no filter follows. What is settled is asked again only where
-/// the fix does not name its axis at all.
+/// Candidates of a fix that leaves them open, which no filter follows. What is settled is asked
+/// again only where the fix does not name its axis at all.
 void SequentialEstimator::add_unlike(std::span<const SpinFix> settled, const Revolution& revolution,
                                      const Sky& sky) {
-  const SpinFix* const fix = last_ambiguous(settled);
+  const SpinFix* const fix = last_open(settled);
   if (fix == nullptr) {
     return;
   }
@@ -162,7 +163,8 @@ void SequentialEstimator::add_unlike(std::span<const SpinFix> settled, const Rev
     return std::any_of(hypotheses_.begin(), hypotheses_.end(),
                        [&](const auto& h) { return !contradicts(start, h.filter); });
   };
-  if (settled_ && (excess_noise() == 1.0 || std::any_of(starts.begin(), starts.end(), followed))) {
+  if (settled_ &&
+      (watch_.excess_noise() == 1.0 || std::any_of(starts.begin(), starts.end(), followed))) {
     return;
   }
   for (const Start& start : starts) {
@@ -174,6 +176,7 @@ void SequentialEstimator::add_unlike(std::span<const SpinFix> settled, const Rev
         hypotheses_.push_back(
             {.filter = *filter, .log_likelihood = hypotheses_.front().log_likelihood});
         settled_ = false;
+        settled_by_edges_ = false;
       }
     }
   }
@@ -187,7 +190,9 @@ bool SequentialEstimator::restart_is_due(std::span<const SpinFix> settled) {
   for (const SpinFix& fix : settled) {
     if (fix.accepted && !fix.grazing && well_known(fix.covariance_rad2)) {
       const bool against = std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const auto& h) {
-        return contradicts({fix.axis_icrf, fix.covariance_rad2}, h.filter);
+        const std::vector<Start> starts = starts_of(fix);
+        return std::all_of(starts.begin(), starts.end(),
+                           [&](const Start& start) { return contradicts(start, h.filter); });
       });
       contradicted_ = std::max(0, contradicted_ + (against ? 1 : -1));
       contradicting_ = contradicted_ > 0 ? contradicting_ : MeanAxis{};
@@ -201,7 +206,7 @@ bool SequentialEstimator::restart_is_due(std::span<const SpinFix> settled) {
     restarted_ = "edges gated";
     return true;
   }
-  if (contradicted_ >= kMostContradictions && (excess_noise() > 1.0 || fixes_contradict())) {
+  if (contradicted_ >= kMostContradictions && (watch_.excess_noise() > 1.0 || fixes_contradict())) {
     restarted_ = "fixes differ";
     return true;
   }
@@ -223,6 +228,7 @@ bool SequentialEstimator::fixes_contradict() const {
 
 void SequentialEstimator::start(const SpinFix& fix, const Revolution& revolution, const Sky& sky) {
   std::vector<Hypothesis> started;
+  const bool by_prior = fix.resolution == Resolution::Prior;
   const auto add = [&](const Eigen::Vector3d& axis_icrf, Eigen::Matrix2d axis_rad2) {
     if (config_.horizon.model == HorizonModel::Ellipsoid) {
       // Fixes rest on the spherical horizon.
@@ -230,7 +236,8 @@ void SequentialEstimator::start(const SpinFix& fix, const Revolution& revolution
     }
     if (well_known(axis_rad2)) {
       if (const auto filter = SpinFilter::about(axis_icrf, axis_rad2, config_, revolution, sky)) {
-        started.push_back({.filter = *filter});
+        // The fix's own axis comes first.
+        started.push_back({.filter = *filter, .favoured = by_prior && started.empty()});
       }
     }
   };
@@ -241,13 +248,15 @@ void SequentialEstimator::start(const SpinFix& fix, const Revolution& revolution
   // Without one of them the true one may be missing.
   if (started.size() == starts.size()) {
     restarts_ += hypotheses_.empty() ? 0 : 1;
+    noise_at_restart_ = watch_.excess_noise();
+    watch_.fade();
     hypotheses_ = std::move(started);
     revolutions_ = 0;
     gated_ = 0;
     gated_share_ = 0.0;
     channel_gated_share_ = {};
-    settled_ = fix.accepted;
-    squared_innovation_ = 1.0;
+    settled_ = fix.accepted && hypotheses_.size() == 1;
+    settled_by_edges_ = false;
     contradicted_ = 0;
     contradicting_ = MeanAxis{};
   }
@@ -259,7 +268,14 @@ void SequentialEstimator::take_side(const SpinFix& fix) {
       hypotheses_.begin(), hypotheses_.end(), [&](const Hypothesis& a, const Hypothesis& b) {
         return a.filter.axis_icrf().dot(fix.axis_icrf) < b.filter.axis_icrf().dot(fix.axis_icrf);
       });
-  if (!contradicts({fix.axis_icrf, fix.covariance_rad2}, nearest->filter)) {
+  if (contradicts({fix.axis_icrf, fix.covariance_rad2}, nearest->filter)) {
+    return;
+  }
+  if (fix.resolution == Resolution::Prior) {
+    for (Hypothesis& hypothesis : hypotheses_) {
+      hypothesis.favoured = !prior_refuted_ && &hypothesis == &*nearest;
+    }
+  } else {
     std::swap(hypotheses_.front(), *nearest);
     hypotheses_.erase(hypotheses_.begin() + 1, hypotheses_.end());
     settled_ = true;
@@ -268,6 +284,7 @@ void SequentialEstimator::take_side(const SpinFix& fix) {
 
 void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) {
   const GoodEdges edges{revolution};
+  const double gate_noise = std::min(watch_.excess_noise(), noise_at_restart_);
   for (Hypothesis& hypothesis : hypotheses_) {
     SpinFilter& filter = hypothesis.filter;
     filter.predict(revolution.t_start);
@@ -277,7 +294,7 @@ void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) 
                    .value_or(filter);
       hypothesis.tally = {};
     } else {
-      hypothesis.tally = filter.update(config_, sky, edges.span());
+      hypothesis.tally = filter.update(config_, sky, edges.span(), gate_noise);
     }
     const EdgeTally& tally = hypothesis.tally;
     hypothesis.edges += static_cast<double>(tally.accepted.count() + tally.gated.count());
@@ -292,41 +309,58 @@ void SequentialEstimator::drop_the_beaten() {
   std::stable_sort(hypotheses_.begin(), hypotheses_.end(), [](const auto& a, const auto& b) {
     return a.log_likelihood > b.log_likelihood;
   });
-  const Hypothesis best = hypotheses_.front();
+  Hypothesis& best = hypotheses_.front();
   const bool fits =
       best.edges >= kFewestEdges &&
       best.squared_innovations < best.edges + kFitSigmas * std::sqrt(2.0 * best.edges);
   const std::size_t before = hypotheses_.size();
   const auto beaten = [&](const Hypothesis& other) {
-    return agree(best.filter, other.filter) ||
-           (fits && best.log_likelihood - other.log_likelihood > kBeyondDoubt);
+    const bool same = agree(best.filter, other.filter);
+    const bool out = fits && best.log_likelihood - other.log_likelihood > kBeyondDoubt;
+    best.favoured = best.favoured || (same && other.favoured);
+    if (!same && out && other.favoured) {
+      prior_refuted_ = true;
+      ++restarts_;
+    }
+    return same || out;
   };
   hypotheses_.erase(std::remove_if(hypotheses_.begin() + 1, hypotheses_.end(), beaten),
                     hypotheses_.end());
-  settled_ = settled_ || (fits && before > 1 && hypotheses_.size() == 1);
+  settled_by_edges_ = settled_by_edges_ || (fits && before > 1 && hypotheses_.size() == 1);
+  settled_ = settled_ || settled_by_edges_;
+  // Unbeaten, the prior's candidate stands before likelier ones.
+  std::stable_partition(hypotheses_.begin(), hypotheses_.end(),
+                        [](const Hypothesis& h) { return h.favoured; });
 }
 
-void SequentialEstimator::note_fit(const EdgeTally& tally) {
-  const double counted = hypotheses_.front().edges - kFewestEdges;
-  if (counted <= 0.0) {
-    return;
+/// No other hypothesis is so much likelier than the one that the prior chose. What passed before
+/// the filters began might have contradicted it: until they have seen as much, nothing is said.
+bool SequentialEstimator::prior_stands() const {
+  const Hypothesis& first = hypotheses_.front();
+  return first.favoured && revolutions_ >= unheard_ &&
+         std::all_of(hypotheses_.begin() + 1, hypotheses_.end(), [&](const Hypothesis& other) {
+           return other.log_likelihood - first.log_likelihood < kPriorInDoubt;
+         });
+}
+
+std::optional<KnownAxis> SequentialEstimator::settled_by_edges() const {
+  if (!settled_by_edges_ || hypotheses_.size() > 1 || gated_share_ > kMostGated) {
+    return std::nullopt;
   }
-  const bool with_gated = gated_share_ > kManyGated;
-  const auto accepted = static_cast<double>(tally.accepted.count());
-  const auto gated = static_cast<double>(tally.gated.count());
-  const double edges = accepted + (with_gated ? gated : 0.0);
-  const double squares =
-      tally.squared_innovations -
-      (with_gated ? 0.0 : gated * SpinFilter::kGateSigmas * SpinFilter::kGateSigmas);
-  const double all = std::clamp(counted, std::max(edges, 1.0), kFitEdges);
-  squared_innovation_ += (squares - edges * squared_innovation_) / all;
+  return KnownAxis{.axis_icrf = hypotheses_.front().filter.axis_icrf(),
+                   .sigma_rad = std::hypot(std::sqrt(covariance_rad2().trace()), kModelLimit_rad)};
 }
 
 void SequentialEstimator::count(const EdgeTally& tally) {
   const auto gated = static_cast<double>(tally.gated.count());
   const double edges = gated + static_cast<double>(tally.accepted.count());
   gated_share_ += kRecentEdge * (gated - edges * gated_share_);
-  note_fit(tally);
+  watch_.note(tally);
+  // The first edges pull the filter from its start to where they fit.
+  const double before = hypotheses_.front().edges - edges;
+  if (before < kFewestEdges && before + edges >= kFewestEdges) {
+    watch_.forget_the_start();
+  }
   // Of the first revolutions the plain mean: what starts wrong says so at once.
   const double recent = std::max(kRecentRevolution, 1.0 / static_cast<double>(revolutions_ + 1));
   for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
@@ -341,10 +375,10 @@ std::string SequentialEstimator::status() const {
   if (gated_share_ > kMostGated) {
     return fmt::format("LOST, {} edges gated, awaiting a fix", gated_);
   }
-  if (!settled_ && hypotheses_.size() == 1) {
+  if (!settled_ && hypotheses_.size() == 1 && !prior_stands()) {
     return fmt::format("AMBIGUOUS, no fix has settled it, {} revolutions", revolutions_);
   }
-  if (hypotheses_.size() > 1) {
+  if (hypotheses_.size() > 1 && !prior_stands()) {
     const RaDec other = ra_dec_of(hypotheses_[1].filter.axis_icrf());
     return fmt::format("AMBIGUOUS, or ra {:.2f} dec {:.2f} deg, {} revolutions",
                        other.ra_rad / kDegree_rad, other.dec_rad / kDegree_rad, revolutions_);
@@ -357,12 +391,19 @@ std::string SequentialEstimator::status() const {
                            std::distance(channel_gated_share_.begin(), worst))),
                        revolutions_);
   }
-  if (excess_noise() > 1.0) {
+  if (watch_.excess_noise() > 1.0) {
     return fmt::format("DOUBTFUL, residuals {:.1f} x stated noise, {} revolutions",
-                       std::sqrt(excess_noise()), revolutions_);
+                       std::sqrt(watch_.excess_noise()), revolutions_);
+  }
+  if (const auto channel = watch_.biased_channel()) {
+    return fmt::format("DOUBTFUL, {} early or late on average, {} revolutions", name_of(*channel),
+                       revolutions_);
   }
   const std::string counts =
       fmt::format("OK, {} revolutions, {} edges gated", revolutions_, gated_);
+  if (prior_refuted_) {
+    return counts + ", prior refuted";
+  }
   return restarted_.empty() ? counts : fmt::format("{}, restart: {}", counts, restarted_);
 }
 

@@ -4,15 +4,18 @@
 /// A fix starts it. Where the fix is AMBIGUOUS one filter starts at each of its candidates, and at
 /// those of later ones that are near none of them; all see the same edges, the likeliest is
 /// published, and the others are dropped when a later fix settles the matter or the edges
-/// themselves do. Candidates known badly or grazing start none. A filter that finds most edges
+/// themselves do. Likewise where only a PRIOR settled the fix: its candidate is published, and the
+/// others stay until the edges beat them; where they beat the prior's, the axis is theirs, and
+/// the status says so. Candidates known badly or grazing start none. A filter that finds most edges
 /// where it does not expect them, or whose fixes name another axis, starts again at the next
 /// accepted fix, and says so.
 ///
 /// The status begins with
 ///     OK         all is well
 ///     AMBIGUOUS  another axis, named, fits as well or nearly so, or nothing has settled it
-///     DOUBTFUL   the edges scatter more than their noise, and the covariance is raised to that; or
-///                most edges of the channel named are not where this axis has them
+///     DOUBTFUL   the edges scatter more than their noise, or those of the channel named are early
+///                or late on average: the model is wrong, and the covariance is raised to cover it;
+///                or most edges of the channel named are not where this axis has them
 ///     LOST       most edges are not: the axis is no longer, or never was, the true one; the
 ///                covariance is that of an axis which may point anywhere
 
@@ -30,6 +33,8 @@
 
 #include "pipelines/spin/association.h"
 #include "pipelines/spin/config.h"
+#include "pipelines/spin/innovation_watch.h"
+#include "pipelines/spin/known_axis.h"
 #include "pipelines/spin/mean_axis.h"
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/sky.h"
@@ -47,13 +52,20 @@ class SequentialEstimator {
   std::optional<SpinEstimate> update(const Revolution& revolution, const Sky& sky,
                                      std::span<const SpinFix> settled);
 
-  /// How often it gave up its axis for that of a fix.
+  /// How often it gave up its axis for another.
   int restarts() const { return restarts_; }
+
+  /// The edges have beaten the candidate that a prior had chosen.
+  bool prior_refuted() const { return prior_refuted_; }
+
+  /// The axis that the edges settled beyond doubt among several.
+  std::optional<KnownAxis> settled_by_edges() const;
 
  private:
   /// One candidate for the axis and what speaks for it.
   struct Hypothesis {
     SpinFilter filter;
+    bool favoured = false;  ///< By a prior.
     double edges = 0.0;
     double log_likelihood = 0.0;  ///< Of them.
     double squared_innovations =
@@ -61,30 +73,34 @@ class SequentialEstimator {
     EdgeTally tally = {};  ///< Of the last revolution.
   };
 
-  double excess_noise() const;
   Eigen::Matrix2d covariance_rad2() const;
   void add_unlike(std::span<const SpinFix> settled, const Revolution& revolution, const Sky& sky);
   bool fixes_contradict() const;
   void start(const SpinFix& fix, const Revolution& revolution, const Sky& sky);
   bool restart_is_due(std::span<const SpinFix> settled);
   void take_side(const SpinFix& fix);
+  bool prior_stands() const;
   void work_in(const Revolution& revolution, const Sky& sky);
   void drop_the_beaten();
-  void note_fit(const EdgeTally& tally);
   void count(const EdgeTally& tally);
   std::string status() const;
 
   SpinConfig config_;
   std::vector<Hypothesis> hypotheses_;  ///< The likeliest first; empty before the first fix.
-  std::int64_t revolutions_ = 0;        ///< Since the start; likewise the following.
+  std::int64_t unheard_ = 0;      ///< Revolutions with fixes before the first that could start it.
+  std::int64_t revolutions_ = 0;  ///< Since the start; likewise the following.
   std::int64_t gated_ = 0;
   double gated_share_ = 0.0;  ///< Of the recent edges.
   /// Of the recent revolutions, those in which the channel's edge was gated.
   std::array<double, kPulseChannels> channel_gated_share_ = {};
-  bool settled_ = false;             ///< By a fix, or by the edges beyond doubt.
-  double squared_innovation_ = 1.0;  ///< Mean of the recent edges, normalised.
-  int contradicted_ = 0;             ///< Fixes against the axis, less those for it.
-  MeanAxis contradicting_;           ///< All fixes since it was last 0.
+  bool settled_ = false;  ///< By a fix, or by the edges beyond doubt.
+  bool settled_by_edges_ = false;
+  bool prior_refuted_ = false;
+  /// The gate opens for noise that made the filter begin anew before: then it was not the axis.
+  double noise_at_restart_ = 1.0;
+  InnovationWatch watch_;   ///< Over the restarts: noise and model stay what they are.
+  int contradicted_ = 0;    ///< Fixes against the axis, less those for it.
+  MeanAxis contradicting_;  ///< All fixes since it was last 0.
   int restarts_ = 0;
   std::string_view restarted_;  ///< Why; empty: never.
 };

@@ -94,6 +94,8 @@ void SpinFilter::predict(TaiTime t) {
   }
   phase_rad_ = wrapped_rad(phase_rad_ + (rate_rad_s_ + 0.5 * drift_rad_s2_ * dt_s) * dt_s);
   rate_rad_s_ += drift_rad_s2_ * dt_s;
+  of_errors_.row(kPhase) += dt_s * (of_errors_.row(kRate) + 0.5 * dt_s * of_errors_.row(kDrift));
+  of_errors_.row(kRate) += dt_s * of_errors_.row(kDrift);
   covariance_.row(kPhase) += dt_s * (covariance_.row(kRate) + 0.5 * dt_s * covariance_.row(kDrift));
   covariance_.col(kPhase) += dt_s * (covariance_.col(kRate) + 0.5 * dt_s * covariance_.col(kDrift));
   covariance_.row(kRate) += dt_s * covariance_.row(kDrift);
@@ -114,12 +116,13 @@ void SpinFilter::predict(TaiTime t) {
   t_ = t;
 }
 
-EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky,
-                             std::span<const Pulse> edges) {
+EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges,
+                             double excess_noise) {
   const SpinFilter prior = *this;
+  const double gate = square(kGateSigmas) * excess_noise;
   EdgeTally tally;
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    const Error moved = update_linearised_here(prior, config, sky, edges, tally);
+    const Error moved = update_linearised_here(prior, config, sky, edges, gate, tally);
     if (moved.head<2>().norm() < kFarFromLinear_rad) {
       break;
     }
@@ -131,21 +134,23 @@ EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky,
 /// the sharper, come first to the gate.
 SpinFilter::Error SpinFilter::update_linearised_here(const SpinFilter& prior,
                                                      const SpinConfig& config, const Sky& sky,
-                                                     std::span<const Pulse> edges,
+                                                     std::span<const Pulse> edges, double gate,
                                                      EdgeTally& tally) {
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin_.conjugate().toRotationMatrix();
   tally = {};
+  tally.squared_gate = gate;
   covariance_ = prior.covariance_;
+  of_errors_ = prior.of_errors_;
   Error error = error_of(prior);
-  const auto gate = [&tally](const Pulse& edge) {
+  const auto leave_out = [&tally, gate](const Pulse& edge) {
     tally.gated.set(index_of(edge.channel));
     tally.log_likelihood += kLogSpurious;
-    tally.squared_innovations += square(SpinFilter::kGateSigmas);
+    tally.squared_innovations += gate;
   };
   for (const Pulse& edge : edges) {
     const auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
     if (!predicted) {
-      gate(edge);
+      leave_out(edge);
       continue;
     }
     const double dt_s = seconds_between(t_, edge.t);
@@ -158,10 +163,17 @@ SpinFilter::Error SpinFilter::update_linearised_here(const SpinFilter& prior,
         wrapped_rad(phase_rad_ + (rate_rad_s_ + 0.5 * drift_rad_s2_ * dt_s) * dt_s -
                     predicted->phase_rad - slope.dot(error));
     const double squared_innovation = square(innovation) / variance;
-    if (squared_innovation > square(SpinFilter::kGateSigmas)) {
-      gate(edge);
+    if (squared_innovation > gate) {
+      leave_out(edge);
       continue;
     }
+    // A channel that is late by an angle looks as if the phase were ahead by it.
+    Eigen::Matrix<double, 1, kPulseChannels> innovation_of_errors = slope.transpose() * of_errors_;
+    innovation_of_errors[static_cast<Eigen::Index>(index_of(edge.channel))] += 1.0;
+    of_errors_ -= gain_unscaled * innovation_of_errors / variance;
+    tally.innovation_of_errors.row(static_cast<Eigen::Index>(index_of(edge.channel))) =
+        innovation_of_errors / std::sqrt(variance);
+    tally.innovations.at(index_of(edge.channel)) = innovation / std::sqrt(variance);
     error += gain_unscaled * (innovation / variance);
     covariance_ -= gain_unscaled * gain_unscaled.transpose() / variance;
     tally.accepted.set(index_of(edge.channel));
@@ -194,6 +206,10 @@ void SpinFilter::correct(const Error& error) {
 Eigen::Matrix2d SpinFilter::axis_covariance_rad2() const {
   const Eigen::Matrix2d turned = tangent_from_tilts(q_icrf_spin_);
   return turned * covariance_.topLeftCorner<2, 2>() * turned.transpose();
+}
+
+Eigen::Matrix<double, 2, kPulseChannels> SpinFilter::axis_of_errors() const {
+  return tangent_from_tilts(q_icrf_spin_) * of_errors_.topRows<2>();
 }
 
 double SpinFilter::rate_sigma_rad_s() const { return std::sqrt(covariance_(kRate, kRate)); }

@@ -40,6 +40,12 @@ struct EdgeTally {
   /// Natural logarithm of the edges' probability density, 1/rad each, gated ones as spurious.
   double log_likelihood = 0.0;
   double squared_innovations = 0.0;  ///< Normalised, their sum; gated ones as at the gate.
+  double squared_gate = 0.0;
+  /// By channel, of the accepted edges: normalised, each N(0, 1) and independent when all is well.
+  std::array<double, kPulseChannels> innovations = {};
+  /// By channel: what they would be for constant errors of the channels, a row per rad of each.
+  Eigen::Matrix<double, kPulseChannels, kPulseChannels> innovation_of_errors =
+      Eigen::Matrix<double, kPulseChannels, kPulseChannels>::Zero();
 };
 
 class SpinFilter {
@@ -60,12 +66,17 @@ class SpinFilter {
   void predict(TaiTime t);
 
   /// Works in the edges of about one revolution near the reference time.
-  EdgeTally update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges);
+  /// @param excess_noise How many times their variance is what their stated noise makes it: the
+  ///        gate opens by so much, the weights stay.
+  EdgeTally update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges,
+                   double excess_noise = 1.0);
 
   TaiTime t() const { return t_; }
   Eigen::Vector3d axis_icrf() const { return q_icrf_spin_ * Eigen::Vector3d::UnitZ(); }
   /// Tangent plane at the axis: east, north.
   Eigen::Matrix2d axis_covariance_rad2() const;
+  /// What a constant error of each channel's phases has moved the axis by, rad/rad; likewise.
+  Eigen::Matrix<double, 2, kPulseChannels> axis_of_errors() const;
   double rate_rad_s() const { return rate_rad_s_; }
   double rate_sigma_rad_s() const;
   double phase_sigma_rad() const;
@@ -81,7 +92,7 @@ class SpinFilter {
   using Error = Eigen::Matrix<double, 5, 1>;
 
   Error update_linearised_here(const SpinFilter& prior, const SpinConfig& config, const Sky& sky,
-                               std::span<const Pulse> edges, EdgeTally& tally);
+                               std::span<const Pulse> edges, double gate, EdgeTally& tally);
   Error error_of(const SpinFilter& truth) const;
   void correct(const Error& error);
 
@@ -91,6 +102,9 @@ class SpinFilter {
   double rate_rad_s_;
   double drift_rad_s2_ = 0.0;
   Eigen::Matrix<double, 5, 5> covariance_ = Eigen::Matrix<double, 5, 5>::Zero();  ///< Of the error.
+  /// The error that a constant error of each channel's phases has made, per rad of it.
+  Eigen::Matrix<double, 5, kPulseChannels> of_errors_ =
+      Eigen::Matrix<double, 5, kPulseChannels>::Zero();
 };
 
 /// The good edges of a revolution.

@@ -384,6 +384,9 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   if (const auto sky = surroundings_.sky(revolution.t_start)) {
     sequential = sequential_.update(revolution, *sky,
                                     trust_.deserved() ? std::span{fixes} : std::span<SpinFix>{});
+    if (sequential_.prior_refuted()) {
+      say_once("the edges contradict the prior of the mission: the axis is another one", out);
+    }
     if (sequential && (sequential_.restarts() > restarts_heeded_ || recent_fixes_left_the_mean())) {
       start_again_where_moved(*sequential, out);
     }
@@ -454,7 +457,7 @@ void SpinPass::start_again_where_moved(const SpinEstimate& sequential, SpinOutpu
 
 std::optional<KnownAxis> SpinPass::established_axis() const {
   if (mean_axis_.count() < kEstablishedFixes) {
-    return std::nullopt;
+    return sequential_.settled_by_edges();
   }
   return KnownAxis{
       .axis_icrf = mean_axis_.axis_icrf(),

@@ -183,8 +183,10 @@ Outcome outcome_of(Passes& passes, const Pass& pass, const std::set<SpinQuantity
 const std::set<SpinQuantity> kDihedralWithheld = {SpinQuantity::NorthDihedral,
                                                   SpinQuantity::SouthDihedral};
 
-TEST(DualSolutions, TheTrueAxisIsChosenOrAmbiguousSaid) {
-  Passes passes{201};
+class ManyPasses : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(ManyPasses, TheTrueAxisIsChosenOrAmbiguousSaid) {
+  Passes passes{GetParam()};
   int turning = 0;
   int chosen = 0;
   int chosen_at_all = 0;
@@ -205,6 +207,8 @@ TEST(DualSolutions, TheTrueAxisIsChosenOrAmbiguousSaid) {
   RecordProperty("chosen", chosen);
   RecordProperty("chosen_at_all", chosen_at_all);
 }
+
+INSTANTIATE_TEST_SUITE_P(Seeds, ManyPasses, ::testing::Values(201, 208, 215, 222, 229, 236));
 
 TEST(DualSolutions, AFlawedModelNeverMakesItChooseTheFalseAxis) {
   Passes passes{202};

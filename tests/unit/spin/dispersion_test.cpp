@@ -135,6 +135,7 @@ TEST(Dispersion, NoiseAloneSettlesNothing) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Sky sky{1000 + seed};
     Dispersion dispersion{100};
+    dispersion.note_unlike();  // Each branch has a noise of its own here.
     for (int revolution = 0; revolution < 300; ++revolution) {
       const std::array candidates{sky.seen(kTrue_icrf), sky.seen(drifting(0.0), 2.0 * kSigma_rad)};
       ASSERT_FALSE(dispersion.add(candidates)) << seed;

@@ -1,0 +1,103 @@
+/// The mission file is wrong about the sensors: over random passes the filter says so, and its
+/// covariance covers what it is wrong by.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/spin_pass.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/product_text.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+constexpr double kEnd_s = 400.0;
+
+struct Tally {
+  int passes = 0;
+  int doubted = 0;       ///< In the end.
+  int covered = 0;       ///< In the end, within three sigmas.
+  int doubted_ever = 0;  ///< DOUBTFUL or LOST in any revolution.
+  int estimates = 0;
+  int sure_and_wrong = 0;  ///< Estimates said to be OK, beyond three sigmas.
+};
+
+/// Passes of a body that differs from what the mission says.
+Tally tally_of(int passes, const std::function<void(SpinConfig&)>& differ) {
+  const Orbit orbit = testing::transfer_orbit();
+  const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  std::mt19937_64 rng{81};
+  Tally tally;
+  for (int pass = 0; pass < passes; ++pass) {
+    testing::SpinningBody body = testing::random_body(around, 6.0 * kDegree_rad, rng);
+    const SpinConfig said = body.config;
+    differ(body.config);
+    const auto edges = testing::edges_between(body, around, 0.0, kEnd_s);
+    const SpinOutput output =
+        testing::run(SpinPass{said, orbit},
+                     testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
+    bool doubted = false;
+    for (const SpinEstimate& estimate : testing::all_of<SpinEstimate>(output)) {
+      if (estimate.estimator == SpinEstimator::Sequential) {
+        ++tally.estimates;
+        doubted = doubted || estimate.status.starts_with("DOUBTFUL") ||
+                  estimate.status.starts_with("LOST");
+        tally.sure_and_wrong += estimate.status.starts_with("OK") &&
+                                        angle_between_rad(estimate.axis_icrf, body.axis_icrf) >
+                                            3.0 * testing::sigma_rad(estimate)
+                                    ? 1
+                                    : 0;
+      }
+    }
+    const SpinEstimate last = testing::last_estimate(output, SpinEstimator::Sequential);
+    ++tally.passes;
+    tally.doubted_ever += doubted ? 1 : 0;
+    tally.doubted += last.status.starts_with("DOUBTFUL") ? 1 : 0;
+    tally.covered +=
+        angle_between_rad(last.axis_icrf, body.axis_icrf) < 3.0 * testing::sigma_rad(last) ? 1 : 0;
+  }
+  for (const auto& [name, value] :
+       {std::pair{"doubted", tally.doubted}, std::pair{"covered", tally.covered},
+        std::pair{"doubted_ever", tally.doubted_ever}, std::pair{"estimates", tally.estimates},
+        std::pair{"sure_and_wrong", tally.sure_and_wrong}}) {
+    ::testing::Test::RecordProperty(name, value);
+  }
+  return tally;
+}
+
+TEST(SpinWrongModel, AHealthyPassIsNotDoubted) {
+  const Tally tally = tally_of(200, [](SpinConfig&) {});
+  EXPECT_LE(tally.doubted_ever, 2);
+  EXPECT_LE(tally.sure_and_wrong, tally.estimates / 50);
+}
+
+TEST(SpinWrongModel, ABeamOffInAzimuthIsDoubtedAndCovered) {
+  const Tally tally =
+      tally_of(20, [](SpinConfig& body) { body.north->azimuth_rad += 1.0 * kDegree_rad; });
+  EXPECT_EQ(tally.doubted, tally.passes);
+  EXPECT_GE(tally.covered, 19);
+  EXPECT_LE(tally.sure_and_wrong, tally.estimates / 50);
+}
+
+TEST(SpinWrongModel, NoiseBeyondWhatIsStatedIsDoubtedThroughoutAndCovered) {
+  for (const double times : {2.0, 5.0}) {
+    SCOPED_TRACE(times);
+    const Tally tally = tally_of(20, [times](SpinConfig& body) {
+      body.noise.sun_s *= times;
+      body.noise.infrared_s *= times;
+    });
+    EXPECT_EQ(tally.doubted, tally.passes);
+    EXPECT_GE(tally.covered, 19);
+    EXPECT_LE(tally.sure_and_wrong, tally.estimates / 100);
+  }
+}
+
+}  // namespace
+}  // namespace spindrift
