@@ -67,12 +67,20 @@ void Associator::note_period(TaiTime t_sun1, double period_s) {
 
 Association Associator::push(const Pulse& pulse) {
   Association out;
-  if (clock_ && clock_sigma_turns(clock_->phase_turns(pulse.t)) > kLost_turns) {
-    give_up_clock(pulse, out);
+  place_or_wait(pulse, out);
+  return out;
+}
+
+void Associator::place_or_wait(const Pulse& pulse, Association& out) {
+  if (clock_) {
+    const double phase = clock_->phase_turns(pulse.t);
+    if (phase > static_cast<double>(first_open_) && clock_sigma_turns(phase) > kLost_turns) {
+      give_up_clock(pulse, out);
+    }
   }
   if (clock_) {
     place(pulse, out);
-    return out;
+    return;
   }
   waiting_.push_back(pulse);
   try_to_start(false, out);
@@ -80,7 +88,6 @@ Association Associator::push(const Pulse& pulse) {
     out.left_over.push_back(unassociated(waiting_.front()));
     waiting_.erase(waiting_.begin());
   }
-  return out;
 }
 
 Association Associator::finish() {
@@ -120,7 +127,7 @@ void Associator::try_to_start(bool at_end, Association& out) {
   phases_.define(reference_, first_open_, defined_phase_turns(config_, reference_));
   learn_phases();
   for (const Pulse& pulse : std::exchange(waiting_, {})) {
-    place(pulse, out);
+    place_or_wait(pulse, out);
   }
 }
 

@@ -95,6 +95,7 @@ class Associator {
     std::int64_t revolution;
   };
 
+  void place_or_wait(const Pulse& pulse, Association& out);
   void try_to_start(bool at_end, Association& out);
   void learn_phases();
   void give_up_clock(const Pulse& pulse, Association& out);

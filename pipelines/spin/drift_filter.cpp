@@ -59,7 +59,8 @@ double DriftFilter::sigma_at(double x, const DriftNoise& noise) const {
 }
 
 double DriftFilter::change_sigma_at(double x, const DriftNoise& noise) const {
-  return std::sqrt(covariance_at(x, noise)(1, 1));
+  // Far back rounding may leave next to nothing of it, or less.
+  return std::sqrt(std::max(covariance_(1, 1), covariance_at(x, noise)(1, 1)));
 }
 
 bool DriftFilter::accepts(double x, double measured, const DriftNoise& noise,

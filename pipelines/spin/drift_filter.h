@@ -52,7 +52,7 @@ class DriftFilter {
   double scale() const { return scale_; }
   /// Standard deviation of the value.
   double sigma_at(double x, const DriftNoise& noise) const;
-  /// The same of the change.
+  /// The same of the change; before the last abscissa at least as much as there.
   double change_sigma_at(double x, const DriftNoise& noise) const;
 
   /// Whether the measurement lies within the gate.

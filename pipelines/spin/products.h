@@ -84,7 +84,7 @@ struct SpinFix {
   Eigen::Matrix2d covariance_rad2;                   ///< Tangent plane at the axis: east, north.
   std::vector<Eigen::Vector3d> alternate_axes_icrf;  ///< The other candidates, best first; unit.
   Resolution resolution;
-  double norm;    ///< |P| before normalising: 1 for measurements that agree.
+  double norm;  ///< |P| before normalising: 1 for measurements that agree.
   /// Neither AMBIGUOUS nor from measurements that contradict each other, in this revolution or in
   /// most of the last ones.
   bool accepted;

@@ -51,13 +51,16 @@ RobustMean robust_mean(std::span<const double> sorted, const ClipRule& rule) {
   result.mean = median_of_sorted(sorted);
   result.limit = std::max(rule.sigma * kSigmaPerMad * median_deviation(sorted, result.mean), floor);
 
+  std::span<const double> kept_before;
   for (int round = 0; round < kMostRounds; ++round) {
     const RobustMean before = result;
     const std::span<const double> kept = kept_by(before, sorted);
-    result.kept = kept.size();
-    if (kept.empty()) {  // Only a limit below one standard deviation can come to this.
+    const bool same_set = kept.data() == kept_before.data() && kept.size() == kept_before.size();
+    if (same_set || kept.empty()) {  // A limit below one standard deviation can keep none.
       return before;
     }
+    kept_before = kept;
+    result.kept = kept.size();
     const double sum =
         std::accumulate(kept.begin(), kept.end(), 0.0,
                         [&](double so_far, double value) { return so_far + value - before.mean; });
@@ -69,9 +72,6 @@ RobustMean robust_mean(std::span<const double> sorted, const ClipRule& rule) {
     result.sigma =
         result.kept > 1 ? std::sqrt(squares / static_cast<double>(result.kept - 1)) : rule.stated;
     result.limit = std::max(rule.sigma * result.sigma, floor);
-    if (result.mean == before.mean && result.limit == before.limit) {
-      break;
-    }
   }
   return result;
 }

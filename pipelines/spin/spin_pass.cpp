@@ -23,8 +23,6 @@ namespace {
 constexpr std::size_t kEstablishedFixes = 10;
 // Beyond so many sigmas, and the model's limit, the axis is another one than before.
 constexpr double kMovedSigmas = 5.0;
-// A mean that is known so well is near enough for angles to be linear about it.
-constexpr double kLinear_rad = std::numbers::pi / 180.0;
 
 /// What the spherical horizon leaves out of an oblate Earth, as a covariance: taken as anywhere
 /// between none and the whole displacement of the limb, in any direction. Unlike the noise of the
@@ -103,7 +101,7 @@ SpinPass::SpinPass(const SpinConfig& config, Orbit orbit)
       screening_{config.screening},
       recent_axes_{static_cast<std::size_t>(config.screening.window)},
       disambiguator_{config},
-      model_check_{config},
+      mean_{config},
       trust_{static_cast<double>(config.screening.window)},
       sequential_{config} {}
 
@@ -398,19 +396,16 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
     SpinFix announced = fix;
     announced.covariance_rad2 += horizon_rad2;
     out.products.emplace_back(std::move(announced));
-    if (fix.accepted && !(moved_at_ && fix.t < *moved_at_)) {
+    if (mean_.take(fix, revolution.number)) {
       recent_axes_.add(fix);
-      mean_axis_.add(fix);
       if (fix.revolution == revolution.number) {
-        check_model(candidate);
+        mean_.check(candidate.measured, *candidate.sightlines);
       }
       mean_moved = true;
     }
-    unsettled_ += fix.resolution == Resolution::Ambiguous ? 1 : 0;
-    unsettled_ -= fix.accepted && fix.revolution != revolution.number ? 1 : 0;
   }
   if (mean_moved) {
-    SpinEstimate mean = mean_estimate(candidate);
+    SpinEstimate mean = mean_.estimate(revolution);
     mean.covariance_rad2 += horizon_rad2;
     out.products.emplace_back(std::move(mean));
   }
@@ -422,99 +417,41 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
 /// They share what is wrong with the model, so that a difference is the axis's own.
 bool SpinPass::recent_fixes_left_the_mean() const {
   const auto recent_icrf = recent_axes_.axis_icrf();
-  return recent_icrf && mean_axis_.count() > 0 &&
-         angle_between_rad(*recent_icrf, mean_axis_.axis_icrf()) > kModelLimit_rad;
+  return recent_icrf && mean_.count() > 0 &&
+         angle_between_rad(*recent_icrf, mean_.axis_icrf()) > kModelLimit_rad;
 }
 
-/// After a manoeuvre a mean of the whole pass would lie where the axis never was. A restart of
-/// `sequential`, or recent fixes that lie elsewhere, raise the question; it may take some
-/// revolutions until its axis is known so well that the answer is clear.
+/// A restart of `sequential`, or recent fixes that lie elsewhere, raise the question; it may take
+/// some revolutions until its axis is known so well that the answer is clear.
 void SpinPass::start_again_where_moved(const SpinEstimate& sequential, SpinOutput& out) {
-  if (mean_axis_.count() == 0) {
+  if (mean_.count() == 0) {
     return;
   }
-  const double apart_rad = angle_between_rad(mean_axis_.axis_icrf(), sequential.axis_icrf);
-  // A wrong model moves the mean and lets residuals scatter as before; a move does not.
-  const Eigen::Matrix2d mean_rad2 =
-      model_verdict_.excess_noise > 1.0 ? mean_noise_rad2() : mean_covariance_rad2();
-  const double sigma_rad = std::sqrt(mean_rad2.trace() + sequential.covariance_rad2.trace());
+  const double apart_rad = angle_between_rad(mean_.axis_icrf(), sequential.axis_icrf);
+  const double sigma_rad =
+      std::sqrt(mean_.covariance_if_moved_rad2().trace() + sequential.covariance_rad2.trace());
   if (apart_rad <= std::hypot(kMovedSigmas * sigma_rad, kModelLimit_rad)) {
     return;
   }
   restarts_heeded_ = sequential_.restarts();
-  moved_at_ = sequential.t;
-  unsettled_ = 0;
-  mean_axis_ = MeanAxis{};
-  model_check_ = ModelCheck{config_};
-  model_verdict_ = {};
+  mean_.begin_anew(sequential.t);
   recent_axes_ = AxisWindow{static_cast<std::size_t>(config_.screening.window)};
   screening_ = ScreeningWindow{config_.screening};
   disambiguator_ = Disambiguator{config_};
-  out.notices.push_back(fmt::format("{}: the axis has moved by {:.2f} deg, the mean begins anew",
-                                    format_utc(sequential.t),
-                                    apart_rad * 180.0 / std::numbers::pi));
+  out.notices.push_back(
+      fmt::format("{}: the axis is {:.2f} deg from the mean so far: it has moved, or the mean was "
+                  "wrong; the mean "
+                  "begins anew",
+                  format_utc(sequential.t), apart_rad * 180.0 / std::numbers::pi));
 }
 
 std::optional<KnownAxis> SpinPass::established_axis() const {
-  if (mean_axis_.count() < kEstablishedFixes) {
+  if (mean_.count() < kEstablishedFixes) {
     return sequential_.settled_by_edges();
   }
   return KnownAxis{
-      .axis_icrf = mean_axis_.axis_icrf(),
-      .sigma_rad = std::hypot(std::sqrt(mean_covariance_rad2().trace()), kModelLimit_rad)};
-}
-
-/// Where a share s of the fixes is left out because nothing settles them, those that are settled
-/// lie to one side: by up to s sigma of a single fix, which their number does not reduce.
-Eigen::Matrix2d SpinPass::mean_noise_rad2() const {
-  const auto settled = static_cast<double>(mean_axis_.count());
-  const double unsettled = std::max(0.0, static_cast<double>(unsettled_));
-  const double share = unsettled / (settled + unsettled);
-  return mean_axis_.covariance_rad2() * (1.0 + settled * share * share);
-}
-
-Eigen::Matrix2d SpinPass::mean_covariance_rad2() const {
-  const Eigen::Matrix<double, 2, kModelErrors> shift = mean_axis_.model_shift();
-  return mean_noise_rad2() * model_verdict_.excess_noise +
-         shift * model_verdict_.errors_rad2 * shift.transpose();
-}
-
-std::string SpinPass::mean_status() const {
-  const bool noisy = model_verdict_.excess_noise > 1.0;
-  const bool off = model_verdict_.error_rad > 0.0;
-  const std::string fixes = fmt::format("{} fixes", mean_axis_.count());
-  if (!noisy && !off) {
-    return fmt::format("{}{}, spherical horizon", fixes,
-                       moved_at_ ? " since " + format_utc(*moved_at_, 0) : "");
-  }
-  return fmt::format(
-      "{}{}{}{}", model_verdict_.beyond_allowance || noisy ? "DOUBTFUL, " : "", fixes,
-      off ? fmt::format(", model off by {:.2g} deg",
-                        model_verdict_.error_rad * 180.0 / std::numbers::pi)
-          : "",
-      noisy ? fmt::format(", noise x {:.1f}", std::sqrt(model_verdict_.excess_noise)) : "");
-}
-
-void SpinPass::check_model(const Candidate& candidate) {
-  if (mean_axis_.covariance_rad2().trace() > kLinear_rad * kLinear_rad) {
-    return;
-  }
-  model_check_.add(candidate.measured, *candidate.sightlines, mean_axis_.axis_icrf());
-  model_verdict_ = model_check_.verdict(config_.horizon.model == HorizonModel::Sphere
-                                            ? 0.0
-                                            : oblateness_rad(candidate.sightlines->disc_rad));
-}
-
-SpinEstimate SpinPass::mean_estimate(const Candidate& candidate) const {
-  const SpinPeriod& period = candidate.revolution.period;
-  const double rate_rad_s = 2.0 * std::numbers::pi / period.period_s;
-  return {.t = candidate.revolution.t_start,
-          .estimator = SpinEstimator::Mean,
-          .axis_icrf = mean_axis_.axis_icrf(),
-          .covariance_rad2 = mean_covariance_rad2(),
-          .spin_rate_rad_s = rate_rad_s,
-          .spin_rate_sigma_rad_s = rate_rad_s / period.period_s * period.sigma_s,
-          .status = mean_status()};
+      .axis_icrf = mean_.axis_icrf(),
+      .sigma_rad = std::hypot(std::sqrt(mean_.covariance_rad2().trace()), kModelLimit_rad)};
 }
 
 }  // namespace spindrift

@@ -27,8 +27,8 @@
 #include "pipelines/spin/disambiguation.h"
 #include "pipelines/spin/interference.h"
 #include "pipelines/spin/mean_axis.h"
+#include "pipelines/spin/mean_estimator.h"
 #include "pipelines/spin/measurement.h"
-#include "pipelines/spin/model_check.h"
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/reorder_window.h"
 #include "pipelines/spin/screening.h"
@@ -84,13 +84,8 @@ class SpinPass {
   void say_why_not_accepted(const SpinFix& fix, SpinOutput& out);
   void announce_axis(const Candidate& candidate, SpinOutput& out);
   std::optional<KnownAxis> established_axis() const;
-  void check_model(const Candidate& candidate);
   bool recent_fixes_left_the_mean() const;
   void start_again_where_moved(const SpinEstimate& sequential, SpinOutput& out);
-  Eigen::Matrix2d mean_noise_rad2() const;
-  Eigen::Matrix2d mean_covariance_rad2() const;
-  std::string mean_status() const;
-  SpinEstimate mean_estimate(const Candidate& candidate) const;
   static void leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out);
   void say_once(const std::string& notice, SpinOutput& out);
   void say_first(std::string_view kind, const std::string& notice, SpinOutput& out);
@@ -107,12 +102,8 @@ class SpinPass {
   ScreeningWindow screening_;
   AxisWindow recent_axes_;
   Disambiguator disambiguator_;
-  MeanAxis mean_axis_;
-  ModelCheck model_check_;  ///< Of the revolutions with a fix in the mean.
-  ModelVerdict model_verdict_;
+  MeanEstimator mean_;
   Trust trust_;
-  std::int64_t unsettled_ = 0;       ///< AMBIGUOUS fixes since the mean began.
-  std::optional<TaiTime> moved_at_;  ///< When the axis last did, and the mean began anew.
   SequentialEstimator sequential_;
   int restarts_heeded_ = 0;
   std::set<std::string, std::less<>> said_;

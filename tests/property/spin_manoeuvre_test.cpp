@@ -75,7 +75,7 @@ TEST(SpinManoeuvre, EstimatesFollowAnAxisThatMoves) {
     EXPECT_THAT(sequential.status, StartsWith("OK"));
     EXPECT_EQ(std::count_if(output.notices.begin(), output.notices.end(),
                             [](const std::string& notice) {
-                              return notice.find("axis has moved by") != std::string::npos;
+                              return notice.find("the mean begins anew") != std::string::npos;
                             }),
               1);
   }
