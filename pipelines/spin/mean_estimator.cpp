@@ -19,9 +19,12 @@ constexpr double kLinear_rad = kDegree;
 }  // namespace
 
 bool MeanEstimator::take(const SpinFix& fix, std::int64_t newest) {
-  unsettled_ += fix.resolution == Resolution::Ambiguous ? 1 : 0;
-  unsettled_ -= fix.accepted && fix.revolution != newest ? 1 : 0;
-  if (!fix.accepted || (began_ && fix.t < *began_)) {
+  // Where two roots come together within the noise the covariance is too small, and revolutions
+  // without a root are missing: the mean of such fixes lies to one side.
+  const bool settled = fix.accepted && !fix.grazing;
+  unsettled_ += fix.resolution == Resolution::Ambiguous || (fix.accepted && fix.grazing) ? 1 : 0;
+  unsettled_ -= settled && fix.revolution != newest ? 1 : 0;
+  if (!settled || (began_ && fix.t < *began_)) {
     return false;
   }
   axis_.add(fix);

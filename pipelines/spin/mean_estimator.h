@@ -24,7 +24,9 @@ class MeanEstimator {
   explicit MeanEstimator(const SpinConfig& config) : config_{config}, check_{config} {}
 
   /// @param newest The revolution at whose end the fix was settled.
-  /// @return Whether it is in the mean now: it is accepted, and not of before the mean began.
+  /// @return Whether it is in the mean now: it is accepted, does not graze, and is not of before
+  /// the
+  ///         mean began.
   bool take(const SpinFix& fix, std::int64_t newest);
 
   /// A revolution whose fix is in the mean.
@@ -40,6 +42,9 @@ class MeanEstimator {
   /// Likewise, against the question whether the axis has moved: a wrong model moves the mean and
   /// lets residuals scatter as before; a move does not.
   Eigen::Matrix2d covariance_if_moved_rad2() const;
+
+  /// What each error of the model moves it by, for every radian of it; in that plane.
+  Eigen::Matrix<double, 2, kModelErrors> model_shift() const { return axis_.model_shift(); }
 
   SpinEstimate estimate(const Revolution& revolution) const;
 

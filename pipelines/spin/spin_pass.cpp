@@ -24,15 +24,19 @@ constexpr std::size_t kEstablishedFixes = 10;
 // Beyond so many sigmas, and the model's limit, the axis is another one than before.
 constexpr double kMovedSigmas = 5.0;
 
-/// What the spherical horizon leaves out of an oblate Earth, as a covariance: taken as anywhere
-/// between none and the whole displacement of the limb, in any direction. Unlike the noise of the
-/// pulses it does not shrink with the number of fixes.
-Eigen::Matrix2d horizon_error_rad2(const SpinConfig& config, double disc_rad) {
+/// What the spherical horizon leaves out of an oblate Earth, as a covariance: the limb of each beam
+/// anywhere between none and the whole of its displacement. Unlike the noise of the pulses it does
+/// not shrink with the number of fixes.
+/// @param shift What each error of the model moves the axis by, for every radian of it.
+Eigen::Matrix2d horizon_error_rad2(const SpinConfig& config, double disc_rad,
+                                   const Eigen::Matrix<double, 2, kModelErrors>& shift) {
   if (config.horizon.model == HorizonModel::Sphere) {
     return Eigen::Matrix2d::Zero();
   }
   const double limb_rad = oblateness_rad(disc_rad);
-  return Eigen::Matrix2d::Identity() * (limb_rad * limb_rad / 3.0 / 2.0);
+  const Eigen::Vector2d north = shift.col(NorthLimb);
+  const Eigen::Vector2d south = shift.col(SouthLimb);
+  return (north * north.transpose() + south * south.transpose()) * (limb_rad * limb_rad / 3.0);
 }
 
 Eigen::Vector3d median_axis(const std::vector<Eigen::Vector3d>& axes) {
@@ -154,7 +158,23 @@ SpinOutput SpinPass::finish() {
     leave_out(pulse, Rejection::OutOfTime, out);
     say_once("pulses stamped far ahead of all others are left out: a sender's clock is wrong", out);
   }
+  say_what_is_missing(out);
   return out;
+}
+
+/// Known for certain only at the end.
+void SpinPass::say_what_is_missing(SpinOutput& out) const {
+  if (!closed_any_ && left_over_any_) {
+    out.notices.emplace_back("no spin period was found in the edges: no revolution, and no axis");
+  }
+  if (without_orbit_ > 1) {
+    out.notices.push_back(fmt::format("orbit: {} revolutions outside it gave no axis, the last: {}",
+                                      without_orbit_, last_without_orbit_));
+  }
+  if (mean_.count() > 0 && !sequential_began_) {
+    out.notices.emplace_back(
+        "the estimator 'sequential' never began: it needs one fix that is known to 3 deg");
+  }
 }
 
 void SpinPass::take(const CodedFrame& frame, SpinOutput& out) {
@@ -223,6 +243,8 @@ void SpinPass::associate(const InterferenceWindow::Sorted& sorted, SpinOutput& o
 }
 
 void SpinPass::collect(Association association, SpinOutput& out) {
+  left_over_any_ = left_over_any_ || !association.left_over.empty();
+  closed_any_ = closed_any_ || !association.closed.empty();
   std::move(association.left_over.begin(), association.left_over.end(),
             std::back_inserter(out.products));
   for (const Revolution& revolution : association.closed) {
@@ -244,6 +266,8 @@ void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
   if (const auto sightlines = surroundings_.sightlines(candidate.measured, revolution.t_start)) {
     candidate.sightlines = *sightlines;
   } else {
+    ++without_orbit_;
+    last_without_orbit_ = sightlines.error().message;
     say_first(
         "orbit",
         fmt::format("orbit: {}; revolutions outside it give no axis", sightlines.error().message),
@@ -382,19 +406,20 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   if (const auto sky = surroundings_.sky(revolution.t_start)) {
     sequential = sequential_.update(revolution, *sky,
                                     trust_.deserved() ? std::span{fixes} : std::span<SpinFix>{});
-    if (sequential_.prior_refuted()) {
-      say_once("the edges contradict the prior of the mission: the axis is another one", out);
+    if (sequential_.prior_refuted() && config_.prior) {
+      forget_prior(revolution.t_start, out);
     }
     if (sequential && (sequential_.restarts() > restarts_heeded_ || recent_fixes_left_the_mean())) {
       start_again_where_moved(*sequential, out);
     }
   }
-  const Eigen::Matrix2d horizon_rad2 = horizon_error_rad2(config_, candidate.sightlines->disc_rad);
+  const double disc_rad = candidate.sightlines->disc_rad;
   bool mean_moved = false;
   for (const SpinFix& fix : fixes) {
     say_why_not_accepted(fix, out);
     SpinFix announced = fix;
-    announced.covariance_rad2 += horizon_rad2;
+    announced.covariance_rad2 += horizon_error_rad2(
+        config_, disc_rad, tangent_basis(fix.axis_icrf).transpose() * fix.model_shift_icrf);
     out.products.emplace_back(std::move(announced));
     if (mean_.take(fix, revolution.number)) {
       recent_axes_.add(fix);
@@ -406,12 +431,30 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   }
   if (mean_moved) {
     SpinEstimate mean = mean_.estimate(revolution);
-    mean.covariance_rad2 += horizon_rad2;
+    mean.covariance_rad2 += horizon_error_rad2(config_, disc_rad, mean_.model_shift());
     out.products.emplace_back(std::move(mean));
   }
   if (sequential) {
+    sequential_began_ = true;
     out.products.emplace_back(std::move(*sequential));
   }
+}
+
+/// What the prior chose is not of the axis that the edges show.
+void SpinPass::forget_prior(TaiTime t, SpinOutput& out) {
+  config_.prior.reset();
+  begin_anew(t);
+  out.notices.push_back(
+      fmt::format("{}: the edges contradict the prior of the mission: the axis is another one, the "
+                  "mean begins anew",
+                  format_utc(t)));
+}
+
+void SpinPass::begin_anew(TaiTime t) {
+  mean_.begin_anew(t);
+  recent_axes_ = AxisWindow{static_cast<std::size_t>(config_.screening.window)};
+  screening_ = ScreeningWindow{config_.screening};
+  disambiguator_ = Disambiguator{config_};
 }
 
 /// They share what is wrong with the model, so that a difference is the axis's own.
@@ -434,10 +477,7 @@ void SpinPass::start_again_where_moved(const SpinEstimate& sequential, SpinOutpu
     return;
   }
   restarts_heeded_ = sequential_.restarts();
-  mean_.begin_anew(sequential.t);
-  recent_axes_ = AxisWindow{static_cast<std::size_t>(config_.screening.window)};
-  screening_ = ScreeningWindow{config_.screening};
-  disambiguator_ = Disambiguator{config_};
+  begin_anew(sequential.t);
   out.notices.push_back(
       fmt::format("{}: the axis is {:.2f} deg from the mean so far: it has moved, or the mean was "
                   "wrong; the mean "

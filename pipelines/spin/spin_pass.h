@@ -86,6 +86,9 @@ class SpinPass {
   std::optional<KnownAxis> established_axis() const;
   bool recent_fixes_left_the_mean() const;
   void start_again_where_moved(const SpinEstimate& sequential, SpinOutput& out);
+  void forget_prior(TaiTime t, SpinOutput& out);
+  void begin_anew(TaiTime t);
+  void say_what_is_missing(SpinOutput& out) const;
   static void leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out);
   void say_once(const std::string& notice, SpinOutput& out);
   void say_first(std::string_view kind, const std::string& notice, SpinOutput& out);
@@ -106,6 +109,11 @@ class SpinPass {
   Trust trust_;
   SequentialEstimator sequential_;
   int restarts_heeded_ = 0;
+  bool closed_any_ = false;     ///< Revolution.
+  bool left_over_any_ = false;  ///< Edge of none.
+  bool sequential_began_ = false;
+  std::int64_t without_orbit_ = 0;  ///< Revolutions.
+  std::string last_without_orbit_;  ///< Why the last of them has none.
   std::set<std::string, std::less<>> said_;
 };
 

@@ -236,6 +236,9 @@ TEST(ShortOrbit, GivesTheAxisWhereItReachesAndSaysByHowMuchItDoesNot) {
   EXPECT_THAT(outcome.log, ::testing::ContainsRegex(
                                "orbit: no orbit at 2026-11-20T03:05:00.*Z: 0\\.[0-9]+ s after the "
                                "ephemeris ends"));
+  EXPECT_THAT(outcome.log,
+              ::testing::ContainsRegex("revolutions outside it gave no axis, the last: no orbit at "
+                                       "2026-11-20T03:09:5.*Z: 29[0-9]\\.[0-9]+ s after"));
   EXPECT_EQ(outcome.run["revolutions"], 599);  // Of 600 good sun1 edges one lies 3 sigma off.
   EXPECT_NEAR(outcome.run["fixes"].get<double>(), 300.0, 3.0);
   EXPECT_EQ(

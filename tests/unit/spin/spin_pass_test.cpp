@@ -230,8 +230,10 @@ TEST(SpinPass, OutsideTheOrbitMeasurementsStandWithoutAFix) {
       ASSERT_THAT(measurement.rejected_by, AnyOf(Rejection::NoOrbit, Rejection::Phase));
     }
   }
-  ASSERT_EQ(output.notices.size(), 1U);
+  // The first such revolution, and at the end how many there were.
+  ASSERT_EQ(output.notices.size(), 2U);
   EXPECT_NE(output.notices.front().find("orbit"), std::string::npos);
+  EXPECT_NE(output.notices.back().find("revolutions outside it"), std::string::npos);
 }
 
 TEST(SpinPass, AnEmptyPassGivesNothing) {
