@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "services/archive/batch_writer.h"
+#include "services/archive/checkpointer.h"
 #include "services/archive/connection.h"
 #include "services/archive/write_lock.h"
 
@@ -64,10 +65,14 @@ Expected<std::filesystem::path> resolved(const std::filesystem::path& path) {
 /// What the writer thread works with. The lock is let go of last.
 struct Archive::Store {
   Store(WriteLock held, SQLite::Database opened)
-      : lock{std::move(held)}, database{std::move(opened)}, writer{database} {}
+      : lock{std::move(held)},
+        database{std::move(opened)},
+        checkpointer{database},
+        writer{database} {}
 
   WriteLock lock;
   SQLite::Database database;
+  Checkpointer checkpointer;
   BatchWriter writer;
 };
 

@@ -1,5 +1,6 @@
 #include "services/archive/batch_queue.h"
 
+#include <chrono>
 #include <utility>
 
 namespace spindrift {
@@ -7,6 +8,8 @@ namespace {
 
 // So many rows of samples press: a burst, more than come during a commit at any live rate.
 constexpr std::size_t kPressing = 128;
+// So long do a few samples wait for others, and for products, to share a commit.
+constexpr std::chrono::milliseconds kGathering{5};
 // Rows of products in one transaction: about as long do the next samples wait.
 constexpr std::size_t kProductsAtOnce = 8192;
 // Rows of samples for one of products while they press.
@@ -26,17 +29,21 @@ bool BatchQueue::push(ArchiveBatch batch) {
   if (closed_) {
     return false;
   }
+  const bool was_empty = is_empty();
   lane.batches.push_back(std::move(batch));
   lane.rows += rows;
+  const bool is_news = was_empty || is_worth_a_commit();
   lock.unlock();
-  filled_.notify_one();
+  if (is_news) {
+    filled_.notify_one();
+  }
   return true;
 }
 
 std::vector<ArchiveBatch> BatchQueue::take() {
   std::unique_lock lock{mutex_};
-  filled_.wait(
-      lock, [this] { return closed_ || !samples_.batches.empty() || !products_.batches.empty(); });
+  filled_.wait(lock, [this] { return closed_ || !is_empty(); });
+  filled_.wait_for(lock, kGathering, [this] { return closed_ || is_worth_a_commit(); });
   std::vector<ArchiveBatch> taken;
   const std::size_t sample_rows = samples_.rows;
   while (!samples_.batches.empty()) {
@@ -58,6 +65,12 @@ std::vector<ArchiveBatch> BatchQueue::take() {
   lock.unlock();
   room_.notify_all();
   return taken;
+}
+
+bool BatchQueue::is_empty() const { return samples_.batches.empty() && products_.batches.empty(); }
+
+bool BatchQueue::is_worth_a_commit() const {
+  return !products_.batches.empty() || samples_.rows >= kPressing;
 }
 
 void BatchQueue::move_first(Lane& lane, std::vector<ArchiveBatch>& taken) {

@@ -26,7 +26,8 @@ class BatchQueue {
   /// Waits for room. @return false when the queue is closed: `batch` was not taken.
   bool push(ArchiveBatch batch);
 
-  /// Waits for at least one batch. Takes all the samples, and products: many, or in a
+  /// Waits for at least one batch, and with samples only for a moment more: each commit costs a
+  /// sync, and products wait behind it. Takes all the samples, and products: many, or in a
   /// burst of samples a small share; empty only when closed and drained.
   std::vector<ArchiveBatch> take();
 
@@ -39,6 +40,8 @@ class BatchQueue {
     std::deque<ArchiveBatch> batches;
     std::size_t rows = 0;
   };
+  bool is_empty() const;
+  bool is_worth_a_commit() const;
   static void move_first(Lane& lane, std::vector<ArchiveBatch>& taken);
 
   const std::size_t capacity_rows_;

@@ -112,11 +112,10 @@ Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path) {
                                      "journal_mode {}",
                                      path.string(), journal)}};
     }
-    // The pages that a hundred spacecraft append to stay in memory; the log reaches its 64 MiB
-    // before it is checkpointed, since that holds up the commit that happens to be next.
+    // The pages that a hundred spacecraft append to stay in memory.
     database.exec(
         "PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON; PRAGMA journal_size_limit = "
-        "67108864; PRAGMA wal_autocheckpoint = 16384; PRAGMA cache_size = -65536");
+        "268435456; PRAGMA cache_size = -65536");
     refresh_leap_seconds(database);
     return database;
   } catch (const SQLite::Exception& exception) {

@@ -17,15 +17,17 @@ extern const char* const schema_0002_views;
 extern const char* const schema_0003_restart;
 extern const char* const schema_0004_quick_checks;
 extern const char* const schema_0005_fix_candidates;
+extern const char* const schema_0006_time_order;
 }  // namespace embedded
 
 namespace {
 
-constexpr std::size_t kMigrations = 5;
+constexpr std::size_t kMigrations = 6;
 
 std::array<const char*, kMigrations> migrations() {
-  return {embedded::schema_0001_tables, embedded::schema_0002_views, embedded::schema_0003_restart,
-          embedded::schema_0004_quick_checks, embedded::schema_0005_fix_candidates};
+  return {embedded::schema_0001_tables,         embedded::schema_0002_views,
+          embedded::schema_0003_restart,        embedded::schema_0004_quick_checks,
+          embedded::schema_0005_fix_candidates, embedded::schema_0006_time_order};
 }
 
 }  // namespace

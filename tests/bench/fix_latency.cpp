@@ -4,7 +4,7 @@
 ///
 ///     fix_latency MISSION.toml PULSES.csv SPACECRAFT SPEED [DOMAIN]
 ///
-/// The same pass goes out as SPACECRAFT spacecraft named LOAD-0, LOAD-1, ..., evenly staggered,
+/// The same pass goes out as SPACECRAFT spacecraft named LOAD-0, LOAD-1, ..., one after the other,
 /// SPEED times faster than it was. Which edge brings out which fix, the pipeline itself tells
 /// beforehand. Prints revolutions, those whose fix was seen, median, 99th percentile and longest in
 /// microseconds.
@@ -78,14 +78,18 @@ struct Event {
   std::size_t pulse;
 };
 
+/// The pulses of a spacecraft are later than those of the first, all within a second: at any time
+/// the load has all phases, and as in a pass what is sent together was measured together.
+std::chrono::nanoseconds delay(std::size_t spacecraft, std::size_t of) {
+  return std::chrono::nanoseconds{1'000'000'000 * spacecraft / of};
+}
+
 std::vector<Event> events(const std::vector<Pulse>& pulses, std::size_t spacecraft, double speed) {
-  // Over one revolution, so that all phases of the load are there at any time.
-  const double stagger_s = 1.0 / speed / static_cast<double>(spacecraft);
   std::vector<Event> all;
   for (std::size_t s = 0; s < spacecraft; ++s) {
     for (std::size_t i = 0; i < pulses.size(); ++i) {
-      all.push_back({.due_s = seconds_between(pulses.front().t, pulses[i].t) / speed +
-                              stagger_s * static_cast<double>(s),
+      const TaiTime t = pulses[i].t + delay(s, spacecraft);
+      all.push_back({.due_s = seconds_between(pulses.front().t, t) / speed,
                      .spacecraft = s,
                      .pulse = i});
     }
@@ -123,7 +127,9 @@ void run(const std::string& mission_file, const std::string& pulses_file, std::s
     std::this_thread::sleep_until(start + std::chrono::duration_cast<steady_clock::duration>(
                                               std::chrono::duration<double>{event.due_s}));
     written[event.spacecraft][event.pulse] = steady_clock::now();
-    or_exit(publisher.publish(names[event.spacecraft], pulses[event.pulse], std::stop_token{}));
+    Pulse pulse = pulses[event.pulse];
+    pulse.t += delay(event.spacecraft, spacecraft);
+    or_exit(publisher.publish(names[event.spacecraft], pulse, std::stop_token{}));
   }
   std::this_thread::sleep_for(std::chrono::seconds{2});
   waitset.stop();
@@ -131,7 +137,8 @@ void run(const std::string& mission_file, const std::string& pulses_file, std::s
 
   std::vector<double> taken_us;
   for (const Seen& fix : seen) {
-    if (const auto edge = closing.find(fix.t); edge != closing.end()) {
+    const TaiTime t = fix.t - delay(fix.spacecraft, spacecraft);
+    if (const auto edge = closing.find(t); edge != closing.end()) {
       taken_us.push_back(
           std::chrono::duration<double, std::micro>(fix.at - written[fix.spacecraft][edge->second])
               .count());

@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <random>
+#include <thread>
+#include <utility>
+
+#include "tests/integration/archive_fixture.h"
+
+namespace spindrift {
+namespace {
+
+using testing::batch_of;
+using testing::start_of;
+
+constexpr std::uintmax_t kMiB = 1 << 20;
+constexpr int kPulsesPerBatch = 6000;
+
+/// What is long: more than the log may be before it is carried over.
+constexpr int kBatchesOfALongLog = 32;
+
+class ArchiveLog : public testing::ArchiveFixture {
+ protected:
+  /// Each pulse on a page of its own, for the most part, so that the log grows by a page for each.
+  void write_long_log(Archive& archive) {
+    for (int i = 0; i < kBatchesOfALongLog; ++i) {
+      ArchiveBatch batch = batch_of("run");
+      for (int row = 0; row < kPulsesPerBatch; ++row) {
+        batch.pulses.push_back(testing::pulse_at(anywhere_(random_)));
+      }
+      ASSERT_TRUE(archive.submit(std::move(batch)));
+      ASSERT_TRUE(archive.flush());
+      pulses_ += kPulsesPerBatch;
+    }
+  }
+
+  std::int64_t pulses() const { return pulses_; }
+  std::uintmax_t log_bytes() const { return std::filesystem::file_size(path().string() + "-wal"); }
+
+  /// Whether the file grows to `bytes` within a minute, while nobody closes it.
+  bool file_reaches(std::uintmax_t bytes) const {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes{1};
+    while (std::filesystem::file_size(path()) < bytes) {
+      if (std::chrono::steady_clock::now() > deadline) {
+        return false;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    }
+    return true;
+  }
+
+ private:
+  std::mt19937_64 random_{1};
+  std::uniform_int_distribution<std::int64_t> anywhere_{0, 1'000'000'000'000'000'000};
+  std::int64_t pulses_ = 0;
+};
+
+TEST_F(ArchiveLog, IsCarriedOverWhileTheArchiveIsOpenAndBeginsAnew) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(start_of("run")));
+  write_long_log(*archive);
+  EXPECT_TRUE(file_reaches(kMiB));
+
+  write_long_log(*archive);
+  write_long_log(*archive);
+  EXPECT_LT(log_bytes(), 500 * kMiB);  // Without a new beginning it has 982 MiB.
+  EXPECT_EQ(number("SELECT count(*) FROM pulse"), pulses());
+  EXPECT_EQ(text("PRAGMA integrity_check"), "ok");
+  ASSERT_TRUE(archive->close());
+  EXPECT_EQ(number("SELECT count(*) FROM pulse"), pulses());
+}
+
+TEST_F(ArchiveLog, GrowsAsLongAsAReaderNeedsItAndIsCarriedOverAfterwards) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(start_of("run")));
+  ASSERT_TRUE(archive->flush());
+  {
+    SQLite::Database slow = reader();
+    slow.exec("BEGIN");
+    EXPECT_EQ(slow.execAndGet("SELECT count(*) FROM pulse").getInt64(), 0);
+    write_long_log(*archive);
+    EXPECT_EQ(slow.execAndGet("SELECT count(*) FROM pulse").getInt64(), 0);
+    EXPECT_LT(std::filesystem::file_size(path()), kMiB);
+  }
+  write_long_log(*archive);
+
+  EXPECT_TRUE(file_reaches(kMiB));
+  EXPECT_EQ(number("SELECT count(*) FROM pulse"), pulses());
+  EXPECT_EQ(text("PRAGMA integrity_check"), "ok");
+}
+
+}  // namespace
+}  // namespace spindrift
