@@ -1,5 +1,12 @@
 /// @file
-/// The estimator `mean`: the weighted mean of the accepted fixes, and how far it is to be believed.
+/// The estimator `mean`: the mean of the accepted fixes, and how far it is to be believed.
+///
+/// To first order in its measurements, a fix is a displacement from the mean so far, and the mean
+/// of all is the axis that fits their measurements best (angle_equations.h). So each counts by what
+/// its geometry is worth there. Rejected: the mean of the unit vectors, weighted by the covariances
+/// that the fixes state. Both depend on the noise of the fix, in the second order, and do not
+/// average out: where one beam is all there is, it lay up to nine of its sigmas to one side.
+///
 /// Its covariance holds the noise of the fixes, what those that nothing settled may have moved it
 /// by, and what the residuals show to be wrong with noise and model.
 
@@ -8,53 +15,64 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 
+#include "pipelines/spin/angle_equations.h"
 #include "pipelines/spin/association.h"
 #include "pipelines/spin/config.h"
-#include "pipelines/spin/mean_axis.h"
+#include "pipelines/spin/measurement.h"
 #include "pipelines/spin/model_check.h"
 #include "pipelines/spin/products.h"
+#include "pipelines/spin/sightlines.h"
 
 namespace spindrift {
 
 class MeanEstimator {
  public:
-  explicit MeanEstimator(const SpinConfig& config) : config_{config}, check_{config} {}
+  explicit MeanEstimator(const SpinConfig& config) : config_{config} {}
+
+  /// The measurements of a revolution, before its fix is taken: a fix may be settled as late as the
+  /// window of screening allows.
+  void keep(std::int64_t revolution, const RevolutionMeasurements& measured,
+            const Sightlines& sightlines);
 
   /// @param newest The revolution at whose end the fix was settled.
   /// @return Whether it is in the mean now: it is accepted, does not graze, and is not of before
-  /// the
-  ///         mean began.
+  ///         the mean began.
   bool take(const SpinFix& fix, std::int64_t newest);
-
-  /// A revolution whose fix is in the mean.
-  void check(const RevolutionMeasurements& measured, const Sightlines& sightlines);
 
   /// When the axis has moved, a mean of the whole pass would lie where it never was.
   void begin_anew(TaiTime t);
 
   /// Of fixes in the mean; the following need one.
-  std::size_t count() const { return axis_.count(); }
-  Eigen::Vector3d axis_icrf() const { return axis_.axis_icrf(); }
+  std::size_t count() const { return count_; }
+  Eigen::Vector3d axis_icrf() const { return equations_->axis_icrf(); }
   Eigen::Matrix2d covariance_rad2() const;  ///< In the tangent plane: east, north.
   /// Likewise, against the question whether the axis has moved: a wrong model moves the mean and
   /// lets residuals scatter as before; a move does not.
   Eigen::Matrix2d covariance_if_moved_rad2() const;
 
-  /// What each error of the model moves it by, for every radian of it; in that plane.
-  Eigen::Matrix<double, 2, kModelErrors> model_shift() const { return axis_.model_shift(); }
-
   SpinEstimate estimate(const Revolution& revolution) const;
 
  private:
+  struct Kept {
+    std::int64_t revolution;
+    RevolutionMeasurements measured;
+    Sightlines sightlines;
+    bool in_mean = false;
+  };
+
+  void add(Kept& kept, const SpinFix& fix);
+  void linearise_anew();
   Eigen::Matrix2d noise_rad2() const;
   std::string status() const;
 
   SpinConfig config_;
-  MeanAxis axis_;
-  ModelCheck check_;
+  std::deque<Kept> kept_;  ///< The last revolutions.
+  std::optional<AngleEquations> equations_;
+  std::size_t count_ = 0;
   ModelVerdict verdict_;
   std::int64_t unsettled_ = 0;    ///< AMBIGUOUS fixes since the mean began.
   std::optional<TaiTime> began_;  ///< Empty: with the pass.

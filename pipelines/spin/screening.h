@@ -23,7 +23,7 @@ struct Residual {
 
 /// One residual per good measurement. One that the axis says is impossible (a chord of a beam that
 /// misses the Earth, a pulse of a slit that cannot see the Sun) has none: it is left to the other
-/// quantities to decide.
+/// quantities to decide. Chords and dihedrals are those of the mission's horizon.
 std::vector<Residual> residuals(const SpinConfig& config, const RevolutionMeasurements& measured,
                                 const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf);
 

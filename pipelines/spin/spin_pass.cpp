@@ -93,8 +93,8 @@ std::vector<std::string> settings_without_effect(const SpinConfig& config) {
     return {};
   }
   return {
-      "spin.horizon.model = \"ellipsoid\": the estimator 'sequential' uses it; fixes and their "
-      "mean use the spherical horizon, and their sigma includes what that leaves out"};
+      "spin.horizon.model = \"ellipsoid\": the estimators use it; fixes use the spherical horizon, "
+      "and their sigma includes what that leaves out"};
 }
 
 SpinPass::SpinPass(const SpinConfig& config, Orbit orbit)
@@ -415,6 +415,7 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   }
   const double disc_rad = candidate.sightlines->disc_rad;
   bool mean_moved = false;
+  mean_.keep(revolution.number, candidate.measured, *candidate.sightlines);
   for (const SpinFix& fix : fixes) {
     say_why_not_accepted(fix, out);
     SpinFix announced = fix;
@@ -423,16 +424,11 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
     out.products.emplace_back(std::move(announced));
     if (mean_.take(fix, revolution.number)) {
       recent_axes_.add(fix);
-      if (fix.revolution == revolution.number) {
-        mean_.check(candidate.measured, *candidate.sightlines);
-      }
       mean_moved = true;
     }
   }
   if (mean_moved) {
-    SpinEstimate mean = mean_.estimate(revolution);
-    mean.covariance_rad2 += horizon_error_rad2(config_, disc_rad, mean_.model_shift());
-    out.products.emplace_back(std::move(mean));
+    out.products.emplace_back(mean_.estimate(revolution));
   }
   if (sequential) {
     sequential_began_ = true;

@@ -37,7 +37,8 @@ Expected<Sightlines> Surroundings::sightlines(const RevolutionMeasurements& meas
       .map([&](double disc_rad) {
         return Sightlines{.sun_icrf = sun_.direction_icrf(t_sun, *at_sun),
                           .earth_icrf = -at_earth->position_icrf_km.normalized(),
-                          .disc_rad = disc_rad};
+                          .disc_rad = disc_rad,
+                          .earth_pole_icrf = earth_pole_icrf(t)};
       });
 }
 

@@ -48,7 +48,8 @@ struct Pass {
   Sightlines at(double share) const {
     return {.sun_icrf = sun_icrf,
             .earth_icrf = Eigen::AngleAxisd{turn_rad * share, orbit_normal_icrf} * earth_start_icrf,
-            .disc_rad = disc_start_rad + (disc_end_rad - disc_start_rad) * share};
+            .disc_rad = disc_start_rad + (disc_end_rad - disc_start_rad) * share,
+            .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
   }
   /// Both sensors see what they need, all through.
   bool visible() const {

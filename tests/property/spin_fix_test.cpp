@@ -33,7 +33,8 @@ struct Scene {
   Sightlines sightlines() const {
     return {.sun_icrf = sun_icrf,
             .earth_icrf = earth_icrf,
-            .disc_rad = earth_disc_half_angle_rad(range_km, 40.0).value()};
+            .disc_rad = earth_disc_half_angle_rad(range_km, 40.0).value(),
+            .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
   }
   Revolution seen() const {
     return testing::revolution_seen(body, testing::at_rest(sun_icrf, range_km * earth_icrf),
@@ -133,7 +134,8 @@ TEST(SpinFixProperty, TurnsWithSunAndEarth) {
     const Sightlines here = scene.sightlines();
     const Sightlines there{.sun_icrf = turn * here.sun_icrf,
                            .earth_icrf = turn * here.earth_icrf,
-                           .disc_rad = here.disc_rad};
+                           .disc_rad = here.disc_rad,
+                           .earth_pole_icrf = turn * here.earth_pole_icrf};
     const auto fix_here = testing::lone_fix(scene.body.config, seen, {}, here);
     const auto fix_there = testing::lone_fix(scene.body.config, seen, {}, there);
     ASSERT_EQ(fix_here.has_value(), fix_there.has_value());

@@ -39,7 +39,8 @@ struct Scene {
   Sightlines sightlines() const {
     return {.sun_icrf = sun_icrf,
             .earth_icrf = earth_icrf,
-            .disc_rad = std::asin(6418.137 / kRange_km)};
+            .disc_rad = std::asin(6418.137 / kRange_km),
+            .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
   }
   Revolution seen() const {
     return testing::revolution_seen(
@@ -365,7 +366,8 @@ TEST(AxisCandidates, TwoConesMeetInTheTrueAndTheFalseSolutionOfTheGoldenValues) 
   config.south->mount_angle_rad = 145.0 * kDegree_rad;
   const Sightlines sightlines{.sun_icrf = at_deg(10.0, 4.3),
                               .earth_icrf = at_deg(80.0, -20.0),
-                              .disc_rad = 20.0 * kDegree_rad};
+                              .disc_rad = 20.0 * kDegree_rad,
+                              .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
   const PredictedAngles angles{.sun_angle_rad = 90.143759304 * kDegree_rad,
                                .earth_angle_rad = 131.253314001 * kDegree_rad,
                                .dihedral_rad = 67.046435278 * kDegree_rad};

@@ -35,7 +35,8 @@ struct Scene {
   Sightlines sightlines(double turn_rad = 0.0) const {
     return {.sun_icrf = sun_icrf,
             .earth_icrf = earth_icrf(turn_rad),
-            .disc_rad = std::asin(6418.137 / kRange_km)};
+            .disc_rad = std::asin(6418.137 / kRange_km),
+            .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
   }
   Revolution seen(double turn_rad = 0.0) const {
     return testing::revolution_seen({.axis_icrf = axis_icrf,
@@ -125,7 +126,8 @@ TEST(Disambiguation, AHealthyBeamThatIsSilentRulesOutTheAxisThatShowsItTheEarth)
     scene.config.south->healthy = healthy;
     const Sightlines sightlines{.sun_icrf = scene.sun_icrf,
                                 .earth_icrf = earth,
-                                .disc_rad = std::asin(6418.137 / kRange_km)};
+                                .disc_rad = std::asin(6418.137 / kRange_km),
+                                .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
     Revolution revolution =
         testing::revolution_seen({.axis_icrf = scene.axis_icrf,
                                   .rate_rad_s = 1.0,

@@ -25,8 +25,10 @@ const Eigen::Vector3d kEarth_icrf = Eigen::Vector3d{0.1, 1.0, -0.05}.normalized(
 const Eigen::Vector3d kAxis_icrf = Eigen::Vector3d::UnitZ();
 constexpr double kRange_km = 16000.0;
 
-const Sightlines kSightlines{
-    .sun_icrf = kSun_icrf, .earth_icrf = kEarth_icrf, .disc_rad = std::asin(6418.137 / kRange_km)};
+const Sightlines kSightlines{.sun_icrf = kSun_icrf,
+                             .earth_icrf = kEarth_icrf,
+                             .disc_rad = std::asin(6418.137 / kRange_km),
+                             .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
 
 RevolutionMeasurements seen() {
   const SpinConfig config = testing::usual_config();

@@ -1,0 +1,72 @@
+/// Over passes of random geometry, cases and spin rates (tests/support/random_pass.h), the errors
+/// divided by their covariances have the statistics that they claim.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/spin_pass.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/product_text.h"
+#include "tests/support/random_pass.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kRevolutions = 150.0;
+constexpr double kSlow_rad_s = 10.0 * 2.0 * std::numbers::pi / 60.0;
+
+TEST(SpinRandomGeometry, MeansLieWithinWhatTheyPromise) {
+  constexpr int kPasses = 200;
+  double squares = 0.0;
+  double worst = 0.0;
+  int means = 0;
+  int doubted = 0;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::mt19937_64 rng{static_cast<std::uint64_t>(pass)};
+    const testing::RandomPass drawn = testing::random_pass(rng);
+    SCOPED_TRACE(std::to_string(pass) + ": " + drawn.name);
+    if (!drawn.dead.empty() && drawn.dead.front() == PulseChannel::Sun1 &&
+        drawn.body.rate_rad_s < kSlow_rad_s) {
+      continue;  // A known shortfall: mean and fixes are then off by up to eight sigmas.
+    }
+    const SpinOutput output =
+        testing::run(SpinPass{drawn.body.config, drawn.orbit}, drawn.pulses(kRevolutions, rng));
+    std::vector<SpinEstimate> estimates = testing::all_of<SpinEstimate>(output);
+    std::erase_if(estimates, [](const SpinEstimate& estimate) {
+      return estimate.estimator != SpinEstimator::Mean;
+    });
+    if (estimates.empty()) {
+      continue;  // Nothing settled it.
+    }
+    const SpinEstimate& mean = estimates.back();
+    const Eigen::Vector2d error_rad = testing::error_rad(mean.axis_icrf, drawn.body.axis_icrf);
+    const double squared = error_rad.dot(mean.covariance_rad2.ldlt().solve(error_rad));
+    // One in e^-9 = 1 in 8000 for each.
+    EXPECT_LT(squared, 18.0) << mean.status;
+    squares += squared;
+    worst = std::max(worst, squared);
+    doubted += mean.status.starts_with("DOUBTFUL") ? 1 : 0;
+    ++means;
+  }
+  RecordProperty("means", means);
+  RecordProperty("mean_square", std::to_string(squares / (2.0 * means)));
+  RecordProperty("worst", std::to_string(worst));
+  EXPECT_GT(means, kPasses * 3 / 4);
+  EXPECT_EQ(doubted, 0);
+  // Chi-square with 2 n degrees of freedom: n of two has a mean of 1 and a variance of 1/n. Four
+  // sigmas above; below, where fixes that nothing settles widen the covariance, five.
+  EXPECT_LT(squares / (2.0 * means), 1.0 + 4.0 / std::sqrt(means));
+  EXPECT_GT(squares / (2.0 * means), 1.0 - 5.0 / std::sqrt(means));
+}
+
+}  // namespace
+}  // namespace spindrift

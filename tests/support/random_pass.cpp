@@ -1,0 +1,157 @@
+#include "tests/support/random_pass.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "pipelines/ephemeris/earth_pole.h"
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/geometry.h"
+#include "tests/support/observed_spin.h"
+
+namespace spindrift::testing {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree_rad = kPi / 180.0;
+constexpr double kCo2_km = 40.0;
+
+class Draw {
+ public:
+  explicit Draw(std::mt19937_64& rng) : rng_{rng} {}
+
+  double between(double least, double most) { return least + (most - least) * uniform_(rng_); }
+  Eigen::Vector3d direction() {
+    return Eigen::Vector3d{normal_(rng_), normal_(rng_), normal_(rng_)}.normalized();
+  }
+
+ private:
+  std::mt19937_64& rng_;
+  std::uniform_real_distribution<double> uniform_;
+  std::normal_distribution<double> normal_;
+};
+
+Orbit random_orbit(Draw& draw) {
+  while (true) {
+    const auto orbit = KeplerOrbit::make({.epoch = kTransferStart,
+                                          .semi_major_axis_km = draw.between(15000.0, 42164.0),
+                                          .eccentricity = draw.between(0.0, 0.7),
+                                          .inclination_rad = draw.between(0.0, kPi),
+                                          .raan_rad = draw.between(0.0, 2.0 * kPi),
+                                          .argument_of_perigee_rad = draw.between(0.0, 2.0 * kPi),
+                                          .mean_anomaly_rad = draw.between(0.0, 2.0 * kPi)});
+    if (orbit && orbit->at(kTransferStart)->position_icrf_km.norm() > 9000.0) {
+      return Orbit{*orbit};
+    }
+  }
+}
+
+SpinConfig random_config(Draw& draw) {
+  SpinConfig config = usual_config();
+  config.sun_sensor.slit_cant_rad = draw.between(30.0, 50.0) * kDegree_rad;
+  config.north->mount_angle_rad = draw.between(60.0, 110.0) * kDegree_rad;
+  config.south->mount_angle_rad =
+      config.north->mount_angle_rad + draw.between(5.0, 30.0) * kDegree_rad;
+  config.north->azimuth_rad = draw.between(-kPi, kPi);
+  config.south->azimuth_rad = config.north->azimuth_rad + draw.between(-5.0, 5.0) * kDegree_rad;
+  if (draw.between(0.0, 1.0) < 0.5) {
+    config.horizon.model = HorizonModel::Ellipsoid;
+  }
+  return config;
+}
+
+/// Sees the Earth well; or not at all.
+bool well_seen_or_not(const std::optional<InfraredSensor>& sensor, double earth_rad,
+                      double disc_rad, int& seen) {
+  if (!sensor) {
+    return true;
+  }
+  const double mount_rad = sensor->mount_angle_rad;
+  const auto chord = predict_chord_rad(mount_rad, earth_rad, disc_rad);
+  if (!chord) {
+    return std::abs(mount_rad - earth_rad) > disc_rad + 2.0 * kDegree_rad;
+  }
+  ++seen;
+  return *chord > 8.0 * kDegree_rad && *chord < 160.0 * kDegree_rad;
+}
+
+bool is_observable(const SpinningBody& body, const Surroundings& around, double t_s) {
+  const Eigen::Vector3d earth_icrf_km = around.earth_icrf_km(t_s);
+  const Eigen::Vector3d sun_icrf = around.sun_icrf(t_s);
+  const double sun_earth_rad = angle_between_rad(sun_icrf, earth_icrf_km);
+  const double sun_rad = angle_between_rad(body.axis_icrf, sun_icrf);
+  const double earth_rad = angle_between_rad(body.axis_icrf, earth_icrf_km);
+  const auto disc_rad = earth_disc_half_angle_rad(earth_icrf_km.norm(), kCo2_km);
+  if (!disc_rad) {
+    return false;
+  }
+  const double sin_lag = std::tan(body.config.sun_sensor.slit_cant_rad) / std::tan(sun_rad);
+  int seen = 0;
+  return std::sin(sun_earth_rad) > 0.17 && std::abs(sin_lag) < 0.9 &&
+         well_seen_or_not(body.config.north, earth_rad, *disc_rad, seen) &&
+         well_seen_or_not(body.config.south, earth_rad, *disc_rad, seen) && seen > 0;
+}
+
+}  // namespace
+
+std::vector<Pulse> RandomPass::pulses(double revolutions, std::mt19937_64& rng) const {
+  auto edges = edges_between(body, around, 0.0, revolutions * 2.0 * kPi / body.rate_rad_s);
+  std::erase_if(edges, [&](const Edge& edge) {
+    return std::find(dead.begin(), dead.end(), edge.channel) != dead.end();
+  });
+  return pulses_from(edges, kTransferStart, body.config.noise, rng);
+}
+
+RandomPass random_pass(std::mt19937_64& rng) {
+  Draw draw{rng};
+  while (true) {
+    const Orbit orbit = random_orbit(draw);
+    SpinningBody body{.axis_icrf = draw.direction(),
+                      .rate_rad_s = 2.0 * kPi / 60.0 * 5.0 * std::pow(40.0, draw.between(0.0, 1.0)),
+                      .first_turn_rad = draw.between(0.0, 2.0 * kPi),
+                      .config = random_config(draw)};
+    const double kind = draw.between(0.0, 1.0);
+    std::string channels = "all channels";
+    std::vector<PulseChannel> dead;
+    if (kind < 0.15) {
+      body.config.south.reset();
+      channels = "north only";
+    } else if (kind < 0.3) {
+      body.config.north.reset();
+      channels = "south only";
+    } else if (kind < 0.45) {
+      dead.push_back(PulseChannel::Sun2);
+      channels = "no sun2";
+    } else if (kind < 0.6) {
+      dead.push_back(PulseChannel::Sun1);
+      channels = "no sun1";
+    }
+    const bool sphere = body.config.horizon.model == HorizonModel::Sphere;
+    const Surroundings around =
+        seen_from(orbit, sphere ? spherical_horizon_km(kCo2_km) : ellipsoidal_horizon_km(kCo2_km));
+    const double rpm = body.rate_rad_s * 30.0 / kPi;
+    constexpr double kRevolutions = 300.0;
+    if (!is_observable(body, around, 0.0) ||
+        !is_observable(body, around, kRevolutions * 60.0 / rpm)) {
+      continue;
+    }
+    const RaDec axis = ra_dec_of(body.axis_icrf);
+    const auto mount_deg = [](const std::optional<InfraredSensor>& sensor) {
+      return sensor ? sensor->mount_angle_rad / kDegree_rad : 0.0;
+    };
+    return {.name = fmt::format("{}, {}, {:.1f} rpm, axis {:.1f} {:.1f} deg, mounted {:.1f} {:.1f}",
+                                channels, sphere ? "sphere" : "ellipsoid", rpm,
+                                axis.ra_rad / kDegree_rad, axis.dec_rad / kDegree_rad,
+                                mount_deg(body.config.north), mount_deg(body.config.south)),
+            .orbit = orbit,
+            .around = around,
+            .body = body,
+            .dead = dead};
+  }
+}
+
+}  // namespace spindrift::testing
