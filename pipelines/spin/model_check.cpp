@@ -214,14 +214,18 @@ double ModelCheck::excess_noise() const {
 }
 
 ModelVerdict ModelCheck::verdict(double allowed_rad) const {
-  ModelVerdict verdict{.excess_noise = excess_noise()};
   const auto axis = (normal_.topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity()).ldlt();
   const Eigen::Matrix<double, 2, kModelErrors> coupling = normal_.topRightCorner<2, kModelErrors>();
   const ErrorMatrix information = normal_.bottomRightCorner<kModelErrors, kModelErrors>() -
                                   coupling.transpose() * axis.solve(coupling);
   const Errors score =
       right_.tail<kModelErrors>() - coupling.transpose() * axis.solve(right_.head<2>());
-  const Spectrum spectrum{information, score, verdict.excess_noise};
+  return verdict_on({.information = information, .score = score}, excess_noise(), allowed_rad);
+}
+
+ModelVerdict verdict_on(const ErrorInformation& errors, double excess_noise, double allowed_rad) {
+  ModelVerdict verdict{.excess_noise = excess_noise};
+  const Spectrum spectrum{errors.information, errors.score, excess_noise};
   if (spectrum.freedom() == 0.0) {
     return verdict;
   }

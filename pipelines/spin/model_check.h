@@ -36,6 +36,10 @@ struct ModelVerdict {
   bool beyond_allowance = false;
 };
 
+/// @param excess_noise How many times their variance is what the stated noise makes it.
+/// @param allowed_rad One standard deviation of errors that are known of, and no contradiction.
+ModelVerdict verdict_on(const ErrorInformation& errors, double excess_noise, double allowed_rad);
+
 class ModelCheck {
  public:
   explicit ModelCheck(SpinConfig config) : config_{std::move(config)} {}
@@ -44,7 +48,7 @@ class ModelCheck {
   void add(const RevolutionMeasurements& measured, const Sightlines& sightlines,
            const Eigen::Vector3d& axis_icrf);
 
-  /// @param allowed_rad One standard deviation of errors that are known of, and no contradiction.
+  /// @param allowed_rad As `verdict_on`.
   ModelVerdict verdict(double allowed_rad) const;
 
  private:

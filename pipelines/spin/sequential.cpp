@@ -136,7 +136,7 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
       .axis_icrf = best.axis_icrf(),
       .covariance_rad2 = covariance_rad2(),
       .spin_rate_rad_s = best.rate_rad_s(),
-      .spin_rate_sigma_rad_s = best.rate_sigma_rad_s() * std::sqrt(watch_.excess_noise()),
+      .spin_rate_sigma_rad_s = best.rate_sigma_rad_s() * std::sqrt(verdict_.excess_noise),
       .status = status()};
 }
 
@@ -145,9 +145,9 @@ Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
     return Eigen::Matrix2d::Identity() * (0.5 * kAnywhere_rad2);
   }
   const SpinFilter& filter = hypotheses_.front().filter;
-  const Eigen::Matrix<double, 2, kPulseChannels> moved =
-      filter.axis_of_errors() * watch_.channel_error_rad();
-  return filter.axis_covariance_rad2() * watch_.excess_noise() + moved * moved.transpose();
+  const Eigen::Matrix<double, 2, kModelErrors> moved = filter.axis_of_errors();
+  return filter.axis_covariance_rad2() * verdict_.excess_noise +
+         moved * verdict_.errors_rad2 * moved.transpose();
 }
 
 /// Candidates of a fix that leaves them open, which no filter follows. What is settled is asked
@@ -164,7 +164,7 @@ void SequentialEstimator::add_unlike(std::span<const SpinFix> settled, const Rev
                        [&](const auto& h) { return !contradicts(start, h.filter); });
   };
   if (settled_ &&
-      (watch_.excess_noise() == 1.0 || std::any_of(starts.begin(), starts.end(), followed))) {
+      (verdict_.excess_noise == 1.0 || std::any_of(starts.begin(), starts.end(), followed))) {
     return;
   }
   for (const Start& start : starts) {
@@ -206,7 +206,7 @@ bool SequentialEstimator::restart_is_due(std::span<const SpinFix> settled) {
     restarted_ = "edges gated";
     return true;
   }
-  if (contradicted_ >= kMostContradictions && (watch_.excess_noise() > 1.0 || fixes_contradict())) {
+  if (contradicted_ >= kMostContradictions && (verdict_.excess_noise > 1.0 || fixes_contradict())) {
     restarted_ = "fixes differ";
     return true;
   }
@@ -248,7 +248,7 @@ void SequentialEstimator::start(const SpinFix& fix, const Revolution& revolution
   // Without one of them the true one may be missing.
   if (started.size() == starts.size()) {
     restarts_ += hypotheses_.empty() ? 0 : 1;
-    noise_at_restart_ = watch_.excess_noise();
+    noise_at_restart_ = verdict_.excess_noise;
     watch_.fade();
     hypotheses_ = std::move(started);
     revolutions_ = 0;
@@ -284,7 +284,7 @@ void SequentialEstimator::take_side(const SpinFix& fix) {
 
 void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) {
   const GoodEdges edges{revolution};
-  const double gate_noise = std::min(watch_.excess_noise(), noise_at_restart_);
+  const double gate_noise = std::min(verdict_.excess_noise, noise_at_restart_);
   for (Hypothesis& hypothesis : hypotheses_) {
     SpinFilter& filter = hypothesis.filter;
     filter.predict(revolution.t_start);
@@ -356,6 +356,7 @@ void SequentialEstimator::count(const EdgeTally& tally) {
   const double edges = gated + static_cast<double>(tally.accepted.count());
   gated_share_ += kRecentEdge * (gated - edges * gated_share_);
   watch_.note(tally);
+  verdict_ = watch_.verdict();
   // The first edges pull the filter from its start to where they fit.
   const double before = hypotheses_.front().edges - edges;
   if (before < kFewestEdges && before + edges >= kFewestEdges) {
@@ -391,13 +392,14 @@ std::string SequentialEstimator::status() const {
                            std::distance(channel_gated_share_.begin(), worst))),
                        revolutions_);
   }
-  if (watch_.excess_noise() > 1.0) {
+  if (verdict_.excess_noise > 1.0) {
     return fmt::format("DOUBTFUL, residuals {:.1f} x stated noise, {} revolutions",
-                       std::sqrt(watch_.excess_noise()), revolutions_);
+                       std::sqrt(verdict_.excess_noise), revolutions_);
   }
-  if (const auto channel = watch_.biased_channel()) {
-    return fmt::format("DOUBTFUL, {} early or late on average, {} revolutions", name_of(*channel),
-                       revolutions_);
+  if (verdict_.error_rad > 0.0) {
+    return fmt::format("{}, model off by {:.2g} deg, {} revolutions",
+                       verdict_.beyond_allowance ? "DOUBTFUL" : "OK",
+                       verdict_.error_rad / kDegree_rad, revolutions_);
   }
   const std::string counts =
       fmt::format("OK, {} revolutions, {} edges gated", revolutions_, gated_);

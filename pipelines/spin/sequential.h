@@ -99,6 +99,7 @@ class SequentialEstimator {
   /// The gate opens for noise that made the filter begin anew before: then it was not the axis.
   double noise_at_restart_ = 1.0;
   InnovationWatch watch_;   ///< Over the restarts: noise and model stay what they are.
+  ModelVerdict verdict_;    ///< Of the watch.
   int contradicted_ = 0;    ///< Fixes against the axis, less those for it.
   MeanAxis contradicting_;  ///< All fixes since it was last 0.
   int restarts_ = 0;
