@@ -18,6 +18,8 @@ namespace spindrift {
 class MeanAxis {
  public:
   void add(const SpinFix& fix);
+  /// Likewise, an axis that needs no model_shift().
+  void add(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& covariance_rad2);
 
   std::size_t count() const { return count_; }
   /// Unit; at least one fix must have been added.
