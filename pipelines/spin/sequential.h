@@ -15,9 +15,10 @@
 /// The status begins with
 ///     OK         all is well
 ///     AMBIGUOUS  another axis, named, fits as well or nearly so, or nothing has settled it
-///     DOUBTFUL   the edges scatter more than their noise, or those of the channel named are early
-///                or late on average: the model is wrong, and the covariance is raised to cover it;
-///                or most edges of the channel named are not where this axis has them
+///     DOUBTFUL   the edges scatter more than their noise, or show errors of the model beyond its
+///                allowance: the covariance is raised to cover it (within the allowance likewise,
+///                and the status is OK, "model off by"); or most edges of the channel named are not
+///                where this axis has them
 ///     LOST       most edges are not: the axis is no longer, or never was, the true one; the
 ///                covariance is that of an axis which may point anywhere
 

@@ -272,8 +272,6 @@ bool says(const SpinOutput& output, const std::string& words) {
   });
 }
 
-/// Without sun1, and so that the candidates of every revolution lie where they come together
-/// within the allowance for the model.
 SpinOutput without_sun1(const std::optional<SpinPrior>& prior) {
   std::mt19937_64 rng{82};
   const Orbit orbit = testing::transfer_orbit();
@@ -290,14 +288,7 @@ SpinOutput without_sun1(const std::optional<SpinPrior>& prior) {
               {Sun1}));
 }
 
-TEST(SpinPassDual, CandidatesThatNothingSettlesAreSaidToBeAmbiguous) {
-  const SpinOutput output = without_sun1({});
-  const SpinEstimate last = testing::last_estimate(output, SpinEstimator::Sequential);
-  EXPECT_TRUE(last.status.starts_with("AMBIGUOUS")) << last.status;
-  EXPECT_TRUE(says(output, "ambiguous to the end, for want of good sun1 edges"));
-}
-
-TEST(SpinPassDual, APriorSettlesWhatGrazes) {
+TEST(SpinPassDual, APriorSettlesAPassWithoutSun1) {
   const Eigen::Vector2d off_rad{1.5 * kDegree_rad, -1.0 * kDegree_rad};
   const SpinOutput output = without_sun1(SpinPrior{
       .axis_icrf =
