@@ -5,12 +5,15 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/horizon.h"
+#include "pipelines/spin/measurement.h"
 
 namespace spindrift {
 namespace {
 
 // So near (6 deg) to its limit, the axis or the end of slit 2, an edge is no measure of the axis.
 constexpr double kLeastSlope = 0.1;
+
+using PerError = Eigen::Matrix<double, 1, kModelErrors>;
 
 std::optional<PredictedEdge> slit_edge(const Eigen::Vector3d& sun_spin, double separation_rad,
                                        double cant_rad) {
@@ -28,13 +31,16 @@ std::optional<PredictedEdge> slit_edge(const Eigen::Vector3d& sun_spin, double s
   if (!(slope.z() > kLeastSlope * cos_cant * across)) {
     return std::nullopt;
   }
+  const double cos_lag = std::sqrt(1.0 - sin_lag * sin_lag);
   return PredictedEdge{.phase_rad = wrapped_rad(middle_rad + separation_rad),
-                       .phase_per_rotation = -slope / slope.z()};
+                       .phase_per_rotation = -slope / slope.z(),
+                       .phase_per_error = PerError::Unit(SunAngleError) *
+                                          (-std::tan(cant_rad) / (across * across * cos_lag))};
 }
 
-std::optional<PredictedEdge> beam_edge(const SpinConfig& config,
-                                       const std::optional<InfraredSensor>& sensor,
-                                       const EarthView& earth, Crossing crossing) {
+std::optional<PredictedEdge> beam_edge(const SpinConfig& config, Side side, const EarthView& earth,
+                                       Crossing crossing) {
+  const auto& sensor = sensor_of(config, side);
   if (!sensor) {
     return std::nullopt;
   }
@@ -43,8 +49,13 @@ std::optional<PredictedEdge> beam_edge(const SpinConfig& config,
   if (!limb) {
     return std::nullopt;
   }
+  const bool north = side == Side::North;
+  const ModelError limb_error = north ? NorthLimb : SouthLimb;
+  const ModelError azimuth_error = north ? NorthAzimuth : SouthAzimuth;
   return PredictedEdge{.phase_rad = wrapped_rad(limb->azimuth_rad + sensor->azimuth_rad),
-                       .phase_per_rotation = limb->azimuth_per_rotation};
+                       .phase_per_rotation = limb->azimuth_per_rotation,
+                       .phase_per_error = limb->azimuth_per_limb * PerError::Unit(limb_error) +
+                                          PerError::Unit(azimuth_error)};
 }
 
 }  // namespace
@@ -63,13 +74,13 @@ std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& s
     case PulseChannel::Sun2:
       return slit_edge(sun_spin(), sun.slit_separation_rad, sun.slit_cant_rad);
     case PulseChannel::NorthIn:
-      return beam_edge(config, config.north, earth(), Crossing::In);
+      return beam_edge(config, Side::North, earth(), Crossing::In);
     case PulseChannel::NorthOut:
-      return beam_edge(config, config.north, earth(), Crossing::Out);
+      return beam_edge(config, Side::North, earth(), Crossing::Out);
     case PulseChannel::SouthIn:
-      return beam_edge(config, config.south, earth(), Crossing::In);
+      return beam_edge(config, Side::South, earth(), Crossing::In);
     case PulseChannel::SouthOut:
-      return beam_edge(config, config.south, earth(), Crossing::Out);
+      return beam_edge(config, Side::South, earth(), Crossing::Out);
   }
   return std::nullopt;
 }

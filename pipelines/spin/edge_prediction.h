@@ -15,6 +15,7 @@
 #include <optional>
 
 #include "pipelines/spin/config.h"
+#include "pipelines/spin/model_allowance.h"
 #include "pipelines/spin/pulse.h"
 #include "pipelines/spin/sky.h"
 
@@ -25,6 +26,9 @@ struct PredictedEdge {
   /// Change of the phase, rad/rad, when the frame turns by a small vector about its own axes: the
   /// first two are tilts of the spin axis, the third is -1.
   Eigen::Vector3d phase_per_rotation;
+  /// Likewise, for a radian of each error of the model: the limb farther out, the sun angle
+  /// measured too large, the beam farther behind slit 1.
+  Eigen::Matrix<double, 1, kModelErrors> phase_per_error;
 };
 
 /// @param edge Its time says where the Earth then stands.

@@ -60,6 +60,12 @@ std::optional<double> first_guess_rad(double radius_km, const Eigen::Vector3d& s
          (crossing == Crossing::In ? -half_chord_rad : half_chord_rad);
 }
 
+/// cos(angle between beam and Earth) changes by z.(beam x Earth) with the azimuth.
+double per_limb(const EarthView& earth, const Eigen::Vector3d& beam) {
+  const Eigen::Vector3d across = beam.cross(earth.spacecraft_spin_km);
+  return across.norm() / across.z();
+}
+
 }  // namespace
 
 HorizonAxes horizon_axes(const Horizon& horizon) {
@@ -93,7 +99,8 @@ std::optional<LimbCrossing> limb_crossing(const HorizonAxes& axes, const EarthVi
       const bool crosses = form.points_down(beam) && enters == (crossing == Crossing::In) &&
                            per_rotation.norm() < kSteepest;
       return crosses ? std::optional{LimbCrossing{.azimuth_rad = wrapped_rad(azimuth_rad),
-                                                  .azimuth_per_rotation = per_rotation}}
+                                                  .azimuth_per_rotation = per_rotation,
+                                                  .azimuth_per_limb = per_limb(earth, beam)}}
                      : std::nullopt;
     }
   }

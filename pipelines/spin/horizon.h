@@ -35,6 +35,8 @@ struct LimbCrossing {
   double azimuth_rad;  ///< Of the beam, (-pi, pi].
   /// Its change when the frame turns by a small vector about its own axes; the third is -1.
   Eigen::Vector3d azimuth_per_rotation;
+  double
+      azimuth_per_limb;  ///< Likewise, when the limb is a radian farther from the Earth's centre.
 };
 
 /// The Earth as the frame `spin` sees it.

@@ -6,16 +6,17 @@ namespace spindrift {
 namespace {
 
 /// Of a fix: 1/rad^2.
-double weight_of(const SpinFix& fix) { return 1.0 / fix.covariance_rad2.trace(); }
+double weight_of(const Eigen::Matrix2d& covariance_rad2) { return 1.0 / covariance_rad2.trace(); }
 
 }  // namespace
 
-void MeanAxis::add(const SpinFix& fix) {
-  const Eigen::Matrix<double, 3, 2> basis = tangent_basis(fix.axis_icrf);
-  const double weight = weight_of(fix);
-  sum_icrf_ += weight * fix.axis_icrf;
-  covariance_sum_ += weight * weight * basis * fix.covariance_rad2 * basis.transpose();
-  shift_sum_icrf_ += weight * fix.model_shift_icrf;
+void MeanAxis::add(const SpinFix& fix) { add(fix.axis_icrf, fix.covariance_rad2); }
+
+void MeanAxis::add(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& covariance_rad2) {
+  const Eigen::Matrix<double, 3, 2> basis = tangent_basis(axis_icrf);
+  const double weight = weight_of(covariance_rad2);
+  sum_icrf_ += weight * axis_icrf;
+  covariance_sum_ += weight * weight * basis * covariance_rad2 * basis.transpose();
   weight_sum_ += weight;
   ++count_;
 }
@@ -25,12 +26,8 @@ Eigen::Matrix2d MeanAxis::covariance_rad2() const {
   return basis.transpose() * covariance_sum_ * basis / (weight_sum_ * weight_sum_);
 }
 
-Eigen::Matrix<double, 2, kModelErrors> MeanAxis::model_shift() const {
-  return tangent_basis(axis_icrf()).transpose() * shift_sum_icrf_ / weight_sum_;
-}
-
 void AxisWindow::add(const SpinFix& fix) {
-  weighted_icrf_.emplace_back(weight_of(fix) * fix.axis_icrf);
+  weighted_icrf_.emplace_back(weight_of(fix.covariance_rad2) * fix.axis_icrf);
   if (weighted_icrf_.size() > length_) {
     weighted_icrf_.pop_front();
   }

@@ -18,6 +18,7 @@ namespace spindrift {
 class MeanAxis {
  public:
   void add(const SpinFix& fix);
+  void add(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& covariance_rad2);
 
   std::size_t count() const { return count_; }
   /// Unit; at least one fix must have been added.
@@ -25,14 +26,10 @@ class MeanAxis {
   /// In the tangent plane at the mean: east, north. Fixes of different revolutions share no edge,
   /// so their errors add in quadrature.
   Eigen::Matrix2d covariance_rad2() const;
-  /// What each error of the model moves the mean by, for every radian of it; in that plane.
-  Eigen::Matrix<double, 2, kModelErrors> model_shift() const;
 
  private:
   Eigen::Vector3d sum_icrf_ = Eigen::Vector3d::Zero();  ///< Weighted, as the following.
   Eigen::Matrix3d covariance_sum_ = Eigen::Matrix3d::Zero();
-  Eigen::Matrix<double, 3, kModelErrors> shift_sum_icrf_ =
-      Eigen::Matrix<double, 3, kModelErrors>::Zero();
   double weight_sum_ = 0.0;
   std::size_t count_ = 0;
 };

@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include <Eigen/Core>
+
 namespace spindrift {
 
 /// What stays the same in every revolution and unlike noise does not average out: where the limb
@@ -11,6 +13,14 @@ namespace spindrift {
 /// of the beams behind sun slit 1.
 enum ModelError { NorthLimb, SouthLimb, SunAngleError, NorthAzimuth, SouthAzimuth };
 inline constexpr int kModelErrors = 5;
+
+/// What measurements say of these errors, the axis and all else that they determine eliminated.
+struct ErrorInformation {
+  Eigen::Matrix<double, kModelErrors, kModelErrors> information =
+      Eigen::Matrix<double, kModelErrors, kModelErrors>::Zero();  ///< 1/rad^2
+  /// 1/rad; its covariance is `information` where all errors are zero.
+  Eigen::Matrix<double, kModelErrors, 1> score = Eigen::Matrix<double, kModelErrors, 1>::Zero();
+};
 
 /// One standard deviation of what stays the same in every revolution: the beam's mounting angle,
 /// the place of the limb, sun angle, azimuth. Infrared sensors and sun slits are aligned to a tenth

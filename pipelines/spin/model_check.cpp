@@ -157,7 +157,6 @@ double excess_noise(const AngleEquations& equations) {
 }  // namespace
 
 ModelVerdict judge_model(const AngleEquations& equations, double allowed_rad) {
-  ModelVerdict verdict{.excess_noise = excess_noise(equations)};
   const Normal& normal = equations.normal();
   const auto axis = (normal.topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity()).ldlt();
   const Eigen::Matrix<double, 2, kModelErrors> coupling = normal.topRightCorner<2, kModelErrors>();
@@ -165,7 +164,13 @@ ModelVerdict judge_model(const AngleEquations& equations, double allowed_rad) {
                                   coupling.transpose() * axis.solve(coupling);
   const Errors score = equations.right().tail<kModelErrors>() -
                        coupling.transpose() * axis.solve(equations.right().head<2>());
-  const Spectrum spectrum{information, score, verdict.excess_noise};
+  return verdict_on({.information = information, .score = score}, excess_noise(equations),
+                    allowed_rad);
+}
+
+ModelVerdict verdict_on(const ErrorInformation& errors, double excess_noise, double allowed_rad) {
+  ModelVerdict verdict{.excess_noise = excess_noise};
+  const Spectrum spectrum{errors.information, errors.score, excess_noise};
   if (spectrum.freedom() == 0.0) {
     return verdict;
   }
@@ -174,7 +179,7 @@ ModelVerdict judge_model(const AngleEquations& equations, double allowed_rad) {
   if (!(spectrum.chi_square(allowed_rad2) > significant)) {
     return verdict;
   }
-  explain(information, score, verdict);
+  explain(errors.information, errors.score, verdict);
   verdict.beyond_allowance =
       spectrum.chi_square(allowed_rad2 + kModelError_rad * kModelError_rad) > significant;
   return verdict;

@@ -32,8 +32,12 @@ struct ModelVerdict {
   bool beyond_allowance = false;
 };
 
-/// @param equations Of axes so near the true one that the angles are linear in between.
+/// @param excess_noise How many times their variance is what the stated noise makes it.
 /// @param allowed_rad One standard deviation of errors that are known of, and no contradiction.
+ModelVerdict verdict_on(const ErrorInformation& errors, double excess_noise, double allowed_rad);
+
+/// @param equations Of axes so near the true one that the angles are linear in between.
+/// @param allowed_rad As `verdict_on`.
 ModelVerdict judge_model(const AngleEquations& equations, double allowed_rad);
 
 }  // namespace spindrift

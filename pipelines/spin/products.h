@@ -93,6 +93,8 @@ struct SpinFix {
   bool grazing = false;
   /// Of the alternates, each in its own tangent plane.
   std::vector<Eigen::Matrix2d> alternate_covariances_rad2 = {};
+  /// Likewise what the following is for the fix's own axis.
+  std::vector<Eigen::Matrix<double, 3, kModelErrors>> alternate_model_shifts_icrf = {};
   /// What each error of the model moves the axis by, for every radian of it; in ICRF.
   Eigen::Matrix<double, 3, kModelErrors> model_shift_icrf =
       Eigen::Matrix<double, 3, kModelErrors>::Zero();

@@ -8,18 +8,16 @@
 #include <numbers>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/frames/wgs84.h"
 #include "pipelines/spin/model_allowance.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
+double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
 
-// A fix so poor is no place to linearise at: a filter would take what two linearisations disagree
-// on for knowledge of what no edge measures.
-constexpr double kPoorestFix_rad = 3.0 * kDegree_rad;
 constexpr std::size_t kMostHypotheses = 8;
+// So many fixes that graze, and none that does not: there will be no better ones.
+constexpr std::int64_t kFewestGrazing = 20;
 // Across a silence in which the phase became this uncertain, whole turns can no longer be counted:
 // phase and rate start anew.
 constexpr double kPhaseLost_rad = 0.3;
@@ -38,51 +36,15 @@ constexpr double kFewestEdges = 60.0;
 constexpr double kFitSigmas = 5.0;
 // Mean squared angle between an axis that may point anywhere and any other.
 constexpr double kAnywhere_rad2 = (std::numbers::pi * std::numbers::pi - 4.0) / 2.0;
-// A fix contradicts the filter beyond so many sigmas of both, and beyond what may be wrong with
-// either model.
-constexpr double kContradictionSigmas = 5.0;
+// So many fixes beyond those that agree with the filter: then the axis is another one.
 constexpr int kMostContradictions = 10;
 // Where the edges do not speak against the filter, single fixes may all be off to one side: then
 // their mean must contradict it, and so many more of them than agree with it.
 constexpr int kManyContradictions = 30;
 constexpr double kMeanSigmas = 8.0;
 
-/// A place where a filter may begin.
-struct Start {
-  Eigen::Vector3d axis_icrf;
-  Eigen::Matrix2d covariance_rad2;
-};
-
-bool well_known(const Eigen::Matrix2d& covariance_rad2) {
-  return covariance_rad2.trace() < kPoorestFix_rad * kPoorestFix_rad;
-}
-
-/// It names a candidate, or none, and has not ruled out the others.
-bool leaves_open(const SpinFix& fix) {
-  return fix.resolution == Resolution::Ambiguous || fix.resolution == Resolution::Prior;
-}
-
-std::vector<Start> starts_of(const SpinFix& fix) {
-  std::vector<Start> starts{{fix.axis_icrf, fix.covariance_rad2}};
-  if (leaves_open(fix)) {
-    for (std::size_t i = 0; i < fix.alternate_axes_icrf.size(); ++i) {
-      starts.push_back({fix.alternate_axes_icrf[i], fix.alternate_covariances_rad2[i]});
-    }
-  }
-  return starts;
-}
-
-bool contradicts(const Start& fix, const SpinFilter& filter) {
-  const Eigen::Vector3d axis = filter.axis_icrf();
-  const double apart_rad = angle_between_rad(axis, fix.axis_icrf);
-  const Eigen::Vector2d towards = tangent_basis(axis).transpose() * (fix.axis_icrf - axis);
-  const double length = towards.norm();
-  if (apart_rad <= kModelLimit_rad || !(length > 0.0)) {
-    return apart_rad > kModelLimit_rad;
-  }
-  const Eigen::Vector2d apart = towards * (apart_rad / length);
-  const Eigen::Matrix2d covariance = fix.covariance_rad2 + filter.axis_covariance_rad2();
-  return apart.dot(covariance.ldlt().solve(apart)) > kContradictionSigmas * kContradictionSigmas;
+StartingPoint place_of(const SpinFilter& filter) {
+  return {.axis_icrf = filter.axis_icrf(), .covariance_rad2 = filter.axis_covariance_rad2()};
 }
 
 /// Both filters have come to one axis.
@@ -99,9 +61,9 @@ const SpinFix* last_accepted(std::span<const SpinFix> fixes) {
   return found == fixes.rend() ? nullptr : &*found;
 }
 
-const SpinFix* last_open(std::span<const SpinFix> fixes) {
-  const auto found = std::find_if(fixes.rbegin(), fixes.rend(), [](const SpinFix& fix) {
-    return leaves_open(fix) && !fix.grazing;
+const SpinFix* last_open(std::span<const SpinFix> fixes, bool grazing) {
+  const auto found = std::find_if(fixes.rbegin(), fixes.rend(), [=](const SpinFix& fix) {
+    return leaves_open(fix) && fix.grazing == grazing;
   });
   return found == fixes.rend() ? nullptr : &*found;
 }
@@ -112,13 +74,7 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
                                                         const Sky& sky,
                                                         std::span<const SpinFix> settled) {
   const SpinFix* const accepted = last_accepted(settled);
-  const bool restart = restart_is_due(settled);
-  if (hypotheses_.empty() || restart) {
-    const SpinFix* const first = accepted != nullptr ? accepted : last_open(settled);
-    if (first != nullptr) {
-      start(*first, revolution, sky);
-    }
-  } else {
+  if (!begin(settled, revolution, sky) && !hypotheses_.empty()) {
     if (accepted != nullptr && !settled_) {
       take_side(*accepted);
     }
@@ -136,7 +92,7 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
       .axis_icrf = best.axis_icrf(),
       .covariance_rad2 = covariance_rad2(),
       .spin_rate_rad_s = best.rate_rad_s(),
-      .spin_rate_sigma_rad_s = best.rate_sigma_rad_s() * std::sqrt(watch_.excess_noise()),
+      .spin_rate_sigma_rad_s = best.rate_sigma_rad_s() * std::sqrt(verdict_.excess_noise),
       .status = status()};
 }
 
@@ -145,33 +101,38 @@ Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
     return Eigen::Matrix2d::Identity() * (0.5 * kAnywhere_rad2);
   }
   const SpinFilter& filter = hypotheses_.front().filter;
-  const Eigen::Matrix<double, 2, kPulseChannels> moved =
-      filter.axis_of_errors() * watch_.channel_error_rad();
-  return filter.axis_covariance_rad2() * watch_.excess_noise() + moved * moved.transpose();
+  const Eigen::Matrix<double, 2, kModelErrors> moved = filter.axis_of_errors();
+  return filter.axis_covariance_rad2() * verdict_.excess_noise +
+         moved * verdict_.errors_rad2 * moved.transpose();
+}
+
+double SequentialEstimator::unseen_model_sigma_rad() const {
+  const Eigen::Matrix<double, 2, kModelErrors> moved = hypotheses_.front().filter.axis_of_errors();
+  return std::sqrt((moved * watch_.left_open_rad2() * moved.transpose()).trace());
 }
 
 /// Candidates of a fix that leaves them open, which no filter follows. What is settled is asked
 /// again only where the fix does not name its axis at all.
 void SequentialEstimator::add_unlike(std::span<const SpinFix> settled, const Revolution& revolution,
                                      const Sky& sky) {
-  const SpinFix* const fix = last_open(settled);
+  const SpinFix* const fix = last_open(settled, provisional_);
   if (fix == nullptr) {
     return;
   }
-  const std::vector<Start> starts = starts_of(*fix);
-  const auto followed = [&](const Start& start) {
-    return std::any_of(hypotheses_.begin(), hypotheses_.end(),
-                       [&](const auto& h) { return !contradicts(start, h.filter); });
-  };
-  if (settled_ &&
-      (watch_.excess_noise() == 1.0 || std::any_of(starts.begin(), starts.end(), followed))) {
+  std::vector<StartingPoint> unlike = candidates_of(*fix);
+  const std::size_t named = unlike.size();
+  std::erase_if(unlike, [&](const StartingPoint& candidate) {
+    return std::any_of(hypotheses_.begin(), hypotheses_.end(), [&](const Hypothesis& h) {
+      return !contradict(candidate, place_of(h.filter));
+    });
+  });
+  if (settled_ && (verdict_.excess_noise == 1.0 || unlike.size() < named)) {
     return;
   }
-  for (const Start& start : starts) {
-    if (hypotheses_.size() < kMostHypotheses && well_known(start.covariance_rad2) &&
-        !followed(start)) {
+  for (const StartingPoint& point : unlike_.add(unlike)) {
+    if (hypotheses_.size() < kMostHypotheses && well_known(point.covariance_rad2)) {
       if (const auto filter =
-              SpinFilter::about(start.axis_icrf, start.covariance_rad2, config_, revolution, sky)) {
+              SpinFilter::about(point.axis_icrf, point.covariance_rad2, config_, revolution, sky)) {
         // The benefit of the doubt: as likely so far as the likeliest.
         hypotheses_.push_back(
             {.filter = *filter, .log_likelihood = hypotheses_.front().log_likelihood});
@@ -189,10 +150,11 @@ bool SequentialEstimator::restart_is_due(std::span<const SpinFix> settled) {
   }
   for (const SpinFix& fix : settled) {
     if (fix.accepted && !fix.grazing && well_known(fix.covariance_rad2)) {
+      const std::vector<StartingPoint> candidates = candidates_of(fix);
       const bool against = std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const auto& h) {
-        const std::vector<Start> starts = starts_of(fix);
-        return std::all_of(starts.begin(), starts.end(),
-                           [&](const Start& start) { return contradicts(start, h.filter); });
+        return std::all_of(candidates.begin(), candidates.end(), [&](const StartingPoint& point) {
+          return contradict(point, place_of(h.filter));
+        });
       });
       contradicted_ = std::max(0, contradicted_ + (against ? 1 : -1));
       contradicting_ = contradicted_ > 0 ? contradicting_ : MeanAxis{};
@@ -206,7 +168,7 @@ bool SequentialEstimator::restart_is_due(std::span<const SpinFix> settled) {
     restarted_ = "edges gated";
     return true;
   }
-  if (contradicted_ >= kMostContradictions && (watch_.excess_noise() > 1.0 || fixes_contradict())) {
+  if (contradicted_ >= kMostContradictions && (verdict_.excess_noise > 1.0 || fixes_contradict())) {
     restarted_ = "fixes differ";
     return true;
   }
@@ -226,40 +188,61 @@ bool SequentialEstimator::fixes_contradict() const {
   });
 }
 
-void SequentialEstimator::start(const SpinFix& fix, const Revolution& revolution, const Sky& sky) {
-  std::vector<Hypothesis> started;
-  const bool by_prior = fix.resolution == Resolution::Prior;
-  const auto add = [&](const Eigen::Vector3d& axis_icrf, Eigen::Matrix2d axis_rad2) {
-    if (config_.horizon.model == HorizonModel::Ellipsoid) {
-      // Fixes rest on the spherical horizon.
-      axis_rad2 += wgs84::kFlattening * wgs84::kFlattening * Eigen::Matrix2d::Identity();
-    }
-    if (well_known(axis_rad2)) {
-      if (const auto filter = SpinFilter::about(axis_icrf, axis_rad2, config_, revolution, sky)) {
-        // The fix's own axis comes first.
-        started.push_back({.filter = *filter, .favoured = by_prior && started.empty()});
-      }
-    }
-  };
-  const std::vector<Start> starts = starts_of(fix);
-  for (const Start& place : starts) {
-    add(place.axis_icrf, place.covariance_rad2);
+/// Begins, or begins again, where the fixes say; grazing ones only if there have been many and no
+/// others.
+bool SequentialEstimator::begin(std::span<const SpinFix> settled, const Revolution& revolution,
+                                const Sky& sky) {
+  if (!hypotheses_.empty() && !provisional_ && !restart_is_due(settled)) {
+    return false;
   }
+  const SpinFix* fix = last_accepted(settled);
+  fix = fix != nullptr ? fix : last_open(settled, false);
+  if (fix == nullptr && (hypotheses_.empty() || gated_share_ > kMostGated)) {
+    fix = last_open(settled, true);
+    grazing_ += fix != nullptr ? 1 : 0;
+  }
+  if (fix == nullptr) {
+    return false;
+  }
+  const std::vector<StartingPoint> points = starts_.add(candidates_of(*fix));
+  const bool known = std::all_of(points.begin(), points.end(), [](const StartingPoint& point) {
+    return well_known(point.covariance_rad2);
+  });
   // Without one of them the true one may be missing.
-  if (started.size() == starts.size()) {
-    restarts_ += hypotheses_.empty() ? 0 : 1;
-    noise_at_restart_ = watch_.excess_noise();
-    watch_.fade();
-    hypotheses_ = std::move(started);
-    revolutions_ = 0;
-    gated_ = 0;
-    gated_share_ = 0.0;
-    channel_gated_share_ = {};
-    settled_ = fix.accepted && hypotheses_.size() == 1;
-    settled_by_edges_ = false;
-    contradicted_ = 0;
-    contradicting_ = MeanAxis{};
+  return known && (!fix->grazing || grazing_ >= kFewestGrazing) &&
+         start(*fix, points, revolution, sky);
+}
+
+bool SequentialEstimator::start(const SpinFix& fix, std::span<const StartingPoint> points,
+                                const Revolution& revolution, const Sky& sky) {
+  std::vector<Hypothesis> started;
+  for (const StartingPoint& point : points) {
+    const auto filter =
+        SpinFilter::about(point.axis_icrf, point.covariance_rad2, config_, revolution, sky);
+    if (!filter) {
+      return false;
+    }
+    // The fix's own axis comes first.
+    started.push_back(
+        {.filter = *filter, .favoured = fix.resolution == Resolution::Prior && started.empty()});
   }
+  restarts_ += hypotheses_.empty() || provisional_ ? 0 : 1;
+  noise_at_restart_ = verdict_.excess_noise;
+  watch_.fade();
+  verdict_ = watch_.verdict();
+  hypotheses_ = std::move(started);
+  starts_ = {};
+  unlike_ = {};
+  provisional_ = fix.grazing;
+  revolutions_ = 0;
+  gated_ = 0;
+  gated_share_ = 0.0;
+  channel_gated_share_ = {};
+  settled_ = fix.accepted && !provisional_ && hypotheses_.size() == 1;
+  settled_by_edges_ = false;
+  contradicted_ = 0;
+  contradicting_ = MeanAxis{};
+  return true;
 }
 
 /// A fix settles which of the candidates is true, unless it contradicts them all.
@@ -268,7 +251,7 @@ void SequentialEstimator::take_side(const SpinFix& fix) {
       hypotheses_.begin(), hypotheses_.end(), [&](const Hypothesis& a, const Hypothesis& b) {
         return a.filter.axis_icrf().dot(fix.axis_icrf) < b.filter.axis_icrf().dot(fix.axis_icrf);
       });
-  if (contradicts({fix.axis_icrf, fix.covariance_rad2}, nearest->filter)) {
+  if (contradict({fix.axis_icrf, fix.covariance_rad2}, place_of(nearest->filter))) {
     return;
   }
   if (fix.resolution == Resolution::Prior) {
@@ -284,7 +267,7 @@ void SequentialEstimator::take_side(const SpinFix& fix) {
 
 void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) {
   const GoodEdges edges{revolution};
-  const double gate_noise = std::min(watch_.excess_noise(), noise_at_restart_);
+  const double gate_noise = std::min(verdict_.excess_noise, noise_at_restart_);
   for (Hypothesis& hypothesis : hypotheses_) {
     SpinFilter& filter = hypothesis.filter;
     filter.predict(revolution.t_start);
@@ -326,7 +309,8 @@ void SequentialEstimator::drop_the_beaten() {
   };
   hypotheses_.erase(std::remove_if(hypotheses_.begin() + 1, hypotheses_.end(), beaten),
                     hypotheses_.end());
-  settled_by_edges_ = settled_by_edges_ || (fits && before > 1 && hypotheses_.size() == 1);
+  settled_by_edges_ =
+      settled_by_edges_ || (fits && before > 1 && hypotheses_.size() == 1 && !provisional_);
   settled_ = settled_ || settled_by_edges_;
   // Unbeaten, the prior's candidate stands before likelier ones.
   std::stable_partition(hypotheses_.begin(), hypotheses_.end(),
@@ -356,6 +340,7 @@ void SequentialEstimator::count(const EdgeTally& tally) {
   const double edges = gated + static_cast<double>(tally.accepted.count());
   gated_share_ += kRecentEdge * (gated - edges * gated_share_);
   watch_.note(tally);
+  verdict_ = watch_.verdict();
   // The first edges pull the filter from its start to where they fit.
   const double before = hypotheses_.front().edges - edges;
   if (before < kFewestEdges && before + edges >= kFewestEdges) {
@@ -381,7 +366,7 @@ std::string SequentialEstimator::status() const {
   if (hypotheses_.size() > 1 && !prior_stands()) {
     const RaDec other = ra_dec_of(hypotheses_[1].filter.axis_icrf());
     return fmt::format("AMBIGUOUS, or ra {:.2f} dec {:.2f} deg, {} revolutions",
-                       other.ra_rad / kDegree_rad, other.dec_rad / kDegree_rad, revolutions_);
+                       degrees(other.ra_rad), degrees(other.dec_rad), revolutions_);
   }
   const auto* const worst =
       std::max_element(channel_gated_share_.begin(), channel_gated_share_.end());
@@ -391,12 +376,13 @@ std::string SequentialEstimator::status() const {
                            std::distance(channel_gated_share_.begin(), worst))),
                        revolutions_);
   }
-  if (watch_.excess_noise() > 1.0) {
+  if (verdict_.excess_noise > 1.0) {
     return fmt::format("DOUBTFUL, residuals {:.1f} x stated noise, {} revolutions",
-                       std::sqrt(watch_.excess_noise()), revolutions_);
+                       std::sqrt(verdict_.excess_noise), revolutions_);
   }
-  if (const auto channel = watch_.biased_channel()) {
-    return fmt::format("DOUBTFUL, {} early or late on average, {} revolutions", name_of(*channel),
+  if (verdict_.error_rad > 0.0) {
+    return fmt::format("{}, model off by {:.2g} deg, {} revolutions",
+                       verdict_.beyond_allowance ? "DOUBTFUL" : "OK", degrees(verdict_.error_rad),
                        revolutions_);
   }
   const std::string counts =

@@ -6,16 +6,19 @@
 /// published, and the others are dropped when a later fix settles the matter or the edges
 /// themselves do. Likewise where only a PRIOR settled the fix: its candidate is published, and the
 /// others stay until the edges beat them; where they beat the prior's, the axis is theirs, and
-/// the status says so. Candidates known badly or grazing start none. A filter that finds most edges
+/// the status says so. Candidates known badly are averaged with those of the following fixes, until
+/// all are known well enough; grazing ones start filters only where there are no others for long,
+/// and then nothing but an accepted fix or a prior settles it. A filter that finds most edges
 /// where it does not expect them, or whose fixes name another axis, starts again at the next
 /// accepted fix, and says so.
 ///
 /// The status begins with
 ///     OK         all is well
 ///     AMBIGUOUS  another axis, named, fits as well or nearly so, or nothing has settled it
-///     DOUBTFUL   the edges scatter more than their noise, or those of the channel named are early
-///                or late on average: the model is wrong, and the covariance is raised to cover it;
-///                or most edges of the channel named are not where this axis has them
+///     DOUBTFUL   the edges scatter more than their noise, or show errors of the model beyond its
+///                allowance: the covariance is raised to cover it (within the allowance likewise,
+///                and the status is OK, "model off by"); or most edges of the channel named are not
+///                where this axis has them
 ///     LOST       most edges are not: the axis is no longer, or never was, the true one; the
 ///                covariance is that of an axis which may point anywhere
 
@@ -39,6 +42,7 @@
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/sky.h"
 #include "pipelines/spin/spin_filter.h"
+#include "pipelines/spin/starting_points.h"
 
 namespace spindrift {
 
@@ -58,6 +62,11 @@ class SequentialEstimator {
   /// The edges have beaten the candidate that a prior had chosen.
   bool prior_refuted() const { return prior_refuted_; }
 
+  /// What errors of the model that no edge shows would move the axis by, were each of
+  /// kModelError_rad: one standard deviation, both ways together. No estimate includes it.
+  /// There must be one.
+  double unseen_model_sigma_rad() const;
+
   /// The axis that the edges settled beyond doubt among several.
   std::optional<KnownAxis> settled_by_edges() const;
 
@@ -76,7 +85,9 @@ class SequentialEstimator {
   Eigen::Matrix2d covariance_rad2() const;
   void add_unlike(std::span<const SpinFix> settled, const Revolution& revolution, const Sky& sky);
   bool fixes_contradict() const;
-  void start(const SpinFix& fix, const Revolution& revolution, const Sky& sky);
+  bool begin(std::span<const SpinFix> settled, const Revolution& revolution, const Sky& sky);
+  bool start(const SpinFix& fix, std::span<const StartingPoint> points,
+             const Revolution& revolution, const Sky& sky);
   bool restart_is_due(std::span<const SpinFix> settled);
   void take_side(const SpinFix& fix);
   bool prior_stands() const;
@@ -87,6 +98,10 @@ class SequentialEstimator {
 
   SpinConfig config_;
   std::vector<Hypothesis> hypotheses_;  ///< The likeliest first; empty before the first fix.
+  StartingPoints starts_;         ///< Of the fixes that might start it, since it last started.
+  StartingPoints unlike_;         ///< Of candidates that no hypothesis is near to; likewise.
+  std::int64_t grazing_ = 0;      ///< Fixes, before the first that could start it.
+  bool provisional_ = false;      ///< Started by these: the true axis may be missing.
   std::int64_t unheard_ = 0;      ///< Revolutions with fixes before the first that could start it.
   std::int64_t revolutions_ = 0;  ///< Since the start; likewise the following.
   std::int64_t gated_ = 0;
@@ -99,6 +114,7 @@ class SequentialEstimator {
   /// The gate opens for noise that made the filter begin anew before: then it was not the axis.
   double noise_at_restart_ = 1.0;
   InnovationWatch watch_;   ///< Over the restarts: noise and model stay what they are.
+  ModelVerdict verdict_;    ///< Of the watch.
   int contradicted_ = 0;    ///< Fixes against the axis, less those for it.
   MeanAxis contradicting_;  ///< All fixes since it was last 0.
   int restarts_ = 0;

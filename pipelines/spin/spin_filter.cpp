@@ -167,13 +167,12 @@ SpinFilter::Error SpinFilter::update_linearised_here(const SpinFilter& prior,
       leave_out(edge);
       continue;
     }
-    // A channel that is late by an angle looks as if the phase were ahead by it.
-    Eigen::Matrix<double, 1, kPulseChannels> innovation_of_errors = slope.transpose() * of_errors_;
-    innovation_of_errors[static_cast<Eigen::Index>(index_of(edge.channel))] += 1.0;
+    // An edge that is late by an angle looks as if the phase were ahead by it.
+    const Eigen::Matrix<double, 1, kModelErrors> innovation_of_errors =
+        slope.transpose() * of_errors_ + predicted->phase_per_error;
     of_errors_ -= gain_unscaled * innovation_of_errors / variance;
-    tally.innovation_of_errors.row(static_cast<Eigen::Index>(index_of(edge.channel))) =
-        innovation_of_errors / std::sqrt(variance);
-    tally.innovations.at(index_of(edge.channel)) = innovation / std::sqrt(variance);
+    tally.errors.information += innovation_of_errors.transpose() * innovation_of_errors / variance;
+    tally.errors.score += innovation_of_errors.transpose() * (innovation / variance);
     error += gain_unscaled * (innovation / variance);
     covariance_ -= gain_unscaled * gain_unscaled.transpose() / variance;
     tally.accepted.set(index_of(edge.channel));
@@ -208,7 +207,7 @@ Eigen::Matrix2d SpinFilter::axis_covariance_rad2() const {
   return turned * covariance_.topLeftCorner<2, 2>() * turned.transpose();
 }
 
-Eigen::Matrix<double, 2, kPulseChannels> SpinFilter::axis_of_errors() const {
+Eigen::Matrix<double, 2, kModelErrors> SpinFilter::axis_of_errors() const {
   return tangent_from_tilts(q_icrf_spin_) * of_errors_.topRows<2>();
 }
 

@@ -25,6 +25,7 @@
 
 #include "pipelines/spin/association.h"
 #include "pipelines/spin/config.h"
+#include "pipelines/spin/model_allowance.h"
 #include "pipelines/spin/pulse.h"
 #include "pipelines/spin/sky.h"
 #include "pipelines/time/tai_time.h"
@@ -41,11 +42,9 @@ struct EdgeTally {
   double log_likelihood = 0.0;
   double squared_innovations = 0.0;  ///< Normalised, their sum; gated ones as at the gate.
   double squared_gate = 0.0;
-  /// By channel, of the accepted edges: normalised, each N(0, 1) and independent when all is well.
-  std::array<double, kPulseChannels> innovations = {};
-  /// By channel: what they would be for constant errors of the channels, a row per rad of each.
-  Eigen::Matrix<double, kPulseChannels, kPulseChannels> innovation_of_errors =
-      Eigen::Matrix<double, kPulseChannels, kPulseChannels>::Zero();
+  /// What the innovations of the accepted edges say of the model. The filter has eliminated axis,
+  /// phase and rate from them, and made them independent (Friedland's separate-bias estimation).
+  ErrorInformation errors = {};
 };
 
 class SpinFilter {
@@ -75,8 +74,8 @@ class SpinFilter {
   Eigen::Vector3d axis_icrf() const { return q_icrf_spin_ * Eigen::Vector3d::UnitZ(); }
   /// Tangent plane at the axis: east, north.
   Eigen::Matrix2d axis_covariance_rad2() const;
-  /// What a constant error of each channel's phases has moved the axis by, rad/rad; likewise.
-  Eigen::Matrix<double, 2, kPulseChannels> axis_of_errors() const;
+  /// What each error of the model has moved the axis by, rad/rad; likewise.
+  Eigen::Matrix<double, 2, kModelErrors> axis_of_errors() const;
   double rate_rad_s() const { return rate_rad_s_; }
   double rate_sigma_rad_s() const;
   double phase_sigma_rad() const;
@@ -102,9 +101,9 @@ class SpinFilter {
   double rate_rad_s_;
   double drift_rad_s2_ = 0.0;
   Eigen::Matrix<double, 5, 5> covariance_ = Eigen::Matrix<double, 5, 5>::Zero();  ///< Of the error.
-  /// The error that a constant error of each channel's phases has made, per rad of it.
-  Eigen::Matrix<double, 5, kPulseChannels> of_errors_ =
-      Eigen::Matrix<double, 5, kPulseChannels>::Zero();
+  /// The error that each error of the model has made, per rad of it.
+  Eigen::Matrix<double, 5, kModelErrors> of_errors_ =
+      Eigen::Matrix<double, 5, kModelErrors>::Zero();
 };
 
 /// The good edges of a revolution.

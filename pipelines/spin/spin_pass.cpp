@@ -39,6 +39,19 @@ Eigen::Matrix2d horizon_error_rad2(const SpinConfig& config, double disc_rad,
   return (north * north.transpose() + south * south.transpose()) * (limb_rad * limb_rad / 3.0);
 }
 
+/// The fix, with what the spherical horizon leaves out in its covariances.
+SpinFix on_the_ellipsoid(const SpinConfig& config, double disc_rad, SpinFix fix) {
+  const auto left_out_rad2 = [&](const Eigen::Vector3d& axis_icrf, const auto& shift_icrf) {
+    return horizon_error_rad2(config, disc_rad, tangent_basis(axis_icrf).transpose() * shift_icrf);
+  };
+  fix.covariance_rad2 += left_out_rad2(fix.axis_icrf, fix.model_shift_icrf);
+  for (std::size_t i = 0; i < fix.alternate_axes_icrf.size(); ++i) {
+    fix.alternate_covariances_rad2[i] +=
+        left_out_rad2(fix.alternate_axes_icrf[i], fix.alternate_model_shifts_icrf[i]);
+  }
+  return fix;
+}
+
 Eigen::Vector3d median_axis(const std::vector<Eigen::Vector3d>& axes) {
   Eigen::Vector3d median;
   for (Eigen::Index i = 0; i < 3; ++i) {
@@ -50,6 +63,21 @@ Eigen::Vector3d median_axis(const std::vector<Eigen::Vector3d>& axes) {
     median[i] = *middle;
   }
   return median.normalized();
+}
+
+/// Why the fixes of that case leave several candidates.
+std::string_view what_is_missing(int geometry_case) {
+  switch (geometry_case) {
+    case 4:
+      return ", for want of good sun2 edges";
+    case 5:
+    case 6:
+      return ", for want of good sun edges and of one beam's chords";
+    case 7:
+      return ", for want of good sun1 edges";
+    default:
+      return "";
+  }
 }
 
 std::vector<Verdict> verdicts_on(const Revolution& revolution,
@@ -171,9 +199,27 @@ void SpinPass::say_what_is_missing(SpinOutput& out) const {
     out.notices.push_back(fmt::format("orbit: {} revolutions outside it gave no axis, the last: {}",
                                       without_orbit_, last_without_orbit_));
   }
-  if (mean_.count() > 0 && !sequential_began_) {
+  if (last_status_.empty() && last_case_ != 0) {
     out.notices.emplace_back(
-        "the estimator 'sequential' never began: it needs one fix that is known to 3 deg");
+        "the estimator 'sequential' never began: its fixes leave the axis, or a candidate for it, "
+        "uncertain by more than 3 deg");
+  }
+  if (last_status_.starts_with("OK") && sequential_.unseen_model_sigma_rad() > kModelLimit_rad) {
+    out.notices.push_back(fmt::format(
+        "poor leverage: errors of {:.2f} deg in mounting or limb, which nothing would show, move "
+        "the axis by {:.1f} deg; no sigma includes them",
+        kModelError_rad * 180.0 / std::numbers::pi,
+        sequential_.unseen_model_sigma_rad() * 180.0 / std::numbers::pi));
+  }
+  if (last_case_ == 0 && without_fix_ > 1) {
+    out.notices.push_back(fmt::format("no axis: {} revolutions gave no fix, the last: {}",
+                                      without_fix_, last_without_fix_));
+  }
+  if (last_status_.starts_with("AMBIGUOUS")) {
+    out.notices.push_back(
+        fmt::format("the axis is ambiguous to the end{}: a prior in the mission "
+                    "file would choose among the candidates",
+                    what_is_missing(last_case_)));
   }
 }
 
@@ -364,12 +410,15 @@ std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate, SpinOutput
   trust_.count(found);
   if (!found) {
     // The measurements stand; this revolution alone gives no axis.
+    ++without_fix_;
+    last_without_fix_ = found.error().message;
     say_first("fix",
               fmt::format("revolution {} is the first that gives no fix: {}", revolution.number,
                           found.error().message),
               out);
     return {};
   }
+  last_case_ = found->geometry_case;
   auto fixes = disambiguator_.settle(revolution.number, revolution.t_start, candidate.measured,
                                      *candidate.sightlines, *found, established_axis());
   for (SpinFix& fix : fixes) {
@@ -401,11 +450,15 @@ void SpinPass::say_why_not_accepted(const SpinFix& fix, SpinOutput& out) {
 
 void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   const Revolution& revolution = candidate.revolution;
+  const double disc_rad = candidate.sightlines->disc_rad;
   const std::vector<SpinFix> fixes = find_fixes(candidate, out);
+  std::vector<SpinFix> announced;
+  std::transform(fixes.begin(), fixes.end(), std::back_inserter(announced),
+                 [&](const SpinFix& fix) { return on_the_ellipsoid(config_, disc_rad, fix); });
   std::optional<SpinEstimate> sequential;
   if (const auto sky = surroundings_.sky(revolution.t_start)) {
-    sequential = sequential_.update(revolution, *sky,
-                                    trust_.deserved() ? std::span{fixes} : std::span<SpinFix>{});
+    sequential = sequential_.update(
+        revolution, *sky, trust_.deserved() ? std::span{announced} : std::span<SpinFix>{});
     if (sequential_.prior_refuted() && config_.prior) {
       forget_prior(revolution.t_start, out);
     }
@@ -413,15 +466,13 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
       start_again_where_moved(*sequential, out);
     }
   }
-  const double disc_rad = candidate.sightlines->disc_rad;
+  for (SpinFix& fix : announced) {
+    out.products.emplace_back(std::move(fix));
+  }
   bool mean_moved = false;
   mean_.keep(revolution.number, candidate.measured, *candidate.sightlines);
   for (const SpinFix& fix : fixes) {
     say_why_not_accepted(fix, out);
-    SpinFix announced = fix;
-    announced.covariance_rad2 += horizon_error_rad2(
-        config_, disc_rad, tangent_basis(fix.axis_icrf).transpose() * fix.model_shift_icrf);
-    out.products.emplace_back(std::move(announced));
     if (mean_.take(fix, revolution.number)) {
       recent_axes_.add(fix);
       mean_moved = true;
@@ -431,7 +482,7 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
     out.products.emplace_back(mean_.estimate(revolution));
   }
   if (sequential) {
-    sequential_began_ = true;
+    last_status_ = sequential->status;
     out.products.emplace_back(std::move(*sequential));
   }
 }

@@ -111,7 +111,11 @@ class SpinPass {
   int restarts_heeded_ = 0;
   bool closed_any_ = false;     ///< Revolution.
   bool left_over_any_ = false;  ///< Edge of none.
-  bool sequential_began_ = false;
+  /// Of `sequential`; empty: it never began.
+  std::string last_status_;
+  int last_case_ = 0;               ///< Of the ten, of the last fix.
+  std::int64_t without_fix_ = 0;    ///< Revolutions.
+  std::string last_without_fix_;    ///< Why the last of them has none.
   std::int64_t without_orbit_ = 0;  ///< Revolutions.
   std::string last_without_orbit_;  ///< Why the last of them has none.
   std::set<std::string, std::less<>> said_;

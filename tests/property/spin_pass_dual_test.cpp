@@ -34,6 +34,9 @@ constexpr int kPasses = 40;
 constexpr double kRevolutions = 250.0;
 constexpr double kSigmas = 5.0;
 
+const Eigen::Vector3d kAxisWithoutSun1_icrf =
+    direction_icrf({.ra_rad = 120.0 * kDegree_rad, .dec_rad = -60.0 * kDegree_rad});
+
 struct DeadSensors {
   std::string name;
   std::set<PulseChannel> channels;
@@ -267,6 +270,35 @@ bool says(const SpinOutput& output, const std::string& words) {
   return std::any_of(output.notices.begin(), output.notices.end(), [&](const std::string& notice) {
     return notice.find(words) != std::string::npos;
   });
+}
+
+SpinOutput without_sun1(const std::optional<SpinPrior>& prior) {
+  std::mt19937_64 rng{82};
+  const Orbit orbit = testing::transfer_orbit();
+  const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  testing::SpinningBody body{.axis_icrf = kAxisWithoutSun1_icrf,
+                             .rate_rad_s = 2.0 * kPi,
+                             .first_turn_rad = 0.0,
+                             .config = testing::usual_config()};
+  body.config.prior = prior;
+  const auto edges = testing::edges_between(body, around, 0.0, 200.0);
+  return testing::run(
+      SpinPass{body.config, orbit},
+      without(testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng),
+              {Sun1}));
+}
+
+TEST(SpinPassDual, APriorSettlesAPassWithoutSun1) {
+  const Eigen::Vector2d off_rad{1.5 * kDegree_rad, -1.0 * kDegree_rad};
+  const SpinOutput output = without_sun1(SpinPrior{
+      .axis_icrf =
+          (kAxisWithoutSun1_icrf + tangent_basis(kAxisWithoutSun1_icrf) * off_rad).normalized(),
+      .sigma_rad = 5.0 * kDegree_rad});
+  const SpinEstimate last = testing::last_estimate(output, SpinEstimator::Sequential);
+  EXPECT_TRUE(last.status.starts_with("OK")) << last.status;
+  EXPECT_LT(angle_between_rad(last.axis_icrf, kAxisWithoutSun1_icrf),
+            kSigmas * testing::sigma_rad(last));
+  EXPECT_LT(testing::sigma_rad(last), 0.5 * kDegree_rad);
 }
 
 TEST(SpinPassDual, ASilentBeamThatIsSaidToBeHealthyIsToldAndItsFixesNotAccepted) {

@@ -162,6 +162,42 @@ TEST(Sequential, SaysNothingBeforeAFixThatCanStartIt) {
   EXPECT_TRUE(estimates(scene.body.config, seen, at_first(poor)).empty());
 }
 
+TEST(Sequential, ManyPoorFixesStartItAsOneGoodOneDoes) {
+  constexpr double kPoor_rad = 5.0 * kDegree_rad;
+  Scene scene;
+  const auto seen = scene.seen(0.0, 60.0);
+  const auto all = estimates(scene.body.config, seen, [&](std::size_t) {
+    return std::vector{testing::drawn_fix(scene.body.axis_icrf, kPoor_rad, scene.rng)};
+  });
+  // 5 deg either way: 3 deg in all from the sixth on.
+  EXPECT_EQ(all.size(), seen.size() - 5);
+  EXPECT_THAT(all.back().status, StartsWith("OK"));
+  EXPECT_THAT(all.back().status, Not(HasSubstr("restart")));
+  EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
+}
+
+TEST(Sequential, GrazingFixesStartItWhereThereAreNoOthersAndSettleNothing) {
+  constexpr std::size_t kFirstGood = 40;
+  Scene scene;
+  const auto seen = scene.seen(0.0, 60.0);
+  const Eigen::Vector3d sun_icrf = scene.around.sun_icrf(0.0);
+  const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {
+    if (i >= kFirstGood) {
+      return std::vector{scene.fix()};
+    }
+    SpinFix fix = ambiguous(scene.fix(), scene.turned_about(sun_icrf, 25.0), scene.body.axis_icrf);
+    fix.grazing = true;
+    return std::vector{fix};
+  });
+  ASSERT_GT(all.size(), 20U);
+  ASSERT_LT(all.size(), seen.size() - 10);
+  const std::size_t good = all.size() - (seen.size() - kFirstGood);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_THAT(all[i].status, StartsWith(i < good ? "AMBIGUOUS" : "OK")) << i;
+  }
+  EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
+}
+
 TEST(Sequential, ARevolutionWithoutEdgesChangesNothingButTheTime) {
   Scene scene;
   auto seen = scene.seen(0.0, 20.0);

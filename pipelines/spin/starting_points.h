@@ -1,0 +1,48 @@
+/// @file
+/// Where filters of the axis may begin: the candidates of fixes, averaged branch by branch until
+/// each is known well enough. One fix will do where the edges are sharp; where the body turns fast
+/// or the edges are noisy, it takes some.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "pipelines/spin/mean_axis.h"
+#include "pipelines/spin/products.h"
+
+namespace spindrift {
+
+struct StartingPoint {
+  Eigen::Vector3d axis_icrf;        ///< Unit.
+  Eigen::Matrix2d covariance_rad2;  ///< Tangent plane at the axis: east, north.
+};
+
+/// It names a candidate, or none, and has not ruled out the others.
+bool leaves_open(const SpinFix& fix);
+
+/// The axis of the fix, and what it leaves open beside it.
+std::vector<StartingPoint> candidates_of(const SpinFix& fix);
+
+/// Near enough for edges to be linear about it.
+bool well_known(const Eigen::Matrix2d& covariance_rad2);
+
+/// Beyond the noise of both, and beyond what may be wrong with the model.
+bool contradict(const StartingPoint& one, const StartingPoint& other);
+
+class StartingPoints {
+ public:
+  /// @param candidates Of one fix.
+  /// @return What is known now of the branch that each belongs to.
+  std::vector<StartingPoint> add(std::span<const StartingPoint> candidates);
+
+ private:
+  std::size_t branch_of(const StartingPoint& candidate,
+                        const std::vector<std::size_t>& taken) const;
+
+  std::vector<MeanAxis> branches_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,75 @@
+/// What errors of the model do to an edge, against finite differences and the formulas that
+/// measure angles. (The edges themselves are tested with the filter, against the oracle.)
+
+#include "pipelines/spin/edge_prediction.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+
+#include "pipelines/frames/wgs84.h"
+#include "pipelines/spin/measurement.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+using enum PulseChannel;
+
+struct Scene {
+  Orbit orbit = testing::transfer_orbit();
+  Sky sky = testing::sky_at(orbit, testing::kTransferStart);
+  std::mt19937_64 rng{5};
+  testing::SpinningBody body = testing::random_body(
+      testing::seen_from(orbit, testing::spherical_horizon_km(40.0)), 0.1, rng);
+  Eigen::Matrix3d R_spin_icrf =
+      Eigen::Quaterniond::FromTwoVectors(body.axis_icrf, Eigen::Vector3d::UnitZ())
+          .toRotationMatrix();
+
+  PredictedEdge predicted(PulseChannel channel, const SpinConfig& config) const {
+    return predict_edge(config, sky, R_spin_icrf, {.t = sky.t, .channel = channel}).value();
+  }
+};
+
+TEST(EdgePrediction, ALimbFartherOutMovesTheEdgesOfItsBeamApart) {
+  const Scene scene;
+  // By 1 km, which is so much as an angle.
+  SpinConfig higher = scene.body.config;
+  higher.horizon.co2_altitude_km += 1.0;
+  const double range_km = scene.sky.spacecraft.position_icrf_km.norm();
+  const auto disc_rad = [&](double altitude_km) {
+    return std::asin((wgs84::kEquatorialRadius_km + altitude_km) / range_km);
+  };
+  const double farther_rad = disc_rad(41.0) - disc_rad(40.0);
+  for (const PulseChannel channel : {NorthIn, NorthOut, SouthIn, SouthOut}) {
+    const PredictedEdge edge = scene.predicted(channel, scene.body.config);
+    const bool north = channel == NorthIn || channel == NorthOut;
+    const double moved_rad = scene.predicted(channel, higher).phase_rad - edge.phase_rad;
+    const double expected_rad = edge.phase_per_error[north ? NorthLimb : SouthLimb] * farther_rad;
+    EXPECT_EQ(moved_rad > 0.0, channel == NorthOut || channel == SouthOut);
+    EXPECT_NEAR(moved_rad / expected_rad, 1.0, 1e-3);
+    EXPECT_EQ(edge.phase_per_error[north ? SouthLimb : NorthLimb], 0.0);
+    EXPECT_EQ(edge.phase_per_error[SunAngleError], 0.0);
+    EXPECT_EQ(edge.phase_per_error[north ? NorthAzimuth : SouthAzimuth], 1.0);
+  }
+}
+
+TEST(EdgePrediction, ASunAngleMeasuredTooLargeMovesTheSecondSlitAlone) {
+  const Scene scene;
+  const SunSensor& sensor = scene.body.config.sun_sensor;
+  const PredictedEdge sun1 = scene.predicted(Sun1, scene.body.config);
+  const PredictedEdge sun2 = scene.predicted(Sun2, scene.body.config);
+  EXPECT_TRUE(sun1.phase_per_error.isZero());
+  constexpr double kError_rad = 1e-5;
+  const double delay_rad = sun2.phase_rad - sun1.phase_rad;
+  const double later_rad = sun2.phase_per_error[SunAngleError] * kError_rad;
+  const double before_rad = sun_angle(sensor, delay_rad, 1.0, 0.0)->value_rad;
+  const double after_rad = sun_angle(sensor, delay_rad + later_rad, 1.0, 0.0)->value_rad;
+  EXPECT_NEAR((after_rad - before_rad) / kError_rad, 1.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace spindrift

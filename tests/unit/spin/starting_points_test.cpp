@@ -1,0 +1,89 @@
+#include "pipelines/spin/starting_points.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+Eigen::Vector3d axis_at(double ra_deg, double dec_deg) {
+  return direction_icrf({.ra_rad = ra_deg * kDegree_rad, .dec_rad = dec_deg * kDegree_rad});
+}
+
+StartingPoint drawn(const Eigen::Vector3d& axis_icrf, double sigma_deg, std::mt19937_64& rng) {
+  std::normal_distribution<double> noise{0.0, sigma_deg * kDegree_rad};
+  const Eigen::Vector2d off_rad{noise(rng), noise(rng)};
+  return {.axis_icrf = (axis_icrf + tangent_basis(axis_icrf) * off_rad).normalized(),
+          .covariance_rad2 = std::pow(sigma_deg * kDegree_rad, 2) * Eigen::Matrix2d::Identity()};
+}
+
+TEST(StartingPoints, OneSharpCandidateIsItsOwnBranch) {
+  std::mt19937_64 rng{1};
+  const std::vector candidates{drawn(axis_at(10.0, 89.0), 0.5, rng)};
+  const auto known = StartingPoints{}.add(candidates);
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_LT(angle_between_rad(known.front().axis_icrf, candidates.front().axis_icrf), 1e-12);
+  EXPECT_TRUE(well_known(known.front().covariance_rad2));
+}
+
+TEST(StartingPoints, PoorCandidatesAreAveragedUntilTheyAreKnownWell) {
+  // 7 deg both ways together: below 3 deg from the sixth on.
+  std::mt19937_64 rng{2};
+  const Eigen::Vector3d axis = axis_at(359.9, 80.0);
+  StartingPoints points;
+  for (int count = 1; count <= 10; ++count) {
+    const auto known = points.add(std::vector{drawn(axis, 7.0 / std::numbers::sqrt2, rng)});
+    ASSERT_EQ(known.size(), 1U);
+    EXPECT_EQ(well_known(known.front().covariance_rad2), count >= 6) << count;
+    // The tangent planes of the candidates are not quite that of their mean.
+    EXPECT_NEAR(std::sqrt(known.front().covariance_rad2.trace()) / kDegree_rad,
+                7.0 / std::sqrt(count), 0.1);
+    EXPECT_LT(angle_between_rad(known.front().axis_icrf, axis),
+              4.0 * std::sqrt(known.front().covariance_rad2.trace()));
+  }
+}
+
+TEST(StartingPoints, BranchesStayApartInWhateverOrderTheirCandidatesCome) {
+  std::mt19937_64 rng{3};
+  const Eigen::Vector3d one = axis_at(100.0, -55.0);
+  const Eigen::Vector3d other = axis_at(140.0, -20.0);
+  StartingPoints points;
+  for (int count = 0; count < 40; ++count) {
+    std::vector<std::pair<Eigen::Vector3d, StartingPoint>> candidates{
+        {one, drawn(one, 4.0, rng)}, {other, drawn(other, 4.0, rng)}};
+    if (count % 3 == 0) {
+      std::swap(candidates[0], candidates[1]);
+    }
+    const auto known = points.add(std::vector{candidates[0].second, candidates[1].second});
+    ASSERT_EQ(known.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_LT(angle_between_rad(known[i].axis_icrf, candidates[i].first),
+                5.0 * std::sqrt(known[i].covariance_rad2.trace()));
+    }
+  }
+}
+
+TEST(StartingPoints, OneFixNeverNamesABranchTwice) {
+  // Half a degree apart: within what may be wrong with the model, and yet two candidates.
+  std::mt19937_64 rng{4};
+  const std::vector both{drawn(axis_at(100.0, 0.0), 0.01, rng),
+                         drawn(axis_at(100.4, 0.0), 0.01, rng)};
+  StartingPoints points;
+  for (int count = 0; count < 3; ++count) {
+    const auto known = points.add(both);
+    ASSERT_EQ(known.size(), 2U);
+    EXPECT_GT(angle_between_rad(known[0].axis_icrf, known[1].axis_icrf), 0.35 * kDegree_rad);
+  }
+}
+
+}  // namespace
+}  // namespace spindrift
