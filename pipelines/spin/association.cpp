@@ -32,16 +32,14 @@ constexpr int kSilentReference = 10;
 // From so many good edges in a row on a channel is fit to set the clock.
 constexpr int kFitReference = 3;
 
-// Channels that interfere spoil each other on every other turn at least: for so many turns they do
-// not escape once in a million.
-constexpr double kLately_turns = 20.0;
-
 constexpr std::array<PulseChannel, kPulseChannels> kChannels = {
     PulseChannel::Sun1,     PulseChannel::Sun2,    PulseChannel::NorthIn,
     PulseChannel::NorthOut, PulseChannel::SouthIn, PulseChannel::SouthOut};
 
-PulseUse unassociated(const Pulse& pulse) {
-  return {.pulse = pulse, .revolution = {}, .rejected_by = Rejection::Unassociated};
+PulseUse left_over(const Pulse& pulse, std::optional<Rejection> rejected_by = {}) {
+  return {.pulse = pulse,
+          .revolution = {},
+          .rejected_by = rejected_by.value_or(Rejection::Unassociated)};
 }
 
 }  // namespace
@@ -71,6 +69,16 @@ Association Associator::push(const Pulse& pulse) {
   return out;
 }
 
+Association Associator::push_spoilt(const Pulse& pulse) {
+  Association out;
+  if (clock_ && clock_sigma_turns(clock_->phase_turns(pulse.t)) <= kLost_turns) {
+    place(pulse, true, out);
+  } else {
+    out.left_over.push_back(left_over(pulse, Rejection::Interference));
+  }
+  return out;
+}
+
 void Associator::place_or_wait(const Pulse& pulse, Association& out) {
   if (clock_) {
     const double phase = clock_->phase_turns(pulse.t);
@@ -79,13 +87,13 @@ void Associator::place_or_wait(const Pulse& pulse, Association& out) {
     }
   }
   if (clock_) {
-    place(pulse, out);
+    place(pulse, false, out);
     return;
   }
   waiting_.push_back(pulse);
   try_to_start(false, out);
   if (!clock_ && waiting_.size() > kMostWaiting) {
-    out.left_over.push_back(unassociated(waiting_.front()));
+    out.left_over.push_back(left_over(waiting_.front()));
     waiting_.erase(waiting_.begin());
   }
 }
@@ -96,7 +104,7 @@ Association Associator::finish() {
     try_to_start(true, out);
   }
   for (const Pulse& pulse : std::exchange(waiting_, {})) {
-    out.left_over.push_back(unassociated(pulse));
+    out.left_over.push_back(left_over(pulse));
   }
   while (!open_.empty()) {
     close_front(out);
@@ -240,8 +248,8 @@ double Associator::reach_turns(PulseChannel channel, double phase_turns) const {
                     kMostReach_turns);
 }
 
-void Associator::place(const Pulse& pulse, Association& out) {
-  if (pulse.channel == reference_) {
+void Associator::place(const Pulse& pulse, bool spoilt, Association& out) {
+  if (pulse.channel == reference_ && !spoilt) {
     restart_after_step(pulse);
   }
   const double phase = clock_->phase_turns(pulse.t);
@@ -249,39 +257,48 @@ void Associator::place(const Pulse& pulse, Association& out) {
     phases_.learn(pulse.channel, std::array{phase});
   }
   close_before(phase, out);
-  if (Revolution* const revolution = revolution_of(pulse)) {
-    put(*revolution, pulse, out);
-  } else {
-    out.left_over.push_back(unassociated(pulse));
+  if (pulse.channel != reference_ && !count_of(pulse).near) {
+    phases_.stray(pulse.channel, phase, spoilt ? displacement_turns() : 0.0);
   }
+  const auto spoilt_by = spoilt ? std::optional{Rejection::Interference} : std::nullopt;
+  if (Revolution* const revolution = revolution_of(pulse)) {
+    put(*revolution, pulse, spoilt_by, out);
+  } else {
+    out.left_over.push_back(left_over(pulse, spoilt_by));
+  }
+}
+
+Associator::Count Associator::count_of(const Pulse& pulse) const {
+  const double phase = clock_->phase_turns(pulse.t);
+  const double count = phase - phases_.at(pulse.channel, phase);
+  const double turn = std::round(count);
+  return {.turn = static_cast<std::int64_t>(turn),
+          .near = std::abs(count - turn) <= reach_turns(pulse.channel, phase)};
 }
 
 /// Empty where the edge is too far from any turn, or its revolution is closed already.
 Revolution* Associator::revolution_of(const Pulse& pulse) {
-  const double phase = clock_->phase_turns(pulse.t);
-  const auto count = [&] { return phase - phases_.at(pulse.channel, phase); };
-  const auto is_near = [&] {
-    return std::abs(count() - std::round(count())) <= reach_turns(pulse.channel, phase);
-  };
-  const bool near = is_near() || (pulse.channel != reference_ &&
-                                  phases_.stray(pulse.channel, phase) && is_near());
-  return near ? open_revolution(static_cast<std::int64_t>(std::round(count()))) : nullptr;
+  const Count count = count_of(pulse);
+  return count.near ? open_revolution(count.turn) : nullptr;
 }
 
 /// Of two edges of one channel, the nearer to where it is expected stays.
-void Associator::put(Revolution& revolution, const Pulse& pulse, Association& out) {
+void Associator::put(Revolution& revolution, const Pulse& pulse, std::optional<Rejection> spoilt_by,
+                     Association& out) {
   const auto turn = static_cast<double>(revolution.number);
   const double expected = turn + phases_.at(pulse.channel, turn);
   const auto off = [&](TaiTime t) { return std::abs(clock_->phase_turns(t) - expected); };
   std::optional<TaiTime>& edge = revolution.edges.at(index_of(pulse.channel));
+  std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(pulse.channel));
   if (edge && off(*edge) <= off(pulse.t)) {
-    out.left_over.push_back(unassociated(pulse));
+    out.left_over.push_back(left_over(pulse, spoilt_by));
     return;
   }
   if (edge) {
-    out.left_over.push_back(unassociated({.t = *edge, .channel = pulse.channel}));
+    out.left_over.push_back(left_over({.t = *edge, .channel = pulse.channel}, rejection));
   }
   edge = pulse.t;
+  rejection = spoilt_by;
 }
 
 /// Empty when that revolution is closed already, or precedes the first.
@@ -309,6 +326,7 @@ void Associator::close_front(Association& out) {
   Revolution& revolution = open_.front();
   first_open_ = revolution.number + 1;
   revolution.count_sigma_turns = std::exchange(count_sigma_turns_, std::nullopt);
+  expect_interference(revolution, out);
   judge_reference(revolution);
   judge_others(revolution);
   revolution.t_start = t_start_of(revolution);
@@ -321,19 +339,64 @@ void Associator::close_front(Association& out) {
   open_.pop_front();
 }
 
+void Associator::expect_interference(const Revolution& revolution, Association& out) {
+  crowded_.fill(false);
+  if (!(config_.screening.interference_s > 0.0)) {
+    return;
+  }
+  const auto turn = static_cast<double>(revolution.number);
+  const double clock_sigma = clock_sigma_turns(turn);
+  for (const PulseChannel one : kChannels) {
+    for (const PulseChannel other : kChannels) {
+      if (one < other && phases_.interfere(one, other, turn, clock_sigma)) {
+        crowded_.at(index_of(one)) = crowded_.at(index_of(other)) = true;
+        note_interference(one, other, clock_->t_of(turn), out);
+      }
+    }
+  }
+}
+
+void Associator::note_interference(PulseChannel one, PulseChannel other, TaiTime t,
+                                   Association& out) {
+  auto known =
+      std::find_if(interfering_.begin(), interfering_.end(),
+                   [&](const InterferingChannels& c) { return c.one == one && c.other == other; });
+  if (known == interfering_.end()) {
+    out.began_to_interfere.push_back({.one = one, .other = other, .first = t, .last = t});
+    known = interfering_.insert(known, out.began_to_interfere.back());
+  }
+  known->last = t;
+  ++known->revolutions;
+}
+
+/// One standard deviation of what interference moves an edge by: up to half the window either way.
+double Associator::displacement_turns() const {
+  return config_.screening.interference_s / std::sqrt(12.0) / clock_->period_s();
+}
+
+/// Of all edges alike where channels are expected to interfere: with less weight for those that met
+/// the channels would seem too far from each other.
+double Associator::displaced_turns(const Revolution& revolution, PulseChannel channel) const {
+  const bool displaced =
+      crowded_.at(index_of(channel)) || revolution.edge_rejections.at(index_of(channel));
+  return displaced ? displacement_turns() : 0.0;
+}
+
 void Associator::judge_reference(Revolution& revolution) {
   const std::optional<TaiTime>& edge = revolution.edge(reference_);
   if (!edge) {
     return;
   }
   const auto turn = static_cast<double>(revolution.number);
+  const double noise_s = std::hypot(noise_of(config_.noise, reference_),
+                                    displaced_turns(revolution, reference_) * clock_->period_s());
   const bool good =
-      clock_->follow(revolution.number, zero_of(*edge, turn), noise_of(config_.noise, reference_),
-                     reference_wander(),
+      clock_->follow(revolution.number, zero_of(*edge, turn), noise_s, reference_wander(),
                      {.sigma = config_.screening.sigma, .most = reach_turns(reference_, turn)});
   phases_.set_period(clock_->period_s());
-  if (!good) {
-    revolution.edge_rejections.at(index_of(reference_)) = Rejection::Phase;
+  std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(reference_));
+  if (!good && !rejection) {
+    rejection = Rejection::Phase;
   }
 }
 
@@ -346,49 +409,25 @@ void Associator::judge_others(Revolution& revolution) {
       continue;
     }
     const double count = clock_->phase_turns(*edge);
-    if (!phases_.follow(channel, revolution.number, count - turn, clock_sigma) &&
-        !phases_.stray(channel, count)) {
-      revolution.edge_rejections.at(index_of(channel)) = Rejection::Phase;
+    const double displaced = displaced_turns(revolution, channel);
+    std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
+    if (!phases_.follow(channel, revolution.number, count - turn,
+                        std::hypot(clock_sigma, displaced)) &&
+        !rejection && !phases_.stray(channel, count, displaced)) {
+      rejection = Rejection::Phase;
     }
   }
 }
 
 /// Where channels are expected to interfere, the edges that escaped did so by their noise: all of
 /// them lie too far from each other, and their mean is wrong.
-void Associator::judge_neighbours(Revolution& revolution) {
-  if (!(config_.screening.interference_s > 0.0)) {
-    return;
-  }
+void Associator::judge_neighbours(Revolution& revolution) const {
   for (const PulseChannel channel : kChannels) {
     std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
-    if (revolution.edge(channel) && !rejection &&
-        std::any_of(kChannels.begin(), kChannels.end(), [&](PulseChannel other) {
-          return channel != other && interfere(channel, other, revolution);
-        })) {
+    if (revolution.edge(channel) && !rejection && crowded_.at(index_of(channel))) {
       rejection = Rejection::Interference;
     }
   }
-}
-
-/// The places of two channels are learnt from the edges that escape. Where they do interfere, these
-/// are up to half the window off, each away from the other.
-bool Associator::interfere(PulseChannel one, PulseChannel other,
-                           const Revolution& revolution) const {
-  if (!phases_.knows(one) || !phases_.knows(other)) {
-    return false;
-  }
-  const auto turn = static_cast<double>(revolution.number);
-  const double apart_s = std::abs(
-      clock_->period_s() * std::remainder(phases_.at(one, turn) - phases_.at(other, turn), 1.0));
-  const double noise_s = std::hypot(noise_of(config_.noise, one), noise_of(config_.noise, other));
-  const double reach_s = config_.screening.interference_s + config_.screening.sigma * noise_s;
-  const bool lately = spoilt_lately(one, revolution) && spoilt_lately(other, revolution);
-  return apart_s < reach_s + (lately ? config_.screening.interference_s : 0.0);
-}
-
-bool Associator::spoilt_lately(PulseChannel channel, const Revolution& revolution) const {
-  const auto& t = spoilt_at_.at(index_of(channel));
-  return t && std::abs(elapsed_s(revolution.t_start, *t)) < kLately_turns * clock_->period_s();
 }
 
 void Associator::judge_period(Revolution& revolution) {

@@ -60,9 +60,19 @@ struct Revolution {
   double turned_rad(TaiTime from, TaiTime to) const;
 };
 
+/// Two channels that come so near to each other that their edges spoil each other.
+struct InterferingChannels {
+  PulseChannel one;
+  PulseChannel other;
+  TaiTime first;  ///< Start of the first revolution in which they do.
+  TaiTime last;
+  std::int64_t revolutions = 0;
+};
+
 struct Association {
-  std::vector<Revolution> closed;   ///< In order of number.
-  std::vector<PulseUse> left_over;  ///< Edges that found no place.
+  std::vector<Revolution> closed;                            ///< In order of number.
+  std::vector<PulseUse> left_over;                           ///< Edges that found no place.
+  std::vector<InterferingChannels> began_to_interfere = {};  ///< In this pass for the first time.
 };
 
 class Associator {
@@ -72,9 +82,9 @@ class Associator {
   /// @param pulse Not earlier than the one before.
   Association push(const Pulse& pulse);
 
-  /// An edge that one of another channel has spoilt: it has no place, but says that the two
-  /// channels interfere.
-  void note_spoilt(const Pulse& pulse) { spoilt_at_.at(index_of(pulse.channel)) = pulse.t; }
+  /// An edge that one of another channel has spoilt: it is not to be used, but says about where its
+  /// channel is.
+  Association push_spoilt(const Pulse& pulse);
 
   /// What the spacecraft itself says of its period (coded telemetry), before the edges of that
   /// frame: a pass of a few frames needs no more to start the clock, and the value is tested as the
@@ -83,6 +93,9 @@ class Associator {
 
   /// The pass has ended: closes what is open.
   Association finish();
+
+  /// So far in the pass.
+  const std::vector<InterferingChannels>& interfering() const { return interfering_; }
 
  private:
   /// An edge of the channel that sets the clock.
@@ -94,6 +107,11 @@ class Associator {
     TaiTime t;
     std::int64_t revolution;
   };
+  /// The turn whose edge a pulse is nearest to, and whether it is near enough to be that.
+  struct Count {
+    std::int64_t turn;
+    bool near;
+  };
 
   void place_or_wait(const Pulse& pulse, Association& out);
   void try_to_start(bool at_end, Association& out);
@@ -101,17 +119,21 @@ class Associator {
   void give_up_clock(const Pulse& pulse, Association& out);
   double clock_sigma_turns(double phase_turns) const;
   void restart_after_step(const Pulse& pulse);
-  void place(const Pulse& pulse, Association& out);
-  void put(Revolution& revolution, const Pulse& pulse, Association& out);
+  void place(const Pulse& pulse, bool spoilt, Association& out);
+  Count count_of(const Pulse& pulse) const;
   Revolution* revolution_of(const Pulse& pulse);
+  void put(Revolution& revolution, const Pulse& pulse, std::optional<Rejection> spoilt_by,
+           Association& out);
   Revolution* open_revolution(std::int64_t number);
   void close_before(double phase_turns, Association& out);
   void close_front(Association& out);
+  void expect_interference(const Revolution& revolution, Association& out);
+  void note_interference(PulseChannel one, PulseChannel other, TaiTime t, Association& out);
+  double displacement_turns() const;
+  double displaced_turns(const Revolution& revolution, PulseChannel channel) const;
   void judge_reference(Revolution& revolution);
   void judge_others(Revolution& revolution);
-  void judge_neighbours(Revolution& revolution);
-  bool interfere(PulseChannel one, PulseChannel other, const Revolution& revolution) const;
-  bool spoilt_lately(PulseChannel channel, const Revolution& revolution) const;
+  void judge_neighbours(Revolution& revolution) const;
   void judge_period(Revolution& revolution);
   std::optional<PeriodCandidate> noted_candidate(const Revolution& revolution);
   void count_silence(const Revolution& revolution);
@@ -135,7 +157,8 @@ class Associator {
   int turns_without_reference_ = 0;
   std::deque<ReferenceEdge> recent_reference_;
   ExpectedPhases phases_;
-  std::array<std::optional<TaiTime>, kPulseChannels> spoilt_at_;  ///< The last of each channel.
+  std::vector<InterferingChannels> interfering_;
+  std::array<bool, kPulseChannels> crowded_{};  ///< In the revolution that closes.
 
   SpinPeriodWindow period_window_;
   std::optional<IntervalStart> interval_start_;

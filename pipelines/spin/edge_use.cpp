@@ -27,14 +27,6 @@ bool uses(SpinQuantity quantity, PulseChannel channel) {
   return false;
 }
 
-bool has_sensor(const SpinConfig& config, PulseChannel channel) {
-  return std::all_of(kSides.begin(), kSides.end(), [&](Side side) {
-    const bool of_side =
-        channel == kInChannels.at(index_of(side)) || channel == kOutChannels.at(index_of(side));
-    return !of_side || sensor_of(config, side);
-  });
-}
-
 /// The other edge of the pair, and the measurement that the two make by themselves.
 struct Pair {
   PulseChannel partner;
@@ -77,7 +69,8 @@ std::optional<Rejection> rejection(const SpinConfig& config, const Revolution& r
   std::optional<Rejection> first;
   for (const Verdict& verdict : verdicts) {
     // A measurement that another edge has spoilt says nothing about this one.
-    if (!uses(verdict.quantity, channel) || verdict.rejected_by == Rejection::Phase) {
+    if (!uses(verdict.quantity, channel) || verdict.rejected_by == Rejection::Phase ||
+        verdict.rejected_by == Rejection::Interference) {
       continue;
     }
     if (!verdict.rejected_by) {
@@ -89,6 +82,14 @@ std::optional<Rejection> rejection(const SpinConfig& config, const Revolution& r
 }
 
 }  // namespace
+
+bool has_sensor(const SpinConfig& config, PulseChannel channel) {
+  return std::all_of(kSides.begin(), kSides.end(), [&](Side side) {
+    const bool of_side =
+        channel == kInChannels.at(index_of(side)) || channel == kOutChannels.at(index_of(side));
+    return !of_side || sensor_of(config, side);
+  });
+}
 
 std::vector<PulseUse> edge_uses(const SpinConfig& config, const Revolution& revolution,
                                 const std::vector<Verdict>& verdicts) {

@@ -18,6 +18,9 @@ struct Verdict {
   std::optional<Rejection> rejected_by;  ///< Empty: accepted.
 };
 
+/// Whether the spacecraft has the sensor that the channel is of.
+bool has_sensor(const SpinConfig& config, PulseChannel channel);
+
 /// An edge is accepted unless it lies off its channel's phase, the mission has no such sensor, no
 /// orbit covers it, or every measurement that it went into failed its own test. One whose partner
 /// is missing is accepted: the sequential estimator uses it.

@@ -61,7 +61,11 @@ class ExpectedPhases {
 
   /// An edge that is not where it should be. @return Whether it and those before it agree on
   /// another place, which is then expected.
-  bool stray(PulseChannel channel, double count);
+  /// @param displaced_turns Standard deviation of what interference may have moved it by.
+  bool stray(PulseChannel channel, double count, double displaced_turns);
+
+  /// Whether the edges of two channels are expected so near to each other that some of them meet.
+  bool interfere(PulseChannel one, PulseChannel other, double turn, double clock_sigma_turns) const;
 
   /// How many edges in a row were where they should be.
   int in_a_row(PulseChannel channel) const { return of(channel).in_a_row; }
@@ -86,11 +90,13 @@ class ExpectedPhases {
   Channel& of(PulseChannel channel) { return channels_.at(index_of(channel)); }
   double unwrapped(PulseChannel channel, double phase_turns, double turn) const;
   double noise_turns(PulseChannel channel) const;
+  double sigma_turns(PulseChannel channel, double turn, double clock_sigma_turns) const;
   double most_drift(PulseChannel channel) const;
   double wander(PulseChannel channel) const;
 
   PulseNoise noise_;
   double gate_sigma_;
+  double interference_s_;
   double slit_separation_turns_;
   double period_s_ = 1.0;
   PulseChannel reference_ = PulseChannel::Sun1;

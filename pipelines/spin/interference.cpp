@@ -9,12 +9,12 @@ namespace spindrift {
 InterferenceWindow::InterferenceWindow(double interference_s)
     : window_{static_cast<std::int64_t>(std::llround(interference_s * 1e9))} {}
 
-InterferenceWindow::Sorted InterferenceWindow::push(const Pulse& pulse) {
-  Sorted out;
+std::vector<InterferenceWindow::Judged> InterferenceWindow::push(const Pulse& pulse) {
+  std::vector<Judged> out;
   while (!held_.empty() && span_between(held_.front().pulse.t, pulse.t) >= window_) {
     give_front(out);
   }
-  Held last{.pulse = pulse, .spoilt = false};
+  Judged last{.pulse = pulse, .spoilt = false};
   ++held_of_.at(index_of(pulse.channel));
   if (held_of_.at(index_of(pulse.channel)) <= held_.size()) {
     last.spoilt = true;
@@ -32,17 +32,17 @@ InterferenceWindow::Sorted InterferenceWindow::push(const Pulse& pulse) {
   return out;
 }
 
-InterferenceWindow::Sorted InterferenceWindow::finish() {
-  Sorted out;
+std::vector<InterferenceWindow::Judged> InterferenceWindow::finish() {
+  std::vector<Judged> out;
   while (!held_.empty()) {
     give_front(out);
   }
   return out;
 }
 
-void InterferenceWindow::give_front(Sorted& out) {
+void InterferenceWindow::give_front(std::vector<Judged>& out) {
   --held_of_.at(index_of(held_.front().pulse.channel));
-  (held_.front().spoilt ? out.spoilt : out.clean).push_back(held_.front().pulse);
+  out.push_back(held_.front());
   held_.pop_front();
 }
 

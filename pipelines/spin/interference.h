@@ -19,24 +19,22 @@ class InterferenceWindow {
   /// @param interference_s Edges of different channels closer than this spoil each other; 0: none.
   explicit InterferenceWindow(double interference_s);
 
-  struct Sorted {
-    std::vector<Pulse> clean;   ///< In order of time.
-    std::vector<Pulse> spoilt;  ///< Likewise.
-  };
-  /// @param pulse Not earlier than the one before.
-  Sorted push(const Pulse& pulse);
-  /// The pass has ended.
-  Sorted finish();
-
- private:
-  struct Held {
+  struct Judged {
     Pulse pulse;
     bool spoilt;
+    friend bool operator==(const Judged&, const Judged&) = default;
   };
-  void give_front(Sorted& out);
+  /// @param pulse Not earlier than the one before.
+  /// @return Likewise in order of time.
+  std::vector<Judged> push(const Pulse& pulse);
+  /// The pass has ended.
+  std::vector<Judged> finish();
+
+ private:
+  void give_front(std::vector<Judged>& out);
 
   std::chrono::nanoseconds window_;
-  std::deque<Held> held_;
+  std::deque<Judged> held_;
   std::array<std::size_t, kPulseChannels> held_of_{};  ///< How many of each channel.
 };
 

@@ -126,10 +126,10 @@ std::string MeanEstimator::status() const {
   const bool off = verdict_.error_rad > 0.0;
   const std::string fixes = fmt::format("{} fixes", count_);
   if (!noisy && !off) {
-    return fixes + (began_ ? " since " + format_utc(*began_, 0) : "");
+    return fmt::format("OK, {}{}", fixes, began_ ? " since " + format_utc(*began_, 0) : "");
   }
   return fmt::format(
-      "{}{}{}{}", verdict_.beyond_allowance || noisy ? "DOUBTFUL, " : "", fixes,
+      "{}{}{}{}", verdict_.beyond_allowance || noisy ? "DOUBTFUL, " : "OK, ", fixes,
       off ? fmt::format(", model off by {:.2g} deg", verdict_.error_rad * 180.0 / std::numbers::pi)
           : "",
       noisy ? fmt::format(", noise x {:.1f}", std::sqrt(verdict_.excess_noise)) : "");

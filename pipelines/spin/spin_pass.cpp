@@ -190,10 +190,32 @@ SpinOutput SpinPass::finish() {
   return out;
 }
 
+/// Of those that the mission has.
+std::string SpinPass::silent_channels() const {
+  std::string silent;
+  for (std::size_t i = 0; i < kPulseChannels; ++i) {
+    const auto channel = static_cast<PulseChannel>(i);
+    if (!heard_.at(i) && has_sensor(config_, channel)) {
+      silent += fmt::format("{}{}", silent.empty() ? "" : ", ", name_of(channel));
+    }
+  }
+  return silent;
+}
+
 /// Known for certain only at the end.
 void SpinPass::say_what_is_missing(SpinOutput& out) const {
   if (!closed_any_ && left_over_any_) {
     out.notices.emplace_back("no spin period was found in the edges: no revolution, and no axis");
+  }
+  if (const std::string silent = silent_channels(); closed_any_ && !silent.empty()) {
+    out.notices.push_back(fmt::format("no edge at all came from {}", silent));
+  }
+  for (const InterferingChannels& channels : associator_.interfering()) {
+    out.notices.push_back(fmt::format(
+        "{} and {} were too near to each other in {} revolutions from {} to {}: their edges there "
+        "are left out",
+        name_of(channels.one), name_of(channels.other), channels.revolutions,
+        format_utc(channels.first), format_utc(channels.last)));
   }
   if (without_orbit_ > 1) {
     out.notices.push_back(fmt::format("orbit: {} revolutions outside it gave no axis, the last: {}",
@@ -241,6 +263,7 @@ void SpinPass::take(const CodedFrame& frame, SpinOutput& out) {
 }
 
 void SpinPass::take(const Pulse& pulse, SpinOutput& out) {
+  heard_.at(index_of(pulse.channel)) = true;
   switch (reorder_.add(pulse)) {
     case ReorderWindow::Verdict::Held:
       sort_out(reorder_.release(), out);
@@ -278,13 +301,9 @@ void SpinPass::sort_out(const std::vector<Pulse>& in_time, SpinOutput& out) {
   }
 }
 
-void SpinPass::associate(const InterferenceWindow::Sorted& sorted, SpinOutput& out) {
-  for (const Pulse& pulse : sorted.spoilt) {
-    leave_out(pulse, Rejection::Interference, out);
-    associator_.note_spoilt(pulse);
-  }
-  for (const Pulse& pulse : sorted.clean) {
-    collect(associator_.push(pulse), out);
+void SpinPass::associate(const std::vector<InterferenceWindow::Judged>& pulses, SpinOutput& out) {
+  for (const auto& [pulse, spoilt] : pulses) {
+    collect(spoilt ? associator_.push_spoilt(pulse) : associator_.push(pulse), out);
   }
 }
 
@@ -293,6 +312,13 @@ void SpinPass::collect(Association association, SpinOutput& out) {
   closed_any_ = closed_any_ || !association.closed.empty();
   std::move(association.left_over.begin(), association.left_over.end(),
             std::back_inserter(out.products));
+  for (const InterferingChannels& channels : association.began_to_interfere) {
+    out.notices.push_back(fmt::format(
+        "{}: {} and {} come too near to each other (spin.screening.interference_s = {}): as long "
+        "as they do, their edges are left out",
+        format_utc(channels.first), name_of(channels.one), name_of(channels.other),
+        config_.screening.interference_s));
+  }
   for (const Revolution& revolution : association.closed) {
     consider(revolution, out);
   }

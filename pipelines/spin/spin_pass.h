@@ -13,6 +13,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -73,7 +74,7 @@ class SpinPass {
   void take(const Pulse& pulse, SpinOutput& out);
   void take(const CodedFrame& frame, SpinOutput& out);
   void sort_out(const std::vector<Pulse>& in_time, SpinOutput& out);
-  void associate(const InterferenceWindow::Sorted& sorted, SpinOutput& out);
+  void associate(const std::vector<InterferenceWindow::Judged>& pulses, SpinOutput& out);
   void collect(Association association, SpinOutput& out);
   void consider(const Revolution& revolution, SpinOutput& out);
   void settle_first(SpinOutput& out);
@@ -88,6 +89,7 @@ class SpinPass {
   void start_again_where_moved(const SpinEstimate& sequential, SpinOutput& out);
   void forget_prior(TaiTime t, SpinOutput& out);
   void begin_anew(TaiTime t);
+  std::string silent_channels() const;
   void say_what_is_missing(SpinOutput& out) const;
   static void leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out);
   void say_once(const std::string& notice, SpinOutput& out);
@@ -109,6 +111,7 @@ class SpinPass {
   Trust trust_;
   SequentialEstimator sequential_;
   int restarts_heeded_ = 0;
+  std::array<bool, kPulseChannels> heard_{};
   bool closed_any_ = false;     ///< Revolution.
   bool left_over_any_ = false;  ///< Edge of none.
   /// Of `sequential`; empty: it never began.

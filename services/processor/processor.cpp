@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <string_view>
 #include <utility>
+
+#include "services/archive/last_run.h"
 
 namespace spindrift {
 namespace {
@@ -22,6 +25,19 @@ constexpr const char* kOthers = "(others)";
 TaiTime made_again_from(const StoredPass& stored, std::optional<TaiTime> reached) {
   const auto last = stored.last_revolution ? stored.last_revolution : stored.earliest;
   return last && reached ? std::min(*last, *reached) - kMadeAgain : TaiTime::min();
+}
+
+/// A run holds what one configuration made.
+std::string why_not_continued(const LastRun& last, const RunStart& now) {
+  std::string changed;
+  const auto note = [&](bool differs, std::string_view what) {
+    changed += differs ? fmt::format("{}{}", changed.empty() ? "" : ", ", what) : "";
+  };
+  note(last.config_sha256 != now.config_sha256, "the mission file");
+  note(last.orbit_sha256 != now.orbit_sha256, "the orbit file");
+  note(last.software_version != now.software_version, "the program");
+  note(last.telemetry != now.telemetry, "the source of telemetry");
+  return fmt::format("since run {} these have changed: {}", last.run_id, changed);
 }
 
 void append(std::vector<ArchiveBatch>& batches, std::vector<ArchiveBatch> more) {
@@ -80,6 +96,14 @@ Expected<Routed> Processor::go_on(const std::filesystem::path& archive) {
       return Unexpected{stored.error()};
     }
     if (stored->empty()) {
+      const auto last = find_last_run(archive, runs_[i].spacecraft_id(), runs_[i].start().mode);
+      if (!last) {
+        return Unexpected{last.error()};
+      }
+      if (*last) {
+        spdlog::warn("{}: a new run begins: {}: {}", runs_[i].spacecraft_id(), runs_[i].run_id(),
+                     why_not_continued(**last, runs_[i].start()));
+      }
       routed.samples.push_back(runs_[i].begin());
     } else {
       go_on(i, *stored, routed);

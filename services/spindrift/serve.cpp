@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <stop_token>
 #include <thread>
 #include <utility>
@@ -184,17 +185,33 @@ Expected<void> run(std::vector<PassInput> again, const bus::Participant& partici
   return worked;
 }
 
-}  // namespace
-
-Expected<void> serve(const ServeOptions& options) {
-  auto missions = load_missions(options.missions);
+Expected<Processor> make_processor(const ServeOptions& options) {
+  const auto missions = load_missions(options.missions);
   if (!missions) {
     return Unexpected{missions.error()};
   }
-  auto processor = Processor::make(
-      *missions,
-      {.mode = options.partition == "replay" ? "replay" : "live",
-       .telemetry = fmt::format("DDS domain {}, partition {}", options.domain, options.partition)});
+  return Processor::make(*missions, {.mode = options.partition == "replay" ? "replay" : "live",
+                                     .telemetry = fmt::format("DDS domain {}, partition {}",
+                                                              options.domain, options.partition)});
+}
+
+Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db,
+                                                Announcer& announcer) {
+  return Archive::open(
+      db,
+      {.on_write_failure = OnWriteFailure::Retry,
+       .on_committed = [&](std::span<const ArchiveBatch> stored) { announcer.committed(stored); },
+       .on_failure =
+           [](const Error& error) {
+             spdlog::critical("the archive does not store, nothing more is accepted: {}",
+                              error.message);
+           }});
+}
+
+}  // namespace
+
+Expected<void> serve(const ServeOptions& options) {
+  auto processor = make_processor(options);
   if (!processor) {
     return Unexpected{processor.error()};
   }
@@ -211,30 +228,22 @@ Expected<void> serve(const ServeOptions& options) {
     return Unexpected{publisher.error()};
   }
   Announcer announcer{*publisher};
-  auto archive = Archive::open(
-      options.db,
-      {.on_write_failure = OnWriteFailure::Retry,
-       .on_committed = [&](std::span<const ArchiveBatch> stored) { announcer.committed(stored); },
-       .on_failure =
-           [](const Error& error) {
-             spdlog::critical("the archive does not store, nothing more is accepted: {}",
-                              error.message);
-           }});
-  if (!archive) {
-    return Unexpected{archive.error()};
+  const auto opened = open_archive(options.db, announcer);
+  if (!opened) {
+    return Unexpected{opened.error()};
   }
+  Archive& archive = **opened;
   spdlog::info("archive {}", options.db.string());
 
-  auto stored = processor->go_on(options.db);
-  auto done = stored ? submit_all(**archive, std::move(stored->samples)).and_then([&] {
-    return (*archive)->flush();
-  })
-                     : Unexpected{stored.error()};
-  if (done) {
-    done =
-        run(std::move(stored->work), *participant, *publisher, *processor, **archive, stop_signal);
-  }
-  if (auto outcome = outcome_of(done, (*archive)->close()); !outcome) {
+  const auto done = processor->go_on(options.db).and_then([&](Routed stored) {
+    return submit_all(archive, std::move(stored.samples))
+        .and_then([&] { return archive.flush(); })
+        .and_then([&] {
+          return run(std::move(stored.work), *participant, *publisher, *processor, archive,
+                     stop_signal);
+        });
+  });
+  if (auto outcome = outcome_of(done, archive.close()); !outcome) {
     return outcome;
   }
   return report(*processor, options.db, options.json).map([](const std::string& text) {

@@ -34,11 +34,28 @@ Expected<void> find_bad_rows_of(const std::filesystem::path& path, BadRows& bad)
   }
 }
 
+bool is_processed(TelemetryKind kind) {
+  return kind == TelemetryKind::Pulses || kind == TelemetryKind::Coded;
+}
+
 /// A front-end that was stopped before its first line leaves such a file.
 RejectedInput empty_file(const TelemetryFile& file) {
   return {.source = file.path.string(),
           .line = 1,
           .reason = "the file is empty: must begin with a header line"};
+}
+
+Error nothing_in(std::span<const TelemetryFile> files) {
+  std::string text =
+      "no row of pulses or coded frames in the telemetry: files with the header "
+      "'t_tai_ns,channel' or 't_tai_ns,period_s,...' and rows are needed";
+  for (const TelemetryFile& file : files) {
+    text += fmt::format("\n  {}: {}", file.path.string(),
+                        !file.kind                 ? "empty, without a header"
+                        : is_processed(*file.kind) ? "no rows"
+                                                   : "other telemetry");
+  }
+  return {ErrorCode::InvalidConfiguration, text};
 }
 
 }  // namespace
@@ -83,7 +100,7 @@ Expected<TelemetryInput> TelemetryInput::open(std::span<const std::filesystem::p
     return Unexpected{std::move(files.error())};
   }
   for (const TelemetryFile& file : *files) {
-    if (file.kind && file.kind != TelemetryKind::Pulses && file.kind != TelemetryKind::Coded) {
+    if (file.kind && !is_processed(*file.kind)) {
       spdlog::warn("{}: {} telemetry is left out: this version processes pulses and coded frames",
                    file.path.string(), name_of(*file.kind));
     }
@@ -106,9 +123,7 @@ Expected<TelemetryInput> TelemetryInput::open(std::span<const std::filesystem::p
     return Unexpected{std::move(first.error())};
   }
   if (is_empty(*first)) {
-    return Unexpected{{ErrorCode::InvalidConfiguration,
-                       "no row of pulses or coded frames in the telemetry: files with the header "
-                       "'t_tai_ns,channel' or 't_tai_ns,period_s,...' and rows are needed"}};
+    return Unexpected{nothing_in(*files)};
   }
   for (const TelemetryFile& file : *files) {
     if (!file.kind) {

@@ -21,12 +21,18 @@ Pulse pulse_at(std::int64_t t_us, PulseChannel channel) {
   return {.t = tai_from_ns(t_us * kMicrosecond_ns), .channel = channel};
 }
 
-InterferenceWindow::Sorted sorted(double window_s, const std::vector<Pulse>& pulses) {
+struct Sorted {
+  std::vector<Pulse> clean;
+  std::vector<Pulse> spoilt;
+};
+
+Sorted sorted(double window_s, const std::vector<Pulse>& pulses) {
   InterferenceWindow window{window_s};
-  InterferenceWindow::Sorted all;
-  const auto collect = [&](const InterferenceWindow::Sorted& some) {
-    all.clean.insert(all.clean.end(), some.clean.begin(), some.clean.end());
-    all.spoilt.insert(all.spoilt.end(), some.spoilt.begin(), some.spoilt.end());
+  Sorted all;
+  const auto collect = [&](const std::vector<InterferenceWindow::Judged>& some) {
+    for (const auto& [pulse, spoilt] : some) {
+      (spoilt ? all.spoilt : all.clean).push_back(pulse);
+    }
   };
   for (const Pulse& pulse : pulses) {
     collect(window.push(pulse));
@@ -64,9 +70,24 @@ TEST(Interference, AnEdgeOfTheSameChannelBetweenThemHidesNothing) {
 
 TEST(Interference, WithoutAWindowEverythingPassesAtOnce) {
   InterferenceWindow window{0.0};
-  EXPECT_THAT(window.push(pulse_at(0, Sun1)).clean, ElementsAre(pulse_at(0, Sun1)));
-  EXPECT_THAT(window.push(pulse_at(0, Sun2)).clean, ElementsAre(pulse_at(0, Sun2)));
-  EXPECT_THAT(window.finish().clean, IsEmpty());
+  for (const PulseChannel channel : {Sun1, Sun2}) {
+    const InterferenceWindow::Judged clean{.pulse = pulse_at(0, channel), .spoilt = false};
+    EXPECT_THAT(window.push(clean.pulse), ElementsAre(clean));
+  }
+  EXPECT_THAT(window.finish(), IsEmpty());
+}
+
+TEST(Interference, SpoiltEdgesComeOutInOrderAmongTheOthers) {
+  InterferenceWindow window{kWindow_s};
+  std::vector<InterferenceWindow::Judged> all;
+  for (const Pulse& pulse : {pulse_at(0, Sun1), pulse_at(2000, NorthIn), pulse_at(2400, SouthIn),
+                             pulse_at(5000, Sun2)}) {
+    const auto some = window.push(pulse);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  EXPECT_THAT(all, ElementsAre(InterferenceWindow::Judged{pulse_at(0, Sun1), false},
+                               InterferenceWindow::Judged{pulse_at(2000, NorthIn), true},
+                               InterferenceWindow::Judged{pulse_at(2400, SouthIn), true}));
 }
 
 // The cost of an edge does not grow with the number of those that are held: this comes to an end.

@@ -1,0 +1,28 @@
+/// @file
+/// By what the newest run of a spacecraft was made.
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "pipelines/core/expected.h"
+
+namespace spindrift {
+
+struct LastRun {
+  std::string run_id;
+  std::string telemetry;
+  std::string software_version;
+  std::string config_sha256;
+  std::optional<std::string> orbit_sha256;  ///< Empty: the mission names no file.
+};
+
+/// @param mode Of the runs to look at.
+/// @return none when there is none; errors as find_stored_passes.
+Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& archive,
+                                               const std::string& spacecraft_id,
+                                               const std::string& mode);
+
+}  // namespace spindrift

@@ -1,0 +1,206 @@
+/// Association where two channels cross, on a link that displaces edges which come too near to each
+/// other.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <random>
+#include <vector>
+
+#include "pipelines/spin/association.h"
+#include "pipelines/spin/interference.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+using enum PulseChannel;
+
+constexpr double kPeriod_s = 1.0;
+constexpr int kTurns = 600;
+
+/// south_out falls behind north_out by `apart_s`, more by `drift_s` each turn.
+struct Crossing {
+  double window_s;
+  double apart_s;
+  double drift_s;
+};
+
+struct Edge {
+  double t_s;
+  PulseChannel channel;
+  double noise_s;  ///< By which it is off, but for interference.
+  bool met = false;
+};
+
+double apart_s(const Crossing& crossing, int turn) {
+  return crossing.apart_s + turn * crossing.drift_s;
+}
+
+std::vector<Edge> edges_of(const Crossing& crossing, const PulseNoise& noise,
+                           std::mt19937_64& rng) {
+  std::normal_distribution<double> normal;
+  std::vector<Edge> edges;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const std::array<double, kPulseChannels> behind_s = {
+        0.0, 0.11, 0.40, 0.52, 0.43, 0.52 + apart_s(crossing, turn)};
+    for (std::size_t i = 0; i < kPulseChannels; ++i) {
+      const auto channel = static_cast<PulseChannel>(i);
+      const double off_s = noise_of(noise, channel) * normal(rng);
+      edges.push_back(
+          {.t_s = turn * kPeriod_s + behind_s.at(i) + off_s, .channel = channel, .noise_s = off_s});
+    }
+  }
+  return edges;
+}
+
+/// In every turn north_out and south_out, the 4th and the 6th.
+void interfere(double window_s, std::vector<Edge>& edges, std::mt19937_64& rng) {
+  std::uniform_real_distribution<double> half{-0.5 * window_s, 0.5 * window_s};
+  for (std::size_t i = 0; i < edges.size(); i += kPulseChannels) {
+    Edge& north = edges[i + 3];
+    Edge& south = edges[i + 5];
+    if (std::abs(north.t_s - south.t_s) < window_s) {
+      north.met = south.met = true;
+      north.t_s += half(rng);
+      south.t_s += half(rng);
+    }
+  }
+}
+
+struct Outcome {
+  int met_and_good = 0;
+  int good_far_apart = 0;
+  int far_apart = 0;
+  int good = 0;  ///< Of the two.
+  int others = 0;
+  double off_sigmas = 0.0;  ///< Sum, each away from the other.
+  std::vector<InterferingChannels> began;
+  std::vector<InterferingChannels> interfering;
+};
+
+Association associate(const std::vector<Edge>& edges, const SpinConfig& config, Outcome& outcome) {
+  std::vector<Pulse> pulses;
+  for (const Edge& edge : edges) {
+    pulses.push_back({.t = shifted(tai_from_ns(0), edge.t_s), .channel = edge.channel});
+  }
+  std::sort(pulses.begin(), pulses.end());
+  InterferenceWindow window{config.screening.interference_s};
+  Associator associator{config};
+  Association all;
+  const auto collect = [&](const Association& some) {
+    all.closed.insert(all.closed.end(), some.closed.begin(), some.closed.end());
+    outcome.began.insert(outcome.began.end(), some.began_to_interfere.begin(),
+                         some.began_to_interfere.end());
+  };
+  const auto associate_all = [&](const std::vector<InterferenceWindow::Judged>& judged) {
+    for (const auto& [pulse, spoilt] : judged) {
+      collect(spoilt ? associator.push_spoilt(pulse) : associator.push(pulse));
+    }
+  };
+  for (const Pulse& pulse : pulses) {
+    associate_all(window.push(pulse));
+  }
+  associate_all(window.finish());
+  collect(associator.finish());
+  outcome.interfering = associator.interfering();
+  return all;
+}
+
+Outcome outcome_of(const Crossing& crossing, std::uint64_t seed) {
+  std::mt19937_64 rng{seed};
+  SpinConfig config = testing::usual_config();
+  config.screening.interference_s = crossing.window_s;
+  std::vector<Edge> edges = edges_of(crossing, config.noise, rng);
+  interfere(crossing.window_s, edges, rng);
+  Outcome outcome;
+  const Association all = associate(edges, config, outcome);
+  std::map<TaiTime, PulseChannel> good;
+  for (const Revolution& revolution : all.closed) {
+    for (std::size_t i = 0; i < kPulseChannels; ++i) {
+      if (const auto edge = revolution.good_edge(static_cast<PulseChannel>(i))) {
+        good.emplace(*edge, static_cast<PulseChannel>(i));
+      }
+    }
+  }
+  const double noise_s = config.noise.infrared_s;
+  const double far_s = crossing.window_s + 4.0 * std::hypot(noise_s, noise_s);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Edge& edge = edges[i];
+    const bool is_good = good.contains(shifted(tai_from_ns(0), edge.t_s));
+    if (edge.channel != NorthOut && edge.channel != SouthOut) {
+      outcome.others += is_good ? 1 : 0;
+      continue;
+    }
+    const double apart = apart_s(crossing, static_cast<int>(i / kPulseChannels));
+    const bool far = std::abs(apart) > far_s;
+    outcome.far_apart += far ? 1 : 0;
+    outcome.good_far_apart += far && is_good ? 1 : 0;
+    outcome.good += is_good ? 1 : 0;
+    outcome.met_and_good += edge.met && is_good ? 1 : 0;
+    const bool behind = (edge.channel == SouthOut) == (apart > 0.0);
+    outcome.off_sigmas += is_good ? (behind ? 1.0 : -1.0) * edge.noise_s / noise_s : 0.0;
+  }
+  return outcome;
+}
+
+// Those that escape lie too far from each other. At 2.5 sigma beyond the window that is 0.0125
+// sigma of an edge, further out less: over these passes not more than their mean's own noise, of
+// which three times is allowed.
+TEST(AssociationInterference, WhatIsKeptIsNeitherSpoiltNorBiased) {
+  for (const Crossing& crossing :
+       {Crossing{0.002, -0.0005, 1.2e-5}, Crossing{0.002, 0.0, 2.0e-5},
+        Crossing{0.004, -0.001, 2.0e-5}, Crossing{0.008, -0.014, 5e-5}}) {
+    SCOPED_TRACE(crossing.window_s);
+    SCOPED_TRACE(crossing.drift_s);
+    int good = 0;
+    int met_and_good = 0;
+    double off_sigmas = 0.0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      const Outcome outcome = outcome_of(crossing, 900 + seed);
+      good += outcome.good;
+      met_and_good += outcome.met_and_good;
+      off_sigmas += outcome.off_sigmas;
+    }
+    ASSERT_GT(good, 1000);
+    EXPECT_LT(met_and_good, good / 500);
+    EXPECT_LT(std::abs(off_sigmas), 4.0 * std::sqrt(good));
+  }
+}
+
+TEST(AssociationInterference, NothingIsLeftOutWhereChannelsAreFarFromEachOther) {
+  for (const double drift_s : {2e-5, 5e-5}) {
+    SCOPED_TRACE(drift_s);
+    const Outcome outcome =
+        outcome_of({.window_s = 0.002, .apart_s = 0.0, .drift_s = drift_s}, 930);
+    EXPECT_GE(outcome.good_far_apart, outcome.far_apart * 98 / 100);
+    EXPECT_GE(outcome.others, 4 * kTurns * 98 / 100);
+  }
+}
+
+TEST(AssociationInterference, SaysWhichChannelsInterferedAndForHowLong) {
+  const Outcome outcome = outcome_of({.window_s = 0.002, .apart_s = 0.0, .drift_s = 2e-5}, 931);
+  ASSERT_EQ(outcome.began.size(), 1U);
+  ASSERT_EQ(outcome.interfering.size(), 1U);
+  const InterferingChannels& channels = outcome.interfering.front();
+  EXPECT_EQ(channels.one, NorthOut);
+  EXPECT_EQ(channels.other, SouthOut);
+  // Until 2.5 sigma beyond the window, where nothing has shown by more than a sigma.
+  const double sigma_s = std::hypot(5e-4, 5e-4);
+  EXPECT_GT(channels.revolutions, static_cast<std::int64_t>((0.002 + 1.5 * sigma_s) / 2e-5));
+  EXPECT_LT(channels.revolutions, static_cast<std::int64_t>((0.002 + 3.5 * sigma_s) / 2e-5));
+  EXPECT_LT(channels.first, channels.last);
+}
+
+TEST(AssociationInterference, WithoutAWindowNobodyInterferes) {
+  const Outcome outcome = outcome_of({.window_s = 0.0, .apart_s = 0.0, .drift_s = 1e-6}, 932);
+  EXPECT_TRUE(outcome.interfering.empty());
+  EXPECT_GE(outcome.good, 2 * kTurns * 98 / 100);
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,41 @@
+#include "pipelines/spin/edge_use.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+namespace {
+
+using enum PulseChannel;
+
+/// Of a revolution with a north chord only, whose out-edge is rejected.
+std::optional<Rejection> use_of(PulseChannel channel, Rejection out_rejected_by) {
+  Revolution revolution{.number = 3,
+                        .edges = {},
+                        .period_candidate = {},
+                        .period = {.period_s = 1.0, .sigma_s = 0.0}};
+  revolution.edges.at(index_of(NorthIn)) = tai_from_ns(400'000'000);
+  revolution.edges.at(index_of(NorthOut)) = tai_from_ns(500'000'000);
+  revolution.edge_rejections.at(index_of(NorthOut)) = out_rejected_by;
+  const std::vector<Verdict> verdicts = {
+      {.quantity = SpinQuantity::NorthChord, .rejected_by = out_rejected_by}};
+  const auto uses = edge_uses(testing::usual_config(), revolution, verdicts);
+  const auto use = std::find_if(uses.begin(), uses.end(),
+                                [&](const PulseUse& u) { return u.pulse.channel == channel; });
+  return use->rejected_by;
+}
+
+TEST(EdgeUse, AMeasurementThatAnotherEdgeHasSpoiltSaysNothingAboutThisOne) {
+  for (const Rejection rejection : {Rejection::Phase, Rejection::Interference}) {
+    EXPECT_EQ(use_of(NorthOut, rejection), rejection);
+    EXPECT_EQ(use_of(NorthIn, rejection), std::nullopt);
+  }
+}
+
+}  // namespace
+}  // namespace spindrift
