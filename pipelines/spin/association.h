@@ -70,9 +70,9 @@ struct InterferingChannels {
 };
 
 struct Association {
-  std::vector<Revolution> closed;                       ///< In order of number.
-  std::vector<PulseUse> left_over;                      ///< Edges that found no place.
-  std::vector<InterferingChannels> began_to_interfere;  ///< In this pass for the first time.
+  std::vector<Revolution> closed;                            ///< In order of number.
+  std::vector<PulseUse> left_over;                           ///< Edges that found no place.
+  std::vector<InterferingChannels> began_to_interfere = {};  ///< In this pass for the first time.
 };
 
 class Associator {
