@@ -4,6 +4,7 @@
 #pragma once
 
 #include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Statement.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -13,6 +14,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "services/archive/archive.h"
 #include "services/archive/connection.h"
@@ -63,6 +65,16 @@ inline PulseSample pulse_at(std::int64_t t_tai_ns, std::uint64_t seq = 0) {
   return {.spacecraft = "SPINNER",
           .origin = {.source = "station", .session = 7, .seq = seq},
           .pulse = {.t = tai_from_ns(t_tai_ns), .channel = PulseChannel::Sun1}};
+}
+
+/// The first column of every row.
+inline std::vector<std::string> column(SQLite::Database& database, const std::string& query) {
+  std::vector<std::string> values;
+  SQLite::Statement statement{database, query};
+  while (statement.executeStep()) {
+    values.push_back(statement.getColumn(0).getString());
+  }
+  return values;
 }
 
 class ArchiveFixture : public ::testing::Test {

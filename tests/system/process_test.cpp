@@ -13,29 +13,18 @@
 #include "pipelines/frames/celestial.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/program.h"
+#include "tests/support/recorded_files.h"
 
 namespace spindrift {
 namespace {
 
 using ::testing::HasSubstr;
 
-const std::filesystem::path kPasses = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin";
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The last row of an estimator, behind a SELECT.
 std::string last(const std::string& estimator) {
   return " FROM spin_estimate WHERE estimator = '" + estimator + "' ORDER BY t_tai_ns DESC LIMIT 1";
-}
-
-std::vector<std::string> arguments(const std::filesystem::path& mission,
-                                   const std::filesystem::path& telemetry,
-                                   const std::filesystem::path& db) {
-  return {"process",          "--mission", mission.string(), "--telemetry",
-          telemetry.string(), "--db",      db.string(),      "--json"};
-}
-
-std::vector<std::string> arguments(const std::string& pass, const std::filesystem::path& db) {
-  return arguments(kPasses / pass / "mission.toml", kPasses / pass, db);
 }
 
 nlohmann::json truth_of(const std::string& pass) {
@@ -53,22 +42,6 @@ double error_deg(const std::filesystem::path& db, const nlohmann::json& truth,
                            place(truth["ra_deg"], truth["dec_deg"])) /
          kDegree;
 }
-
-/// A mission folder to spoil.
-struct PassCopy {
-  TemporaryFolder folder;
-  std::filesystem::path db = folder.path() / "out.db";
-
-  explicit PassCopy(const std::string& pass) {
-    for (const char* name : {"mission.toml", "orbit.oem", "pulses.csv"}) {
-      std::filesystem::copy(kPasses / pass / name, folder.path() / name);
-    }
-  }
-  std::filesystem::path mission() const { return folder.path() / "mission.toml"; }
-  std::vector<std::string> arguments_here() const {
-    return arguments(mission(), folder.path(), db);
-  }
-};
 
 struct Figure {
   const char* pass;
@@ -260,52 +233,6 @@ TEST(Process, MakesARunOfEachPass) {
   EXPECT_EQ(rows_of_run(pass.db, report[0]["run_id"]), rows_of_run(alone.path() / "out.db", run));
 }
 
-TEST(Process, CountsAndStoresBadRowsWithTheirReason) {
-  const PassCopy pass{"nominal"};
-  pass.folder.write("more.csv",
-                    "t_tai_ns,channel\n1795143637568806257,sun3\nsoon,sun1\n1795143637568806257\n");
-  Program program{pass.arguments_here()};
-  ASSERT_EQ(program.exit_status(), 0) << program.log();
-
-  EXPECT_EQ(nlohmann::json::parse(program.out())["runs"][0]["input_rejected"], 3);
-  const auto rows =
-      rows_of(pass.db, "SELECT source, line, reason FROM rejected_input ORDER BY line");
-  ASSERT_EQ(rows.size(), 3U);
-  EXPECT_THAT(rows[0], ::testing::AllOf(HasSubstr("more.csv|2|"), HasSubstr("sun3")));
-  EXPECT_THAT(rows[1], ::testing::AllOf(HasSubstr("more.csv|3|"), HasSubstr("soon")));
-  EXPECT_THAT(rows[2], HasSubstr("more.csv|4|"));
-  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3600);
-}
-
-TEST(Process, RefusesBadRowsWhenStrict) {
-  const PassCopy pass{"nominal"};
-  pass.folder.write("more.csv", "t_tai_ns,channel\n1795143637568806257,sun3\n");
-  auto strict = pass.arguments_here();
-  strict.emplace_back("--strict");
-  Program program{strict};
-  EXPECT_EQ(program.exit_status(), 2);
-  EXPECT_THAT(program.log(), HasSubstr("more.csv:2: "));
-  EXPECT_FALSE(std::filesystem::exists(pass.db));
-}
-
-TEST(Process, RefusesAnUnknownMissionKey) {
-  const PassCopy pass{"nominal"};
-  pass.folder.write("mission.toml", text_of(pass.mission()) + "\n[spin.colour]\nhue = 3\n");
-  Program program{pass.arguments_here()};
-  EXPECT_EQ(program.exit_status(), 2);
-  EXPECT_THAT(program.log(), HasSubstr("spin.colour"));
-  EXPECT_THAT(program.log(), HasSubstr("mission.toml:"));
-  EXPECT_FALSE(std::filesystem::exists(pass.db));
-}
-
-TEST(Process, RefusesAnOrbitThatCannotBeRead) {
-  const PassCopy pass{"nominal"};
-  pass.folder.write("orbit.oem", "CCSDS_OEM_VERS = 2.0\nthis is no orbit\n");
-  Program program{pass.arguments_here()};
-  EXPECT_EQ(program.exit_status(), 2);
-  EXPECT_THAT(program.log(), HasSubstr("orbit.oem"));
-}
-
 TEST(Process, StoresThePassAndSaysWhereTheOrbitDoesNotReach) {
   const PassCopy pass{"nominal"};
   std::filesystem::copy_file(kPasses / "gms5" / "orbit.oem", pass.folder.path() / "orbit.oem",
@@ -319,47 +246,6 @@ TEST(Process, StoresThePassAndSaysWhereTheOrbitDoesNotReach) {
             599);  // One sun1 lies 3 sigma off.
 }
 
-TEST(Process, RefusesADatabaseThatIsNotOursAndLeavesItAlone) {
-  const PassCopy pass{"nominal"};
-  {
-    SQLite::Database foreign{pass.db.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE};
-    foreign.exec("CREATE TABLE letters (a TEXT)");
-  }
-  const std::string before = text_of(pass.db);
-  Program program{pass.arguments_here()};
-  EXPECT_EQ(program.exit_status(), 2);
-  EXPECT_THAT(program.log(), HasSubstr(pass.db.string()));
-  EXPECT_EQ(text_of(pass.db), before);
-}
-
-TEST(Process, RefusesTelemetryWithoutARow) {
-  const PassCopy pass{"nominal"};
-  pass.folder.write("pulses.csv", "t_tai_ns,channel\n");
-  Program program{pass.arguments_here()};
-  EXPECT_EQ(program.exit_status(), 2);
-  EXPECT_THAT(program.log(), HasSubstr("no row of pulses"));
-}
-
-TEST(Process, TakesAnEmptyTelemetryFileForRejectedInputBesideOthersOnly) {
-  const PassCopy pass{"nominal"};
-  pass.folder.write("empty.csv", "");
-  Program beside{pass.arguments_here()};
-  EXPECT_EQ(beside.exit_status(), 0) << beside.log();
-  EXPECT_EQ(nlohmann::json::parse(beside.out())["runs"][0]["input_rejected"], 1);
-  const auto rows = rows_of(pass.db, "SELECT source, line, reason FROM rejected_input");
-  ASSERT_EQ(rows.size(), 1U);
-  EXPECT_THAT(rows[0], HasSubstr("empty.csv|1|the file is empty"));
-
-  auto strict = pass.arguments_here();
-  strict.emplace_back("--strict");
-  Program refused{strict};
-  EXPECT_EQ(refused.exit_status(), 2);
-
-  Program alone{arguments(pass.mission(), pass.folder.path() / "empty.csv", pass.db)};
-  EXPECT_EQ(alone.exit_status(), 2);
-  EXPECT_THAT(alone.log(), HasSubstr("no row of pulses"));
-}
-
 TEST(Process, CountsAnEdgeThatIsSentTwiceOnceAmongTheStored) {
   const PassCopy pass{"nominal"};
   pass.folder.write("again.csv", text_of(pass.folder.path() / "pulses.csv"));
@@ -368,14 +254,6 @@ TEST(Process, CountsAnEdgeThatIsSentTwiceOnceAmongTheStored) {
   const auto run = nlohmann::json::parse(program.out())["runs"][0];
   EXPECT_EQ(run["edges_received"], 7200);
   EXPECT_EQ(run["edges_stored"], 3600);
-}
-
-TEST(Process, RefusesAnArchiveWhereNoFileCanBe) {
-  for (const char* const db : {"/no/folder/out.db", "/proc/out.db"}) {
-    Program program{arguments("nominal", db)};
-    EXPECT_EQ(program.exit_status(), 2) << program.log();
-    EXPECT_THAT(program.log(), HasSubstr("/"));
-  }
 }
 
 TEST(Process, SaysOnceThatPulsesAndCodedFramesOfASpacecraftCame) {
@@ -389,59 +267,6 @@ TEST(Process, SaysOnceThatPulsesAndCodedFramesOfASpacecraftCame) {
   const std::string log = program.log();
   EXPECT_THAT(log, HasSubstr(words));
   EXPECT_EQ(log.find(words), log.rfind(words));
-}
-
-TEST(Process, CountsEveryKindOfImpossibleRowAndKeepsTheRest) {
-  const PassCopy pass{"nominal"};
-  const std::vector<std::string> rows = {
-      "-8520336000000000000,sun1",       // The year 1700.
-      "19880899200000000000,sun1",       // The year 2600, beyond 64 bits.
-      "9223372036854775807,sun1",        // The year 2262.
-      "-9223372036854775808,sun1",       //
-      "nan,sun1",                        //
-      "inf,sun2",                        //
-      "-inf,sun2",                       //
-      "noon,north_in",                   //
-      "1795143637568806257,sun3",        //
-      "1795143637568806257,",            //
-      "1795143637568806257",             //
-      "17951436375",                     // Cut in half.
-      "1795143637568806257,sun1,sun2"};  //
-  std::string text = "t_tai_ns,channel\r\n";
-  for (const std::string& row : rows) {
-    text += row + "\r\n";
-  }
-  pass.folder.write("bad.csv", text);
-  Program program{pass.arguments_here()};
-  ASSERT_EQ(program.exit_status(), 0) << program.log();
-  EXPECT_EQ(nlohmann::json::parse(program.out())["runs"][0]["input_rejected"], rows.size());
-  EXPECT_EQ(
-      number_of(pass.db,
-                "SELECT count(DISTINCT line) FROM rejected_input WHERE source LIKE '%/bad.csv'"
-                " AND reason != '' AND line BETWEEN 2 AND 14"),
-      static_cast<std::int64_t>(rows.size()));
-  EXPECT_THAT(program.log(), HasSubstr("13 bad rows of telemetry"));
-  const auto clean = pass.folder.path() / "clean.db";
-  Program without_bad_rows{arguments("nominal", clean)};
-  ASSERT_EQ(without_bad_rows.exit_status(), 0) << without_bad_rows.log();
-  EXPECT_EQ(product_rows(pass.db), product_rows(clean));
-}
-
-TEST(Process, CountsImpossibleCodedFrames) {
-  const PassCopy pass{"nominal"};
-  pass.folder.write("coded.csv",
-                    "t_tai_ns,period_s,sun2_s,north_in_s,north_out_s,south_in_s,south_out_s\n"
-                    "1795143637568985513,nan,0.07932,,,,\n"
-                    "1795143637568985513,1.0,inf,,,,\n"
-                    "1795143637568985513,-1.0,,,,,\n"
-                    "1795143637568985513,1.0,1.5,,,,\n"
-                    "1795143637568985513,1.0,0.07\n");
-  Program program{pass.arguments_here()};
-  ASSERT_EQ(program.exit_status(), 0) << program.log();
-  EXPECT_THAT(rows_of(pass.db, "SELECT reason FROM rejected_input ORDER BY line"),
-              ::testing::ElementsAre(HasSubstr("period_s = \"nan\""), HasSubstr("sun2_s = \"inf\""),
-                                     HasSubstr("period_s = -1"), HasSubstr("sun2_s = 1.5"),
-                                     HasSubstr("has 3 columns, must have 7")));
 }
 
 TEST(Process, GivesTheSameRowsWhateverFilesThePulsesStandIn) {
@@ -489,14 +314,6 @@ TEST(Process, ReadsALargeFileInBoundedMemory) {
   EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse_use WHERE rejected_by = 'late'"), 0);
 }
 
-TEST(Process, RefusesTelemetryWithAnUnknownHeader) {
-  const PassCopy pass{"nominal"};
-  pass.folder.write("notes.csv", "when,what\n1,2\n");
-  Program program{pass.arguments_here()};
-  EXPECT_EQ(program.exit_status(), 2);
-  EXPECT_THAT(program.log(), HasSubstr("notes.csv:1"));
-}
-
 TEST(Process, CountsAndLeavesTheEdgesOfAnotherSpacecraft) {
   const PassCopy pass{"nominal"};
   pass.folder.write("other.csv", "t_tai_ns,channel,spacecraft\n1795143637568806257,sun1,OTHER\n");
@@ -507,64 +324,6 @@ TEST(Process, CountsAndLeavesTheEdgesOfAnotherSpacecraft) {
   EXPECT_THAT(program.log(), HasSubstr("'OTHER'"));
   EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM rejected_input"), 0);
   EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3600);
-}
-
-TEST(CommandLine, IsRefusedWithTwoWhenBad) {
-  for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{
-           {},
-           {"process"},
-           {"levitate"},
-           {"replay", "--mission", "m", "--telemetry", "t", "--speed", "-1"},
-           {"replay", "--mission", "m", "--telemetry", "t", "--speed", "nan"},
-           {"replay", "--mission", "m", "--telemetry", "t", "--speed", "inf"},
-           {"replay", "--mission", "m", "--telemetry", "t", "--speed", "1e-9"},
-           {"replay", "--mission", "m", "--telemetry", "t", "--speed", "1000001"},
-           {"replay", "--mission", "m", "--telemetry", "t", "--partition", ""},
-           {"replay", "--mission", "m", "--telemetry", "t", "--partition", "li*"},
-           {"serve", "--mission", "m", "--db", "d", "--partition", "liv?"},
-           {"serve", "--mission", "m", "--db", "d", "--partition", "[l]ive"},
-           {"serve", "--mission", "m", "--db", "d", "--domain", "999"}}) {
-    SCOPED_TRACE(bad.empty() ? "" : bad.back());
-    Program program{bad};
-    EXPECT_EQ(program.exit_status(), 2);
-    // Of the command line itself, before any file is looked for.
-    EXPECT_THAT(program.log(), HasSubstr("--help"));
-    EXPECT_EQ(program.out(), "");
-  }
-}
-
-TEST(CommandLine, AnswersAFailureWithOneObjectWhenAskedForJson) {
-  for (const std::vector<std::string>& bad :
-       std::vector<std::vector<std::string>>{{"process", "--json"},
-                                             {"process", "--mission", "/no/mission.toml",
-                                              "--telemetry", "t", "--db", "d", "--json"}}) {
-    Program program{bad};
-    EXPECT_EQ(program.exit_status(), 2);
-    const std::string error = nlohmann::json::parse(program.out()).at("error");
-    EXPECT_NE(error, "");
-    EXPECT_THAT(program.log(), HasSubstr(error));
-  }
-}
-
-TEST(CommandLine, RefusesAnArchiveWithoutAName) {
-  Program program{arguments("nominal", "")};
-  EXPECT_EQ(program.exit_status(), 2) << program.log();
-}
-
-TEST(CommandLine, FailsWhenItsAnswerCannotBeWritten) {
-  const TemporaryFolder folder;
-  Program program{arguments("north-only", folder.path() / "out.db"), 0, "/dev/full"};
-  EXPECT_EQ(program.exit_status(), 1);
-  EXPECT_THAT(program.log(), HasSubstr("standard output"));
-}
-
-TEST(CommandLine, TellsItsVersionAndHelp) {
-  Program version{{"--version"}};
-  EXPECT_EQ(version.exit_status(), 0);
-  EXPECT_THAT(version.out(), HasSubstr("spindrift "));
-  Program help{{"serve", "--help"}};
-  EXPECT_EQ(help.exit_status(), 0);
-  EXPECT_THAT(help.out(), HasSubstr("--partition"));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <spindrift.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -16,6 +15,7 @@
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"
 #include "tests/support/program.h"
+#include "tests/support/service.h"
 
 namespace spindrift {
 namespace {
@@ -23,53 +23,6 @@ namespace {
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using ::testing::UnorderedElementsAre;
-
-const std::filesystem::path kPasses = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin";
-
-/// A service of its own for one test.
-class Service {
- public:
-  explicit Service(std::string pass, const std::string& partition = "", int largest_file_kib = 0)
-      : bus_{bus_of_its_own()}, pass_{std::move(pass)} {
-    if (!partition.empty()) {
-      bus_.partition = partition;
-    }
-    start(largest_file_kib);
-  }
-
-  void start(int largest_file_kib = 0) {
-    program_.emplace(
-        std::vector<std::string>{"serve", "--mission", mission(), "--db", db().string(), "--domain",
-                                 std::to_string(bus_.domain), "--partition", bus_.partition,
-                                 "--json"},
-        largest_file_kib);
-  }
-
-  Program& program() { return *program_; }
-  const bus::BusConfig& bus() const { return bus_; }
-  std::filesystem::path db() const { return folder_.path() / "served.db"; }
-  std::string mission() const { return (kPasses / pass_ / "mission.toml").string(); }
-
-  bool ready() const { return program_->says("ready"); }
-
-  int replay(const std::string& speed) const {
-    Program replay{{"replay", "--mission", mission(), "--telemetry", (kPasses / pass_).string(),
-                    "--speed", speed, "--domain", std::to_string(bus_.domain), "--partition",
-                    bus_.partition}};
-    return replay.exit_status();
-  }
-
-  int stop() {
-    program_->signal(SIGTERM);
-    return program_->exit_status();
-  }
-
- private:
-  TemporaryFolder folder_;
-  bus::BusConfig bus_;
-  std::string pass_;
-  std::optional<Program> program_;
-};
 
 TEST(Serve, GivesTheRowsOfProcessBitForBit) {
   Service service{"gms5"};
@@ -243,187 +196,6 @@ TEST(Serve, RefusesASecondWriterAndNamesTheHolder) {
   EXPECT_THAT(second.log(), HasSubstr("pid"));
   ASSERT_EQ(service.stop(), 0) << service.program().log();
 }
-
-TEST(Serve, LeavesAWholeArchiveWhenKilled) {
-  Service service{"gms5"};
-  ASSERT_TRUE(service.ready()) << service.program().log();
-  Program replay{{"replay", "--mission", service.mission(), "--telemetry",
-                  (kPasses / "gms5").string(), "--speed", "100", "--domain",
-                  std::to_string(service.bus().domain), "--partition", service.bus().partition}};
-  ASSERT_TRUE(eventually([&] {
-    return std::filesystem::exists(service.db()) &&
-           number_of(service.db(), "SELECT count(*) FROM spin_estimate") > 50;
-  }));
-  service.program().signal(SIGKILL);
-  EXPECT_EQ(service.program().exit_status(), -1);
-  replay.signal(SIGKILL);
-
-  EXPECT_EQ(rows_of(service.db(), "PRAGMA integrity_check"), std::vector<std::string>{"ok|"});
-  EXPECT_EQ(rows_of(service.db(), "PRAGMA foreign_key_check"), std::vector<std::string>{});
-  // The edges of these sources are counted in the transaction that stores them.
-  EXPECT_EQ(number_of(service.db(), "SELECT received FROM source_count"),
-            number_of(service.db(), "SELECT count(*) FROM pulse"));
-  // No result without the edges that it rests on.
-  EXPECT_EQ(number_of(service.db(),
-                      "SELECT count(*) FROM pulse_use LEFT JOIN pulse USING"
-                      " (spacecraft_id, t_tai_ns, channel) WHERE pulse.t_tai_ns IS NULL"),
-            0);
-}
-
-/// A front-end, and the pulses of a recorded pass to send.
-class FrontEnd {
- public:
-  FrontEnd(const bus::BusConfig& bus, std::string spacecraft, std::vector<Pulse> pulses)
-      : spacecraft_{std::move(spacecraft)},
-        participant_{bus::Participant::create(bus).value()},
-        publisher_{PulsePublisher::create(participant_, "front-end").value()},
-        pulses_{std::move(pulses)} {}
-
-  /// Those from where it is to `share` of all. @return false when nobody takes them.
-  bool send_until(double share) {
-    const auto end = static_cast<std::size_t>(share * static_cast<double>(pulses_.size()));
-    if (!publisher_.wait_for_subscriber(30s)) {
-      return false;
-    }
-    for (; next_ < end; ++next_) {
-      if (!publisher_.publish(spacecraft_, pulses_[next_], std::stop_token{})) {
-        return false;
-      }
-    }
-    return publisher_.wait_for_acknowledgments(30s).has_value();
-  }
-
- private:
-  std::string spacecraft_;
-  bus::Participant participant_;
-  PulsePublisher publisher_;
-  std::vector<Pulse> pulses_;
-  std::size_t next_ = 0;
-};
-
-/// As they would be sent, but that every 97th comes 50 later: late by seconds, or within the
-/// reorder window.
-std::vector<Pulse> disordered_pulses(const std::string& pass) {
-  const TemporaryFolder folder;
-  const auto db = folder.path() / "processed.db";
-  Program process{{"process", "--mission", (kPasses / pass / "mission.toml").string(),
-                   "--telemetry", (kPasses / pass).string(), "--db", db.string()}};
-  EXPECT_EQ(process.exit_status(), 0) << process.log();
-  const SQLite::Database database{db.string(), SQLite::OPEN_READONLY};
-  SQLite::Statement rows{database, "SELECT t_tai_ns, channel FROM pulse ORDER BY t_tai_ns"};
-  std::vector<Pulse> pulses;
-  while (rows.executeStep()) {
-    pulses.push_back({.t = tai_from_ns(rows.getColumn(0).getInt64()),
-                      .channel = pulse_channel_from(rows.getColumn(1).getText()).value()});
-  }
-  for (std::size_t i = 0; i + 50 < pulses.size(); i += 97) {
-    const auto first = pulses.begin() + static_cast<std::ptrdiff_t>(i);
-    std::rotate(first, first + 1, first + 50);
-  }
-  return pulses;
-}
-
-class ServeRestart : public ::testing::TestWithParam<int> {};
-
-TEST_P(ServeRestart, IntoARunningPassGivesWhatNoRestartWouldHave) {
-  const std::vector<Pulse> pulses = disordered_pulses("gms5");
-  Service whole{"gms5"};
-  ASSERT_TRUE(whole.ready()) << whole.program().log();
-  ASSERT_TRUE((FrontEnd{whole.bus(), "GMS-5", pulses}.send_until(1.0)));
-  ASSERT_EQ(whole.stop(), 0) << whole.program().log();
-  ASSERT_GT(number_of(whole.db(), "SELECT count(*) FROM pulse_use WHERE rejected_by = 'late'"), 0);
-
-  Service service{"gms5"};
-  FrontEnd front_end{service.bus(), "GMS-5", pulses};
-  for (const double share : {0.02, 0.5}) {
-    ASSERT_TRUE(service.ready()) << service.program().log();
-    ASSERT_TRUE(front_end.send_until(share));
-    service.program().signal(GetParam());
-    ASSERT_EQ(service.program().exit_status(), GetParam() == SIGKILL ? -1 : 0);
-    service.start();
-  }
-  ASSERT_TRUE(service.ready()) << service.program().log();
-  ASSERT_TRUE(front_end.send_until(1.0));
-  EXPECT_TRUE(eventually([&] {
-    return number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NULL") == 1;
-  }));
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
-
-  EXPECT_THAT(service.program().log(), HasSubstr("continuing run"));
-  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NOT NULL"), 1);
-  EXPECT_EQ(product_rows(service.db()), product_rows(whole.db()));
-  const auto report = nlohmann::json::parse(service.program().out());
-  EXPECT_EQ(report["runs"][0]["revolutions"],
-            nlohmann::json::parse(whole.program().out())["runs"][0]["revolutions"]);
-}
-
-INSTANTIATE_TEST_SUITE_P(Signals, ServeRestart, ::testing::Values(SIGKILL, SIGTERM),
-                         [](const auto& signal) {
-                           return signal.param == SIGKILL ? "Kill" : "Term";
-                         });
-
-TEST(Serve, PublishesWhatIsInForceAgainAfterARestart) {
-  Service service{"nominal"};
-  ASSERT_TRUE(service.ready()) << service.program().log();
-  ASSERT_EQ(service.replay("0"), 0);
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
-  service.start();
-  const auto participant = bus::Participant::create(service.bus()).value();
-  const auto estimates = bus::Reader<spindrift_SpinEstimate>::create(
-                             participant, bus::kSpinEstimateTopic, bus::results_qos())
-                             .value();
-  const auto estimate = take_samples(estimates, 1);
-  ASSERT_FALSE(estimate.empty());
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
-}
-
-/// Two passes of one second a revolution with just over an hour between them.
-std::vector<Pulse> two_passes() {
-  const auto pulse_at = [](std::int64_t t_s) {
-    return Pulse{.t = tai_from_ns(kTestTime_tai_ns + t_s * 1'000'000'000),
-                 .channel = PulseChannel::Sun1};
-  };
-  std::vector<Pulse> pulses;
-  for (std::int64_t t_s = 0; t_s < 100; ++t_s) {
-    pulses.push_back(pulse_at(t_s));
-  }
-  for (std::int64_t t_s = 99 + 3601; t_s < 3800; ++t_s) {
-    pulses.push_back(pulse_at(t_s));
-  }
-  return pulses;
-}
-
-/// Of a service that is restarted when it has got so much of `two_passes`; 1: that never is.
-class ServeTwoPasses : public ::testing::TestWithParam<double> {};
-
-TEST_P(ServeTwoPasses, MakesTwoRunsHoweverTheServiceIsRestarted) {
-  Service service{"nominal"};
-  ASSERT_TRUE(service.ready()) << service.program().log();
-  const std::vector<Pulse> pulses = two_passes();
-  FrontEnd front_end{service.bus(), "SPINNER", pulses};
-  ASSERT_TRUE(front_end.send_until(GetParam()));
-  if (GetParam() < 1.0) {
-    ASSERT_EQ(service.stop(), 0) << service.program().log();
-    service.start();
-    // What the front-end still has of the old pass comes again first, and tells nothing.
-    ASSERT_TRUE(front_end.send_until(1.0));
-  }
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
-
-  EXPECT_EQ(rows_of(service.db(),
-                    "SELECT min(t_tai_ns), min(revolution), max(revolution), count(*)"
-                    " FROM revolution GROUP BY run_id ORDER BY 1"),
-            (std::vector<std::string>{std::to_string(tai_ns(pulses.at(0).t)) + "|0|99|100|",
-                                      std::to_string(tai_ns(pulses.at(100).t)) + "|0|99|100|"}));
-  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NOT NULL"), 2);
-  EXPECT_EQ(rows_of(service.db(), "SELECT first_tai_ns FROM run ORDER BY first_arrival"),
-            (std::vector<std::string>{std::to_string(tai_ns(pulses.at(0).t)) + "|",
-                                      std::to_string(tai_ns(pulses.at(100).t)) + "|"}));
-  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM pulse_use"), 200);
-}
-
-// Before the silence, while the new pass is not believed yet, never.
-INSTANTIATE_TEST_SUITE_P(After, ServeTwoPasses, ::testing::Values(0.5, 0.515, 1.0));
 
 TEST(Serve, StopsAcceptingLoudlyWhenTheDiskIsFullAndEndsWithOne) {
   Service service{"gms5", "", 600};

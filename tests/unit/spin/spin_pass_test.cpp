@@ -236,6 +236,27 @@ TEST(SpinPass, OutsideTheOrbitMeasurementsStandWithoutAFix) {
   EXPECT_NE(output.notices.back().find("revolutions outside it"), std::string::npos);
 }
 
+TEST(SpinPass, SaysInTheEndWhichChannelsWereSilentThroughout) {
+  RecordedPass pass = recorded_pass("nominal");
+  const auto silent = [&] {
+    const SpinOutput output = run(pass);
+    const auto notice =
+        std::find_if(output.notices.begin(), output.notices.end(),
+                     [](const std::string& text) { return text.starts_with("no edge at all"); });
+    return notice == output.notices.end() ? std::string{} : *notice;
+  };
+  EXPECT_EQ(silent(), "");
+  pass.pulses.erase(std::remove_if(pass.pulses.begin(), pass.pulses.end(),
+                                   [](const Pulse& pulse) {
+                                     return pulse.channel == PulseChannel::Sun2 ||
+                                            pulse.channel == PulseChannel::NorthIn;
+                                   }),
+                    pass.pulses.end());
+  EXPECT_EQ(silent(), "no edge at all came from sun2, north_in");
+  pass.config.north.reset();
+  EXPECT_EQ(silent(), "no edge at all came from sun2");
+}
+
 TEST(SpinPass, AnEmptyPassGivesNothing) {
   const RecordedPass pass = recorded_pass("nominal");
   const SpinOutput output = run(SpinPass{pass.config, pass.orbit}, std::vector<Pulse>{});

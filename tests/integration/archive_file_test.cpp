@@ -1,0 +1,254 @@
+#include <SQLiteCpp/Exception.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/archive/archive.h"
+#include "services/archive/schema.h"
+#include "tests/integration/archive_fixture.h"
+
+namespace spindrift {
+
+namespace embedded {
+extern const char* const schema_0001_tables;
+}
+
+namespace {
+
+using ::testing::HasSubstr;
+using testing::start_of;
+
+class ArchiveFile : public testing::ArchiveFixture {};
+using Archive = spindrift::Archive;
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file{path, std::ios::binary};
+  return {std::istreambuf_iterator<char>{file}, {}};
+}
+
+std::size_t files_in(const std::filesystem::path& directory) {
+  return static_cast<std::size_t>(
+      std::distance(std::filesystem::directory_iterator{directory}, {}));
+}
+
+TEST_F(ArchiveFile, SecondWriterIsRefusedWithTheHolderNamed) {
+  const auto archive = open();
+  const std::filesystem::path link = directory() / "link.db";
+  std::filesystem::create_symlink(path(), link);
+
+  for (const std::filesystem::path& name : {path(), link}) {
+    const auto second = Archive::open(name, {});
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().code, ErrorCode::Unavailable);
+    EXPECT_THAT(second.error().message,
+                HasSubstr("is being written by pid " + std::to_string(getpid()) + " ("));
+  }
+}
+
+TEST_F(ArchiveFile, LockOfAKilledWriterBlocksNobody) {
+  std::array<int, 2> ready{};
+  ASSERT_EQ(pipe(ready.data()), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    const auto archive = open();
+    static_cast<void>(write(ready[1], "!", 1));
+    pause();
+    _exit(0);
+  }
+  close(ready[1]);
+  char byte = 0;
+  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  close(ready[0]);
+
+  const auto refused = Archive::open(path(), {});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("pid " + std::to_string(child)));
+
+  ASSERT_EQ(kill(child, SIGKILL), 0);
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  EXPECT_TRUE(std::filesystem::exists(path().string() + ".lock"));
+  EXPECT_TRUE(Archive::open(path(), {}));
+}
+
+TEST_F(ArchiveFile, FileThatIsNotSqliteIsRefusedAndLeftUntouched) {
+  for (const std::string& content :
+       {std::string{"t_tai_ns,channel\n1,sun1\n"}, std::string{"SQLite format 3\0", 16},
+        std::string(4096, 'x')}) {
+    std::ofstream{path(), std::ios::binary | std::ios::trunc} << content;
+
+    const auto archive = Archive::open(path(), {});
+    ASSERT_FALSE(archive);
+    EXPECT_EQ(archive.error().code, ErrorCode::InvalidConfiguration);
+    EXPECT_THAT(archive.error().message, HasSubstr("is not an archive"));
+    EXPECT_EQ(bytes_of(path()), content);
+    EXPECT_EQ(files_in(directory()), 1U);
+  }
+}
+
+TEST_F(ArchiveFile, DatabaseOfAnotherProgramIsRefusedAndLeftUntouched) {
+  SQLite::Database{path().string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE}.exec(
+      "PRAGMA application_id = 42; PRAGMA journal_mode = WAL; CREATE TABLE pulse (x)");
+  const std::string before = bytes_of(path());
+
+  for (const auto& error : {Archive::open(path(), {}).error(), open_for_reading(path()).error()}) {
+    EXPECT_EQ(error.code, ErrorCode::InvalidConfiguration);
+    EXPECT_THAT(error.message, HasSubstr("application_id 42"));
+  }
+  EXPECT_EQ(bytes_of(path()), before);
+  EXPECT_EQ(files_in(directory()), 1U);
+}
+
+TEST_F(ArchiveFile, NewerSchemaIsRefusedWithBothVersions) {
+  ASSERT_TRUE(open()->close());
+  SQLite::Database{path().string(), SQLite::OPEN_READWRITE}.exec("PRAGMA user_version = 99");
+
+  const auto archive = Archive::open(path(), {});
+  ASSERT_FALSE(archive);
+  EXPECT_EQ(archive.error().code, ErrorCode::InvalidConfiguration);
+  EXPECT_THAT(archive.error().message, HasSubstr("schema version 99"));
+  EXPECT_THAT(archive.error().message,
+              HasSubstr("writes version " + std::to_string(archive_schema_version())));
+}
+
+TEST_F(ArchiveFile, SchemaVersionThatNoArchiveHasIsRefused) {
+  ASSERT_TRUE(open()->close());
+  for (const std::string version : {"0", "-1", "-2147483648"}) {
+    SQLite::Database{path().string(), SQLite::OPEN_READWRITE}.exec("PRAGMA user_version = " +
+                                                                   version);
+    const auto archive = Archive::open(path(), {});
+    ASSERT_FALSE(archive);
+    EXPECT_EQ(archive.error().code, ErrorCode::InvalidConfiguration);
+    EXPECT_THAT(archive.error().message, HasSubstr("schema version " + version + ", which no"));
+  }
+}
+
+TEST_F(ArchiveFile, EmptyFileBecomesAnArchive) {
+  std::ofstream{path()}.close();
+  ASSERT_TRUE(open()->close());
+  EXPECT_EQ(number("PRAGMA application_id"), kArchiveApplicationId);
+}
+
+TEST_F(ArchiveFile, OlderSchemaIsBroughtForwardWithItsRows) {
+  {
+    SQLite::Database old{path().string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE};
+    old.exec("PRAGMA application_id = " + std::to_string(kArchiveApplicationId));
+    old.exec(embedded::schema_0001_tables);
+    old.exec(
+        "PRAGMA user_version = 1; INSERT INTO spacecraft VALUES ('OLD', 'Old', 'spin');"
+        "INSERT INTO pulse VALUES ('OLD', 1000000000, 'sun2', 'station', 7, 3)");
+  }
+  ASSERT_TRUE(open()->close());
+
+  EXPECT_EQ(number("PRAGMA user_version"), archive_schema_version());
+  EXPECT_EQ(text("SELECT name FROM spacecraft"), "Old");
+  EXPECT_EQ(text("SELECT spacecraft_id || channel || source || session || seq FROM pulse"),
+            "OLDsun2station73");
+  EXPECT_EQ(number("SELECT count(*) FROM pulse_utc WHERE arrival IS NULL"), 1);
+  EXPECT_EQ(number("SELECT count(*) FROM pass_answer"), 0);
+}
+
+TEST_F(ArchiveFile, TablesOfEveryEdgeTakeNoOtherNamesThanThoseOfTheContract) {
+  ASSERT_TRUE(open()->close());
+  SQLite::Database raw{path().string(), SQLite::OPEN_READWRITE};
+  raw.exec("INSERT INTO spacecraft VALUES ('A', 'A', 'spin')");
+  const std::string run =
+      "INSERT INTO run VALUES ('r', 'A', 'live', '', '', '', NULL, '', '', NULL, 0, 0)";
+  raw.exec(run);
+  const auto takes = [&raw](const std::string& values) {
+    return raw.tryExec("INSERT INTO " + values) == SQLite::OK;
+  };
+  for (const char* channel :
+       {"sun1", "sun2", "north_in", "north_out", "south_in", "south_out", "Sun1", "", "sun"}) {
+    const bool known = pulse_channel_from(channel).has_value();
+    EXPECT_EQ(takes(fmt::format("pulse VALUES ('A', 1, '{}', '', 0, 0, 0)", channel)), known);
+    EXPECT_EQ(takes(fmt::format("pulse_use VALUES ('r', 'A', 1, '{}', 1, 1, NULL)", channel)),
+              known);
+  }
+  EXPECT_TRUE(takes("spin_measurement VALUES ('r', 1, 'mixed_azimuth', 1, 'deg', 1, 1, NULL)"));
+  EXPECT_FALSE(takes("spin_measurement VALUES ('r', 1, 'azimuth', 1, 'deg', 1, 1, NULL)"));
+  EXPECT_TRUE(
+      takes("spin_fix VALUES ('r', 1, 1, 1, 1, 1, 1, 1, 0, 1, NULL, NULL, 'AMBIGUOUS', 1, 1)"));
+  EXPECT_FALSE(takes("spin_fix VALUES ('r', 2, 1, 1, 1, 1, 1, 1, 0, 1, NULL, NULL, 'NONE', 1, 1)"));
+  EXPECT_TRUE(takes("spin_estimate VALUES ('r', 1, 'batch', 1, 1, 1, 1, 0, 1, 1, 1, 'OK')"));
+  EXPECT_FALSE(takes("spin_estimate VALUES ('r', 1, 'mode', 1, 1, 1, 1, 0, 1, 1, 1, 'OK')"));
+}
+
+TEST_F(ArchiveFile, PathThatCannotBeThatOfAFileIsRefusedAndLeavesNoLock) {
+  const std::filesystem::path folder = directory() / "folder";
+  std::filesystem::create_directory(folder);
+  std::ofstream{directory() / "file"}.close();
+  const std::vector<std::pair<std::filesystem::path, std::string>> cases = {
+      {"", "archive \"\": must be the path of a file"},
+      {folder, "is a directory, must be a file"},
+      {"/dev/null", "is not a regular file"},
+      {directory() / "absent" / "pass.db", "there is no directory " + directory().string()},
+      {directory() / "file" / "pass.db", "there is no directory " + directory().string()},
+      {directory() / "absent/", "there is no directory " + directory().string()}};
+  for (const auto& [bad, message] : cases) {
+    const auto archive = Archive::open(bad, {});
+    ASSERT_FALSE(archive) << bad;
+    EXPECT_EQ(archive.error().code, ErrorCode::InvalidConfiguration) << bad;
+    EXPECT_THAT(archive.error().message, HasSubstr(message));
+    EXPECT_FALSE(std::filesystem::exists(bad.string() + ".lock"));
+  }
+  EXPECT_EQ(files_in(directory()), 2U);
+  EXPECT_EQ(files_in(folder), 0U);
+}
+
+TEST_F(ArchiveFile, RelativePathIsThatOfTheSameFile) {
+  const auto archive = open();
+  const auto again = Archive::open(std::filesystem::relative(path()), {});
+  ASSERT_FALSE(again);
+  EXPECT_THAT(again.error().message, HasSubstr("is being written by"));
+}
+
+TEST_F(ArchiveFile, FolderThatTakesNoFilesIsAnError) {
+  const auto archive = Archive::open("/proc/pass.db", {});
+  ASSERT_FALSE(archive);
+  EXPECT_EQ(archive.error().code, ErrorCode::InvalidConfiguration);
+  EXPECT_THAT(archive.error().message, HasSubstr("cannot lock /proc/pass.db.lock"));
+}
+
+TEST_F(ArchiveFile, ReaderSeesWhatIsCommittedAndCannotWrite) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(start_of("run-1")));
+  ASSERT_TRUE(archive->flush());
+
+  SQLite::Database database = reader();
+  EXPECT_EQ(database.execAndGet("SELECT count(*) FROM run").getInt(), 1);
+  EXPECT_THROW(database.exec("DELETE FROM run"), SQLite::Exception);
+}
+
+// A process that lost its lock would see another one's sqlite3 delete the log under its feet.
+TEST_F(ArchiveFile, LookingAtTheFileLeavesItsWriterTheLocks) {
+  constexpr off_t kSqliteSharedFirst = 0x40000002;
+  const auto archive = open();
+  EXPECT_EQ(number("SELECT count(*) FROM run"), 0);
+  EXPECT_FALSE(Archive::open(path(), {}));
+
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): POSIX has no other open
+  const int probe = ::open(path().c_str(), O_RDWR | O_CLOEXEC);
+  struct flock wanted {};
+  wanted.l_type = F_WRLCK;
+  wanted.l_whence = SEEK_SET;
+  wanted.l_start = kSqliteSharedFirst;
+  wanted.l_len = 1;
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): nor another fcntl
+  ASSERT_EQ(fcntl(probe, F_OFD_GETLK, &wanted), 0);
+  EXPECT_EQ(wanted.l_type, F_RDLCK);
+  ::close(probe);
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,277 @@
+#include <SQLiteCpp/Statement.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/time/utc.h"
+#include "services/archive/archive.h"
+#include "tests/integration/archive_fixture.h"
+
+namespace spindrift {
+namespace {
+
+using testing::column;
+using ::testing::ElementsAre;
+using testing::pulse_at;
+using testing::start_of;
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+// The product of a few doubles near 1, and degrees of a circle: a few ulps of 360.
+constexpr double kDegTolerance = 1e-12;
+
+class ArchiveProducts : public testing::ArchiveFixture {};
+using Archive = spindrift::Archive;
+
+SpinFix fix_at(double ra_deg, double dec_deg) {
+  const double east_sigma_rad = 0.03 * kRadPerDeg;
+  const double north_sigma_rad = 0.04 * kRadPerDeg;
+  return {
+      .revolution = 12,
+      .t = tai_from_ns(1'000'000'000),
+      .geometry_case = 3,
+      .axis_icrf = direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg}),
+      .covariance_rad2 =
+          Eigen::Vector2d{east_sigma_rad * east_sigma_rad, north_sigma_rad * north_sigma_rad}
+              .asDiagonal(),
+      .alternate_axes_icrf = {},
+      .resolution = Resolution::Geometry,
+      .norm = 1.0,
+      .accepted = true};
+}
+
+SpinEstimate estimate_at(std::int64_t t_tai_ns, SpinEstimator estimator, double dec_deg) {
+  return {.t = tai_from_ns(t_tai_ns),
+          .estimator = estimator,
+          .axis_icrf = direction_icrf({.ra_rad = 1.0, .dec_rad = dec_deg * kRadPerDeg}),
+          .covariance_rad2 = Eigen::Matrix2d{{4e-8, 1e-8}, {1e-8, 5e-8}},
+          .spin_rate_rad_s = 100.0 * std::numbers::pi / 30.0,
+          .spin_rate_sigma_rad_s = 0.01 * std::numbers::pi / 30.0,
+          .status = "OK"};
+}
+
+TEST_F(ArchiveProducts, ProductsOfTwoRunsStandSideBySide) {
+  const auto archive = open();
+  for (const std::string run_id : {"run-1", "run-2"}) {
+    ArchiveBatch batch = start_of(run_id);
+    batch.products = {fix_at(100.0, -55.0)};
+    ASSERT_TRUE(archive->submit(batch));
+  }
+  ASSERT_TRUE(archive->flush());
+
+  EXPECT_EQ(number("SELECT count(*) FROM spin_fix WHERE revolution = 12"), 2);
+}
+
+TEST_F(ArchiveProducts, SpinFixIsStoredInDegreesWithItsCovariance) {
+  const auto archive = open();
+  ArchiveBatch batch = start_of("run-1");
+  batch.products = {fix_at(100.0, -55.0)};
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+
+  EXPECT_NEAR(real("SELECT ra_deg FROM spin_fix"), 100.0, kDegTolerance);
+  EXPECT_NEAR(real("SELECT dec_deg FROM spin_fix"), -55.0, kDegTolerance);
+  EXPECT_NEAR(real("SELECT sigma_deg FROM spin_fix"), 0.05, kDegTolerance);
+  EXPECT_NEAR(real("SELECT cov_east_east_deg2 FROM spin_fix"), 0.0009, kDegTolerance);
+  EXPECT_NEAR(real("SELECT cov_north_north_deg2 FROM spin_fix"), 0.0016, kDegTolerance);
+  EXPECT_EQ(text("SELECT format('%d %d %d %s %g %d', revolution, t_tai_ns, geometry_case,"
+                 " resolution, norm, accepted) FROM spin_fix"),
+            "12 1000000000 3 GEOMETRY 1 1");
+  EXPECT_EQ(number("SELECT alternate_ra_deg IS NULL AND alternate_dec_deg IS NULL FROM spin_fix"),
+            1);
+}
+
+TEST_F(ArchiveProducts, AmbiguousFixKeepsBothCandidates) {
+  const auto archive = open();
+  SpinFix fix = fix_at(100.0, -55.0);
+  fix.alternate_axes_icrf = {fix_at(310.0, 20.0).axis_icrf};
+  fix.resolution = Resolution::Ambiguous;
+  ArchiveBatch batch = start_of("run-1");
+  batch.products = {fix};
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+
+  EXPECT_NEAR(real("SELECT alternate_ra_deg FROM spin_fix"), 310.0, kDegTolerance);
+  EXPECT_NEAR(real("SELECT alternate_dec_deg FROM spin_fix"), 20.0, kDegTolerance);
+  EXPECT_EQ(text("SELECT resolution FROM spin_fix"), "AMBIGUOUS");
+}
+
+TEST_F(ArchiveProducts, RightAscensionStaysBelowAFullTurn) {
+  const auto archive = open();
+  ArchiveBatch batch = start_of("run-1");
+  for (const double y : {-1e-15, -4.5e-16, -1e-16, -1e-18, -0.0, 0.0, 1e-18}) {
+    SpinFix fix = fix_at(0.0, 0.0);
+    fix.revolution = static_cast<std::int64_t>(batch.products.size());
+    fix.axis_icrf = {1.0, y, 0.0};
+    batch.products.emplace_back(fix);
+  }
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush()) << archive->statistics().failure->message;
+
+  EXPECT_EQ(number("SELECT count(*) FROM spin_fix WHERE ra_deg >= 0 AND ra_deg < 360"), 7);
+}
+
+TEST_F(ArchiveProducts, MeasurementsAreStoredInDegreesAndThePeriodInSeconds) {
+  const auto archive = open();
+  ArchiveBatch batch = start_of("run-1");
+  batch.products = {RevolutionProduct{.revolution = 4, .t_sun1 = tai_from_ns(77), .period_s = 0.6},
+                    SpinMeasurement{.revolution = 4,
+                                    .quantity = SpinQuantity::Period,
+                                    .value = 0.6,
+                                    .sigma = 1e-4,
+                                    .rejected_by = std::nullopt},
+                    SpinMeasurement{.revolution = 4,
+                                    .quantity = SpinQuantity::SunAngle,
+                                    .value = std::numbers::pi / 3.0,
+                                    .sigma = std::numbers::pi / 1800.0,
+                                    .rejected_by = Rejection::SunAngle}};
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+
+  EXPECT_EQ(text("SELECT format('%d %d %g', revolution, t_tai_ns, period_s) FROM revolution"),
+            "4 77 0.6");
+  EXPECT_EQ(text("SELECT group_concat(format('%s %.9g %s %.9g %d %s', quantity, value, unit,"
+                 " sigma, accepted, ifnull(rejected_by, '-')), '; ') FROM spin_measurement"),
+            "period 0.6 s 0.0001 1 -; sun_angle 60 deg 0.1 0 sun_angle");
+}
+
+TEST_F(ArchiveProducts, WhatBecameOfEveryEdgeIsStored) {
+  const auto archive = open();
+  ArchiveBatch batch = start_of("run-1");
+  batch.pulses = {pulse_at(5, 1), pulse_at(6, 2)};
+  batch.products = {
+      PulseUse{.pulse = batch.pulses[0].pulse, .revolution = 3, .rejected_by = std::nullopt},
+      PulseUse{.pulse = batch.pulses[1].pulse,
+               .revolution = std::nullopt,
+               .rejected_by = Rejection::Unassociated}};
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+
+  EXPECT_EQ(text("SELECT group_concat(format('%s %d %s %s %d %s', spacecraft_id, t_tai_ns, channel,"
+                 " ifnull(revolution, '-'), accepted, ifnull(rejected_by, '-')), '; ')"
+                 " FROM pulse_use"),
+            "SPINNER 5 sun1 3 1 -; SPINNER 6 sun1 - 0 unassociated");
+  EXPECT_EQ(text("SELECT rejected_by || ' ' || source || ' ' || seq FROM rejected_pulse"),
+            "unassociated station 2");
+}
+
+TEST_F(ArchiveProducts, EstimateIsStoredInDegreesAndTurnsPerMinute) {
+  constexpr double kDeg2PerRad2 = 1.0 / (kRadPerDeg * kRadPerDeg);
+  const auto archive = open();
+  ArchiveBatch batch = start_of("run-1");
+  batch.products = {estimate_at(9, SpinEstimator::Mean, 30.0)};
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+
+  EXPECT_NEAR(real("SELECT dec_deg FROM spin_estimate"), 30.0, kDegTolerance);
+  EXPECT_NEAR(real("SELECT sigma_deg FROM spin_estimate"), 3e-4 / kRadPerDeg, kDegTolerance);
+  EXPECT_NEAR(real("SELECT cov_east_north_deg2 FROM spin_estimate"), 1e-8 * kDeg2PerRad2,
+              kDegTolerance);
+  EXPECT_NEAR(real("SELECT spin_rate_rpm FROM spin_estimate"), 100.0, 1e-12);
+  EXPECT_NEAR(real("SELECT sigma_rpm FROM spin_estimate"), 0.01, 1e-12);
+}
+
+TEST_F(ArchiveProducts, AnswerOfAPassIsTheLastEstimateOfEachEstimator) {
+  const auto archive = open();
+  ArchiveBatch batch = start_of("run-1");
+  batch.products = {
+      estimate_at(10, SpinEstimator::Mean, 1.0), estimate_at(30, SpinEstimator::Mean, 3.0),
+      estimate_at(20, SpinEstimator::Mean, 2.0), estimate_at(15, SpinEstimator::Batch, 4.0)};
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+
+  SQLite::Database database = reader();
+  EXPECT_THAT(column(database,
+                     "SELECT format('%s %s %d %.6f', spacecraft_id, estimator, t_tai_ns, dec_deg)"
+                     " FROM pass_answer ORDER BY estimator"),
+              ElementsAre("SPINNER batch 15 4.000000", "SPINNER mean 30 3.000000"));
+}
+
+TEST_F(ArchiveProducts, UtcOfTheViewsIsThatOfFormatUtc) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  std::vector<std::int64_t> times_ns;
+  for (const LeapSecond& leap : leap_seconds()) {
+    for (const std::int64_t offset_ns : {-kSecond_ns - 1, -kSecond_ns, -kSecond_ns / 2,
+                                         std::int64_t{-1}, std::int64_t{0}, kSecond_ns}) {
+      times_ns.push_back(tai_ns(leap.start) + offset_ns);
+    }
+  }
+  times_ns.erase(times_ns.begin(), times_ns.begin() + 4);  // Before 1972 there is no UTC here.
+  std::mt19937_64 rng{1972};
+  std::uniform_int_distribution<std::int64_t> until_2040_ns{times_ns.front(),
+                                                            2'208'988'800 * kSecond_ns};
+  while (times_ns.size() < 1000) {
+    times_ns.push_back(until_2040_ns(rng));
+  }
+  ArchiveBatch batch = start_of("run-1");
+  for (const std::int64_t t_tai_ns : times_ns) {
+    batch.pulses.push_back(pulse_at(t_tai_ns));
+  }
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+
+  SQLite::Database database = reader();
+  SQLite::Statement rows{database, "SELECT t_tai_ns, utc FROM pulse_utc"};
+  std::size_t compared = 0;
+  while (rows.executeStep()) {
+    const std::int64_t t_tai_ns = rows.getColumn(0).getInt64();
+    EXPECT_EQ(rows.getColumn(1).getString(), format_utc(tai_from_ns(t_tai_ns), 3)) << t_tai_ns;
+    ++compared;
+  }
+  EXPECT_EQ(compared, times_ns.size());
+}
+
+TEST_F(ArchiveProducts, EveryViewOfAPersonHasItsUtc) {
+  constexpr std::int64_t kNewYear2017_ns = 1'483'228'837'000'000'000;
+  const auto archive = open();
+  ArchiveBatch batch = start_of("run-1");
+  SpinFix fix = fix_at(100.0, -55.0);
+  fix.t = tai_from_ns(kNewYear2017_ns);
+  batch.products = {RevolutionProduct{.revolution = 12, .t_sun1 = fix.t, .period_s = 0.6},
+                    SpinMeasurement{.revolution = 12,
+                                    .quantity = SpinQuantity::Period,
+                                    .value = 0.6,
+                                    .sigma = 1e-4,
+                                    .rejected_by = std::nullopt},
+                    fix, estimate_at(kNewYear2017_ns, SpinEstimator::Mean, 1.0)};
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+
+  for (const std::string view : {"revolution_utc", "spin_measurement_utc", "spin_fix_utc",
+                                 "spin_estimate_utc", "pass_answer"}) {
+    EXPECT_EQ(text("SELECT utc FROM " + view), "2017-01-01T00:00:00.000Z") << view;
+  }
+}
+
+TEST_F(ArchiveProducts, TwoArchivesMergeByNaturalKey) {
+  const std::filesystem::path other = directory() / "other.db";
+  for (const auto& [name, run_id, first_ns] :
+       {std::tuple{path(), "run-1", 0}, std::tuple{other, "run-2", 5}}) {
+    auto archive = Archive::open(name, {});
+    ASSERT_TRUE(archive) << archive.error().message;
+    ArchiveBatch batch = start_of(run_id);
+    batch.products = {fix_at(100.0, -55.0)};
+    for (int i = 0; i < 10; ++i) {
+      batch.pulses.push_back(pulse_at(first_ns + i));
+    }
+    ASSERT_TRUE((*archive)->submit(batch));
+    ASSERT_TRUE((*archive)->close());
+  }
+
+  SQLite::Database database{path().string(), SQLite::OPEN_READWRITE};
+  database.exec("PRAGMA foreign_keys = ON; ATTACH '" + other.string() + "' AS other");
+  for (const std::string table : {"spacecraft", "run", "pulse", "spin_fix"}) {
+    database.exec(fmt::format("INSERT OR IGNORE INTO {0} SELECT * FROM other.{0}", table));
+  }
+  EXPECT_EQ(number("SELECT count(*) FROM pulse"), 15);
+  EXPECT_EQ(number("SELECT count(*) FROM spin_fix"), 2);
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,33 @@
+/// @file
+/// Questions to the judgements of the doctor.
+
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "services/doctor/check.h"
+
+namespace spindrift::doctor {
+
+inline Check named(const std::vector<Check>& checks, const std::string& name) {
+  const auto found = std::find_if(checks.begin(), checks.end(),
+                                  [&](const Check& check) { return check.name == name; });
+  return found == checks.end() ? Check{"absent: " + name, Verdict::Failure, "", ""} : *found;
+}
+
+/// Every check that asks for attention says what to do.
+inline void expect_advice(const std::vector<Check>& checks) {
+  for (const Check& check : checks) {
+    if (check.verdict != Verdict::Ok) {
+      EXPECT_THAT(check.advice, ::testing::Not(::testing::IsEmpty())) << check.name;
+    }
+    EXPECT_THAT(check.found, ::testing::Not(::testing::IsEmpty())) << check.name;
+  }
+}
+
+}  // namespace spindrift::doctor

@@ -1,0 +1,117 @@
+/// @file
+/// Trains of edges at even phases, and what association makes of them.
+
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <random>
+#include <vector>
+
+#include "pipelines/spin/association.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift {
+
+inline const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+inline constexpr double kPeriod_s = 0.75;
+
+/// Phases of the six channels behind sun1, in turns.
+using Phases = std::array<double, kPulseChannels>;
+inline constexpr Phases kOrdinary = {0.0, 0.11, 0.40, 0.52, 0.41, 0.55};
+
+struct Train {
+  double period_s = kPeriod_s;
+  Phases phases_turns = kOrdinary;
+  int turns = 100;
+  double noise_s = 0.0;
+};
+
+/// The edge of a channel on a turn, as it was made: what association has to find out.
+struct MadeEdge {
+  Pulse pulse;
+  int turn;
+};
+
+inline std::vector<MadeEdge> made(const Train& train, std::mt19937_64& rng) {
+  std::normal_distribution<double> normal;
+  std::vector<MadeEdge> edges;
+  for (int turn = 0; turn < train.turns; ++turn) {
+    for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+      const double t_s = (turn + train.phases_turns.at(channel)) * train.period_s;
+      edges.push_back({.pulse = {.t = shifted(kStart, t_s + train.noise_s * normal(rng)),
+                                 .channel = static_cast<PulseChannel>(channel)},
+                       .turn = turn});
+    }
+  }
+  return edges;
+}
+
+inline std::vector<MadeEdge> made(const Train& train) {
+  std::mt19937_64 rng{50};
+  return made(train, rng);
+}
+
+inline std::vector<Pulse> pulses_of(const std::vector<MadeEdge>& edges) {
+  std::vector<Pulse> pulses(edges.size());
+  std::transform(edges.begin(), edges.end(), pulses.begin(),
+                 [](const MadeEdge& edge) { return edge.pulse; });
+  std::sort(pulses.begin(), pulses.end());
+  return pulses;
+}
+
+inline Association associate(const std::vector<Pulse>& pulses) {
+  Associator associator{testing::usual_config()};
+  Association all;
+  const auto collect = [&](const Association& some) {
+    all.closed.insert(all.closed.end(), some.closed.begin(), some.closed.end());
+    all.left_over.insert(all.left_over.end(), some.left_over.begin(), some.left_over.end());
+  };
+  for (const Pulse& pulse : pulses) {
+    collect(associator.push(pulse));
+  }
+  collect(associator.finish());
+  return all;
+}
+
+inline Association associate(const std::vector<MadeEdge>& edges) {
+  return associate(pulses_of(edges));
+}
+
+/// For every edge that was given a place, the number of its revolution.
+inline std::map<Pulse, std::int64_t> places(const Association& association) {
+  std::map<Pulse, std::int64_t> found;
+  for (const Revolution& revolution : association.closed) {
+    for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+      if (const auto& edge = revolution.edges.at(channel)) {
+        found[{.t = *edge, .channel = static_cast<PulseChannel>(channel)}] = revolution.number;
+      }
+    }
+  }
+  return found;
+}
+
+/// Every edge has a place, and all that have one agree on how many turns their number is off.
+inline void expect_every_edge_on_its_turn(const Association& association,
+                                          const std::vector<MadeEdge>& edges) {
+  const auto found = places(association);
+  ASSERT_FALSE(edges.empty());
+  ASSERT_TRUE(found.contains(edges.front().pulse));
+  const std::int64_t offset = edges.front().turn - found.at(edges.front().pulse);
+  for (const MadeEdge& edge : edges) {
+    ASSERT_TRUE(found.contains(edge.pulse)) << name_of(edge.pulse.channel) << " " << edge.turn;
+    ASSERT_EQ(found.at(edge.pulse) + offset, edge.turn) << name_of(edge.pulse.channel);
+  }
+}
+
+template <class Condition>
+std::vector<MadeEdge> without(std::vector<MadeEdge> edges, const Condition& condition) {
+  edges.erase(std::remove_if(edges.begin(), edges.end(), condition), edges.end());
+  return edges;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,58 @@
+/// @file
+/// All that telemetry files give, read through the stream.
+
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "services/telemetry_files/telemetry_stream.h"
+#include "tests/support/temporary_folder.h"
+
+namespace spindrift {
+
+inline constexpr std::int64_t kT0_tai_ns = 1795143637568806257;
+
+/// Everything that a stream gives, in its order; no batch is larger than it may be.
+struct Telemetry {
+  std::vector<PulseSample> samples;
+  std::vector<CodedSample> coded;
+  std::vector<RejectedInput> rejected;
+  std::vector<TaiTime> times;  ///< Of samples of both kinds.
+};
+
+inline Telemetry read(const std::vector<std::filesystem::path>& paths,
+                      std::size_t buffer_bytes = TelemetryStream::kBufferBytes) {
+  const auto files = scan_telemetry(paths);
+  EXPECT_TRUE(files) << files.error().message;
+  auto stream = TelemetryStream::open(*files, "SPINNER", buffer_bytes);
+  EXPECT_TRUE(stream) << stream.error().message;
+  Telemetry all;
+  while (true) {
+    const auto batch = stream->next();
+    EXPECT_TRUE(batch) << batch.error().message;
+    EXPECT_TRUE(batch->pulses.empty() || batch->coded.empty());
+    EXPECT_LE(batch->pulses.size() + batch->coded.size(), TelemetryStream::kBatch);
+    EXPECT_LE(batch->rejected.size(), TelemetryStream::kBatch);
+    if (batch->pulses.empty() && batch->coded.empty() && batch->rejected.empty()) {
+      EXPECT_EQ(stream->bytes_given(), stream->bytes_total());
+      return all;
+    }
+    for (const PulseSample& sample : batch->pulses) {
+      all.samples.push_back(sample);
+      all.times.push_back(sample.pulse.t);
+    }
+    for (const CodedSample& sample : batch->coded) {
+      all.coded.push_back(sample);
+      all.times.push_back(sample.frame.t);
+    }
+    all.rejected.insert(all.rejected.end(), batch->rejected.begin(), batch->rejected.end());
+  }
+}
+
+}  // namespace spindrift

@@ -1,0 +1,44 @@
+/// @file
+/// The recorded passes as files, and the command lines that process them.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/support/program.h"
+
+namespace spindrift {
+
+inline const std::filesystem::path kPasses = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin";
+
+inline std::vector<std::string> arguments(const std::filesystem::path& mission,
+                                          const std::filesystem::path& telemetry,
+                                          const std::filesystem::path& db) {
+  return {"process",          "--mission", mission.string(), "--telemetry",
+          telemetry.string(), "--db",      db.string(),      "--json"};
+}
+
+inline std::vector<std::string> arguments(const std::string& pass,
+                                          const std::filesystem::path& db) {
+  return arguments(kPasses / pass / "mission.toml", kPasses / pass, db);
+}
+
+/// A mission folder to spoil.
+struct PassCopy {
+  TemporaryFolder folder;
+  std::filesystem::path db = folder.path() / "out.db";
+
+  explicit PassCopy(const std::string& pass) {
+    for (const char* name : {"mission.toml", "orbit.oem", "pulses.csv"}) {
+      std::filesystem::copy(kPasses / pass / name, folder.path() / name);
+    }
+  }
+  std::filesystem::path mission() const { return folder.path() / "mission.toml"; }
+  std::vector<std::string> arguments_here() const {
+    return arguments(mission(), folder.path(), db);
+  }
+};
+
+}  // namespace spindrift

@@ -1,0 +1,97 @@
+/// @file
+/// `spindrift serve` as a process of one test, and a front-end that feeds it.
+
+#pragma once
+
+#include <csignal>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/publisher/telemetry_publisher.h"
+#include "tests/support/bus_child.h"
+#include "tests/support/bus_fixture.h"
+#include "tests/support/program.h"
+#include "tests/support/recorded_files.h"
+
+namespace spindrift {
+
+/// A service of its own for one test.
+class Service {
+ public:
+  explicit Service(std::string pass, const std::string& partition = "", int largest_file_kib = 0)
+      : bus_{bus_of_its_own()}, pass_{std::move(pass)} {
+    if (!partition.empty()) {
+      bus_.partition = partition;
+    }
+    start(largest_file_kib);
+  }
+
+  void start(int largest_file_kib = 0) {
+    program_.emplace(
+        std::vector<std::string>{"serve", "--mission", mission(), "--db", db().string(), "--domain",
+                                 std::to_string(bus_.domain), "--partition", bus_.partition,
+                                 "--json"},
+        largest_file_kib);
+  }
+
+  Program& program() { return *program_; }
+  const bus::BusConfig& bus() const { return bus_; }
+  std::filesystem::path db() const { return folder_.path() / "served.db"; }
+  std::string mission() const { return (kPasses / pass_ / "mission.toml").string(); }
+
+  bool ready() const { return program_->says("ready"); }
+
+  int replay(const std::string& speed) const {
+    Program replay{{"replay", "--mission", mission(), "--telemetry", (kPasses / pass_).string(),
+                    "--speed", speed, "--domain", std::to_string(bus_.domain), "--partition",
+                    bus_.partition}};
+    return replay.exit_status();
+  }
+
+  int stop() {
+    program_->signal(SIGTERM);
+    return program_->exit_status();
+  }
+
+ private:
+  TemporaryFolder folder_;
+  bus::BusConfig bus_;
+  std::string pass_;
+  std::optional<Program> program_;
+};
+
+/// A front-end, and the pulses of a recorded pass to send.
+class FrontEnd {
+ public:
+  FrontEnd(const bus::BusConfig& bus, std::string spacecraft, std::vector<Pulse> pulses)
+      : spacecraft_{std::move(spacecraft)},
+        participant_{bus::Participant::create(bus).value()},
+        publisher_{PulsePublisher::create(participant_, "front-end").value()},
+        pulses_{std::move(pulses)} {}
+
+  /// Those from where it is to `share` of all. @return false when nobody takes them.
+  bool send_until(double share) {
+    const auto end = static_cast<std::size_t>(share * static_cast<double>(pulses_.size()));
+    if (!publisher_.wait_for_subscriber(std::chrono::seconds{30})) {
+      return false;
+    }
+    for (; next_ < end; ++next_) {
+      if (!publisher_.publish(spacecraft_, pulses_[next_], std::stop_token{})) {
+        return false;
+      }
+    }
+    return publisher_.wait_for_acknowledgments(std::chrono::seconds{30}).has_value();
+  }
+
+ private:
+  std::string spacecraft_;
+  bus::Participant participant_;
+  PulsePublisher publisher_;
+  std::vector<Pulse> pulses_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace spindrift

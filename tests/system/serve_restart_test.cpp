@@ -1,0 +1,203 @@
+// `spindrift serve` killed, stopped and started again in the midst of a pass.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <spindrift.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "services/bus/qos.h"
+#include "services/bus/reader.h"
+#include "services/publisher/telemetry_publisher.h"
+#include "tests/support/archive_rows.h"
+#include "tests/support/bus_child.h"
+#include "tests/support/bus_fixture.h"
+#include "tests/support/program.h"
+#include "tests/support/recorded_files.h"
+#include "tests/support/service.h"
+
+namespace spindrift {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(Serve, LeavesAWholeArchiveWhenKilled) {
+  Service service{"gms5"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  Program replay{{"replay", "--mission", service.mission(), "--telemetry",
+                  (kPasses / "gms5").string(), "--speed", "100", "--domain",
+                  std::to_string(service.bus().domain), "--partition", service.bus().partition}};
+  ASSERT_TRUE(eventually([&] {
+    return std::filesystem::exists(service.db()) &&
+           number_of(service.db(), "SELECT count(*) FROM spin_estimate") > 50;
+  }));
+  service.program().signal(SIGKILL);
+  EXPECT_EQ(service.program().exit_status(), -1);
+  replay.signal(SIGKILL);
+
+  EXPECT_EQ(rows_of(service.db(), "PRAGMA integrity_check"), std::vector<std::string>{"ok|"});
+  EXPECT_EQ(rows_of(service.db(), "PRAGMA foreign_key_check"), std::vector<std::string>{});
+  // The edges of these sources are counted in the transaction that stores them.
+  EXPECT_EQ(number_of(service.db(), "SELECT received FROM source_count"),
+            number_of(service.db(), "SELECT count(*) FROM pulse"));
+  // No result without the edges that it rests on.
+  EXPECT_EQ(number_of(service.db(),
+                      "SELECT count(*) FROM pulse_use LEFT JOIN pulse USING"
+                      " (spacecraft_id, t_tai_ns, channel) WHERE pulse.t_tai_ns IS NULL"),
+            0);
+}
+
+/// As they would be sent, but that every 97th comes 50 later: late by seconds, or within the
+/// reorder window.
+std::vector<Pulse> disordered_pulses(const std::string& pass) {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "processed.db";
+  Program process{{"process", "--mission", (kPasses / pass / "mission.toml").string(),
+                   "--telemetry", (kPasses / pass).string(), "--db", db.string()}};
+  EXPECT_EQ(process.exit_status(), 0) << process.log();
+  const SQLite::Database database{db.string(), SQLite::OPEN_READONLY};
+  SQLite::Statement rows{database, "SELECT t_tai_ns, channel FROM pulse ORDER BY t_tai_ns"};
+  std::vector<Pulse> pulses;
+  while (rows.executeStep()) {
+    pulses.push_back({.t = tai_from_ns(rows.getColumn(0).getInt64()),
+                      .channel = pulse_channel_from(rows.getColumn(1).getText()).value()});
+  }
+  for (std::size_t i = 0; i + 50 < pulses.size(); i += 97) {
+    const auto first = pulses.begin() + static_cast<std::ptrdiff_t>(i);
+    std::rotate(first, first + 1, first + 50);
+  }
+  return pulses;
+}
+
+class ServeRestart : public ::testing::TestWithParam<int> {};
+
+TEST_P(ServeRestart, IntoARunningPassGivesWhatNoRestartWouldHave) {
+  const std::vector<Pulse> pulses = disordered_pulses("gms5");
+  Service whole{"gms5"};
+  ASSERT_TRUE(whole.ready()) << whole.program().log();
+  ASSERT_TRUE((FrontEnd{whole.bus(), "GMS-5", pulses}.send_until(1.0)));
+  ASSERT_EQ(whole.stop(), 0) << whole.program().log();
+  ASSERT_GT(number_of(whole.db(), "SELECT count(*) FROM pulse_use WHERE rejected_by = 'late'"), 0);
+
+  Service service{"gms5"};
+  FrontEnd front_end{service.bus(), "GMS-5", pulses};
+  for (const double share : {0.02, 0.5}) {
+    ASSERT_TRUE(service.ready()) << service.program().log();
+    ASSERT_TRUE(front_end.send_until(share));
+    service.program().signal(GetParam());
+    ASSERT_EQ(service.program().exit_status(), GetParam() == SIGKILL ? -1 : 0);
+    service.start();
+  }
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  ASSERT_TRUE(front_end.send_until(1.0));
+  EXPECT_TRUE(eventually([&] {
+    return number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NULL") == 1;
+  }));
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+
+  EXPECT_THAT(service.program().log(), HasSubstr("continuing run"));
+  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NOT NULL"), 1);
+  EXPECT_EQ(product_rows(service.db()), product_rows(whole.db()));
+  const auto report = nlohmann::json::parse(service.program().out());
+  EXPECT_EQ(report["runs"][0]["revolutions"],
+            nlohmann::json::parse(whole.program().out())["runs"][0]["revolutions"]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, ServeRestart, ::testing::Values(SIGKILL, SIGTERM),
+                         [](const auto& signal) {
+                           return signal.param == SIGKILL ? "Kill" : "Term";
+                         });
+
+TEST(Serve, PublishesWhatIsInForceAgainAfterARestart) {
+  Service service{"nominal"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  ASSERT_EQ(service.replay("0"), 0);
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  service.start();
+  const auto participant = bus::Participant::create(service.bus()).value();
+  const auto estimates = bus::Reader<spindrift_SpinEstimate>::create(
+                             participant, bus::kSpinEstimateTopic, bus::results_qos())
+                             .value();
+  const auto estimate = take_samples(estimates, 1);
+  ASSERT_FALSE(estimate.empty());
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+}
+
+TEST(Serve, SaysWhenAChangedMissionFileBeginsANewRun) {
+  const PassCopy pass{"nominal"};
+  const bus::BusConfig bus = bus_of_its_own();
+  const std::vector<std::string> arguments = {
+      "serve",          "--mission", pass.mission().string(),    "--db",
+      pass.db.string(), "--domain",  std::to_string(bus.domain), "--partition",
+      bus.partition};
+  const auto log_of_a_service = [&] {
+    Program service{arguments};
+    EXPECT_TRUE(service.says("ready")) << service.log();
+    service.signal(SIGTERM);
+    EXPECT_EQ(service.exit_status(), 0);
+    return service.log();
+  };
+  EXPECT_THAT(log_of_a_service(), Not(HasSubstr("have changed")));
+  const std::string run = rows_of(pass.db, "SELECT run_id FROM run").at(0);
+  EXPECT_THAT(log_of_a_service(), HasSubstr("continuing run"));
+  std::ofstream{pass.mission(), std::ios::app} << "\n# better known now\n";
+  EXPECT_THAT(log_of_a_service(), HasSubstr("since run " + run.substr(0, run.size() - 1) +
+                                            " these have changed: the mission file\n"));
+}
+
+/// Two passes of one second a revolution with just over an hour between them.
+std::vector<Pulse> two_passes() {
+  const auto pulse_at = [](std::int64_t t_s) {
+    return Pulse{.t = tai_from_ns(kTestTime_tai_ns + t_s * 1'000'000'000),
+                 .channel = PulseChannel::Sun1};
+  };
+  std::vector<Pulse> pulses;
+  for (std::int64_t t_s = 0; t_s < 100; ++t_s) {
+    pulses.push_back(pulse_at(t_s));
+  }
+  for (std::int64_t t_s = 99 + 3601; t_s < 3800; ++t_s) {
+    pulses.push_back(pulse_at(t_s));
+  }
+  return pulses;
+}
+
+/// Of a service that is restarted when it has got so much of `two_passes`; 1: that never is.
+class ServeTwoPasses : public ::testing::TestWithParam<double> {};
+
+TEST_P(ServeTwoPasses, MakesTwoRunsHoweverTheServiceIsRestarted) {
+  Service service{"nominal"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  const std::vector<Pulse> pulses = two_passes();
+  FrontEnd front_end{service.bus(), "SPINNER", pulses};
+  ASSERT_TRUE(front_end.send_until(GetParam()));
+  if (GetParam() < 1.0) {
+    ASSERT_EQ(service.stop(), 0) << service.program().log();
+    service.start();
+    // What the front-end still has of the old pass comes again first, and tells nothing.
+    ASSERT_TRUE(front_end.send_until(1.0));
+  }
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+
+  EXPECT_EQ(rows_of(service.db(),
+                    "SELECT min(t_tai_ns), min(revolution), max(revolution), count(*)"
+                    " FROM revolution GROUP BY run_id ORDER BY 1"),
+            (std::vector<std::string>{std::to_string(tai_ns(pulses.at(0).t)) + "|0|99|100|",
+                                      std::to_string(tai_ns(pulses.at(100).t)) + "|0|99|100|"}));
+  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NOT NULL"), 2);
+  EXPECT_EQ(rows_of(service.db(), "SELECT first_tai_ns FROM run ORDER BY first_arrival"),
+            (std::vector<std::string>{std::to_string(tai_ns(pulses.at(0).t)) + "|",
+                                      std::to_string(tai_ns(pulses.at(100).t)) + "|"}));
+  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM pulse_use"), 200);
+}
+
+// Before the silence, while the new pass is not believed yet, never.
+INSTANTIATE_TEST_SUITE_P(After, ServeTwoPasses, ::testing::Values(0.5, 0.515, 1.0));
+
+}  // namespace
+}  // namespace spindrift

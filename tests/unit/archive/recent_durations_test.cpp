@@ -1,0 +1,28 @@
+#include "services/archive/recent_durations.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+namespace spindrift {
+namespace {
+
+TEST(RecentDurations, P99IsTheSmallestThatNinetyNinePercentDoNotExceed) {
+  RecentDurations durations{1000};
+  EXPECT_FALSE(durations.p99_ms());
+  for (int i = 1; i <= 200; ++i) {
+    durations.add(i);
+  }
+  EXPECT_EQ(durations.p99_ms(), 198.0);
+}
+
+TEST(RecentDurations, OldestAreForgottenFirst) {
+  RecentDurations durations{2};
+  for (const double duration_ms : {9.0, 1.0, 2.0}) {
+    durations.add(duration_ms);
+  }
+  EXPECT_EQ(durations.p99_ms(), 2.0);
+}
+
+}  // namespace
+}  // namespace spindrift
