@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "pipelines/time/utc.h"
 #include "services/archive/schema.h"
 #include "tests/integration/archive_fixture.h"
 

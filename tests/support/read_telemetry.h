@@ -18,6 +18,14 @@ namespace spindrift {
 
 inline constexpr std::int64_t kT0_tai_ns = 1795143637568806257;
 
+inline constexpr std::string_view kCodedHeader =
+    "t_tai_ns,period_s,sun2_s,north_in_s,north_out_s,south_in_s,south_out_s\n";
+
+struct BadRow {
+  std::string_view row;
+  const char* reason;
+};
+
 /// Everything that a stream gives, in its order; no batch is larger than it may be.
 struct Telemetry {
   std::vector<PulseSample> samples;

@@ -7,6 +7,7 @@
 
 #include "services/doctor/network.h"
 #include "services/doctor/presence.h"
+#include "services/doctor/report.h"
 #include "tests/support/doctor_checks.h"
 
 namespace spindrift::doctor {

@@ -14,9 +14,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr std::string_view kCodedHeader =
-    "t_tai_ns,period_s,sun2_s,north_in_s,north_out_s,south_in_s,south_out_s\n";
-
 Telemetry read_coded_row(std::string_view row) {
   const TemporaryFolder folder;
   return read({folder.write("coded.csv", std::string{kCodedHeader}.append(row).append("\n"))});

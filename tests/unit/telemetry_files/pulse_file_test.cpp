@@ -86,11 +86,6 @@ TEST(PulseFile, WithAHeaderAloneIsNoTelemetryAndNoError) {
   EXPECT_TRUE(pulses.rejected.empty());
 }
 
-struct BadRow {
-  std::string_view row;
-  const char* reason;
-};
-
 void expect_rejected(const BadRow& bad) {
   SCOPED_TRACE(bad.row);
   const auto pulses = read_row(bad.row);
