@@ -74,41 +74,36 @@ const KeplerOrbit kTransfer = KeplerOrbit::make({.epoch = kStart,
                                                  .mean_anomaly_rad = 0.2})
                                   .value();
 
-TEST(OrbitEphemeris, LagrangeReproducesPolynomialsOfItsDegree) {
-  // Nodes and times within 4 minutes of kStart, terms of order 7000 km times (4/4)^k: rounding of
-  // 1e-12 km a term, grown by divided differences over few uneven nodes to below 1e-8 km.
-  std::mt19937 rng{1};
+/// Of nodes and times within 4 minutes of kStart.
+void expect_polynomials_reproduced(std::mt19937& rng, Interpolation interpolation, int degree,
+                                   double step_s, int nodes) {
+  SCOPED_TRACE(degree);
   std::uniform_real_distribution<double> within_s{-240.0, 240.0};
+  const PolynomialOrbit orbit = random_polynomial(rng, degree);
+  const OrbitEphemeris ephemeris =
+      ephemeris_of(sampled([&](TaiTime t) { return orbit.at(t); }, shifted(kStart, -240.0), step_s,
+                           nodes, interpolation, degree));
+  for (int trial = 0; trial < 100; ++trial) {
+    const TaiTime t = shifted(kStart, within_s(rng));
+    const OrbitState state = ephemeris.at(t).value();
+    // Terms of order 7000 km times (4/4)^k: rounding of 1e-12 km a term, grown by divided
+    // differences over few uneven nodes to below 1e-8 km.
+    ASSERT_LT((state.position_icrf_km - orbit.at(t).position_icrf_km).norm(), 1e-8);
+    ASSERT_LT((state.velocity_icrf_km_s - orbit.at(t).velocity_icrf_km_s).norm(), 1e-9);
+  }
+}
+
+TEST(OrbitEphemeris, LagrangeReproducesPolynomialsOfItsDegree) {
+  std::mt19937 rng{1};
   for (int degree = 1; degree <= 9; ++degree) {
-    SCOPED_TRACE(degree);
-    const PolynomialOrbit orbit = random_polynomial(rng, degree);
-    const OrbitEphemeris ephemeris =
-        ephemeris_of(sampled([&](TaiTime t) { return orbit.at(t); }, shifted(kStart, -240.0), 40.0,
-                             13, Interpolation::Lagrange, degree));
-    for (int trial = 0; trial < 100; ++trial) {
-      const TaiTime t = shifted(kStart, within_s(rng));
-      const OrbitState state = ephemeris.at(t).value();
-      ASSERT_LT((state.position_icrf_km - orbit.at(t).position_icrf_km).norm(), 1e-8);
-      ASSERT_LT((state.velocity_icrf_km_s - orbit.at(t).velocity_icrf_km_s).norm(), 1e-9);
-    }
+    expect_polynomials_reproduced(rng, Interpolation::Lagrange, degree, 40.0, 13);
   }
 }
 
 TEST(OrbitEphemeris, HermiteReproducesPolynomialsOfItsDegree) {
   std::mt19937 rng{2};
-  std::uniform_real_distribution<double> within_s{-240.0, 240.0};
   for (const int degree : {3, 5, 7, 9}) {
-    SCOPED_TRACE(degree);
-    const PolynomialOrbit orbit = random_polynomial(rng, degree);
-    const OrbitEphemeris ephemeris =
-        ephemeris_of(sampled([&](TaiTime t) { return orbit.at(t); }, shifted(kStart, -240.0), 60.0,
-                             9, Interpolation::Hermite, degree));
-    for (int trial = 0; trial < 100; ++trial) {
-      const TaiTime t = shifted(kStart, within_s(rng));
-      const OrbitState state = ephemeris.at(t).value();
-      ASSERT_LT((state.position_icrf_km - orbit.at(t).position_icrf_km).norm(), 1e-8);
-      ASSERT_LT((state.velocity_icrf_km_s - orbit.at(t).velocity_icrf_km_s).norm(), 1e-9);
-    }
+    expect_polynomials_reproduced(rng, Interpolation::Hermite, degree, 60.0, 9);
   }
 }
 
