@@ -2,6 +2,7 @@
 /// The program: its command line and its exit status.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -152,6 +153,29 @@ void add_doctor(CLI::App& app, Request& request) {
   });
 }
 
+std::string subcommands_of(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* const command : app.get_subcommands({})) {
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  return names;
+}
+
+/// Names first what nothing takes: it may be meant for what is missing.
+std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
+  std::string wrong;
+  if (const auto unknown = app.remaining(true); !unknown.empty()) {
+    wrong = fmt::format("not known: {}\n", fmt::join(unknown, " "));
+  }
+  if (app.get_subcommands().empty()) {
+    wrong += fmt::format("A subcommand is required: {}\n", subcommands_of(app));
+  } else if (wrong.empty() ||
+             error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError)) {
+    wrong += fmt::format("{}\n", error.what());
+  }
+  return wrong + "Run with --help for more information.";
+}
+
 /// Message for people on standard error; with --json, which even a bad command line may hold, an
 /// object on standard output as well.
 void tell_failure(const std::string& message, std::span<char* const> arguments) {
@@ -179,7 +203,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    tell_failure(fmt::format("{}\nRun with --help for more information.", error.what()), arguments);
+    tell_failure(what_is_wrong(app, error), arguments);
     return kBadInput;
   }
 

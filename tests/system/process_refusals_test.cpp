@@ -196,6 +196,23 @@ TEST(CommandLine, IsRefusedWithTwoWhenBad) {
   }
 }
 
+TEST(CommandLine, NamesTheWordsThatItDoesNotKnowAndWhatIsMissing) {
+  struct Bad {
+    std::vector<std::string> words;
+    std::string message;
+  };
+  for (const auto& [words, message] : std::vector<Bad>{
+           {{"foo"},
+            "not known: foo\nA subcommand is required: process, serve, replay, simulate, doctor\n"},
+           {{"process", "--misson", "m", "--db", "d"},
+            "not known: --misson m\n--mission is required\n"},
+           {{"simulate", "--seed", "3", "s", "--out", "o"}, "not known: --seed s\n"}}) {
+    Program program{words};
+    EXPECT_EQ(program.exit_status(), 2);
+    EXPECT_EQ(program.log(), "spindrift: " + message + "Run with --help for more information.\n");
+  }
+}
+
 TEST(CommandLine, AnswersAFailureWithOneObjectWhenAskedForJson) {
   for (const std::vector<std::string>& bad :
        std::vector<std::vector<std::string>>{{"process", "--json"},
