@@ -66,6 +66,11 @@ std::optional<Rejection> rejection(const SpinConfig& config, const Revolution& r
   if (means_nothing(revolution, channel, verdicts)) {
     return Rejection::Geometry;
   }
+  // Of an edge that no measurement is left of, others of its revolution tell.
+  const auto of_no_orbit = [](const Verdict& v) { return v.rejected_by == Rejection::NoOrbit; };
+  if (std::any_of(verdicts.begin(), verdicts.end(), of_no_orbit)) {
+    return Rejection::NoOrbit;
+  }
   std::optional<Rejection> first;
   for (const Verdict& verdict : verdicts) {
     // A measurement that another edge has spoilt says nothing about this one.

@@ -13,8 +13,9 @@ namespace {
 
 using enum PulseChannel;
 
-/// Of a revolution with a north chord only, whose out-edge is rejected.
-std::optional<Rejection> use_of(PulseChannel channel, Rejection out_rejected_by) {
+/// Of a revolution with a north chord, whose out-edge is rejected, and a sun angle.
+std::optional<Rejection> use_of(PulseChannel channel, Rejection out_rejected_by,
+                                std::optional<Rejection> sun_angle_rejected_by = {}) {
   Revolution revolution{.number = 3,
                         .edges = {},
                         .period_candidate = {},
@@ -23,7 +24,8 @@ std::optional<Rejection> use_of(PulseChannel channel, Rejection out_rejected_by)
   revolution.edges.at(index_of(NorthOut)) = tai_from_ns(500'000'000);
   revolution.edge_rejections.at(index_of(NorthOut)) = out_rejected_by;
   const std::vector<Verdict> verdicts = {
-      {.quantity = SpinQuantity::NorthChord, .rejected_by = out_rejected_by}};
+      {.quantity = SpinQuantity::NorthChord, .rejected_by = out_rejected_by},
+      {.quantity = SpinQuantity::SunAngle, .rejected_by = sun_angle_rejected_by}};
   const auto uses = edge_uses(testing::usual_config(), revolution, verdicts);
   const auto use = std::find_if(uses.begin(), uses.end(),
                                 [&](const PulseUse& u) { return u.pulse.channel == channel; });
@@ -35,6 +37,11 @@ TEST(EdgeUse, AMeasurementThatAnotherEdgeHasSpoiltSaysNothingAboutThisOne) {
     EXPECT_EQ(use_of(NorthOut, rejection), rejection);
     EXPECT_EQ(use_of(NorthIn, rejection), std::nullopt);
   }
+}
+
+TEST(EdgeUse, WithoutAnOrbitEvenALoneEdgeIsNotAccepted) {
+  EXPECT_EQ(use_of(NorthIn, Rejection::Phase, Rejection::NoOrbit), Rejection::NoOrbit);
+  EXPECT_EQ(use_of(NorthOut, Rejection::Phase, Rejection::NoOrbit), Rejection::Phase);
 }
 
 }  // namespace
