@@ -99,9 +99,6 @@ std::vector<std::filesystem::path> telemetry_paths(const std::filesystem::path& 
 /// Makes the folder; refuses one with telemetry that is not of this pass.
 Expected<void> prepare(const std::filesystem::path& folder,
                        const std::vector<std::filesystem::path>& telemetry) {
-  if (folder.empty()) {
-    return Unexpected{{ErrorCode::InvalidConfiguration, "--out: must be a folder, not empty"}};
-  }
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   const std::filesystem::directory_iterator entries{folder, failure};

@@ -60,6 +60,11 @@ std::string check_partition(const std::string& name) {
              : std::string{};
 }
 
+/// An unset variable of a script leaves one empty.
+std::string check_path(const std::string& path) {
+  return path.empty() ? "must be a path, not empty" : std::string{};
+}
+
 /// Written so that NaN fails.
 void check_speed(double speed) {
   if (!(speed == 0.0 || (speed >= kSlowest && speed <= kFastest))) {
@@ -80,10 +85,13 @@ void add_bus_options(CLI::App& command, std::uint32_t& domain, std::string& part
 void add_process(CLI::App& app, Request& request) {
   spindrift::ProcessOptions& options = request.process;
   CLI::App& command = *app.add_subcommand("process", "Process recorded telemetry into an archive");
-  command.add_option("--mission", options.mission, "Mission file")->required();
+  command.add_option("--mission", options.mission, "Mission file")->check(check_path)->required();
   command.add_option("--telemetry", options.telemetry, "CSV files, or directories of them")
+      ->check(check_path)
       ->required();
-  command.add_option("--db", options.db, "Archive to write, made where there is none")->required();
+  command.add_option("--db", options.db, "Archive to write, made where there is none")
+      ->check(check_path)
+      ->required();
   command.add_flag("--strict", options.strict, "A bad row of telemetry is an error");
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] { request.run = [&] { return process(request.process); }; });
@@ -92,8 +100,12 @@ void add_process(CLI::App& app, Request& request) {
 void add_serve(CLI::App& app, Request& request) {
   spindrift::ServeOptions& options = request.serve;
   CLI::App& command = *app.add_subcommand("serve", "Process telemetry from DDS as it arrives");
-  command.add_option("--mission", options.missions, "Mission file of each spacecraft")->required();
-  command.add_option("--db", options.db, "Archive to write, made where there is none")->required();
+  command.add_option("--mission", options.missions, "Mission file of each spacecraft")
+      ->check(check_path)
+      ->required();
+  command.add_option("--db", options.db, "Archive to write, made where there is none")
+      ->check(check_path)
+      ->required();
   add_bus_options(command, options.domain, options.partition);
   command.add_flag("--json", options.json, "Print one JSON object at the end");
   command.callback([&] { request.run = [&] { return serve(request.serve); }; });
@@ -102,8 +114,9 @@ void add_serve(CLI::App& app, Request& request) {
 void add_replay(CLI::App& app, Request& request) {
   spindrift::ReplayOptions& options = request.replay;
   CLI::App& command = *app.add_subcommand("replay", "Publish recorded telemetry on DDS");
-  command.add_option("--mission", options.mission, "Mission file")->required();
+  command.add_option("--mission", options.mission, "Mission file")->check(check_path)->required();
   command.add_option("--telemetry", options.telemetry, "CSV files, or directories of them")
+      ->check(check_path)
       ->required();
   command.add_option("--speed", options.speed, "Times real time; 0: as fast as it is taken")
       ->capture_default_str();
@@ -118,9 +131,10 @@ void add_replay(CLI::App& app, Request& request) {
 void add_simulate(CLI::App& app, Request& request) {
   spindrift::SimulateOptions& options = request.simulate;
   CLI::App& command = *app.add_subcommand("simulate", "Make a pass from a scenario");
-  command.add_option("scenario", options.scenario, "Scenario file")->required();
+  command.add_option("scenario", options.scenario, "Scenario file")->check(check_path)->required();
   CLI::Option_group& where = *command.add_option_group("Output", "One of these is needed");
-  where.add_option("--out", options.out, "Folder to write, made where there is none");
+  where.add_option("--out", options.out, "Folder to write, made where there is none")
+      ->check(check_path);
   CLI::Option* const publish = where.add_flag("--publish", options.publish, "Onto DDS");
   where.require_option(1);
   command.add_option("--speed", options.speed, "Times real time; 0: as fast as it is taken")
@@ -140,8 +154,9 @@ void add_doctor(CLI::App& app, Request& request) {
   spindrift::DoctorOptions& options = request.doctor;
   CLI::App& command =
       *app.add_subcommand("doctor", "Say what is wrong before a pass, and what to do about it");
-  command.add_option("--mission", options.missions, "Mission file of each spacecraft");
-  command.add_option("--db", options.db, "Archive of the pass");
+  command.add_option("--mission", options.missions, "Mission file of each spacecraft")
+      ->check(check_path);
+  command.add_option("--db", options.db, "Archive of the pass")->check(check_path);
   add_bus_options(command, options.domain, options.partition);
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] {
