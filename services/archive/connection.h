@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <string>
+#include <type_traits>
 
 #include "pipelines/core/expected.h"
 
@@ -32,5 +33,22 @@ Expected<SQLite::Database> open_for_reading(const std::filesystem::path& path);
 /// InvalidInput when a row breaks a rule of the schema and trying again is no use; Unavailable
 /// otherwise (disk full, I/O error, busy).
 Error archive_error(const std::string& path, const SQLite::Exception& exception);
+
+/// What `read` finds in an archive, by a connection of its own.
+/// @param read Takes an SQLite::Database&; may throw SQLite::Exception.
+/// @return As open_for_reading; Unavailable when reading fails.
+template <class Read>
+auto read_archive(const std::filesystem::path& path, const Read& read)
+    -> Expected<std::invoke_result_t<Read, SQLite::Database&>> {
+  auto database = open_for_reading(path);
+  if (!database) {
+    return Unexpected{database.error()};
+  }
+  try {
+    return read(*database);
+  } catch (const SQLite::Exception& exception) {
+    return Unexpected{archive_error(path.string(), exception)};
+  }
+}
 
 }  // namespace spindrift

@@ -10,13 +10,9 @@ namespace spindrift {
 Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& archive,
                                                const std::string& spacecraft_id,
                                                const std::string& mode) {
-  const auto database = open_for_reading(archive);
-  if (!database) {
-    return Unexpected{database.error()};
-  }
-  try {
+  return read_archive(archive, [&](SQLite::Database& database) -> std::optional<LastRun> {
     SQLite::Statement query{
-        *database,
+        database,
         "SELECT run_id, telemetry, software_version, config_sha256, orbit_sha256 FROM run"
         " WHERE spacecraft_id = ? AND mode = ? ORDER BY first_arrival DESC, started_utc DESC"
         " LIMIT 1"};
@@ -32,9 +28,7 @@ Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& arch
         .software_version = query.getColumn(2).getString(),
         .config_sha256 = query.getColumn(3).getString(),
         .orbit_sha256 = orbit.isNull() ? std::nullopt : std::optional{orbit.getString()}};
-  } catch (const SQLite::Exception& exception) {
-    return Unexpected{archive_error(archive.string(), exception)};
-  }
+  });
 }
 
 }  // namespace spindrift

@@ -138,34 +138,24 @@ void read_frames(const SQLite::Database& database, const std::string& spacecraft
 Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path& archive,
                                                      const std::string& spacecraft_id,
                                                      const RunStart& start) {
-  const auto database = open_for_reading(archive);
-  if (!database) {
-    return Unexpected{database.error()};
-  }
-  try {
-    std::vector<StoredPass> passes = find_runs(*database, spacecraft_id, start);
+  return read_archive(archive, [&](SQLite::Database& database) {
+    std::vector<StoredPass> passes = find_runs(database, spacecraft_id, start);
     for (StoredPass& pass : passes) {
-      read_source_counts(*database, pass);
+      read_source_counts(database, pass);
       if (pass.earliest) {
-        read_pulses(*database, spacecraft_id, pass);
-        read_frames(*database, spacecraft_id, pass);
+        read_pulses(database, spacecraft_id, pass);
+        read_frames(database, spacecraft_id, pass);
       }
     }
     return passes;
-  } catch (const SQLite::Exception& exception) {
-    return Unexpected{archive_error(archive.string(), exception)};
-  }
+  });
 }
 
 Expected<std::int64_t> count_stored_edges(const std::filesystem::path& archive,
                                           const std::string& run_id) {
-  const auto database = open_for_reading(archive);
-  if (!database) {
-    return Unexpected{database.error()};
-  }
-  try {
+  return read_archive(archive, [&](SQLite::Database& database) {
     SQLite::Statement query{
-        *database,
+        database,
         "WITH extent AS (SELECT spacecraft_id, first_tai_ns, first_arrival, ifnull("
         "  (SELECT min(later.first_arrival) FROM run AS later WHERE later.spacecraft_id ="
         "   run.spacecraft_id AND later.first_arrival > run.first_arrival), 9223372036854775807)"
@@ -181,9 +171,7 @@ Expected<std::int64_t> count_stored_edges(const std::filesystem::path& archive,
     query.bind(1, run_id);
     query.executeStep();
     return query.getColumn(0).getInt64();
-  } catch (const SQLite::Exception& exception) {
-    return Unexpected{archive_error(archive.string(), exception)};
-  }
+  });
 }
 
 }  // namespace spindrift
