@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -21,6 +22,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "services/processor/version.h"
 #include "services/progress/progress_bar.h"
@@ -82,16 +84,25 @@ void add_bus_options(CLI::App& command, std::uint32_t& domain, std::string& part
       ->capture_default_str();
 }
 
+void add_recording_options(CLI::App& command, std::filesystem::path& mission,
+                           std::vector<std::filesystem::path>& telemetry) {
+  command.add_option("--mission", mission, "Mission file")->check(check_path)->required();
+  command.add_option("--telemetry", telemetry, "CSV files, or directories of them")
+      ->check(check_path)
+      ->required();
+}
+
+void add_archive_option(CLI::App& command, std::filesystem::path& db) {
+  command.add_option("--db", db, "Archive to write, made where there is none")
+      ->check(check_path)
+      ->required();
+}
+
 void add_process(CLI::App& app, Request& request) {
   spindrift::ProcessOptions& options = request.process;
   CLI::App& command = *app.add_subcommand("process", "Process recorded telemetry into an archive");
-  command.add_option("--mission", options.mission, "Mission file")->check(check_path)->required();
-  command.add_option("--telemetry", options.telemetry, "CSV files, or directories of them")
-      ->check(check_path)
-      ->required();
-  command.add_option("--db", options.db, "Archive to write, made where there is none")
-      ->check(check_path)
-      ->required();
+  add_recording_options(command, options.mission, options.telemetry);
+  add_archive_option(command, options.db);
   command.add_flag("--strict", options.strict, "A bad row of telemetry is an error");
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] { request.run = [&] { return process(request.process); }; });
@@ -103,9 +114,7 @@ void add_serve(CLI::App& app, Request& request) {
   command.add_option("--mission", options.missions, "Mission file of each spacecraft")
       ->check(check_path)
       ->required();
-  command.add_option("--db", options.db, "Archive to write, made where there is none")
-      ->check(check_path)
-      ->required();
+  add_archive_option(command, options.db);
   add_bus_options(command, options.domain, options.partition);
   command.add_flag("--json", options.json, "Print one JSON object at the end");
   command.callback([&] { request.run = [&] { return serve(request.serve); }; });
@@ -114,10 +123,7 @@ void add_serve(CLI::App& app, Request& request) {
 void add_replay(CLI::App& app, Request& request) {
   spindrift::ReplayOptions& options = request.replay;
   CLI::App& command = *app.add_subcommand("replay", "Publish recorded telemetry on DDS");
-  command.add_option("--mission", options.mission, "Mission file")->check(check_path)->required();
-  command.add_option("--telemetry", options.telemetry, "CSV files, or directories of them")
-      ->check(check_path)
-      ->required();
+  add_recording_options(command, options.mission, options.telemetry);
   command.add_option("--speed", options.speed, "Times real time; 0: as fast as it is taken")
       ->capture_default_str();
   add_bus_options(command, options.domain, options.partition);
