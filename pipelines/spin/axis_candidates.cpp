@@ -11,6 +11,7 @@
 #include <unsupported/Eigen/AutoDiff>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/earth_motion.h"
 #include "pipelines/spin/geometry.h"
 #include "pipelines/spin/mixed_azimuth.h"
 
@@ -27,6 +28,9 @@ constexpr double kGrazingSigmas = 3.0;
 // of a pass, none is then the wrong one. And of the model, whose errors are drawn but once.
 constexpr double kToldApartSigmas = 5.0;
 constexpr double kToldApartModelSigmas = 3.0;
+// A chord narrower than so many sigmas grazes: where noise of five sigmas changes its cosine, the
+// second order is a quarter of the first.
+constexpr double kNarrowSigmas = 10.0;
 // The linear solution divides by Delta, which must not be its own noise.
 constexpr double kDeterminantSigmas = 5.0;
 
@@ -57,10 +61,10 @@ Value with_model_error(Value value, ModelError error) {
 
 /// What one revolution has to solve from.
 struct Input {
+  const SpinConfig& config;
+  const RevolutionMeasurements& measured;
   const Sightlines& sightlines;
   double sun_earth_rad;
-  SunSensor sun_sensor;
-  SpinGeometry limits;
   std::optional<Value> sun_angle;
   std::optional<Value> dihedral;
   std::optional<Value> mixed_azimuth;
@@ -130,10 +134,10 @@ std::optional<Value> dihedral_of(const RevolutionMeasurements& measured) {
 
 Input input_of(const SpinConfig& config, const RevolutionMeasurements& measured,
                const Sightlines& sightlines) {
-  Input input{.sightlines = sightlines,
+  Input input{.config = config,
+              .measured = measured,
+              .sightlines = sightlines,
               .sun_earth_rad = angle_between_rad(sightlines.sun_icrf, sightlines.earth_icrf),
-              .sun_sensor = config.sun_sensor,
-              .limits = config.geometry,
               .sun_angle = {},
               .dihedral = dihedral_of(measured),
               .mixed_azimuth = {},
@@ -186,6 +190,10 @@ std::vector<Value> earth_angles_from_one(const Input& input, Solutions& found) {
   const Value b = std::sin(chord.mount_angle_rad) * Value{cos(0.5 * chord.chord_rad)};
   ConeRootsOf<Value> roots = cone_roots(a, b, Value{cos(input.lone_disc_rad())});
   note_grazing(roots.excess, found);
+  if (chord.chord_rad.value() < kNarrowSigmas * noise_of(chord.chord_rad)) {
+    found.grazing = true;
+    found.told_apart = false;
+  }
   if (!(roots.excess.value() < 0.0)) {
     found.reason = fmt::format(
         "chord {:.4f} deg is wider than the Earth's disc of half-angle {:.4f} deg allows at "
@@ -206,11 +214,17 @@ Value misfit(const Input& input, const Place& place) {
   return off.value() < 0.0 ? Value{-off} : off;
 }
 
-/// Not only does one of them fit better: it does so beyond noise and model.
+/// Not only does one of them fit better: beyond noise and model it does so, and the other does not
+/// fit at all. (Noise that both share drops out of the difference; it may have moved both so far
+/// that the true one fits worse.)
 bool fits_beyond_doubt(const Input& input, const Place& better, const Place& worse) {
-  const Value difference = misfit(input, worse) - misfit(input, better);
-  return difference.value() > std::hypot(kToldApartSigmas * noise_of(difference),
-                                         kToldApartModelSigmas * model_uncertainty_of(difference));
+  const auto beyond_doubt = [](const Value& value) {
+    return value.value() > std::hypot(kToldApartSigmas * noise_of(value),
+                                      kToldApartModelSigmas * model_uncertainty_of(value));
+  };
+  const Value misfit_of_worse = misfit(input, worse);
+  return beyond_doubt(misfit_of_worse) &&
+         beyond_doubt(Value{misfit_of_worse - misfit(input, better)});
 }
 
 /// Cases 2 and 3 with the dihedral.
@@ -228,7 +242,7 @@ Solutions from_one_chord(const Input& input) {
                             .earth_angle_rad = earth_angle_rad,
                             .dihedral_rad = *input.dihedral});
   };
-  if (delta >= input.limits.determinant_usable &&
+  if (delta >= input.config.geometry.determinant_usable &&
       delta > kDeterminantSigmas * noise_of(signed_delta)) {
     const Value earth_angle_rad = earth_angle_linear(measured);
     if (earth_angle_rad > 0.0 && earth_angle_rad < std::numbers::pi) {
@@ -247,7 +261,7 @@ Solutions from_one_chord(const Input& input) {
     return misfit(input, a).value() < misfit(input, b).value();
   });
   if (found.places.size() > 1) {
-    found.told_apart = found.told_apart && delta > input.limits.determinant_ambiguous &&
+    found.told_apart = found.told_apart && delta > input.config.geometry.determinant_ambiguous &&
                        fits_beyond_doubt(input, found.places[0], found.places[1]);
   }
   return found;
@@ -291,7 +305,7 @@ void find_sun_angles(const Input& input, const Value& earth_angle_rad, Solutions
 /// Case 7 and its like: sun angle and dihedral from their one combination that sun2 gives. The
 /// roots are searched; their derivatives are those of an implicit function.
 void unmix(const Input& input, const Value& earth_angle_rad, Solutions& found) {
-  const MixedAzimuth mixed{.sensor = input.sun_sensor,
+  const MixedAzimuth mixed{.sensor = input.config.sun_sensor,
                            .azimuth_rad = input.mixed_azimuth->value(),
                            .earth_angle_rad = earth_angle_rad.value(),
                            .sun_earth_rad = input.sun_earth_rad};
@@ -309,11 +323,11 @@ void unmix(const Input& input, const Value& earth_angle_rad, Solutions& found) {
     lag_rad.derivatives() = lag.to_earth_angle * earth_angle_rad.derivatives() +
                             lag.to_azimuth * input.mixed_azimuth->derivatives();
     const Value sun_angle_rad = with_model_error(
-        atan2(constant(std::tan(input.sun_sensor.slit_cant_rad)), Value{sin(lag_rad)}),
+        atan2(constant(std::tan(input.config.sun_sensor.slit_cant_rad)), Value{sin(lag_rad)}),
         SunAngleError);
     found.places.push_back(
         {sun_angle_rad, earth_angle_rad,
-         Value{*input.mixed_azimuth + lag_rad + input.sun_sensor.slit_separation_rad}});
+         Value{*input.mixed_azimuth + lag_rad + input.config.sun_sensor.slit_separation_rad}});
   }
 }
 
@@ -344,14 +358,19 @@ bool agrees(double contradiction, double noise) {
   return std::abs(contradiction) <= kContradictionSigmas * noise + kModelLimit_rad;
 }
 
+/// What it would be had no edge been late.
+double in_time(const Value& value, const EdgeNoise& late) {
+  return value.value() - value.derivatives().head<kEdges>().dot(late);
+}
+
 /// Both chords show the disc that the orbit gives.
-bool disc_agrees(const Input& input, const Value& earth_angle_rad) {
+bool disc_agrees(const Input& input, const Value& earth_angle_rad, const EdgeNoise& late) {
   const Value cosine = cos_disc_seen(*input.north(), earth_angle_rad);
   if (!(std::abs(cosine.value()) < 1.0)) {
     return false;
   }
   const Value disc_rad = acos(cosine);
-  return agrees(disc_rad.value() - input.sightlines.disc_rad, noise_of(disc_rad));
+  return agrees(in_time(disc_rad, late) - input.sightlines.disc_rad, noise_of(disc_rad));
 }
 
 AxisCandidate candidate_at(const Input& input, const Place& place) {
@@ -367,6 +386,9 @@ AxisCandidate candidate_at(const Input& input, const Place& place) {
     solved[i] = axis[i].value();
     shifts.row(i) = axis[i].derivatives();
   }
+  const EdgeNoise late =
+      late_by_earth_motion(input.config, input.measured, input.sightlines, solved.normalized());
+  solved -= shifts.leftCols<kEdges>() * late;
   const double norm = solved.norm();
   const Eigen::Vector3d unit = solved / norm;
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(unit);
@@ -377,7 +399,7 @@ AxisCandidate candidate_at(const Input& input, const Place& place) {
           .covariance_rad2 = noise * noise.transpose(),
           .norm = norm,
           .consistent = agrees(norm - 1.0, norm_noise) &&
-                        (!input.both_chords() || disc_agrees(input, place.earth_angle_rad)),
+                        (!input.both_chords() || disc_agrees(input, place.earth_angle_rad, late)),
           .model_shift_icrf = basis * tangent.rightCols<kModelErrors>()};
 }
 

@@ -16,6 +16,14 @@ Measured measured_from(double value_rad, const EdgeNoise& noise_rad) {
   return {.value_rad = value_rad, .sigma_rad = noise_rad.norm(), .noise_rad = noise_rad};
 }
 
+/// The same value, its noise increased by what the period leaves uncertain of an angle turned.
+Measured with_period_noise(Measured measured, const SpinPeriod& period, double turned_rad) {
+  const double period_rad = std::abs(turned_rad) * period.sigma_s / period.period_s;
+  measured.noise_rad *= std::hypot(1.0, period_rad / measured.sigma_rad);
+  measured.sigma_rad = measured.noise_rad.norm();
+  return measured;
+}
+
 /// Why what rests on these edges is not to be used.
 std::optional<Rejection> rejection_of(const Revolution& revolution,
                                       std::initializer_list<PulseChannel> edges) {
@@ -42,7 +50,9 @@ Measured azimuth_behind(PulseChannel slit, Side side, const Revolution& revoluti
        {kInChannels.at(index_of(side)), kOutChannels.at(index_of(side))}) {
     noise_rad(static_cast<Eigen::Index>(channel)) = 0.5 * rate_rad_s * config.noise.infrared_s;
   }
-  return measured_from(wrapped_rad(middle_rad - sensor_of(config, side)->azimuth_rad), noise_rad);
+  return with_period_noise(
+      measured_from(wrapped_rad(middle_rad - sensor_of(config, side)->azimuth_rad), noise_rad),
+      revolution.period, middle_rad);
 }
 
 std::optional<EarthCrossing> crossing_of(const SpinConfig& config, const Revolution& revolution,
@@ -62,9 +72,8 @@ std::optional<EarthCrossing> crossing_of(const SpinConfig& config, const Revolut
   EdgeNoise noise_rad = EdgeNoise::Zero();
   noise_rad(static_cast<Eigen::Index>(in_channel)) = -rate_rad_s * config.noise.infrared_s;
   noise_rad(static_cast<Eigen::Index>(out_channel)) = rate_rad_s * config.noise.infrared_s;
-  EarthCrossing crossing{.t_mid = *in + (*out - *in) / 2,
-                         .chord = measured_from(chord_rad, noise_rad),
-                         .dihedral = {}};
+  EarthCrossing crossing{
+      .t_in = *in, .t_out = *out, .chord = measured_from(chord_rad, noise_rad), .dihedral = {}};
   crossing.chord->rejected_by = rejection_of(revolution, {in_channel, out_channel});
   if (revolution.edge(Sun1)) {
     crossing.dihedral = azimuth_behind(Sun1, side, revolution, config);

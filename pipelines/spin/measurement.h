@@ -28,9 +28,12 @@ struct Measured {
 
 /// What one infrared sensor gives. Chord and dihedral share both edges.
 struct EarthCrossing {
-  TaiTime t_mid;  ///< Half way between the edges: where the Earth's direction is taken.
+  TaiTime t_in;
+  TaiTime t_out;
   std::optional<Measured> chord;     ///< Phi, (0, pi).
   std::optional<Measured> dihedral;  ///< lambda, (-pi, pi]; empty without sun1.
+
+  TaiTime t_mid() const { return t_in + (t_out - t_in) / 2; }
 };
 
 enum class Side { North, South };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/earth_motion.h"
 #include "pipelines/spin/geometry.h"
 #include "pipelines/spin/horizon.h"
 #include "pipelines/spin/mixed_azimuth.h"
@@ -97,6 +98,7 @@ class Prediction {
 std::vector<Residual> residuals(const SpinConfig& config, const RevolutionMeasurements& measured,
                                 const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf) {
   const Prediction prediction{config, sightlines, axis_icrf};
+  const EdgeNoise late = late_by_earth_motion(config, measured, sightlines, axis_icrf);
   std::vector<Residual> found;
   for (const SpinQuantity quantity : kMeasuredAngles) {
     const auto value = good_value_of(measured, quantity);
@@ -104,9 +106,10 @@ std::vector<Residual> residuals(const SpinConfig& config, const RevolutionMeasur
       continue;
     }
     if (const auto predicted = prediction.of_rad(quantity, value->noise_rad)) {
-      found.push_back({.quantity = quantity,
-                       .value_rad = wrapped_rad(value->value_rad - *predicted),
-                       .sigma_rad = value->sigma_rad});
+      found.push_back(
+          {.quantity = quantity,
+           .value_rad = wrapped_rad(value->value_rad - value->noise_rad.dot(late) - *predicted),
+           .sigma_rad = value->sigma_rad});
     }
   }
   return found;

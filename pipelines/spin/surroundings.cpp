@@ -14,8 +14,8 @@ TaiTime middle_of_chords(const RevolutionMeasurements& measured, TaiTime otherwi
   std::optional<TaiTime> last;
   for (const auto& crossing : measured.crossings) {
     if (crossing) {
-      first = std::min(first.value_or(crossing->t_mid), crossing->t_mid);
-      last = std::max(last.value_or(crossing->t_mid), crossing->t_mid);
+      first = std::min(first.value_or(crossing->t_mid()), crossing->t_mid());
+      last = std::max(last.value_or(crossing->t_mid()), crossing->t_mid());
     }
   }
   return first ? *first + (*last - *first) / 2 : otherwise;
@@ -29,7 +29,8 @@ Expected<Sightlines> Surroundings::sightlines(const RevolutionMeasurements& meas
   if (!at_sun) {
     return Unexpected{at_sun.error()};
   }
-  const auto at_earth = orbit_.at(middle_of_chords(measured, t_sun));
+  const TaiTime t_earth = middle_of_chords(measured, t_sun);
+  const auto at_earth = orbit_.at(t_earth);
   if (!at_earth) {
     return Unexpected{at_earth.error()};
   }
@@ -38,7 +39,10 @@ Expected<Sightlines> Surroundings::sightlines(const RevolutionMeasurements& meas
         return Sightlines{.sun_icrf = sun_.direction_icrf(t_sun, *at_sun),
                           .earth_icrf = -at_earth->position_icrf_km.normalized(),
                           .disc_rad = disc_rad,
-                          .earth_pole_icrf = earth_pole_icrf(t)};
+                          .earth_pole_icrf = earth_pole_icrf(t),
+                          .t_earth = t_earth,
+                          .earth_motion_icrf_s =
+                              -at_earth->velocity_icrf_km_s / at_earth->position_icrf_km.norm()};
       });
 }
 

@@ -120,7 +120,7 @@ TEST(SpinMeasurements, ChordIsTheTurnFromEdgeToEdge) {
   const double width_s = seconds_between(*revolution.edge(NorthIn), *revolution.edge(NorthOut));
   EXPECT_DOUBLE_EQ(measured.crossing(Side::North)->chord->value_rad, kRate_rad_s * width_s);
   EXPECT_LE(std::abs(seconds_between(shifted(*revolution.edge(NorthIn), 0.5 * width_s),
-                                     measured.crossing(Side::North)->t_mid)),
+                                     measured.crossing(Side::North)->t_mid())),
             1e-9);
 }
 

@@ -98,6 +98,65 @@ TEST(Residuals, OfTheMixedAzimuthVanishAtTheTrueAxisToo) {
   EXPECT_NEAR(found.back().value_rad, 0.0, 2e-9 * kRate_rad_s);
 }
 
+TEST(Residuals, OfAnOblateEarthVanishAtTheTrueAxisWhereItsShapeIsTaken) {
+  SpinConfig config = testing::usual_config();
+  testing::Surroundings around = testing::at_rest(kSun_icrf, kRange_km * kEarth_icrf);
+  around.horizon_km = testing::ellipsoidal_horizon_km(40.0);
+  // Inclined, so that the limb's shape moves the middles of chords as well.
+  const Eigen::Vector3d axis_icrf = Eigen::Vector3d{0.5, 0.0, 1.0}.normalized();
+  config.north->mount_angle_rad = angle_between_rad(axis_icrf, kEarth_icrf) - 0.1;
+  config.south->mount_angle_rad = angle_between_rad(axis_icrf, kEarth_icrf) + 0.1;
+  const RevolutionMeasurements measured =
+      measure(config, testing::revolution_seen({.axis_icrf = axis_icrf,
+                                                .rate_rad_s = kRate_rad_s,
+                                                .first_turn_rad = 0.0,
+                                                .config = config},
+                                               around, tai_from_ns(1'795'143'637'000'000'000)));
+  const auto worst_rad = [&](HorizonModel model) {
+    config.horizon.model = model;
+    double worst = 0.0;
+    for (const Residual& residual : residuals(config, measured, kSightlines, axis_icrf)) {
+      worst = std::max(worst, std::abs(residual.value_rad));
+    }
+    return worst;
+  };
+  EXPECT_LT(worst_rad(HorizonModel::Ellipsoid), 2e-9 * kRate_rad_s);
+  EXPECT_GT(worst_rad(HorizonModel::Sphere), 0.02 * kDegree_rad);
+}
+
+/// Sun at rest, the Earth passing as from a low perigee, a slow body whose beams meet it half a
+/// turn apart.
+TEST(Residuals, VanishAtTheTrueAxisWhileTheEarthMoves) {
+  const Eigen::Vector3d motion_icrf_s{-8e-4, 1e-4, 3e-4};  // 0.05 deg/s.
+  SpinConfig config = testing::usual_config();
+  config.south->azimuth_rad = config.north->azimuth_rad + kPi;
+  testing::Surroundings around = testing::at_rest(kSun_icrf, kRange_km * kEarth_icrf);
+  around.earth_icrf_km = [=](double t_s) -> Eigen::Vector3d {
+    return kRange_km * (kEarth_icrf + t_s * motion_icrf_s);
+  };
+  const TaiTime start = tai_from_ns(1'795'143'637'000'000'000);
+  constexpr double kSlow_rad_s = 2.0 * kPi / 10.0;
+  const RevolutionMeasurements measured =
+      measure(config, testing::revolution_seen({.axis_icrf = kAxis_icrf,
+                                                .rate_rad_s = kSlow_rad_s,
+                                                .first_turn_rad = 0.0,
+                                                .config = config},
+                                               around, start));
+  Sightlines sightlines = kSightlines;
+  sightlines.t_earth = start;
+  sightlines.earth_motion_icrf_s = motion_icrf_s;
+  const auto found = residuals(config, measured, sightlines, kAxis_icrf);
+  ASSERT_EQ(found.size(), 5U);
+  for (const Residual& residual : found) {
+    EXPECT_NEAR(residual.value_rad, 0.0, 2e-9 * kSlow_rad_s) << name_of(residual.quantity);
+  }
+  for (const Residual& residual : residuals(config, measured, kSightlines, kAxis_icrf)) {
+    const bool dihedral = residual.quantity == NorthDihedral || residual.quantity == SouthDihedral;
+    EXPECT_TRUE(std::abs(residual.value_rad) > 2.0 * residual.sigma_rad || !dihedral)
+        << name_of(residual.quantity);
+  }
+}
+
 TEST(Residuals, OfWhatIsRejectedAlreadyAreNotFormed) {
   RevolutionMeasurements measured = seen();
   reject(measured, SunAngle, Rejection::Phase);

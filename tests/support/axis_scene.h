@@ -1,0 +1,65 @@
+/// @file
+/// A revolution of a body at rest among Sun and Earth, for the tests of what it allows.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/spin/products.h"
+#include "pipelines/spin/sightlines.h"
+#include "tests/support/lone_fix.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift::testing {
+
+/// A body about `axis_icrf` between Sun and Earth, one turn in six seconds: a nanosecond is 1e-9
+/// rad of spin phase.
+struct AxisScene {
+  Eigen::Vector3d sun_icrf = Eigen::Vector3d{1.0, 0.2, 0.1}.normalized();
+  Eigen::Vector3d earth_icrf = Eigen::Vector3d{0.3, 1.0, -0.02}.normalized();
+  Eigen::Vector3d axis_icrf = Eigen::Vector3d{0.1, -0.05, 1.0}.normalized();
+  double rate_rad_s = 2.0 * std::numbers::pi / 6.0;
+  SpinConfig config = usual_config();
+  TaiTime start = tai_from_ns(1'795'143'637'000'000'000);
+
+  static constexpr double kRange_km = 16000.0;
+
+  Sightlines sightlines() const {
+    return {.sun_icrf = sun_icrf,
+            .earth_icrf = earth_icrf,
+            .disc_rad = std::asin(6418.137 / kRange_km),
+            .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
+  }
+  Revolution seen() const {
+    return revolution_seen(
+        {.axis_icrf = axis_icrf, .rate_rad_s = rate_rad_s, .first_turn_rad = 0.1, .config = config},
+        at_rest(sun_icrf, kRange_km * earth_icrf), start);
+  }
+  Expected<SpinFix> fix(const std::set<SpinQuantity>& left_out = {}) const {
+    return lone_fix(config, seen(), left_out, sightlines());
+  }
+};
+
+// A nanosecond of an edge, amplified by the geometry at hand (5.7 for the earth angle of two beams
+// 10 deg apart, 33 for one beam with |Delta| = 0.03).
+inline constexpr double kExact_rad = 1e-7;
+
+/// The revolution with noise on every edge.
+inline Revolution noisy(const AxisScene& scene, Revolution revolution, std::mt19937_64& rng) {
+  std::normal_distribution<double> normal;
+  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+    const bool sun = channel < index_of(PulseChannel::NorthIn);
+    const double sigma_s = sun ? scene.config.noise.sun_s : scene.config.noise.infrared_s;
+    if (auto& edge = revolution.edges.at(channel)) {
+      edge = shifted(*edge, sigma_s * normal(rng));
+    }
+  }
+  return revolution;
+}
+
+}  // namespace spindrift::testing

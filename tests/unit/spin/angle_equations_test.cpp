@@ -1,0 +1,167 @@
+#include "pipelines/spin/angle_equations.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+#include "tests/support/axis_scene.h"
+
+namespace spindrift {
+namespace {
+
+using Scene = testing::AxisScene;
+using enum SpinQuantity;
+
+/// Small, so that angles are linear; and ten thousand times what whole nanoseconds leave.
+constexpr double kStep_rad = 2e-5;
+
+/// Of one quantity, the others rejected.
+RevolutionMeasurements only(SpinQuantity quantity, const SpinConfig& config,
+                            Revolution revolution) {
+  if (quantity == MixedAzimuth) {
+    revolution.edges.at(index_of(PulseChannel::Sun1)).reset();
+  }
+  RevolutionMeasurements measured = measure(config, revolution);
+  for (const SpinQuantity other : kMeasuredAngles) {
+    if (other != quantity) {
+      reject(measured, other, rejection_of(other));
+    }
+  }
+  return measured;
+}
+
+/// One unknown is what it is, the others are zero: r = H x + B b then is a slope times its step,
+/// and the right-hand side the normal matrix times the step.
+void expect_linear(const AngleEquations& equations, int unknown, double step_rad) {
+  ASSERT_EQ(equations.angles(), 1);
+  const Eigen::VectorXd slopes = equations.normal().col(unknown);
+  // The greatest deviation is the curvature of a chord, 20 times the step.
+  EXPECT_LT((equations.right() - slopes * step_rad).norm(), 1e-3 * slopes.norm() * kStep_rad);
+  EXPECT_NEAR(equations.squares(), slopes(unknown) * step_rad * step_rad,
+              2e-3 * slopes(unknown) * step_rad * step_rad + 1e-12);
+}
+
+TEST(AngleEquations, SlopesToTheAxisAreDifferencesOfResiduals) {
+  const Scene scene;
+  for (const SpinQuantity quantity : kMeasuredAngles) {
+    SCOPED_TRACE(name_of(quantity));
+    const RevolutionMeasurements measured = only(quantity, scene.config, scene.seen());
+    for (const int across : {0, 1}) {
+      for (const double step_rad : {kStep_rad, -kStep_rad}) {
+        const Eigen::Vector3d beside_icrf =
+            (scene.axis_icrf - step_rad * tangent_basis(scene.axis_icrf).col(across)).normalized();
+        AngleEquations equations{beside_icrf};
+        equations.add(scene.config, measured, scene.sightlines(), beside_icrf);
+        expect_linear(equations, across, step_rad);
+      }
+    }
+  }
+}
+
+TEST(AngleEquations, AnAxisBesideTheReferenceIsCountedFromThere) {
+  const Scene scene;
+  const RevolutionMeasurements measured = measure(scene.config, scene.seen());
+  const Eigen::Vector3d reference_icrf =
+      (scene.axis_icrf + kStep_rad * Eigen::Vector3d::UnitX()).normalized();
+  for (const Eigen::Vector3d& about_icrf : {scene.axis_icrf, reference_icrf}) {
+    AngleEquations equations{reference_icrf};
+    equations.add(scene.config, measured, scene.sightlines(), about_icrf);
+    EXPECT_EQ(equations.angles(), 5);
+    // The angles are correlated and have a noise of degrees at most: all of it is the step's square
+    // and the radian that the reference counts for.
+    EXPECT_LT(angle_between_rad(equations.axis_icrf(), scene.axis_icrf), 2e-3 * kStep_rad);
+  }
+}
+
+TEST(AngleEquations, SlopesToTheLimbAreThoseOfALargerDisc) {
+  const Scene scene;
+  Sightlines larger = scene.sightlines();
+  larger.disc_rad += kStep_rad;
+  for (const auto& [quantity, error] :
+       {std::pair{NorthChord, NorthLimb}, std::pair{SouthChord, SouthLimb}}) {
+    AngleEquations equations{scene.axis_icrf};
+    equations.add(scene.config, only(quantity, scene.config, scene.seen()), larger,
+                  scene.axis_icrf);
+    expect_linear(equations, 2 + error, kStep_rad);
+  }
+}
+
+TEST(AngleEquations, SlopesToTheAzimuthsAreThoseOfAWrongMissionFile) {
+  const Scene scene;
+  SpinConfig wrong = scene.config;
+  wrong.north->azimuth_rad -= kStep_rad;
+  wrong.south->azimuth_rad -= kStep_rad;
+  for (const auto& [quantity, error] :
+       {std::pair{NorthDihedral, NorthAzimuth}, std::pair{SouthDihedral, SouthAzimuth}}) {
+    AngleEquations equations{scene.axis_icrf};
+    equations.add(wrong, only(quantity, wrong, scene.seen()), scene.sightlines(), scene.axis_icrf);
+    expect_linear(equations, 2 + error, kStep_rad);
+  }
+}
+
+TEST(AngleEquations, SlopesToTheSunAngleAreThoseOfAWrongSeparation) {
+  const Scene scene;
+  SpinConfig wrong = scene.config;
+  wrong.sun_sensor.slit_separation_rad += kStep_rad;
+  const double too_large_rad = measure(wrong, scene.seen()).sun_angle->value_rad -
+                               measure(scene.config, scene.seen()).sun_angle->value_rad;
+  EXPECT_GT(too_large_rad, 0.0);
+  for (const SpinQuantity quantity : {SunAngle, MixedAzimuth}) {
+    AngleEquations equations{scene.axis_icrf};
+    equations.add(wrong, only(quantity, wrong, scene.seen()), scene.sightlines(), scene.axis_icrf);
+    expect_linear(equations, 2 + SunAngleError, too_large_rad);
+  }
+}
+
+TEST(AngleEquations, AChordThatGrazesTheLimbIsLeftOut) {
+  Scene scene;
+  const double disc_rad = scene.sightlines().disc_rad;
+  const double earth_rad = angle_between_rad(scene.axis_icrf, scene.earth_icrf);
+  scene.config.north->mount_angle_rad = earth_rad - disc_rad + 0.005;
+  AngleEquations equations{scene.axis_icrf};
+  equations.add(scene.config, measure(scene.config, scene.seen()), scene.sightlines(),
+                scene.axis_icrf);
+  EXPECT_EQ(equations.angles(), 4);
+}
+
+TEST(AngleEquations, CovarianceIsTheScatterOfTheAxis) {
+  constexpr int kDraws = 3000;
+  Scene scene;
+  scene.config.noise = {.sun_s = 2e-5, .infrared_s = 1e-4};
+  const Revolution exact = scene.seen();
+  std::mt19937_64 rng{31};
+  double squares = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    AngleEquations equations{scene.axis_icrf};
+    equations.add(scene.config, measure(scene.config, testing::noisy(scene, exact, rng)),
+                  scene.sightlines(), scene.axis_icrf);
+    const Eigen::Vector2d error_rad =
+        tangent_basis(scene.axis_icrf).transpose() * equations.axis_icrf();
+    squares += error_rad.dot(equations.covariance_rad2().ldlt().solve(error_rad));
+  }
+  // 99.9 % of chi-square with 6000 degrees of freedom, standard deviation sqrt(12000).
+  EXPECT_NEAR(squares, 2.0 * kDraws, 3.29 * 109.5);
+}
+
+TEST(AngleEquations, WhatNoAngleFixesStaysAtTheReference) {
+  const Scene scene;
+  const AngleEquations none{scene.axis_icrf};
+  EXPECT_LT(angle_between_rad(none.axis_icrf(), scene.axis_icrf), 1e-15);
+  EXPECT_TRUE(none.covariance_rad2().isApprox(Eigen::Matrix2d::Identity()));
+
+  AngleEquations sun_only{scene.axis_icrf};
+  sun_only.add(scene.config, only(SunAngle, scene.config, scene.seen()), scene.sightlines(),
+               scene.axis_icrf);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver{sun_only.covariance_rad2()};
+  EXPECT_NEAR(solver.eigenvalues()(1), 1.0, 1e-7);
+  EXPECT_LT(solver.eigenvalues()(0), 1e-6);
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,161 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/axis_candidates.h"
+#include "tests/support/axis_scene.h"
+
+namespace spindrift {
+namespace {
+
+using testing::kExact_rad;
+using Scene = testing::AxisScene;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree_rad = kPi / 180.0;
+
+/// The Sun on the body's equator and the Earth, some degrees from the axis, behind it by a dihedral
+/// whose cosine is `determinant` / cos(85 deg): then Delta is `determinant`.
+Scene scene_of_determinant(double determinant, double earth_angle_deg = 87.0) {
+  const double dihedral_rad = std::acos(determinant / std::cos(85.0 * kDegree_rad));
+  const double earth_angle_rad = earth_angle_deg * kDegree_rad;
+  Scene scene{.sun_icrf = Eigen::Vector3d::UnitX(), .axis_icrf = Eigen::Vector3d::UnitZ()};
+  scene.earth_icrf =
+      direction_icrf({.ra_rad = dihedral_rad, .dec_rad = 0.5 * kPi - earth_angle_rad});
+  scene.config.south.reset();
+  return scene;
+}
+
+TEST(AxisCandidates, ALargeDeterminantLeavesNoAlternate) {
+  for (const double delta : {0.0302, 0.05, -0.0302, -0.05}) {
+    const Scene scene = scene_of_determinant(delta);
+    const SpinFix fix = scene.fix().value();
+    EXPECT_TRUE(fix.alternate_axes_icrf.empty()) << delta;
+    EXPECT_EQ(fix.resolution, Resolution::Geometry);
+    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+  }
+}
+
+TEST(AxisCandidates, ASmallDeterminantLeavesTheOtherRootAsAlternate) {
+  for (const double delta : {0.0298, -0.02, -0.0298}) {
+    // The roots lie 15 deg on either side of the beam: noise and model move them by little.
+    const Scene scene = scene_of_determinant(delta, 70.0);
+    const SpinFix fix = scene.fix().value();
+    EXPECT_EQ(fix.resolution, Resolution::Geometry) << delta;
+    EXPECT_TRUE(fix.accepted);
+    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+    ASSERT_EQ(fix.alternate_axes_icrf.size(), 1);
+    EXPECT_GT(angle_between_rad(fix.alternate_axes_icrf.front(), scene.axis_icrf), kDegree_rad);
+  }
+}
+
+TEST(AxisCandidates, RootsThatTheModelMayExchangeAreAmbiguous) {
+  // Two degrees on either side of the beam, where a limb 0.15 deg off moves them by as much.
+  for (const double delta : {0.0298, 0.02, -0.02, -0.0298}) {
+    const SpinFix fix = scene_of_determinant(delta).fix().value();
+    EXPECT_EQ(fix.resolution, Resolution::Ambiguous) << delta;
+    EXPECT_EQ(fix.alternate_axes_icrf.size(), 1);
+  }
+}
+
+TEST(AxisCandidates, AVanishingDeterminantIsAmbiguousAndNotAccepted) {
+  for (const double delta : {0.0098, 0.0, -0.0098}) {
+    const Scene scene = scene_of_determinant(delta);
+    const SpinFix fix = scene.fix().value();
+    EXPECT_EQ(fix.resolution, Resolution::Ambiguous) << delta;
+    EXPECT_FALSE(fix.accepted);
+    EXPECT_EQ(fix.geometry_case, 2);
+    ASSERT_EQ(fix.alternate_axes_icrf.size(), 1);
+    const double off_rad = angle_between_rad(fix.axis_icrf, scene.axis_icrf);
+    const double alternate_off_rad =
+        angle_between_rad(fix.alternate_axes_icrf.front(), scene.axis_icrf);
+    EXPECT_LT(std::min(off_rad, alternate_off_rad), kExact_rad);
+    EXPECT_GT(std::max(off_rad, alternate_off_rad), kDegree_rad);
+  }
+}
+
+TEST(AxisCandidates, ARootThatFitsBetterByNoiseAloneIsNotAccepted) {
+  std::mt19937_64 rng{5};
+  for (const double delta : {0.012, 0.02, 0.028, 0.035}) {
+    Scene scene = scene_of_determinant(delta);
+    scene.sun_icrf = Eigen::Vector3d{1.0, 0.0, 0.5}.normalized();
+    scene.rate_rad_s = 2.0 * kPi;
+    scene.config.noise.infrared_s = 1.5e-3;
+    const Revolution exact = scene.seen();
+    for (int draw = 0; draw < 300; ++draw) {
+      const auto fix = testing::lone_fix(scene.config, testing::noisy(scene, exact, rng), {},
+                                         scene.sightlines());
+      if (fix && fix->accepted) {
+        const double sigma_rad = std::sqrt(fix->covariance_rad2.trace());
+        EXPECT_LT(angle_between_rad(fix->axis_icrf, scene.axis_icrf), 6.0 * sigma_rad) << delta;
+      }
+    }
+  }
+}
+
+TEST(AxisCandidates, ARootOfANarrowChordIsNotAcceptedByNoiseAlone) {
+  // The roots lie 47 deg apart, and fit the angle between Sun and Earth nearly alike; the noise of
+  // the fast body is a tenth of the chord and more.
+  std::mt19937_64 rng{6};
+  int accepted = 0;
+  for (const double delta : {0.012, 0.016, 0.02, 0.028}) {
+    for (const double inside_deg : {0.05, 0.1, 0.2, 0.4}) {
+      Scene scene;
+      const double disc_deg = scene.sightlines().disc_rad / kDegree_rad;
+      scene = scene_of_determinant(delta, 85.0 + disc_deg - inside_deg);
+      scene.rate_rad_s = 2.5 * 2.0 * kPi;
+      const Revolution exact = scene.seen();
+      for (int draw = 0; draw < 300; ++draw) {
+        const auto fix = testing::lone_fix(scene.config, testing::noisy(scene, exact, rng), {},
+                                           scene.sightlines());
+        if (fix && fix->accepted && !fix->grazing) {
+          const double sigma_rad = std::sqrt(fix->covariance_rad2.trace());
+          EXPECT_LT(angle_between_rad(fix->axis_icrf, scene.axis_icrf), 6.0 * sigma_rad)
+              << delta << ' ' << inside_deg;
+          ++accepted;
+        }
+      }
+    }
+  }
+  EXPECT_GT(accepted, 100);
+}
+
+TEST(AxisCandidates, LimitsOfTheDeterminantAreThoseOfTheMission) {
+  Scene scene = scene_of_determinant(0.05);
+  scene.config.geometry = {.determinant_usable = 0.08, .determinant_ambiguous = 0.06};
+  EXPECT_EQ(scene.fix().value().resolution, Resolution::Ambiguous);
+  scene.config.geometry = {.determinant_usable = 0.08, .determinant_ambiguous = 0.04};
+  EXPECT_FALSE(scene.fix().value().alternate_axes_icrf.empty());
+  scene.config.geometry = {.determinant_usable = 0.04, .determinant_ambiguous = 0.01};
+  EXPECT_TRUE(scene.fix().value().alternate_axes_icrf.empty());
+}
+
+TEST(AxisCandidates, AChordWiderThanTheDiscIsRefusedWithItsMeasure) {
+  Scene scene = scene_of_determinant(0.02);
+  Revolution revolution = scene.seen();
+  const TaiTime in = revolution.edge(PulseChannel::NorthIn).value();
+  revolution.edges.at(index_of(PulseChannel::NorthOut)) = shifted(in, 0.9 / scene.rate_rad_s);
+  const auto fix = testing::lone_fix(scene.config, revolution, {}, scene.sightlines());
+  ASSERT_FALSE(fix);
+  EXPECT_EQ(fix.error().code, ErrorCode::InvalidInput);
+  EXPECT_NE(fix.error().message.find("chord 51.5662 deg"), std::string::npos)
+      << fix.error().message;
+}
+
+TEST(AxisCandidates, ASolutionThatTheNoiseDestroysIsRefused) {
+  // At its widest the chord has a double root, which every edge moves without bound.
+  Scene scene = scene_of_determinant(0.02);
+  scene.earth_icrf = direction_icrf(
+      {.ra_rad = std::acos(0.02 / std::cos(85.0 * kDegree_rad)), .dec_rad = 5.0 * kDegree_rad});
+  scene.config.noise.infrared_s = 5e-2;
+  const auto fix = scene.fix();
+  ASSERT_FALSE(fix);
+  EXPECT_EQ(fix.error().code, ErrorCode::Unobservable);
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,237 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/axis_candidates.h"
+#include "tests/support/axis_scene.h"
+
+namespace spindrift {
+namespace {
+
+using Scene = testing::AxisScene;
+using enum SpinQuantity;
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+/// What is missing, and the case that it leaves.
+struct Loss {
+  std::set<PulseChannel> edges;
+  std::set<SpinQuantity> quantities;
+  int geometry_case;
+};
+
+const std::vector<Loss>& losses() {
+  using enum PulseChannel;
+  static const std::vector<Loss> all = {
+      {{}, {}, 1},
+      {{SouthIn}, {}, 2},
+      {{NorthOut}, {}, 3},
+      {{}, {NorthDihedral, SouthDihedral}, 1},
+      {{SouthIn}, {NorthDihedral}, 2},
+      {{NorthIn}, {SouthDihedral}, 3},
+      {{Sun2}, {}, 4},
+      {{Sun2, SouthIn}, {}, 5},
+      {{Sun2, NorthIn}, {}, 6},
+      {{Sun1}, {}, 7},
+      {{Sun1, SouthOut}, {}, 5},
+      {{Sun1, NorthOut}, {}, 6},
+  };
+  return all;
+}
+
+Revolution without(Revolution revolution, const std::set<PulseChannel>& edges) {
+  for (const PulseChannel channel : edges) {
+    revolution.edges.at(index_of(channel)).reset();
+  }
+  return revolution;
+}
+
+/// A body anywhere, Sun and Earth where its sensors see them.
+Scene random_scene(std::mt19937_64& rng) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform{-1.0, 1.0};
+  const auto direction = [&]() -> Eigen::Vector3d {
+    const double x = normal(rng);
+    const double y = normal(rng);
+    return Eigen::Vector3d{x, y, normal(rng)}.normalized();
+  };
+  Scene scene;
+  scene.axis_icrf = direction();
+  const auto away = [&](double angle_deg) -> Eigen::Vector3d {
+    return Eigen::AngleAxisd{angle_deg * kDegree_rad,
+                             scene.axis_icrf.cross(direction()).normalized()} *
+           scene.axis_icrf;
+  };
+  scene.sun_icrf = away(90.0 + 35.0 * uniform(rng));
+  scene.earth_icrf = away(90.0 + 10.0 * uniform(rng));
+  // Small: what comes of it is linear, and stays above the nanosecond.
+  scene.config.noise = {.sun_s = 2e-6, .infrared_s = 2e-6};
+  return scene;
+}
+
+TEST(AxisCandidates, EveryCaseHasTheTrueAxisAmongItsCandidates) {
+  constexpr int kScenes = 200;
+  for (const Loss& loss : losses()) {
+    std::mt19937_64 rng{92};
+    int found_true = 0;
+    for (int trial = 0; trial < kScenes; ++trial) {
+      SCOPED_TRACE(loss.geometry_case * 1000 + trial);
+      const Scene scene = random_scene(rng);
+      const RevolutionMeasurements measured = testing::measured_without(
+          scene.config, without(scene.seen(), loss.edges), loss.quantities);
+      ASSERT_EQ(geometry_case_of(measured), loss.geometry_case);
+      const auto found = axis_candidates(scene.config, measured, scene.sightlines());
+      if (!found) {
+        ASSERT_EQ(found.error().code, ErrorCode::Unobservable);
+        continue;
+      }
+      ASSERT_LE(found->candidates.size(), 4U);
+      ASSERT_EQ(found->geometry_case, loss.geometry_case);
+      const auto nearest =
+          std::min_element(found->candidates.begin(), found->candidates.end(),
+                           [&](const AxisCandidate& a, const AxisCandidate& b) {
+                             return angle_between_rad(a.axis_icrf, scene.axis_icrf) <
+                                    angle_between_rad(b.axis_icrf, scene.axis_icrf);
+                           });
+      const double off_rad = angle_between_rad(nearest->axis_icrf, scene.axis_icrf);
+      if (found->grazing) {
+        // Only what is left over of cases 2 and 3 tells such roots apart.
+        ASSERT_TRUE(!found->told_apart || loss.quantities.empty());
+        ASSERT_TRUE(!found->told_apart || loss.geometry_case < 4);
+        // A double root takes the square root of a nanosecond.
+        found_true += off_rad < 1e-3 ? 1 : 0;
+        continue;
+      }
+      ASSERT_LT(off_rad, 1e-5);
+      ASSERT_TRUE(nearest->consistent);
+      ASSERT_TRUE(!found->told_apart || nearest == found->candidates.begin());
+      ++found_true;
+    }
+    EXPECT_GT(found_true, kScenes / 2) << loss.geometry_case;
+  }
+}
+
+TEST(AxisCandidates, CovariancesAreThoseOfCentralDifferencesInEveryCase) {
+  for (const Loss& loss : losses()) {
+    std::mt19937_64 rng{93};
+    int compared = 0;
+    for (int trial = 0; trial < 60; ++trial) {
+      SCOPED_TRACE(loss.geometry_case * 1000 + trial);
+      const Scene scene = random_scene(rng);
+      const Revolution revolution = without(scene.seen(), loss.edges);
+      const auto solve = [&](const Revolution& seen) {
+        return axis_candidates(scene.config,
+                               testing::measured_without(scene.config, seen, loss.quantities),
+                               scene.sightlines());
+      };
+      const auto found = solve(revolution);
+      if (!found || found->grazing) {
+        continue;
+      }
+      constexpr double kStep_s = 2e-6;
+      for (std::size_t i = 0; i < found->candidates.size(); ++i) {
+        const AxisCandidate& candidate = found->candidates[i];
+        // Where the geometry multiplies errors a hundredfold, differences are no measure.
+        if (candidate.covariance_rad2.trace() > std::pow(2e-4, 2)) {
+          continue;
+        }
+        const Eigen::Matrix<double, 3, 2> basis = tangent_basis(candidate.axis_icrf);
+        Eigen::Matrix2d expected = Eigen::Matrix2d::Zero();
+        for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+          if (!revolution.edges.at(channel)) {
+            continue;
+          }
+          Revolution later = revolution;
+          Revolution earlier = revolution;
+          later.edges.at(channel) = shifted(*revolution.edges.at(channel), kStep_s);
+          earlier.edges.at(channel) = shifted(*revolution.edges.at(channel), -kStep_s);
+          const Eigen::Vector2d moved = 0.5 * basis.transpose() *
+                                        (solve(later)->candidates.at(i).axis_icrf -
+                                         solve(earlier)->candidates.at(i).axis_icrf);
+          expected += moved * moved.transpose();
+        }
+        // Of the step's square 1e-3 is lost where edges move by whole nanoseconds.
+        ASSERT_LT((candidate.covariance_rad2 - expected).norm(), 3e-3 * expected.norm());
+        ++compared;
+      }
+    }
+    EXPECT_GT(compared, 30) << loss.geometry_case;
+  }
+}
+
+TEST(AxisCandidates, ConesAreNamedInWords) {
+  using enum PulseChannel;
+  const Scene scene;
+  const std::vector<std::pair<Loss, std::string>> cones = {
+      {{{Sun1, Sun2}, {}, 8}, "cone about the Earth only"},
+      {{{NorthIn, SouthIn}, {}, 9}, "cone about the Sun only"},
+      {{{Sun1, Sun2, NorthIn}, {}, 10}, "cones about the Earth only"},
+      {{{Sun1, Sun2, SouthIn}, {}, 10}, "cones about the Earth only"},
+      {{{Sun1, NorthIn, SouthIn}, {}, 0}, "no measurement"},
+      {{{Sun1, Sun2, NorthIn, SouthIn}, {}, 0}, "no measurement"}};
+  for (const auto& [loss, words] : cones) {
+    const RevolutionMeasurements measured =
+        measure(scene.config, without(scene.seen(), loss.edges));
+    EXPECT_EQ(geometry_case_of(measured), loss.geometry_case);
+    const auto found = axis_candidates(scene.config, measured, scene.sightlines());
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().code, ErrorCode::Unobservable);
+    EXPECT_NE(found.error().message.find(words), std::string::npos) << found.error().message;
+  }
+}
+
+/// Sum over noisy copies of the revolution of the squared error, normalised by the covariance that
+/// the undisturbed revolution states.
+double squared_errors(const Scene& scene, const std::set<SpinQuantity>& left_out, int draws,
+                      std::mt19937_64& rng) {
+  const Revolution exact = scene.seen();
+  const SpinFix stated =
+      testing::lone_fix(scene.config, exact, left_out, scene.sightlines()).value();
+  const Eigen::Matrix<double, 3, 2> basis = tangent_basis(stated.axis_icrf);
+  double sum = 0.0;
+  for (int draw = 0; draw < draws; ++draw) {
+    const auto fix = testing::lone_fix(scene.config, testing::noisy(scene, exact, rng), left_out,
+                                       scene.sightlines());
+    const Eigen::Vector2d error_rad = basis.transpose() * fix.value().axis_icrf;
+    sum += error_rad.dot(stated.covariance_rad2.ldlt().solve(error_rad));
+  }
+  return sum;
+}
+
+TEST(AxisCandidates, CovarianceIsTheScatterThatTheNoiseMakes) {
+  constexpr int kDraws = 3000;
+  std::mt19937_64 rng{91};
+  // Noise small enough that the geometry is linear within it: 1e-4 rad of spin phase at most.
+  Scene scene;
+  scene.config.noise = {.sun_s = 2e-5, .infrared_s = 1e-4};
+  // 99.9 % of chi-square with 6000 degrees of freedom, standard deviation sqrt(12000).
+  constexpr double kSpread = 3.29 * 109.5;
+  for (const std::set<SpinQuantity>& left_out :
+       {std::set<SpinQuantity>{}, std::set{SouthChord}, std::set{NorthChord},
+        std::set{NorthDihedral}, std::set{SouthChord, NorthDihedral}}) {
+    SCOPED_TRACE(left_out.size());
+    EXPECT_NEAR(squared_errors(scene, left_out, kDraws, rng), 2.0 * kDraws, kSpread);
+  }
+}
+
+TEST(AxisCandidates, CovarianceGrowsWithTheSquareOfTheNoise) {
+  Scene scene;
+  scene.config.noise = {.sun_s = 1e-5, .infrared_s = 5e-5};
+  const Eigen::Matrix2d once = scene.fix().value().covariance_rad2;
+  scene.config.noise = {.sun_s = 2e-5, .infrared_s = 1e-4};
+  const Eigen::Matrix2d twice = scene.fix().value().covariance_rad2;
+  // Edges move by whole nanoseconds: 5e-5 of the lesser noise.
+  EXPECT_LT((twice - 4.0 * once).norm(), 4e-4 * twice.norm());
+}
+
+}  // namespace
+}  // namespace spindrift
