@@ -89,19 +89,22 @@ class SequentialEstimator {
   bool start(const SpinFix& fix, std::span<const StartingPoint> points,
              const Revolution& revolution, const Sky& sky);
   bool restart_is_due(std::span<const SpinFix> settled);
+  void note_contradiction(const SpinFix& fix);
   void take_side(const SpinFix& fix);
   bool prior_stands() const;
   void work_in(const Revolution& revolution, const Sky& sky);
   void drop_the_beaten();
   void count(const EdgeTally& tally);
+  std::optional<PulseChannel> mostly_gated() const;
   std::string status() const;
 
   SpinConfig config_;
   std::vector<Hypothesis> hypotheses_;  ///< The likeliest first; empty before the first fix.
-  StartingPoints starts_;         ///< Of the fixes that might start it, since it last started.
-  StartingPoints unlike_;         ///< Of candidates that no hypothesis is near to; likewise.
-  std::int64_t grazing_ = 0;      ///< Fixes, before the first that could start it.
-  bool provisional_ = false;      ///< Started by these: the true axis may be missing.
+  StartingPoints settled_starts_;       ///< Of fixes that might start it, since it last started.
+  StartingPoints open_starts_;          ///< Likewise, of those that leave several candidates open.
+  StartingPoints unlike_;               ///< Of candidates that no hypothesis is near to; likewise.
+  std::int64_t grazing_ = 0;            ///< Fixes, before the first that could start it.
+  bool provisional_ = false;            ///< Started by these: the true axis may be missing.
   std::int64_t unheard_ = 0;      ///< Revolutions with fixes before the first that could start it.
   std::int64_t revolutions_ = 0;  ///< Since the start; likewise the following.
   std::int64_t gated_ = 0;
@@ -117,6 +120,8 @@ class SequentialEstimator {
   ModelVerdict verdict_;    ///< Of the watch.
   int contradicted_ = 0;    ///< Fixes against the axis, less those for it.
   MeanAxis contradicting_;  ///< All fixes since it was last 0.
+  StartingPoints poor_;     ///< Of fixes known too badly to speak alone, since they last spoke.
+  int poor_fixes_ = 0;      ///< So many.
   int restarts_ = 0;
   std::string_view restarted_;  ///< Why; empty: never.
 };

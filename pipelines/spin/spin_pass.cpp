@@ -488,7 +488,8 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
     if (sequential_.prior_refuted() && config_.prior) {
       forget_prior(revolution.t_start, out);
     }
-    if (sequential && (sequential_.restarts() > restarts_heeded_ || recent_fixes_left_the_mean())) {
+    if (sequential && (sequential_.restarts() > restarts_heeded_ ||
+                       recent_fixes_left_the_mean_for(sequential->axis_icrf))) {
       start_again_where_moved(*sequential, out);
     }
   }
@@ -531,10 +532,13 @@ void SpinPass::begin_anew(TaiTime t) {
 }
 
 /// They share what is wrong with the model, so that a difference is the axis's own.
-bool SpinPass::recent_fixes_left_the_mean() const {
+bool SpinPass::recent_fixes_left_the_mean_for(const Eigen::Vector3d& axis_icrf) const {
   const auto recent_icrf = recent_axes_.axis_icrf();
-  return recent_icrf && mean_.count() > 0 &&
-         angle_between_rad(*recent_icrf, mean_.axis_icrf()) > kModelLimit_rad;
+  if (!recent_icrf || mean_.count() == 0) {
+    return false;
+  }
+  const double apart_rad = angle_between_rad(*recent_icrf, mean_.axis_icrf());
+  return apart_rad > kModelLimit_rad && angle_between_rad(*recent_icrf, axis_icrf) < apart_rad;
 }
 
 /// A restart of `sequential`, or recent fixes that lie elsewhere, raise the question; it may take

@@ -85,7 +85,7 @@ class SpinPass {
   void say_why_not_accepted(const SpinFix& fix, SpinOutput& out);
   void announce_axis(const Candidate& candidate, SpinOutput& out);
   std::optional<KnownAxis> established_axis() const;
-  bool recent_fixes_left_the_mean() const;
+  bool recent_fixes_left_the_mean_for(const Eigen::Vector3d& axis_icrf) const;
   void start_again_where_moved(const SpinEstimate& sequential, SpinOutput& out);
   void forget_prior(TaiTime t, SpinOutput& out);
   void begin_anew(TaiTime t);
