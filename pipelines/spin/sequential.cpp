@@ -107,9 +107,8 @@ Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
          moved * verdict_.errors_rad2 * moved.transpose();
 }
 
-double SequentialEstimator::unseen_model_sigma_rad() const {
-  const Eigen::Matrix<double, 2, kModelErrors> moved = hypotheses_.front().filter.axis_of_errors();
-  return std::sqrt((moved * watch_.left_open_rad2() * moved.transpose()).trace());
+double SequentialEstimator::model_leverage() const {
+  return hypotheses_.front().filter.axis_of_errors().norm();
 }
 
 /// Candidates of a fix that leaves them open, which no filter follows. What is settled is asked

@@ -62,10 +62,9 @@ class SequentialEstimator {
   /// The edges have beaten the candidate that a prior had chosen.
   bool prior_refuted() const { return prior_refuted_; }
 
-  /// What errors of the model that no edge shows would move the axis by, were each of
-  /// kModelError_rad: one standard deviation, both ways together. No estimate includes it.
-  /// There must be one.
-  double unseen_model_sigma_rad() const;
+  /// What errors of the model, one radian each, move the axis by, all ways together, rad: of the
+  /// geometry alone. Estimates include only what the edges show of such errors. There must be one.
+  double model_leverage() const;
 
   /// The axis that the edges settled beyond doubt among several.
   std::optional<KnownAxis> settled_by_edges() const;

@@ -23,6 +23,9 @@ namespace {
 constexpr std::size_t kEstablishedFixes = 10;
 // Beyond so many sigmas, and the model's limit, the axis is another one than before.
 constexpr double kMovedSigmas = 5.0;
+// Where beams cross the Earth well apart, an axis moves by three or four times the errors of the
+// model; where both look across the same middle of it, by ten.
+constexpr double kPoorLeverage = 6.0;
 
 /// What the spherical horizon leaves out of an oblate Earth, as a covariance: the limb of each beam
 /// anywhere between none and the whole of its displacement. Unlike the noise of the pulses it does
@@ -226,12 +229,13 @@ void SpinPass::say_what_is_missing(SpinOutput& out) const {
         "the estimator 'sequential' never began: its fixes leave the axis, or a candidate for it, "
         "uncertain by more than 3 deg");
   }
-  if (last_status_.starts_with("OK") && sequential_.unseen_model_sigma_rad() > kModelLimit_rad) {
-    out.notices.push_back(fmt::format(
-        "poor leverage: errors of {:.2f} deg in mounting or limb, which nothing would show, move "
-        "the axis by {:.1f} deg; no sigma includes them",
-        kModelError_rad * 180.0 / std::numbers::pi,
-        sequential_.unseen_model_sigma_rad() * 180.0 / std::numbers::pi));
+  if (last_status_.starts_with("OK") && sequential_.model_leverage() > kPoorLeverage) {
+    out.notices.push_back(
+        fmt::format("poor leverage: errors of {:.2f} deg in mounting or limb move the axis by "
+                    "{:.1f} deg; sigma "
+                    "includes no more of them than the edges show",
+                    kModelError_rad * 180.0 / std::numbers::pi,
+                    sequential_.model_leverage() * kModelError_rad * 180.0 / std::numbers::pi));
   }
   if (last_case_ == 0 && without_fix_ > 1) {
     out.notices.push_back(fmt::format("no axis: {} revolutions gave no fix, the last: {}",
