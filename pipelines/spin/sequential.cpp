@@ -386,17 +386,28 @@ std::optional<PulseChannel> SequentialEstimator::mostly_gated() const {
                              : std::nullopt;
 }
 
+std::string SequentialEstimator::ambiguous_status() const {
+  if (hypotheses_.size() == 1) {
+    return provisional_
+               ? "AMBIGUOUS, or none: all fixes graze"
+               : fmt::format("AMBIGUOUS, no fix has settled it, {} revolutions", revolutions_);
+  }
+  const RaDec other = ra_dec_of(hypotheses_[1].filter.axis_icrf());
+  const std::string named = fmt::format("AMBIGUOUS, or ra {:.2f} dec {:.2f} deg",
+                                        degrees(other.ra_rad), degrees(other.dec_rad));
+  if (provisional_) {
+    return named + ", or none: all fixes graze";
+  }
+  return hypotheses_.size() > 2 ? fmt::format("{}, or {} more", named, hypotheses_.size() - 2)
+                                : fmt::format("{}, {} revolutions", named, revolutions_);
+}
+
 std::string SequentialEstimator::status() const {
   if (gated_share_ > kMostGated) {
     return fmt::format("LOST, {} edges gated, awaiting a fix", gated_);
   }
-  if (!settled_ && hypotheses_.size() == 1 && !prior_stands()) {
-    return fmt::format("AMBIGUOUS, no fix has settled it, {} revolutions", revolutions_);
-  }
-  if (hypotheses_.size() > 1 && !prior_stands()) {
-    const RaDec other = ra_dec_of(hypotheses_[1].filter.axis_icrf());
-    return fmt::format("AMBIGUOUS, or ra {:.2f} dec {:.2f} deg, {} revolutions",
-                       degrees(other.ra_rad), degrees(other.dec_rad), revolutions_);
+  if ((!settled_ || hypotheses_.size() > 1) && !prior_stands()) {
+    return ambiguous_status();
   }
   if (const auto channel = mostly_gated()) {
     return fmt::format("DOUBTFUL, most {} edges gated, {} revolutions", name_of(*channel),

@@ -14,7 +14,11 @@
 ///
 /// The status begins with
 ///     OK         all is well
-///     AMBIGUOUS  another axis, named, fits as well or nearly so, or nothing has settled it
+///     AMBIGUOUS  another axis, named, fits as well or nearly so, or nothing has settled it; the
+///                covariance is that of the candidate published, were it true. "or 2 more": so many
+///                others do, which the fixes list among their alternates. "or none: all fixes
+///                graze": where two branches touch, candidates are off by more than their
+///                covariances and many fixes lack the true one, so that no filter may follow it
 ///     DOUBTFUL   the edges scatter more than their noise, or show errors of the model beyond its
 ///                allowance: the covariance is raised to cover it (within the allowance likewise,
 ///                and the status is OK, "model off by"); or most edges of the channel named are not
@@ -95,6 +99,7 @@ class SequentialEstimator {
   void drop_the_beaten();
   void count(const EdgeTally& tally);
   std::optional<PulseChannel> mostly_gated() const;
+  std::string ambiguous_status() const;
   std::string status() const;
 
   SpinConfig config_;
