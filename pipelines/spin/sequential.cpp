@@ -245,6 +245,12 @@ bool SequentialEstimator::start(const SpinFix& fix, std::span<const StartingPoin
     started.push_back(
         {.filter = *filter, .favoured = fix.resolution == Resolution::Prior && started.empty()});
   }
+  follow(fix, std::move(started));
+  return true;
+}
+
+/// From here on these alone; what was counted since the last start is forgotten.
+void SequentialEstimator::follow(const SpinFix& fix, std::vector<Hypothesis> started) {
   restarts_ += hypotheses_.empty() || provisional_ ? 0 : 1;
   noise_at_restart_ = verdict_.excess_noise;
   watch_.fade();
@@ -264,7 +270,6 @@ bool SequentialEstimator::start(const SpinFix& fix, std::span<const StartingPoin
   contradicting_ = MeanAxis{};
   poor_ = {};
   poor_fixes_ = 0;
-  return true;
 }
 
 /// A fix settles which of the candidates is true, unless it contradicts them all.

@@ -91,6 +91,7 @@ class SequentialEstimator {
   bool begin(std::span<const SpinFix> settled, const Revolution& revolution, const Sky& sky);
   bool start(const SpinFix& fix, std::span<const StartingPoint> points,
              const Revolution& revolution, const Sky& sky);
+  void follow(const SpinFix& fix, std::vector<Hypothesis> started);
   bool restart_is_due(std::span<const SpinFix> settled);
   void note_contradiction(const SpinFix& fix);
   void take_side(const SpinFix& fix);

@@ -224,6 +224,10 @@ void SpinPass::say_what_is_missing(SpinOutput& out) const {
     out.notices.push_back(fmt::format("orbit: {} revolutions outside it gave no axis, the last: {}",
                                       without_orbit_, last_without_orbit_));
   }
+  say_what_the_axis_lacks(out);
+}
+
+void SpinPass::say_what_the_axis_lacks(SpinOutput& out) const {
   if (last_status_.empty() && last_case_ != 0) {
     out.notices.emplace_back(
         "the estimator 'sequential' never began: its fixes leave the axis, or a candidate for it, "

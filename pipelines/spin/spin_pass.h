@@ -91,6 +91,7 @@ class SpinPass {
   void begin_anew(TaiTime t);
   std::string silent_channels() const;
   void say_what_is_missing(SpinOutput& out) const;
+  void say_what_the_axis_lacks(SpinOutput& out) const;
   static void leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out);
   void say_once(const std::string& notice, SpinOutput& out);
   void say_first(std::string_view kind, const std::string& notice, SpinOutput& out);
