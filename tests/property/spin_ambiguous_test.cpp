@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <numbers>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -44,14 +44,17 @@ bool lists(const SpinFix& fix, const Eigen::Vector3d& true_icrf) {
 /// The axis of the estimate, or the one that its status names.
 bool names(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
   const double sigma_rad = testing::sigma_rad(estimate);
+  if (is_near(estimate.axis_icrf, sigma_rad, true_icrf)) {
+    return true;
+  }
+  std::istringstream words{estimate.status};
+  std::string word;
   double ra_deg = 0.0;
   double dec_deg = 0.0;
-  return is_near(estimate.axis_icrf, sigma_rad, true_icrf) ||
-         (std::sscanf(estimate.status.c_str(), "AMBIGUOUS, or ra %lf dec %lf deg", &ra_deg,
-                      &dec_deg) == 2 &&
-          is_near(
-              direction_icrf({.ra_rad = ra_deg * kDegree_rad, .dec_rad = dec_deg * kDegree_rad}),
-              sigma_rad, true_icrf));
+  // "AMBIGUOUS, or ra 181.50 dec 53.18 deg"
+  return words >> word >> word >> word >> ra_deg >> word >> dec_deg &&
+         is_near(direction_icrf({.ra_rad = ra_deg * kDegree_rad, .dec_rad = dec_deg * kDegree_rad}),
+                 sigma_rad, true_icrf);
 }
 
 /// It says that there are no candidates but the two it names.
