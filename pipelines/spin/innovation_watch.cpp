@@ -1,6 +1,5 @@
 #include "pipelines/spin/innovation_watch.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -52,12 +51,6 @@ void InnovationWatch::forget_the_start() {
   squared_innovation_ = std::min(squared_innovation_, kMostOfStart);
   error_edges_ = 0.0;
   errors_ = {};
-}
-
-Eigen::Matrix<double, kModelErrors, kModelErrors> InnovationWatch::left_open_rad2() const {
-  using ErrorMatrix = Eigen::Matrix<double, kModelErrors, kModelErrors>;
-  const ErrorMatrix beforehand = ErrorMatrix::Identity() / (kModelError_rad * kModelError_rad);
-  return (beforehand + errors_.information / excess_noise()).ldlt().solve(ErrorMatrix::Identity());
 }
 
 double InnovationWatch::excess_noise() const {

@@ -29,9 +29,6 @@ class InnovationWatch {
   /// significantly more than 1; else 1.
   double excess_noise() const;
 
-  /// What the innovations leave open of errors of kModelError_rad each: their mean products.
-  Eigen::Matrix<double, kModelErrors, kModelErrors> left_open_rad2() const;
-
   ModelVerdict verdict() const { return verdict_on(errors_, excess_noise(), 0.0); }
 
  private:

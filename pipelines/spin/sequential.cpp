@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <utility>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/model_allowance.h"
@@ -106,9 +107,8 @@ Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
          moved * verdict_.errors_rad2 * moved.transpose();
 }
 
-double SequentialEstimator::unseen_model_sigma_rad() const {
-  const Eigen::Matrix<double, 2, kModelErrors> moved = hypotheses_.front().filter.axis_of_errors();
-  return std::sqrt((moved * watch_.left_open_rad2() * moved.transpose()).trace());
+double SequentialEstimator::model_leverage() const {
+  return hypotheses_.front().filter.axis_of_errors().norm();
 }
 
 /// Candidates of a fix that leaves them open, which no filter follows. What is settled is asked
@@ -149,16 +149,8 @@ bool SequentialEstimator::restart_is_due(std::span<const SpinFix> settled) {
     return false;
   }
   for (const SpinFix& fix : settled) {
-    if (fix.accepted && !fix.grazing && well_known(fix.covariance_rad2)) {
-      const std::vector<StartingPoint> candidates = candidates_of(fix);
-      const bool against = std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const auto& h) {
-        return std::all_of(candidates.begin(), candidates.end(), [&](const StartingPoint& point) {
-          return contradict(point, place_of(h.filter));
-        });
-      });
-      contradicted_ = std::max(0, contradicted_ + (against ? 1 : -1));
-      contradicting_ = contradicted_ > 0 ? contradicting_ : MeanAxis{};
-      contradicting_.add(fix);
+    if (fix.accepted && !fix.grazing) {
+      note_contradiction(fix);
     }
   }
   if (last_accepted(settled) == nullptr) {
@@ -168,11 +160,36 @@ bool SequentialEstimator::restart_is_due(std::span<const SpinFix> settled) {
     restarted_ = "edges gated";
     return true;
   }
-  if (contradicted_ >= kMostContradictions && (verdict_.excess_noise > 1.0 || fixes_contradict())) {
+  const bool edges_contradict = verdict_.excess_noise > 1.0 || mostly_gated().has_value();
+  if (contradicted_ >= kMostContradictions && (edges_contradict || fixes_contradict())) {
     restarted_ = "fixes differ";
     return true;
   }
   return false;
+}
+
+/// Poor fixes speak together: averaged until they are known as well as one that starts a filter,
+/// and then afresh, as what they have in common to one side does not average out.
+void SequentialEstimator::note_contradiction(const SpinFix& fix) {
+  std::vector<StartingPoint> points = candidates_of(fix);
+  int speaking = 1;
+  if (!well_known(fix.covariance_rad2)) {
+    ++poor_fixes_;
+    points = poor_.add(points);
+    if (!well_known(points.front().covariance_rad2)) {
+      return;
+    }
+    speaking = std::exchange(poor_fixes_, 0);
+    poor_ = {};
+  }
+  const bool against = std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const auto& h) {
+    return std::all_of(points.begin(), points.end(), [&](const StartingPoint& point) {
+      return contradict(point, place_of(h.filter));
+    });
+  });
+  contradicted_ = std::max(0, contradicted_ + (against ? speaking : -speaking));
+  contradicting_ = contradicted_ > 0 ? contradicting_ : MeanAxis{};
+  contradicting_.add(points.front().axis_icrf, points.front().covariance_rad2);
 }
 
 bool SequentialEstimator::fixes_contradict() const {
@@ -204,7 +221,9 @@ bool SequentialEstimator::begin(std::span<const SpinFix> settled, const Revoluti
   if (fix == nullptr) {
     return false;
   }
-  const std::vector<StartingPoint> points = starts_.add(candidates_of(*fix));
+  // A branch that only alternates have made is not confirmed by a settled fix that comes near it.
+  StartingPoints& starts = leaves_open(*fix) ? open_starts_ : settled_starts_;
+  const std::vector<StartingPoint> points = starts.add(candidates_of(*fix));
   const bool known = std::all_of(points.begin(), points.end(), [](const StartingPoint& point) {
     return well_known(point.covariance_rad2);
   });
@@ -226,12 +245,19 @@ bool SequentialEstimator::start(const SpinFix& fix, std::span<const StartingPoin
     started.push_back(
         {.filter = *filter, .favoured = fix.resolution == Resolution::Prior && started.empty()});
   }
+  follow(fix, std::move(started));
+  return true;
+}
+
+/// From here on these alone; what was counted since the last start is forgotten.
+void SequentialEstimator::follow(const SpinFix& fix, std::vector<Hypothesis> started) {
   restarts_ += hypotheses_.empty() || provisional_ ? 0 : 1;
   noise_at_restart_ = verdict_.excess_noise;
   watch_.fade();
   verdict_ = watch_.verdict();
   hypotheses_ = std::move(started);
-  starts_ = {};
+  settled_starts_ = {};
+  open_starts_ = {};
   unlike_ = {};
   provisional_ = fix.grazing;
   revolutions_ = 0;
@@ -242,7 +268,8 @@ bool SequentialEstimator::start(const SpinFix& fix, std::span<const StartingPoin
   settled_by_edges_ = false;
   contradicted_ = 0;
   contradicting_ = MeanAxis{};
-  return true;
+  poor_ = {};
+  poor_fixes_ = 0;
 }
 
 /// A fix settles which of the candidates is true, unless it contradicts them all.
@@ -356,24 +383,39 @@ void SequentialEstimator::count(const EdgeTally& tally) {
   ++revolutions_;
 }
 
+std::optional<PulseChannel> SequentialEstimator::mostly_gated() const {
+  const auto* const worst =
+      std::max_element(channel_gated_share_.begin(), channel_gated_share_.end());
+  return *worst > kMostGated ? std::optional{static_cast<PulseChannel>(
+                                   std::distance(channel_gated_share_.begin(), worst))}
+                             : std::nullopt;
+}
+
+std::string SequentialEstimator::ambiguous_status() const {
+  if (hypotheses_.size() == 1) {
+    return provisional_
+               ? "AMBIGUOUS, or none: all fixes graze"
+               : fmt::format("AMBIGUOUS, no fix has settled it, {} revolutions", revolutions_);
+  }
+  const RaDec other = ra_dec_of(hypotheses_[1].filter.axis_icrf());
+  const std::string named = fmt::format("AMBIGUOUS, or ra {:.2f} dec {:.2f} deg",
+                                        degrees(other.ra_rad), degrees(other.dec_rad));
+  if (provisional_) {
+    return named + ", or none: all fixes graze";
+  }
+  return hypotheses_.size() > 2 ? fmt::format("{}, or {} more", named, hypotheses_.size() - 2)
+                                : fmt::format("{}, {} revolutions", named, revolutions_);
+}
+
 std::string SequentialEstimator::status() const {
   if (gated_share_ > kMostGated) {
     return fmt::format("LOST, {} edges gated, awaiting a fix", gated_);
   }
-  if (!settled_ && hypotheses_.size() == 1 && !prior_stands()) {
-    return fmt::format("AMBIGUOUS, no fix has settled it, {} revolutions", revolutions_);
+  if ((!settled_ || hypotheses_.size() > 1) && !prior_stands()) {
+    return ambiguous_status();
   }
-  if (hypotheses_.size() > 1 && !prior_stands()) {
-    const RaDec other = ra_dec_of(hypotheses_[1].filter.axis_icrf());
-    return fmt::format("AMBIGUOUS, or ra {:.2f} dec {:.2f} deg, {} revolutions",
-                       degrees(other.ra_rad), degrees(other.dec_rad), revolutions_);
-  }
-  const auto* const worst =
-      std::max_element(channel_gated_share_.begin(), channel_gated_share_.end());
-  if (*worst > kMostGated) {
-    return fmt::format("DOUBTFUL, most {} edges gated, {} revolutions",
-                       kPulseChannelNames.at(static_cast<std::size_t>(
-                           std::distance(channel_gated_share_.begin(), worst))),
+  if (const auto channel = mostly_gated()) {
+    return fmt::format("DOUBTFUL, most {} edges gated, {} revolutions", name_of(*channel),
                        revolutions_);
   }
   if (verdict_.excess_noise > 1.0) {

@@ -14,7 +14,11 @@
 ///
 /// The status begins with
 ///     OK         all is well
-///     AMBIGUOUS  another axis, named, fits as well or nearly so, or nothing has settled it
+///     AMBIGUOUS  another axis, named, fits as well or nearly so, or nothing has settled it; the
+///                covariance is that of the candidate published, were it true. "or 2 more": so many
+///                others do, which the fixes list among their alternates. "or none: all fixes
+///                graze": where two branches touch, candidates are off by more than their
+///                covariances and many fixes lack the true one, so that no filter may follow it
 ///     DOUBTFUL   the edges scatter more than their noise, or show errors of the model beyond its
 ///                allowance: the covariance is raised to cover it (within the allowance likewise,
 ///                and the status is OK, "model off by"); or most edges of the channel named are not
@@ -62,10 +66,9 @@ class SequentialEstimator {
   /// The edges have beaten the candidate that a prior had chosen.
   bool prior_refuted() const { return prior_refuted_; }
 
-  /// What errors of the model that no edge shows would move the axis by, were each of
-  /// kModelError_rad: one standard deviation, both ways together. No estimate includes it.
-  /// There must be one.
-  double unseen_model_sigma_rad() const;
+  /// What errors of the model, one radian each, move the axis by, all ways together, rad: of the
+  /// geometry alone. Estimates include only what the edges show of such errors. There must be one.
+  double model_leverage() const;
 
   /// The axis that the edges settled beyond doubt among several.
   std::optional<KnownAxis> settled_by_edges() const;
@@ -88,20 +91,25 @@ class SequentialEstimator {
   bool begin(std::span<const SpinFix> settled, const Revolution& revolution, const Sky& sky);
   bool start(const SpinFix& fix, std::span<const StartingPoint> points,
              const Revolution& revolution, const Sky& sky);
+  void follow(const SpinFix& fix, std::vector<Hypothesis> started);
   bool restart_is_due(std::span<const SpinFix> settled);
+  void note_contradiction(const SpinFix& fix);
   void take_side(const SpinFix& fix);
   bool prior_stands() const;
   void work_in(const Revolution& revolution, const Sky& sky);
   void drop_the_beaten();
   void count(const EdgeTally& tally);
+  std::optional<PulseChannel> mostly_gated() const;
+  std::string ambiguous_status() const;
   std::string status() const;
 
   SpinConfig config_;
   std::vector<Hypothesis> hypotheses_;  ///< The likeliest first; empty before the first fix.
-  StartingPoints starts_;         ///< Of the fixes that might start it, since it last started.
-  StartingPoints unlike_;         ///< Of candidates that no hypothesis is near to; likewise.
-  std::int64_t grazing_ = 0;      ///< Fixes, before the first that could start it.
-  bool provisional_ = false;      ///< Started by these: the true axis may be missing.
+  StartingPoints settled_starts_;       ///< Of fixes that might start it, since it last started.
+  StartingPoints open_starts_;          ///< Likewise, of those that leave several candidates open.
+  StartingPoints unlike_;               ///< Of candidates that no hypothesis is near to; likewise.
+  std::int64_t grazing_ = 0;            ///< Fixes, before the first that could start it.
+  bool provisional_ = false;            ///< Started by these: the true axis may be missing.
   std::int64_t unheard_ = 0;      ///< Revolutions with fixes before the first that could start it.
   std::int64_t revolutions_ = 0;  ///< Since the start; likewise the following.
   std::int64_t gated_ = 0;
@@ -117,6 +125,8 @@ class SequentialEstimator {
   ModelVerdict verdict_;    ///< Of the watch.
   int contradicted_ = 0;    ///< Fixes against the axis, less those for it.
   MeanAxis contradicting_;  ///< All fixes since it was last 0.
+  StartingPoints poor_;     ///< Of fixes known too badly to speak alone, since they last spoke.
+  int poor_fixes_ = 0;      ///< So many.
   int restarts_ = 0;
   std::string_view restarted_;  ///< Why; empty: never.
 };

@@ -23,6 +23,9 @@ namespace {
 constexpr std::size_t kEstablishedFixes = 10;
 // Beyond so many sigmas, and the model's limit, the axis is another one than before.
 constexpr double kMovedSigmas = 5.0;
+// Where beams cross the Earth well apart, an axis moves by three or four times the errors of the
+// model; where both look across the same middle of it, by ten.
+constexpr double kPoorLeverage = 6.0;
 
 /// What the spherical horizon leaves out of an oblate Earth, as a covariance: the limb of each beam
 /// anywhere between none and the whole of its displacement. Unlike the noise of the pulses it does
@@ -221,17 +224,22 @@ void SpinPass::say_what_is_missing(SpinOutput& out) const {
     out.notices.push_back(fmt::format("orbit: {} revolutions outside it gave no axis, the last: {}",
                                       without_orbit_, last_without_orbit_));
   }
+  say_what_the_axis_lacks(out);
+}
+
+void SpinPass::say_what_the_axis_lacks(SpinOutput& out) const {
   if (last_status_.empty() && last_case_ != 0) {
     out.notices.emplace_back(
         "the estimator 'sequential' never began: its fixes leave the axis, or a candidate for it, "
         "uncertain by more than 3 deg");
   }
-  if (last_status_.starts_with("OK") && sequential_.unseen_model_sigma_rad() > kModelLimit_rad) {
-    out.notices.push_back(fmt::format(
-        "poor leverage: errors of {:.2f} deg in mounting or limb, which nothing would show, move "
-        "the axis by {:.1f} deg; no sigma includes them",
-        kModelError_rad * 180.0 / std::numbers::pi,
-        sequential_.unseen_model_sigma_rad() * 180.0 / std::numbers::pi));
+  if (last_status_.starts_with("OK") && sequential_.model_leverage() > kPoorLeverage) {
+    out.notices.push_back(
+        fmt::format("poor leverage: errors of {:.2f} deg in mounting or limb move the axis by "
+                    "{:.1f} deg; sigma "
+                    "includes no more of them than the edges show",
+                    kModelError_rad * 180.0 / std::numbers::pi,
+                    sequential_.model_leverage() * kModelError_rad * 180.0 / std::numbers::pi));
   }
   if (last_case_ == 0 && without_fix_ > 1) {
     out.notices.push_back(fmt::format("no axis: {} revolutions gave no fix, the last: {}",
@@ -488,7 +496,8 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
     if (sequential_.prior_refuted() && config_.prior) {
       forget_prior(revolution.t_start, out);
     }
-    if (sequential && (sequential_.restarts() > restarts_heeded_ || recent_fixes_left_the_mean())) {
+    if (sequential && (sequential_.restarts() > restarts_heeded_ ||
+                       recent_fixes_left_the_mean_for(sequential->axis_icrf))) {
       start_again_where_moved(*sequential, out);
     }
   }
@@ -531,10 +540,13 @@ void SpinPass::begin_anew(TaiTime t) {
 }
 
 /// They share what is wrong with the model, so that a difference is the axis's own.
-bool SpinPass::recent_fixes_left_the_mean() const {
+bool SpinPass::recent_fixes_left_the_mean_for(const Eigen::Vector3d& axis_icrf) const {
   const auto recent_icrf = recent_axes_.axis_icrf();
-  return recent_icrf && mean_.count() > 0 &&
-         angle_between_rad(*recent_icrf, mean_.axis_icrf()) > kModelLimit_rad;
+  if (!recent_icrf || mean_.count() == 0) {
+    return false;
+  }
+  const double apart_rad = angle_between_rad(*recent_icrf, mean_.axis_icrf());
+  return apart_rad > kModelLimit_rad && angle_between_rad(*recent_icrf, axis_icrf) < apart_rad;
 }
 
 /// A restart of `sequential`, or recent fixes that lie elsewhere, raise the question; it may take

@@ -85,12 +85,13 @@ class SpinPass {
   void say_why_not_accepted(const SpinFix& fix, SpinOutput& out);
   void announce_axis(const Candidate& candidate, SpinOutput& out);
   std::optional<KnownAxis> established_axis() const;
-  bool recent_fixes_left_the_mean() const;
+  bool recent_fixes_left_the_mean_for(const Eigen::Vector3d& axis_icrf) const;
   void start_again_where_moved(const SpinEstimate& sequential, SpinOutput& out);
   void forget_prior(TaiTime t, SpinOutput& out);
   void begin_anew(TaiTime t);
   std::string silent_channels() const;
   void say_what_is_missing(SpinOutput& out) const;
+  void say_what_the_axis_lacks(SpinOutput& out) const;
   static void leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out);
   void say_once(const std::string& notice, SpinOutput& out);
   void say_first(std::string_view kind, const std::string& notice, SpinOutput& out);

@@ -22,9 +22,8 @@ namespace {
 using testing::all_of;
 using testing::SpinningBody;
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
-constexpr double kRpm_rad_s = 2.0 * kPi / 60.0;
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+constexpr double kRpm_rad_s = std::numbers::pi / 30.0;
 
 struct DriftingPass {
   Orbit orbit = testing::transfer_orbit();

@@ -176,6 +176,63 @@ TEST(Sequential, ManyPoorFixesStartItAsOneGoodOneDoes) {
   EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
 }
 
+TEST(Sequential, AFixThatComesNearABranchOfAlternatesDoesNotStartThere) {
+  // Poor fixes that a prior settles name a false axis beside the true one, until it is known well;
+  // then a settled fix lies nearer to the false one.
+  constexpr double kPoor_rad = 8.0 * kDegree_rad;
+  constexpr std::size_t kByPrior = 14;
+  Scene scene;
+  const auto seen = scene.seen(0.0, 60.0);
+  const Eigen::Vector3d elsewhere = scene.turned_about_earth(40.0);
+  const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {
+    SpinFix fix = testing::drawn_fix(scene.body.axis_icrf, kPoor_rad, scene.rng);
+    if (i < kByPrior) {
+      // The candidate itself is known worse, so that it does not start a filter before.
+      fix.covariance_rad2 *= 4.0;
+      fix.alternate_axes_icrf = {testing::drawn_fix(elsewhere, kPoor_rad, scene.rng).axis_icrf};
+      fix.alternate_covariances_rad2 = {kPoor_rad * kPoor_rad * Eigen::Matrix2d::Identity()};
+      fix.resolution = Resolution::Prior;
+    } else if (i == kByPrior) {
+      fix.axis_icrf = scene.turned_about_earth(22.0);
+    }
+    return std::vector{fix};
+  });
+  ASSERT_FALSE(all.empty());
+  EXPECT_LT(error_deg(all.front(), scene.body.axis_icrf), 10.0);
+  EXPECT_THAT(all.back().status, StartsWith("OK"));
+  EXPECT_THAT(all.back().status, Not(HasSubstr("restart")));
+  EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
+}
+
+TEST(Sequential, LeavesTheAxisThatPoorFixesContradictTogether) {
+  // Each of them is known to 8 deg and contradicts nothing; without the Sun no edge does.
+  constexpr double kPoor_rad = 8.0 * kDegree_rad;
+  Scene scene;
+  const auto seen = without_sun(scene.seen(0.0, 200.0));
+  SpinFix wrong = scene.fix();
+  wrong.axis_icrf = scene.turned_about_earth(40.0);
+  const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {
+    return std::vector{i == 0 ? wrong
+                              : testing::drawn_fix(scene.body.axis_icrf, kPoor_rad, scene.rng)};
+  });
+  EXPECT_GT(error_deg(all[20], scene.body.axis_icrf), 30.0);
+  EXPECT_THAT(all.back().status, HasSubstr("OK"));
+  EXPECT_THAT(all.back().status, HasSubstr("restart: fixes differ"));
+  EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
+}
+
+TEST(Sequential, PoorFixesThatAgreeWithItDoNotTurnItAway) {
+  constexpr double kPoor_rad = 8.0 * kDegree_rad;
+  Scene scene;
+  const auto seen = scene.seen(0.0, 200.0);
+  const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {
+    return std::vector{i == 0 ? scene.fix()
+                              : testing::drawn_fix(scene.body.axis_icrf, kPoor_rad, scene.rng)};
+  });
+  EXPECT_THAT(all.back().status, StartsWith("OK"));
+  EXPECT_THAT(all.back().status, Not(HasSubstr("restart")));
+}
+
 TEST(Sequential, GrazingFixesStartItWhereThereAreNoOthersAndSettleNothing) {
   constexpr std::size_t kFirstGood = 40;
   Scene scene;

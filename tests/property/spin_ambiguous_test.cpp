@@ -1,0 +1,150 @@
+/// Passes that nothing settles: they are said to be AMBIGUOUS, and the true axis is among those
+/// that are named.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/model_allowance.h"
+#include "pipelines/spin/spin_pass.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/product_text.h"
+#include "tests/support/random_pass.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+constexpr double kSigmas = 5.0;
+
+/// Within the noise, and what may be wrong with a model.
+bool is_near(const Eigen::Vector3d& axis_icrf, double sigma_rad, const Eigen::Vector3d& true_icrf) {
+  return angle_between_rad(axis_icrf, true_icrf) < kSigmas * sigma_rad + kModelLimit_rad;
+}
+
+/// The axis of the fix, or one of its alternates.
+bool lists(const SpinFix& fix, const Eigen::Vector3d& true_icrf) {
+  bool found = is_near(fix.axis_icrf, std::sqrt(fix.covariance_rad2.trace()), true_icrf);
+  for (std::size_t i = 0; i < fix.alternate_axes_icrf.size(); ++i) {
+    found = found || is_near(fix.alternate_axes_icrf[i],
+                             std::sqrt(fix.alternate_covariances_rad2[i].trace()), true_icrf);
+  }
+  return found;
+}
+
+/// The axis of the estimate, or the one that its status names.
+bool names(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
+  const double sigma_rad = testing::sigma_rad(estimate);
+  if (is_near(estimate.axis_icrf, sigma_rad, true_icrf)) {
+    return true;
+  }
+  std::istringstream words{estimate.status};
+  std::string word;
+  double ra_deg = 0.0;
+  double dec_deg = 0.0;
+  // "AMBIGUOUS, or ra 181.50 dec 53.18 deg"
+  return words >> word >> word >> word >> ra_deg >> word >> dec_deg &&
+         is_near(direction_icrf({.ra_rad = ra_deg * kDegree_rad, .dec_rad = dec_deg * kDegree_rad}),
+                 sigma_rad, true_icrf);
+}
+
+/// It says that there are no candidates but the two it names.
+bool claims_to_name_all(const SpinEstimate& estimate) {
+  return estimate.status.starts_with("AMBIGUOUS, or ra") &&
+         estimate.status.ends_with("revolutions");
+}
+
+std::vector<SpinEstimate> of_sequential(const SpinOutput& output) {
+  std::vector<SpinEstimate> estimates = testing::all_of<SpinEstimate>(output);
+  std::erase_if(estimates, [](const SpinEstimate& estimate) {
+    return estimate.estimator != SpinEstimator::Sequential;
+  });
+  return estimates;
+}
+
+TEST(SpinAmbiguous, CandidatesThatNothingSettlesAreSaidToBeAmbiguousToTheEnd) {
+  // Without sun slit 1 the two roots of this pass keep fitting all edges alike.
+  const Orbit orbit{KeplerOrbit::make({.epoch = testing::kTransferStart,
+                                       .semi_major_axis_km = 24400.0,
+                                       .eccentricity = 0.73,
+                                       .inclination_rad = 28.5 * kDegree_rad,
+                                       .raan_rad = 300.0 * kDegree_rad,
+                                       .argument_of_perigee_rad = 178.0 * kDegree_rad,
+                                       .mean_anomaly_rad = 30.0 * kDegree_rad})
+                        .value()};
+  const testing::SpinningBody body{
+      .axis_icrf = direction_icrf({.ra_rad = 100.0 * kDegree_rad, .dec_rad = -55.0 * kDegree_rad}),
+      .rate_rad_s = 2.0 * std::numbers::pi,
+      .first_turn_rad = 0.0,
+      .config = testing::usual_config()};
+  auto edges = testing::edges_between(
+      body, testing::seen_from(orbit, testing::spherical_horizon_km(40.0)), 0.0, 300.0);
+  std::erase_if(edges, [](const auto& edge) { return edge.channel == PulseChannel::Sun1; });
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 rng{seed};
+    const SpinOutput output =
+        testing::run(SpinPass{body.config, orbit},
+                     testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
+    const auto fixes = testing::all_of<SpinFix>(output);
+    EXPECT_GT(fixes.size(), 250U);
+    for (const SpinFix& fix : fixes) {
+      EXPECT_EQ(fix.resolution, Resolution::Ambiguous) << fix.revolution;
+      EXPECT_FALSE(fix.accepted) << fix.revolution;
+      EXPECT_TRUE(lists(fix, body.axis_icrf)) << fix.revolution;
+    }
+    const auto estimates = of_sequential(output);
+    EXPECT_GT(estimates.size(), 200U);
+    for (const SpinEstimate& estimate : estimates) {
+      EXPECT_TRUE(estimate.status.starts_with("AMBIGUOUS")) << estimate.status;
+      EXPECT_TRUE(names(estimate, body.axis_icrf)) << estimate.status;
+    }
+    EXPECT_TRUE(
+        std::any_of(output.notices.begin(), output.notices.end(), [](const std::string& notice) {
+          return notice.starts_with(
+              "the axis is ambiguous to the end, for want of good sun1 edges");
+        }));
+  }
+}
+
+TEST(SpinAmbiguous, WhatClaimsToNameAllCandidatesNamesTheTrueOne) {
+  constexpr int kPasses = 400;
+  constexpr double kRevolutions = 250.0;
+  int claiming = 0;
+  int without_truth = 0;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::mt19937_64 rng{static_cast<std::uint64_t>(pass)};
+    const testing::RandomPass drawn = testing::random_pass(rng);
+    if (drawn.dead.empty()) {
+      continue;
+    }
+    SCOPED_TRACE(std::to_string(pass) + ": " + drawn.name);
+    int missed = 0;
+    std::string last;
+    for (const SpinEstimate& estimate : of_sequential(testing::run(
+             SpinPass{drawn.body.config, drawn.orbit}, drawn.pulses(kRevolutions, rng)))) {
+      if (claims_to_name_all(estimate)) {
+        ++claiming;
+        missed += names(estimate, drawn.body.axis_icrf) ? 0 : 1;
+        last = names(estimate, drawn.body.axis_icrf) ? last : estimate.status;
+      }
+    }
+    EXPECT_EQ(missed, 0) << last;
+    without_truth += missed;
+  }
+  RecordProperty("claiming", claiming);
+  RecordProperty("without_truth", without_truth);
+  EXPECT_GT(claiming, 1000);
+}
+
+}  // namespace
+}  // namespace spindrift
