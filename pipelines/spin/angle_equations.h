@@ -11,6 +11,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/measurement.h"
@@ -24,8 +25,8 @@ class AngleEquations {
   static constexpr int kUnknowns = 2 + kModelErrors;  ///< x, then b.
 
   /// @param reference_icrf Unit: where x counts from.
-  explicit AngleEquations(const Eigen::Vector3d& reference_icrf)
-      : reference_icrf_{reference_icrf} {}
+  explicit AngleEquations(Eigen::Vector3d reference_icrf)
+      : reference_icrf_{std::move(reference_icrf)} {}
 
   /// The good angles of one revolution, those left out that are not linear.
   /// @param axis_icrf Unit; so near the true one that the others are linear in between.

@@ -18,6 +18,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "pipelines/spin/angle_equations.h"
 #include "pipelines/spin/association.h"
@@ -31,7 +32,7 @@ namespace spindrift {
 
 class MeanEstimator {
  public:
-  explicit MeanEstimator(const SpinConfig& config) : config_{config} {}
+  explicit MeanEstimator(SpinConfig config) : config_{std::move(config)} {}
 
   /// The measurements of a revolution, before its fix is taken: a fix may be settled as late as the
   /// window of screening allows.
