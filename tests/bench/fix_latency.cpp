@@ -89,9 +89,8 @@ std::vector<Event> events(const std::vector<Pulse>& pulses, std::size_t spacecra
   for (std::size_t s = 0; s < spacecraft; ++s) {
     for (std::size_t i = 0; i < pulses.size(); ++i) {
       const TaiTime t = pulses[i].t + delay(s, spacecraft);
-      all.push_back({.due_s = seconds_between(pulses.front().t, t) / speed,
-                     .spacecraft = s,
-                     .pulse = i});
+      all.push_back(
+          {.due_s = seconds_between(pulses.front().t, t) / speed, .spacecraft = s, .pulse = i});
     }
   }
   std::stable_sort(all.begin(), all.end(),
