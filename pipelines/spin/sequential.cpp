@@ -345,10 +345,11 @@ void SequentialEstimator::drop_the_beaten() {
 }
 
 /// No other hypothesis is so much likelier than the one that the prior chose. What passed before
-/// the filters began might have contradicted it: until they have seen as much, nothing is said.
+/// the filters began might have contradicted it: until they have seen as much, nothing is said. Nor
+/// where all fixes graze: filters that began to one side of the axis need not come to it.
 bool SequentialEstimator::prior_stands() const {
   const Hypothesis& first = hypotheses_.front();
-  return first.favoured && revolutions_ >= unheard_ &&
+  return first.favoured && !provisional_ && revolutions_ >= unheard_ &&
          std::all_of(hypotheses_.begin() + 1, hypotheses_.end(), [&](const Hypothesis& other) {
            return other.log_likelihood - first.log_likelihood < kPriorInDoubt;
          });

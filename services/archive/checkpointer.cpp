@@ -1,8 +1,6 @@
 #include "services/archive/checkpointer.h"
 
 #include <sqlite3.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 namespace spindrift {
 namespace {
@@ -12,7 +10,8 @@ constexpr int kLongLog_frames = 32768;
 // What the writer carries over in about the time of a few commits.
 constexpr int kFewFrames = 48;
 constexpr int kMostRounds = 20;
-constexpr int kLowPriority = 19;  // As nice(1) has it.
+// A log that grows faster than it is carried over has commits wait when it is so much longer.
+constexpr int kTooLong_frames = 3 * kLongLog_frames;
 
 // Frames of the log that are in the file now. What keeps a checkpoint from succeeding, a reader or
 // the disk, is met again by the next; and the commits, which tell, meet the disk themselves.
@@ -67,21 +66,24 @@ void Checkpointer::note_commit(sqlite3* writer, int log_frames) {
   } else if (state == State::Idle && log_frames >= due_frames_) {
     state_ = State::Asked;
     state_.notify_one();
+  } else if (log_frames >= due_frames_ + kTooLong_frames) {
+    state_.wait(State::Asked);
   }
 }
 
 void Checkpointer::run() {
-  // Commits come first.
-  static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowPriority));
   for (State state = state_; state != State::Stopped; state = state_) {
-    if (state == State::Idle || state == State::Done) {
+    if (state != State::Asked) {
       state_.wait(state);
-    } else if (carry_over()) {
+      continue;
+    }
+    if (carry_over()) {
       state_.compare_exchange_strong(state, State::Done);
     } else {
       // Which pages are lost is not known: the log, which has them all, is never begun anew.
-      return;
+      state_ = State::Stopped;
     }
+    state_.notify_one();
   }
 }
 
