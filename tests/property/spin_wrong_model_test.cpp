@@ -25,7 +25,7 @@ constexpr double kEnd_s = 400.0;
 
 struct Tally {
   int passes = 0;
-  int doubted = 0;       ///< In the end; or AMBIGUOUS, which a status says first.
+  int doubted = 0;       ///< In the end.
   int covered = 0;       ///< In the end, within three sigmas.
   int doubted_ever = 0;  ///< DOUBTFUL or LOST in any revolution.
   int estimates = 0;
@@ -62,8 +62,7 @@ Tally tally_of(int passes, const std::function<void(SpinConfig&)>& differ) {
     const SpinEstimate last = testing::last_estimate(output, SpinEstimator::Sequential);
     ++tally.passes;
     tally.doubted_ever += doubted ? 1 : 0;
-    tally.doubted +=
-        last.status.starts_with("DOUBTFUL") || last.status.starts_with("AMBIGUOUS") ? 1 : 0;
+    tally.doubted += last.status.starts_with("DOUBTFUL") ? 1 : 0;
     tally.covered +=
         angle_between_rad(last.axis_icrf, body.axis_icrf) < 3.0 * testing::sigma_rad(last) ? 1 : 0;
   }
