@@ -2,6 +2,8 @@
 
 #include <sqlite3.h>
 
+#include "services/archive/paced_writes.h"
+
 namespace spindrift {
 namespace {
 
@@ -72,6 +74,7 @@ void Checkpointer::note_commit(sqlite3* writer, int log_frames) {
 }
 
 void Checkpointer::run() {
+  const PacedWrites a_few_pages_at_a_time;
   for (State state = state_; state != State::Stopped; state = state_) {
     if (state != State::Asked) {
       state_.wait(state);

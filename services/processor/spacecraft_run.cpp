@@ -4,8 +4,11 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
 #include <limits>
 #include <random>
+#include <string_view>
 #include <utility>
 
 #include "services/clock/wall_clock.h"
@@ -17,10 +20,17 @@ namespace {
 // So many are worked on before anybody looks whether there is time for more.
 constexpr std::size_t kSamplesPerInput = 1024;
 
-/// Unique over all archives that may ever be merged; sorts by time of start.
-std::string new_run_id(const std::string& started_utc) {
+/// Unique over all archives that may ever be merged: the seconds of its start and fifty random
+/// bits, five a character. Short, since every row of a run bears it.
+std::string new_run_id() {
+  constexpr std::string_view kDigits = "0123456789abcdefghjkmnpqrstvwxyz";
   std::random_device random;
-  return fmt::format("{}-{:08x}{:08x}", started_utc, random(), random());
+  std::string id;
+  for (int shift = 30; shift >= 0; shift -= 5) {
+    id += kDigits[(static_cast<std::uint64_t>(tai_ns(tai_now())) / 1'000'000'000U >> shift) % 32U];
+  }
+  std::generate_n(std::back_inserter(id), 10, [&] { return kDigits[random() % 32U]; });
+  return id;
 }
 
 SequenceCounts counts_of(const SourceCount& count) {
@@ -77,7 +87,7 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
              .started_utc = utc_now(),
              // The clock only sets the run apart from earlier ones; within it samples are counted.
              .first_arrival = tai_ns(tai_now())},
-      run_id_{new_run_id(start_.started_utc)},
+      run_id_{new_run_id()},
       next_arrival_{start_.first_arrival} {
   for (const std::string& setting : settings_without_effect(*mission.spin)) {
     spdlog::warn("{}: {}", mission.spacecraft_id, setting);
@@ -255,7 +265,7 @@ void SpacecraftRun::begin_new_pass(Taken& out) {
 
   start_.started_utc = utc_now();
   start_.first_arrival = its_first.front().arrival;
-  run_id_ = new_run_id(start_.started_utc);
+  run_id_ = new_run_id();
   out.batches.push_back(begin());
   out.batches.back().arrival = its_first.back().arrival;
   out.inputs.push_back({.spacecraft = index_, .run_id = run_id_});

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -9,6 +12,18 @@
 #include <utility>
 
 #include "tests/integration/archive_fixture.h"
+
+namespace {
+
+std::atomic<int> times_brought_to_the_disk = 0;
+
+}  // namespace
+
+// Stands before that of the system.
+extern "C" int sync_file_range(int file, off64_t offset, off64_t count, unsigned flags) {
+  ++times_brought_to_the_disk;
+  return static_cast<int>(syscall(SYS_sync_file_range, file, offset, count, flags));
+}
 
 namespace spindrift {
 namespace {
@@ -71,6 +86,18 @@ TEST_F(ArchiveLog, IsCarriedOverWhileTheArchiveIsOpenAndBeginsAnew) {
   EXPECT_EQ(text("PRAGMA integrity_check"), "ok");
   ASSERT_TRUE(archive->close());
   EXPECT_EQ(number("SELECT count(*) FROM pulse"), pulses());
+}
+
+TEST_F(ArchiveLog, ItsPagesGoToTheDiskAFewAtATime) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(start_of("run")));
+  const int before = times_brought_to_the_disk;
+  write_long_log(*archive);
+  ASSERT_TRUE(file_reaches(kMiB));
+  ASSERT_TRUE(archive->close());
+
+  // Some thousand pages, a few dozen at a time.
+  EXPECT_GT(times_brought_to_the_disk - before, 10);
 }
 
 TEST_F(ArchiveLog, GrowsAsLongAsAReaderNeedsItAndIsCarriedOverAfterwards) {
