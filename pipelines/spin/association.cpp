@@ -27,6 +27,10 @@ constexpr double kLost_turns = 0.2;
 constexpr std::size_t kRecentReference = 9;
 constexpr std::ptrdiff_t kDoubtful = 4;
 constexpr std::size_t kFewestAfterStep = 6;
+// A body that turns so much faster than before has an edge on nearly every turn. Otherwise it turns
+// as before, and the time stamps have stepped by a fraction of a turn.
+constexpr double kMuchFaster = 0.75;
+constexpr double kNearlyEvery = 0.8;
 // So many revolutions without a good edge of the reference, and another channel takes over.
 constexpr int kSilentReference = 10;
 // From so many good edges in a row on a channel is fit to set the clock.
@@ -40,6 +44,11 @@ PulseUse left_over(const Pulse& pulse, std::optional<Rejection> rejected_by = {}
   return {.pulse = pulse,
           .revolution = {},
           .rejected_by = rejected_by.value_or(Rejection::Unassociated)};
+}
+
+bool is_fraction(const Comb& comb, double period_s) {
+  return comb.period_s < kMuchFaster * period_s &&
+         static_cast<double>(comb.edges) < kNearlyEvery * (comb.turns + 1.0);
 }
 
 }  // namespace
@@ -71,7 +80,7 @@ Association Associator::push(const Pulse& pulse) {
 
 Association Associator::push_spoilt(const Pulse& pulse) {
   Association out;
-  if (clock_ && clock_sigma_turns(clock_->phase_turns(pulse.t)) <= kLost_turns) {
+  if (clock_ && counts(pulse.t)) {
     place(pulse, true, out);
   } else {
     out.left_over.push_back(left_over(pulse, Rejection::Interference));
@@ -122,6 +131,10 @@ void Associator::try_to_start(bool at_end, Association& out) {
   }
   clock_ = start->clock;
   reference_ = start->reference;
+  if (!waiting_.empty() && !counts(waiting_.back().t)) {
+    clock_.reset();
+    return;
+  }
   sun1_known_ = reference_ == PulseChannel::Sun1;
   period_window_ = SpinPeriodWindow{config_.screening, noise_of(config_.noise, start->reference)};
   phases_.set_period(clock_->period_s());
@@ -192,7 +205,7 @@ void Associator::restart_after_step(const Pulse& pulse) {
   std::transform(recent_reference_.begin(), recent_reference_.end(), edges.begin(),
                  [](const ReferenceEdge& edge) { return edge.t; });
   const auto comb = find_comb(edges, noise_s, kFewestAfterStep);
-  if (!comb) {
+  if (!comb || is_fraction(*comb, clock_->period_s())) {
     return;
   }
   SpinClock::Setting setting = setting_of(*comb, noise_s);
@@ -228,6 +241,11 @@ TaiTime Associator::zero_of(TaiTime t, double turn) const {
 
 double Associator::clock_sigma_turns(double phase_turns) const {
   return clock_->sigma_s(phase_turns, reference_wander()) / clock_->period_s();
+}
+
+/// The clock can say which turn it is.
+bool Associator::counts(TaiTime t) const {
+  return clock_sigma_turns(clock_->phase_turns(t)) <= kLost_turns;
 }
 
 double Associator::reference_wander() const {

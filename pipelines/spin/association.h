@@ -118,6 +118,7 @@ class Associator {
   void learn_phases();
   void give_up_clock(const Pulse& pulse, Association& out);
   double clock_sigma_turns(double phase_turns) const;
+  bool counts(TaiTime t) const;
   void restart_after_step(const Pulse& pulse);
   void place(const Pulse& pulse, bool spoilt, Association& out);
   Count count_of(const Pulse& pulse) const;

@@ -129,6 +129,27 @@ TEST(Association, AStepInTheSpinRateIsFollowed) {
   }
 }
 
+/// Edges from before and after it lie a third of a turn apart, side by side.
+TEST(Association, AStepBackInTimeIsNoStepInTheSpinRate) {
+  for (const double fraction_turns : {1.0 / 4.0, 1.0 / 3.0, 2.0 / 5.0, 2.0 / 3.0}) {
+    SCOPED_TRACE(fraction_turns);
+    std::vector<Pulse> pulses;
+    for (int turn = 0; turn < 200; ++turn) {
+      const double stepped_turns = turn < 100 ? 0.0 : 6.0 + fraction_turns;
+      for (const auto& [channel, phase] : {std::pair{Sun1, 0.0}, std::pair{Sun2, 0.11}}) {
+        pulses.push_back(
+            {.t = shifted(kStart, (turn - stepped_turns + phase) * kPeriod_s), .channel = channel});
+      }
+    }
+    std::sort(pulses.begin(), pulses.end());
+    const Association all = associate(pulses);
+    for (const Revolution& revolution : all.closed) {
+      EXPECT_NEAR(revolution.period.period_s, kPeriod_s, 0.1 * kPeriod_s) << revolution.number;
+    }
+    EXPECT_LE(all.left_over.size(), 60U);
+  }
+}
+
 TEST(Association, TheCountIsRightAfterMinutesOfSilence) {
   for (const double rpm : {5.0, 60.0, 200.0}) {
     SCOPED_TRACE(rpm);

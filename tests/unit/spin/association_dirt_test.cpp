@@ -424,5 +424,31 @@ TEST(AssociationDirt, NoTimeIsTooAbsurd) {
   }
 }
 
+/// An edge may be stated worse than a turn is long: then no turn can be counted.
+TEST(Association, EveryEdgeIsAccountedForHoweverNoisyItIsSaidToBe) {
+  for (const double rpm : {5.0, 60.0, 200.0}) {
+    for (const double noise_s : {1e-9, 1e-3, 1e-2, 3e-2, 0.1}) {
+      SCOPED_TRACE(::testing::Message() << rpm << " rpm, " << noise_s << " s");
+      SpinConfig config = testing::usual_config();
+      config.noise.sun_s = noise_s;
+      std::mt19937_64 rng{61};
+      std::normal_distribution<double> jitter_s{0.0, 1e-4};
+      std::vector<Pulse> pulses;
+      for (int turn = 0; turn < 300; ++turn) {
+        for (const auto& [channel, phase] : {std::pair{Sun1, 0.0}, std::pair{NorthIn, 0.4}}) {
+          const double t_s = (turn + phase) * 60.0 / rpm + jitter_s(rng);
+          pulses.push_back({.t = shifted(kStart, t_s), .channel = channel});
+        }
+      }
+      const Association all = associate(config, pulses);
+      std::size_t placed = 0;
+      for (const Revolution& revolution : all.closed) {
+        placed += (revolution.edge(Sun1) ? 1U : 0U) + (revolution.edge(NorthIn) ? 1U : 0U);
+      }
+      EXPECT_EQ(placed + all.left_over.size(), pulses.size());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace spindrift
