@@ -391,8 +391,16 @@ void SpinPass::settle_first(SpinOutput& out) {
       trust_.count(axis_candidates(config_, candidate.measured, *candidate.sightlines));
     }
   }
-  for (Candidate& candidate : std::exchange(first_, {})) {
+  std::vector<Candidate> first = std::exchange(first_, {});
+  for (Candidate& candidate : first) {
     settle(candidate, out);
+  }
+  // What follows is predicted from their mean: so that it is compared with the like.
+  if (const auto axis_icrf = recent_axes_.axis_icrf()) {
+    screening_ = ScreeningWindow{config_.screening};
+    for (Candidate& candidate : first) {
+      predict(candidate, *axis_icrf);
+    }
   }
 }
 
