@@ -5,10 +5,10 @@
 
 #include <vector>
 
-#include "pipelines/spin/association.h"
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/measurement.h"
 #include "pipelines/spin/products.h"
+#include "pipelines/spin/revolution.h"
 
 namespace spindrift {
 
