@@ -1,11 +1,11 @@
 #include "pipelines/spin/association.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
-#include "pipelines/spin/period_search.h"
+#include "pipelines/spin/clock_start.h"
 #include "pipelines/spin/time_span.h"
 
 namespace spindrift {
@@ -13,9 +13,6 @@ namespace {
 
 // Without a clock no more than this is kept: noise alone must not fill the memory.
 constexpr std::size_t kMostWaiting = 1024;
-constexpr std::size_t kMostNotes = 16;
-// After this many turns of refused intervals it is the edge that they start from that is doubtful.
-constexpr std::int64_t kMostTurnsRefused = 5;
 // A revolution stays open at least this long, so that a channel seen for the first time finds it.
 constexpr double kOpen_turns = 0.75;
 constexpr double kChordGate_turns = 0.2;
@@ -23,14 +20,6 @@ constexpr double kChordGate_turns = 0.2;
 constexpr double kMostReach_turns = 0.4;
 // A clock less certain than this may have miscounted the turns of a silence: it starts afresh.
 constexpr double kLost_turns = 0.2;
-// Of so many edges of the reference so many are wrong when it is time to ask whether the clock is.
-constexpr std::size_t kRecentReference = 9;
-constexpr std::ptrdiff_t kDoubtful = 4;
-constexpr std::size_t kFewestAfterStep = 6;
-// A body that turns so much faster than before has an edge on nearly every turn. Otherwise it turns
-// as before, and the time stamps have stepped by a fraction of a turn.
-constexpr double kMuchFaster = 0.75;
-constexpr double kNearlyEvery = 0.8;
 // So many revolutions without a good edge of the reference, and another channel takes over.
 constexpr int kSilentReference = 10;
 // From so many good edges in a row on a channel is fit to set the clock.
@@ -46,30 +35,16 @@ PulseUse left_over(const Pulse& pulse, std::optional<Rejection> rejected_by = {}
           .rejected_by = rejected_by.value_or(Rejection::Unassociated)};
 }
 
-bool is_fraction(const Comb& comb, double period_s) {
-  return comb.period_s < kMuchFaster * period_s &&
-         static_cast<double>(comb.edges) < kNearlyEvery * (comb.turns + 1.0);
-}
-
 }  // namespace
 
-double Revolution::rate_rad_s(TaiTime t) const {
-  return 2.0 * std::numbers::pi *
-         (1.0 / period.period_s + period.drift_per_s2 * elapsed_s(t_start, t));
-}
-
-double Revolution::turned_rad(TaiTime from, TaiTime to) const {
-  return rate_rad_s(from + (to - from) / 2) * elapsed_s(from, to);
-}
-
 Associator::Associator(const SpinConfig& config)
-    : config_{config}, phases_{config}, period_window_{config.screening, config.noise.sun_s} {}
+    : config_{config},
+      phases_{config},
+      crowded_{config.screening.interference_s},
+      intervals_{config.screening, config.noise.sun_s} {}
 
 void Associator::note_period(TaiTime t_sun1, double period_s) {
-  notes_.push_back({.t_sun1 = t_sun1, .period_s = period_s});
-  if (notes_.size() > kMostNotes) {
-    notes_.pop_front();
-  }
+  intervals_.note({.t_sun1 = t_sun1, .period_s = period_s});
 }
 
 Association Associator::push(const Pulse& pulse) {
@@ -122,7 +97,7 @@ Association Associator::finish() {
 }
 
 void Associator::try_to_start(bool at_end, Association& out) {
-  auto start = start_clock(config_, std::vector<PeriodNote>{notes_.begin(), notes_.end()}, at_end);
+  auto start = start_clock(config_, intervals_.notes(), at_end);
   if (!start) {
     start = start_clock(config_, waiting_, at_end);
   }
@@ -136,7 +111,7 @@ void Associator::try_to_start(bool at_end, Association& out) {
     return;
   }
   sun1_known_ = reference_ == PulseChannel::Sun1;
-  period_window_ = SpinPeriodWindow{config_.screening, noise_of(config_.noise, start->reference)};
+  intervals_.begin_anew(noise_of(config_.noise, reference_));
   phases_.set_period(clock_->period_s());
   phases_.set_reference(reference_);
   if (lost_clock_) {
@@ -161,11 +136,8 @@ void Associator::give_up_clock(const Pulse& pulse, Association& out) {
   lost_clock_ = std::exchange(clock_, std::nullopt);
   phases_ = ExpectedPhases{config_};
   turns_without_reference_ = 0;
-  recent_reference_.clear();
-  interval_start_.reset();
-  notes_.erase(std::remove_if(notes_.begin(), notes_.end(),
-                              [&](const PeriodNote& note) { return note.t_sun1 < pulse.t; }),
-               notes_.end());
+  rate_step_.forget();
+  intervals_.forget_notes_before(pulse.t);
 }
 
 void Associator::learn_phases() {
@@ -192,44 +164,22 @@ void Associator::restart_after_step(const Pulse& pulse) {
   const bool good = clock_->accepts(
       static_cast<std::int64_t>(turn), zero_of(pulse.t, turn), noise_s, reference_wander(),
       {.sigma = config_.screening.sigma, .most = gate_turns(reference_)});
-  recent_reference_.push_back({.t = pulse.t, .good = good});
-  if (recent_reference_.size() > kRecentReference) {
-    recent_reference_.pop_front();
-  }
-  const auto wrong = std::count_if(recent_reference_.begin(), recent_reference_.end(),
-                                   [](const ReferenceEdge& edge) { return !edge.good; });
-  if (good || wrong < kDoubtful) {
-    return;
-  }
-  std::vector<TaiTime> edges(recent_reference_.size());
-  std::transform(recent_reference_.begin(), recent_reference_.end(), edges.begin(),
-                 [](const ReferenceEdge& edge) { return edge.t; });
-  const auto comb = find_comb(edges, noise_s, kFewestAfterStep);
-  if (!comb || is_fraction(*comb, clock_->period_s())) {
-    return;
-  }
-  SpinClock::Setting setting = setting_of(*comb, noise_s);
-  const SpinClock teeth{setting};
-  const auto behind_comb = [&](TaiTime t) { return std::remainder(teeth.phase_turns(t), 1.0); };
-  // Most of the edges that the clock thinks good lie on the comb: it is the clock's own.
-  const double limit = std::max(0.005, 6.0 * comb->scatter_s / comb->period_s);
-  std::size_t agreeing = 0;
-  for (const ReferenceEdge& edge : recent_reference_) {
-    agreeing += edge.good && std::abs(behind_comb(edge.t)) <= limit ? 1U : 0U;
-  }
-  if (4 * agreeing >= 3 * comb->edges || std::abs(behind_comb(pulse.t)) > limit) {
+  rate_step_.add(pulse.t, good);
+  const auto comb = rate_step_.new_comb(noise_s, clock_->period_s());
+  if (!comb) {
     return;
   }
   auto number = std::max(static_cast<std::int64_t>(turn), first_open_);
   if (!open_.empty() && open_.back().edge(reference_)) {
     number = std::max(number, open_.back().number + 1);
   }
+  SpinClock::Setting setting = setting_of(*comb, noise_s);
+  const double turns_on_comb = SpinClock{setting}.phase_turns(pulse.t);
   setting.t = later_by_s(comb->t, -expected * comb->period_s);
-  setting.turn = number - static_cast<std::int64_t>(std::llround(teeth.phase_turns(pulse.t)));
+  setting.turn = number - static_cast<std::int64_t>(std::llround(turns_on_comb));
   clock_ = SpinClock{setting};
-  period_window_ = SpinPeriodWindow{config_.screening, noise_s};
-  interval_start_.reset();
-  recent_reference_.clear();
+  intervals_.begin_anew(noise_s);
+  rate_step_.forget();
   phases_.set_period(comb->period_s);
   phases_.forget_strays();
 }
@@ -276,7 +226,8 @@ void Associator::place(const Pulse& pulse, bool spoilt, Association& out) {
   }
   close_before(phase, out);
   if (pulse.channel != reference_ && !count_of(pulse).near) {
-    phases_.stray(pulse.channel, phase, spoilt ? displacement_turns() : 0.0);
+    phases_.stray(pulse.channel, phase,
+                  spoilt ? crowded_.displacement_s() / clock_->period_s() : 0.0);
   }
   const auto spoilt_by = spoilt ? std::optional{Rejection::Interference} : std::nullopt;
   if (Revolution* const revolution = revolution_of(pulse)) {
@@ -344,12 +295,15 @@ void Associator::close_front(Association& out) {
   Revolution& revolution = open_.front();
   first_open_ = revolution.number + 1;
   revolution.count_sigma_turns = std::exchange(count_sigma_turns_, std::nullopt);
-  expect_interference(revolution, out);
+  const auto turn = static_cast<double>(revolution.number);
+  const auto began = crowded_.expect(phases_, turn, clock_sigma_turns(turn), clock_->t_of(turn));
+  out.began_to_interfere.insert(out.began_to_interfere.end(), began.begin(), began.end());
   judge_reference(revolution);
   judge_others(revolution);
   revolution.t_start = t_start_of(revolution);
   judge_neighbours(revolution);
-  judge_period(revolution);
+  revolution.period_candidate = intervals_.candidate(
+      revolution, reference_, [this](TaiTime t) { return period_at(t).period_s; });
   revolution.period = period_at(revolution.t_start);
   count_silence(revolution);
   phases_.keep_chords_near();
@@ -357,47 +311,12 @@ void Associator::close_front(Association& out) {
   open_.pop_front();
 }
 
-void Associator::expect_interference(const Revolution& revolution, Association& out) {
-  crowded_.fill(false);
-  if (!(config_.screening.interference_s > 0.0)) {
-    return;
-  }
-  const auto turn = static_cast<double>(revolution.number);
-  const double clock_sigma = clock_sigma_turns(turn);
-  for (const PulseChannel one : kChannels) {
-    for (const PulseChannel other : kChannels) {
-      if (one < other && phases_.interfere(one, other, turn, clock_sigma)) {
-        crowded_.at(index_of(one)) = crowded_.at(index_of(other)) = true;
-        note_interference(one, other, clock_->t_of(turn), out);
-      }
-    }
-  }
-}
-
-void Associator::note_interference(PulseChannel one, PulseChannel other, TaiTime t,
-                                   Association& out) {
-  auto known =
-      std::find_if(interfering_.begin(), interfering_.end(),
-                   [&](const InterferingChannels& c) { return c.one == one && c.other == other; });
-  if (known == interfering_.end()) {
-    out.began_to_interfere.push_back({.one = one, .other = other, .first = t, .last = t});
-    known = interfering_.insert(known, out.began_to_interfere.back());
-  }
-  known->last = t;
-  ++known->revolutions;
-}
-
-/// One standard deviation of what interference moves an edge by: up to half the window either way.
-double Associator::displacement_turns() const {
-  return config_.screening.interference_s / std::sqrt(12.0) / clock_->period_s();
-}
-
 /// Of all edges alike where channels are expected to interfere: with less weight for those that met
 /// the channels would seem too far from each other.
 double Associator::displaced_turns(const Revolution& revolution, PulseChannel channel) const {
   const bool displaced =
-      crowded_.at(index_of(channel)) || revolution.edge_rejections.at(index_of(channel));
-  return displaced ? displacement_turns() : 0.0;
+      crowded_.contains(channel) || revolution.edge_rejections.at(index_of(channel));
+  return displaced ? crowded_.displacement_s() / clock_->period_s() : 0.0;
 }
 
 void Associator::judge_reference(Revolution& revolution) {
@@ -444,47 +363,10 @@ void Associator::judge_others(Revolution& revolution) {
 void Associator::judge_neighbours(Revolution& revolution) const {
   for (const PulseChannel channel : kChannels) {
     std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
-    if (revolution.edge(channel) && !rejection && crowded_.at(index_of(channel))) {
+    if (revolution.edge(channel) && !rejection && crowded_.contains(channel)) {
       rejection = Rejection::Interference;
     }
   }
-}
-
-void Associator::judge_period(Revolution& revolution) {
-  const std::optional<TaiTime>& edge = revolution.edge(reference_);
-  if (!edge) {
-    return;
-  }
-  const bool good = revolution.good_edge(reference_).has_value();
-  if (!interval_start_) {
-    revolution.period_candidate = noted_candidate(revolution);
-    if (good) {
-      interval_start_ = {.t = *edge, .revolution = revolution.number};
-    }
-    return;
-  }
-  const std::int64_t turns = revolution.number - interval_start_->revolution;
-  const TaiTime middle = interval_start_->t + (*edge - interval_start_->t) / 2;
-  PeriodCandidate candidate =
-      good ? period_window_.add(interval_start_->t, *edge, turns, period_at(middle).period_s)
-           : period_window_.refused(interval_start_->t, *edge, turns);
-  candidate.sigma_s =
-      std::hypot(candidate.sigma_s, apparent_motion_s(reference_, candidate.period_s));
-  revolution.period_candidate = candidate;
-  if (candidate.accepted || (good && turns >= kMostTurnsRefused)) {
-    interval_start_ = {.t = *edge, .revolution = revolution.number};
-  }
-}
-
-/// What the spacecraft said, where no interval ends at this revolution's sun1.
-std::optional<PeriodCandidate> Associator::noted_candidate(const Revolution& revolution) {
-  const std::optional<TaiTime>& sun1 = revolution.edge(PulseChannel::Sun1);
-  const auto note = std::find_if(notes_.begin(), notes_.end(),
-                                 [&](const PeriodNote& n) { return sun1 && n.t_sun1 == *sun1; });
-  if (note == notes_.end() || !(note->period_s > 0.0)) {
-    return std::nullopt;
-  }
-  return period_window_.add(note->period_s, period_at(*sun1).period_s);
 }
 
 /// Hands the clock over: to sun1 as soon as it is fit, to another channel when the reference has
@@ -515,9 +397,8 @@ void Associator::change_reference(PulseChannel channel, std::int64_t turn) {
   reference_ = channel;
   phases_.set_reference(channel);
   turns_without_reference_ = 0;
-  recent_reference_.clear();
-  interval_start_.reset();
-  period_window_ = SpinPeriodWindow{config_.screening, noise_of(config_.noise, channel)};
+  rate_step_.forget();
+  intervals_.begin_anew(noise_of(config_.noise, channel));
   const bool is_sun1 = channel == PulseChannel::Sun1;
   if (is_sun1 || (channel == PulseChannel::Sun2 && !sun1_known_)) {
     // The Sun stands still: phase and drift of its edge are the clock's errors.

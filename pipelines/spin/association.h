@@ -13,61 +13,23 @@
 
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
 #include <vector>
 
-#include "pipelines/spin/clock_start.h"
 #include "pipelines/spin/config.h"
+#include "pipelines/spin/crowded_channels.h"
 #include "pipelines/spin/expected_phases.h"
+#include "pipelines/spin/period_intervals.h"
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/pulse.h"
+#include "pipelines/spin/rate_step.h"
+#include "pipelines/spin/revolution.h"
 #include "pipelines/spin/spin_clock.h"
 #include "pipelines/spin/spin_period.h"
 
 namespace spindrift {
-
-/// All that was received of one turn of the body.
-struct Revolution {
-  std::int64_t number;
-  std::array<std::optional<TaiTime>, kPulseChannels> edges;
-  /// Why an edge that is there is not to be used: it lies where those of its channel do not.
-  std::array<std::optional<Rejection>, kPulseChannels> edge_rejections = {};
-  /// The interval that ends at its sun1, or what the spacecraft said of it; without sun1 at all,
-  /// the interval that ends at the edge that the clock is set by.
-  std::optional<PeriodCandidate> period_candidate;
-  SpinPeriod period;  ///< At t_start.
-  /// After a silence through which the turns could not be counted for certain: one standard
-  /// deviation of the number.
-  std::optional<double> count_sigma_turns = {};
-  /// Its sun1 edge if good, else where that is expected; of a pass without sun1 likewise the edge
-  /// that the clock is set by.
-  TaiTime t_start = {};
-
-  const std::optional<TaiTime>& edge(PulseChannel channel) const {
-    return edges.at(index_of(channel));
-  }
-  /// The edge, if it is there and nothing speaks against it.
-  std::optional<TaiTime> good_edge(PulseChannel channel) const {
-    return edge_rejections.at(index_of(channel)) ? std::nullopt : edge(channel);
-  }
-  /// Spin rate at an instant.
-  double rate_rad_s(TaiTime t) const;
-  /// How far the body turns from one instant to another.
-  double turned_rad(TaiTime from, TaiTime to) const;
-};
-
-/// Two channels that come so near to each other that their edges spoil each other.
-struct InterferingChannels {
-  PulseChannel one;
-  PulseChannel other;
-  TaiTime first;  ///< Start of the first revolution in which they do.
-  TaiTime last;
-  std::int64_t revolutions = 0;
-};
 
 struct Association {
   std::vector<Revolution> closed;                            ///< In order of number.
@@ -95,18 +57,9 @@ class Associator {
   Association finish();
 
   /// So far in the pass.
-  const std::vector<InterferingChannels>& interfering() const { return interfering_; }
+  const std::vector<InterferingChannels>& interfering() const { return crowded_.interfering(); }
 
  private:
-  /// An edge of the channel that sets the clock.
-  struct ReferenceEdge {
-    TaiTime t;
-    bool good;
-  };
-  struct IntervalStart {
-    TaiTime t;
-    std::int64_t revolution;
-  };
   /// The turn whose edge a pulse is nearest to, and whether it is near enough to be that.
   struct Count {
     std::int64_t turn;
@@ -128,15 +81,10 @@ class Associator {
   Revolution* open_revolution(std::int64_t number);
   void close_before(double phase_turns, Association& out);
   void close_front(Association& out);
-  void expect_interference(const Revolution& revolution, Association& out);
-  void note_interference(PulseChannel one, PulseChannel other, TaiTime t, Association& out);
-  double displacement_turns() const;
   double displaced_turns(const Revolution& revolution, PulseChannel channel) const;
   void judge_reference(Revolution& revolution);
   void judge_others(Revolution& revolution);
   void judge_neighbours(Revolution& revolution) const;
-  void judge_period(Revolution& revolution);
-  std::optional<PeriodCandidate> noted_candidate(const Revolution& revolution);
   void count_silence(const Revolution& revolution);
   void change_reference(PulseChannel channel, std::int64_t turn);
   TaiTime t_start_of(const Revolution& revolution) const;
@@ -147,8 +95,7 @@ class Associator {
   double reach_turns(PulseChannel channel, double phase_turns) const;
 
   SpinConfig config_;
-  std::vector<Pulse> waiting_;    ///< Until the period is known.
-  std::deque<PeriodNote> notes_;  ///< Not yet used.
+  std::vector<Pulse> waiting_;  ///< Until the period is known.
 
   std::optional<SpinClock> clock_;
   std::optional<SpinClock> lost_clock_;          ///< Before a silence too long for it.
@@ -156,13 +103,10 @@ class Associator {
   PulseChannel reference_ = PulseChannel::Sun1;  ///< The channel that sets the clock.
   bool sun1_known_ = false;                      ///< Phase 0 is where sun1 is.
   int turns_without_reference_ = 0;
-  std::deque<ReferenceEdge> recent_reference_;
+  RateStepWatch rate_step_;
   ExpectedPhases phases_;
-  std::vector<InterferingChannels> interfering_;
-  std::array<bool, kPulseChannels> crowded_{};  ///< In the revolution that closes.
-
-  SpinPeriodWindow period_window_;
-  std::optional<IntervalStart> interval_start_;
+  CrowdedChannels crowded_;
+  PeriodIntervals intervals_;
 
   std::deque<Revolution> open_;  ///< In order of number; only those with an edge.
   std::int64_t first_open_ = 0;  ///< Revolutions before this one are closed.

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "pipelines/spin/association.h"
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/products.h"
+#include "pipelines/spin/revolution.h"
 
 namespace spindrift {
 

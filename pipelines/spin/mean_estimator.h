@@ -21,11 +21,11 @@
 #include <utility>
 
 #include "pipelines/spin/angle_equations.h"
-#include "pipelines/spin/association.h"
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/measurement.h"
 #include "pipelines/spin/model_check.h"
 #include "pipelines/spin/products.h"
+#include "pipelines/spin/revolution.h"
 #include "pipelines/spin/sightlines.h"
 
 namespace spindrift {

@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <optional>
 
-#include "pipelines/spin/association.h"
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/products.h"
+#include "pipelines/spin/revolution.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {

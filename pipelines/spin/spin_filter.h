@@ -23,10 +23,10 @@
 #include <span>
 #include <utility>
 
-#include "pipelines/spin/association.h"
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/model_allowance.h"
 #include "pipelines/spin/pulse.h"
+#include "pipelines/spin/revolution.h"
 #include "pipelines/spin/sky.h"
 #include "pipelines/time/tai_time.h"
 

@@ -13,11 +13,8 @@
 
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <cstddef>
 #include <optional>
-#include <set>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +27,7 @@
 #include "pipelines/spin/mean_axis.h"
 #include "pipelines/spin/mean_estimator.h"
 #include "pipelines/spin/measurement.h"
+#include "pipelines/spin/pass_notices.h"
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/reorder_window.h"
 #include "pipelines/spin/screening.h"
@@ -81,22 +79,18 @@ class SpinPass {
   void settle(Candidate& candidate, SpinOutput& out);
   void predict(Candidate& candidate, const Eigen::Vector3d& axis_icrf);
   void screen(Candidate& candidate) const;
-  std::vector<SpinFix> find_fixes(const Candidate& candidate, SpinOutput& out);
-  void say_why_not_accepted(const SpinFix& fix, SpinOutput& out);
+  std::vector<SpinFix> find_fixes(const Candidate& candidate);
+  void say_why_not_accepted(const SpinFix& fix);
   void announce_axis(const Candidate& candidate, SpinOutput& out);
   std::optional<KnownAxis> established_axis() const;
   bool recent_fixes_left_the_mean_for(const Eigen::Vector3d& axis_icrf) const;
-  void start_again_where_moved(const SpinEstimate& sequential, SpinOutput& out);
-  void forget_prior(TaiTime t, SpinOutput& out);
+  void start_again_where_moved(const SpinEstimate& sequential);
+  void forget_prior(TaiTime t);
   void begin_anew(TaiTime t);
-  std::string silent_channels() const;
-  void say_what_is_missing(SpinOutput& out) const;
-  void say_what_the_axis_lacks(SpinOutput& out) const;
   static void leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out);
-  void say_once(const std::string& notice, SpinOutput& out);
-  void say_first(std::string_view kind, const std::string& notice, SpinOutput& out);
 
   SpinConfig config_;
+  PassNotices notices_;
   Surroundings surroundings_;
   FrameReorderWindow frames_;
   std::vector<Pulse> of_next_turn_;  ///< Of the last frame, but behind the sun1 of the next.
@@ -112,17 +106,6 @@ class SpinPass {
   Trust trust_;
   SequentialEstimator sequential_;
   int restarts_heeded_ = 0;
-  std::array<bool, kPulseChannels> heard_{};
-  bool closed_any_ = false;     ///< Revolution.
-  bool left_over_any_ = false;  ///< Edge of none.
-  /// Of `sequential`; empty: it never began.
-  std::string last_status_;
-  int last_case_ = 0;               ///< Of the ten, of the last fix.
-  std::int64_t without_fix_ = 0;    ///< Revolutions.
-  std::string last_without_fix_;    ///< Why the last of them has none.
-  std::int64_t without_orbit_ = 0;  ///< Revolutions.
-  std::string last_without_orbit_;  ///< Why the last of them has none.
-  std::set<std::string, std::less<>> said_;
 };
 
 }  // namespace spindrift

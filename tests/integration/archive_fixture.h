@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -18,29 +17,9 @@
 
 #include "services/archive/archive.h"
 #include "services/archive/connection.h"
+#include "tests/support/temporary_folder.h"
 
 namespace spindrift::testing {
-
-class TemporaryDirectory {
- public:
-  TemporaryDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "spindrift_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error{"no temporary directory " + name};
-    }
-    path_ = name;
-  }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  TemporaryDirectory(TemporaryDirectory&&) = delete;
-  TemporaryDirectory& operator=(TemporaryDirectory&&) = delete;
-  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline const RunStart kRunStart{.spacecraft_kind = "spin",
                                 .mode = "process",
@@ -79,8 +58,8 @@ inline std::vector<std::string> column(SQLite::Database& database, const std::st
 
 class ArchiveFixture : public ::testing::Test {
  protected:
-  const std::filesystem::path& directory() const { return directory_.path(); }
-  std::filesystem::path path() const { return directory_.path() / "pass.db"; }
+  const std::filesystem::path& directory() const { return folder_.path(); }
+  std::filesystem::path path() const { return folder_.path() / "pass.db"; }
 
   std::unique_ptr<Archive> open(ArchiveOptions options = {}) const {
     auto archive = Archive::open(path(), std::move(options));
@@ -88,6 +67,18 @@ class ArchiveFixture : public ::testing::Test {
       throw std::runtime_error{archive.error().message};
     }
     return std::move(*archive);
+  }
+
+  /// Commits the batch by an archive that is closed again.
+  void store(const ArchiveBatch& batch) const {
+    const auto archive = open();
+    Expected<void> done = archive->submit(batch);
+    if (done) {
+      done = archive->close();
+    }
+    if (!done) {
+      throw std::runtime_error{done.error().message};
+    }
   }
 
   SQLite::Database reader() const {
@@ -107,7 +98,7 @@ class ArchiveFixture : public ::testing::Test {
   }
 
  private:
-  TemporaryDirectory directory_;
+  TemporaryFolder folder_;
 };
 
 }  // namespace spindrift::testing

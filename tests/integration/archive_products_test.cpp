@@ -68,11 +68,9 @@ TEST_F(ArchiveProducts, ProductsOfTwoRunsStandSideBySide) {
 }
 
 TEST_F(ArchiveProducts, SpinFixIsStoredInDegreesWithItsCovariance) {
-  const auto archive = open();
   ArchiveBatch batch = start_of("run-1");
   batch.products = {fix_at(100.0, -55.0)};
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush());
+  store(batch);
 
   EXPECT_NEAR(real("SELECT ra_deg FROM spin_fix"), 100.0, kDegTolerance);
   EXPECT_NEAR(real("SELECT dec_deg FROM spin_fix"), -55.0, kDegTolerance);
@@ -87,14 +85,12 @@ TEST_F(ArchiveProducts, SpinFixIsStoredInDegreesWithItsCovariance) {
 }
 
 TEST_F(ArchiveProducts, AmbiguousFixKeepsBothCandidates) {
-  const auto archive = open();
   SpinFix fix = fix_at(100.0, -55.0);
   fix.alternate_axes_icrf = {fix_at(310.0, 20.0).axis_icrf};
   fix.resolution = Resolution::Ambiguous;
   ArchiveBatch batch = start_of("run-1");
   batch.products = {fix};
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush());
+  store(batch);
 
   EXPECT_NEAR(real("SELECT alternate_ra_deg FROM spin_fix"), 310.0, kDegTolerance);
   EXPECT_NEAR(real("SELECT alternate_dec_deg FROM spin_fix"), 20.0, kDegTolerance);
@@ -102,7 +98,6 @@ TEST_F(ArchiveProducts, AmbiguousFixKeepsBothCandidates) {
 }
 
 TEST_F(ArchiveProducts, RightAscensionStaysBelowAFullTurn) {
-  const auto archive = open();
   ArchiveBatch batch = start_of("run-1");
   for (const double y : {-1e-15, -4.5e-16, -1e-16, -1e-18, -0.0, 0.0, 1e-18}) {
     SpinFix fix = fix_at(0.0, 0.0);
@@ -110,14 +105,12 @@ TEST_F(ArchiveProducts, RightAscensionStaysBelowAFullTurn) {
     fix.axis_icrf = {1.0, y, 0.0};
     batch.products.emplace_back(fix);
   }
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush()) << archive->statistics().failure->message;
+  store(batch);
 
   EXPECT_EQ(number("SELECT count(*) FROM spin_fix WHERE ra_deg >= 0 AND ra_deg < 360"), 7);
 }
 
 TEST_F(ArchiveProducts, MeasurementsAreStoredInDegreesAndThePeriodInSeconds) {
-  const auto archive = open();
   ArchiveBatch batch = start_of("run-1");
   batch.products = {RevolutionProduct{.revolution = 4, .t_sun1 = tai_from_ns(77), .period_s = 0.6},
                     SpinMeasurement{.revolution = 4,
@@ -130,8 +123,7 @@ TEST_F(ArchiveProducts, MeasurementsAreStoredInDegreesAndThePeriodInSeconds) {
                                     .value = std::numbers::pi / 3.0,
                                     .sigma = std::numbers::pi / 1800.0,
                                     .rejected_by = Rejection::SunAngle}};
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush());
+  store(batch);
 
   EXPECT_EQ(text("SELECT format('%d %d %g', revolution, t_tai_ns, period_s) FROM revolution"),
             "4 77 0.6");
@@ -141,7 +133,6 @@ TEST_F(ArchiveProducts, MeasurementsAreStoredInDegreesAndThePeriodInSeconds) {
 }
 
 TEST_F(ArchiveProducts, WhatBecameOfEveryEdgeIsStored) {
-  const auto archive = open();
   ArchiveBatch batch = start_of("run-1");
   batch.pulses = {pulse_at(5, 1), pulse_at(6, 2)};
   batch.products = {
@@ -149,8 +140,7 @@ TEST_F(ArchiveProducts, WhatBecameOfEveryEdgeIsStored) {
       PulseUse{.pulse = batch.pulses[1].pulse,
                .revolution = std::nullopt,
                .rejected_by = Rejection::Unassociated}};
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush());
+  store(batch);
 
   EXPECT_EQ(text("SELECT group_concat(format('%s %d %s %s %d %s', spacecraft_id, t_tai_ns, channel,"
                  " ifnull(revolution, '-'), accepted, ifnull(rejected_by, '-')), '; ')"
@@ -162,11 +152,9 @@ TEST_F(ArchiveProducts, WhatBecameOfEveryEdgeIsStored) {
 
 TEST_F(ArchiveProducts, EstimateIsStoredInDegreesAndTurnsPerMinute) {
   constexpr double kDeg2PerRad2 = 1.0 / (kRadPerDeg * kRadPerDeg);
-  const auto archive = open();
   ArchiveBatch batch = start_of("run-1");
   batch.products = {estimate_at(9, SpinEstimator::Mean, 30.0)};
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush());
+  store(batch);
 
   EXPECT_NEAR(real("SELECT dec_deg FROM spin_estimate"), 30.0, kDegTolerance);
   EXPECT_NEAR(real("SELECT sigma_deg FROM spin_estimate"), 3e-4 / kRadPerDeg, kDegTolerance);
@@ -177,13 +165,11 @@ TEST_F(ArchiveProducts, EstimateIsStoredInDegreesAndTurnsPerMinute) {
 }
 
 TEST_F(ArchiveProducts, AnswerOfAPassIsTheLastEstimateOfEachEstimator) {
-  const auto archive = open();
   ArchiveBatch batch = start_of("run-1");
   batch.products = {
       estimate_at(10, SpinEstimator::Mean, 1.0), estimate_at(30, SpinEstimator::Mean, 3.0),
       estimate_at(20, SpinEstimator::Mean, 2.0), estimate_at(15, SpinEstimator::Batch, 4.0)};
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush());
+  store(batch);
 
   SQLite::Database database = reader();
   EXPECT_THAT(column(database,
@@ -212,9 +198,7 @@ TEST_F(ArchiveProducts, UtcOfTheViewsIsThatOfFormatUtc) {
   for (const std::int64_t t_tai_ns : times_ns) {
     batch.pulses.push_back(pulse_at(t_tai_ns));
   }
-  const auto archive = open();
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush());
+  store(batch);
 
   SQLite::Database database = reader();
   SQLite::Statement rows{database, "SELECT t_tai_ns, utc FROM pulse_utc"};
@@ -229,7 +213,6 @@ TEST_F(ArchiveProducts, UtcOfTheViewsIsThatOfFormatUtc) {
 
 TEST_F(ArchiveProducts, EveryViewOfAPersonHasItsUtc) {
   constexpr std::int64_t kNewYear2017_ns = 1'483'228'837'000'000'000;
-  const auto archive = open();
   ArchiveBatch batch = start_of("run-1");
   SpinFix fix = fix_at(100.0, -55.0);
   fix.t = tai_from_ns(kNewYear2017_ns);
@@ -240,8 +223,7 @@ TEST_F(ArchiveProducts, EveryViewOfAPersonHasItsUtc) {
                                     .sigma = 1e-4,
                                     .rejected_by = std::nullopt},
                     fix, estimate_at(kNewYear2017_ns, SpinEstimator::Mean, 1.0)};
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush());
+  store(batch);
 
   for (const std::string view : {"revolution_utc", "spin_measurement_utc", "spin_fix_utc",
                                  "spin_estimate_utc", "pass_answer"}) {

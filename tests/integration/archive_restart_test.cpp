@@ -239,15 +239,13 @@ TEST_F(ArchiveRestart, AllAxesOfAnAmbiguousFixAreStoredUntilItIsGivenAgainOrWith
 }
 
 TEST_F(ArchiveRestart, WhatBecomesOfAnEdgeLaterStandsButNotThatItIsLate) {
-  const auto archive = open();
   const Pulse pulse = pulse_at(5).pulse;
   ArchiveBatch batch = start_of("run-1");
   batch.products = {
       PulseUse{.pulse = pulse, .revolution = {}, .rejected_by = Rejection::Unassociated},
       PulseUse{.pulse = pulse, .revolution = 3, .rejected_by = std::nullopt},
       PulseUse{.pulse = pulse, .revolution = {}, .rejected_by = Rejection::Late}};
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush());
+  store(batch);
   EXPECT_EQ(text("SELECT revolution || ' ' || accepted || ifnull(rejected_by, '') FROM pulse_use"),
             "3 1");
 }

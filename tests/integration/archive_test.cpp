@@ -102,11 +102,9 @@ TEST_F(ArchiveTest, RunIsKeptWithItsProvenance) {
 }
 
 TEST_F(ArchiveTest, RunWithoutAnOrbitFileHasNoDigestOfOne) {
-  const auto archive = open();
   ArchiveBatch batch = start_of("run-1");
   batch.start->orbit_sha256 = std::nullopt;
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush());
+  store(batch);
 
   EXPECT_EQ(number("SELECT orbit_sha256 IS NULL FROM run"), 1);
 }
@@ -151,7 +149,6 @@ TEST_F(ArchiveTest, EdgeThatBreaksARuleIsNotPassedOverAsIfItWereStored) {
 }
 
 TEST_F(ArchiveTest, RejectedRowsOfOtherPathsAndSessionsAreOtherRows) {
-  const auto archive = open();
   ArchiveBatch batch = start_of("run-1");
   batch.rejected = {
       {.source = "a/pulses.csv", .line = 2, .reason = "bad"},
@@ -159,8 +156,7 @@ TEST_F(ArchiveTest, RejectedRowsOfOtherPathsAndSessionsAreOtherRows) {
       {.source = "station", .line = 2, .reason = "bad", .session = 1},
       {.source = "station", .line = 2, .reason = "bad", .session = 18446744073709551615U},
       {.source = "station", .line = 2, .reason = "bad", .session = 1}};
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush());
+  store(batch);
 
   SQLite::Database database = reader();
   EXPECT_THAT(column(database, "SELECT source || ' ' || session FROM rejected_input ORDER BY 1"),

@@ -51,6 +51,9 @@ class Service {
     return replay.exit_status();
   }
 
+  /// The whole pass at once, from ready to stopped. @return Whether all went well.
+  bool serves_its_pass() { return ready() && replay("0") == 0 && stop() == 0; }
+
   int stop() {
     program_->signal(SIGTERM);
     return program_->exit_status();

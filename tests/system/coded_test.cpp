@@ -7,8 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
@@ -90,14 +88,9 @@ TEST(Coded, GivesTheSameProductsLiveAsOfflineAndFindsTheAxis) {
 
 TEST(Coded, SimulatedPassGivesTheSameProductsFromTheBusAsFromFiles) {
   const TemporaryFolder folder;
-  std::string text = text_of(kScenario);
-  // Beams 20 deg apart, which leave the mean a sigma of 0.02 deg; 10 deg leave it 0.04.
-  for (const auto& [usual, wider] :
-       {std::pair{"= 85.0", "= 80.0"}, std::pair{"= 95.0", "= 100.0"}}) {
-    text.replace(text.find(usual), std::string_view{usual}.size(), wider);
-  }
   const std::string scenario =
-      folder.write("scenario.toml", text + "[telemetry]\nkind = \"coded\"\n").string();
+      folder.write("scenario.toml", text_of(kScenario) + "[telemetry]\nkind = \"coded\"\n")
+          .string();
   const auto pass = folder.path() / "pass";
   Program simulate{{"simulate", scenario, "--out", pass.string()}};
   ASSERT_EQ(simulate.exit_status(), 0) << simulate.log();
@@ -108,7 +101,6 @@ TEST(Coded, SimulatedPassGivesTheSameProductsFromTheBusAsFromFiles) {
   serve(mission, served, {"simulate", scenario, "--publish", "--speed", "0"});
   EXPECT_EQ(coded_rows(offline).size(), 600U);
   EXPECT_EQ(product_rows(served), product_rows(offline));
-  EXPECT_LT(error_deg(offline, "mean", nlohmann::json::parse(text_of(pass / "truth.json"))), 0.1);
 }
 
 TEST(Coded, SimulatedPassOfBothKindsIsPublishedAsBoth) {

@@ -1,0 +1,76 @@
+/// @file
+/// What a person should know of a pass, in words: as it happens, each thing once, and at the end
+/// what is known for certain only then.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/spin/association.h"
+#include "pipelines/spin/config.h"
+#include "pipelines/spin/measurement.h"
+#include "pipelines/spin/pulse.h"
+#include "pipelines/spin/sequential.h"
+
+namespace spindrift {
+
+class PassNotices {
+ public:
+  explicit PassNotices(const SpinConfig& config) : config_{config} {}
+
+  // As it happens.
+  void edge_came(PulseChannel channel) { heard_.at(index_of(channel)) = true; }
+  void edge_came_late();
+  void edge_out_of_time();
+  void associated(const Association& association);
+  void counted_on(const Revolution& revolution);
+  void outside_orbit(const Error& error);
+  void without_fix(std::int64_t revolution, const Error& error);
+  /// @param geometry_case Of the ten.
+  void has_fix(int geometry_case) { last_case_ = geometry_case; }
+  void most_contradict_themselves();
+  void silent_where_it_must_see(Side side);
+  void fix_contradicts_itself();
+  void prior_contradicted(TaiTime t);
+  void axis_moved(TaiTime t, double apart_rad);
+  /// By the estimator `sequential`.
+  void estimated(const std::string& status) { last_status_ = status; }
+
+  /// @param interfering In the whole pass.
+  void pass_ended(std::span<const InterferingChannels> interfering,
+                  const SequentialEstimator& sequential);
+
+  /// Those since the last call.
+  std::vector<std::string> take() { return std::exchange(pending_, {}); }
+
+ private:
+  void say(std::string notice) { pending_.push_back(std::move(notice)); }
+  void say_once(const std::string& notice) { say_first(notice, notice); }
+  void say_first(std::string_view kind, const std::string& notice);
+  std::string silent_channels() const;
+  void say_what_the_axis_lacks(const SequentialEstimator& sequential);
+
+  SpinConfig config_;
+  std::vector<std::string> pending_;
+  std::set<std::string, std::less<>> said_;
+  std::array<bool, kPulseChannels> heard_{};
+  bool closed_any_ = false;         ///< Revolution.
+  bool left_over_any_ = false;      ///< Edge of none.
+  std::string last_status_;         ///< Of `sequential`; empty: it never began.
+  int last_case_ = 0;               ///< Of the last fix.
+  std::int64_t without_fix_ = 0;    ///< Revolutions.
+  std::string last_without_fix_;    ///< Why the last of them has none.
+  std::int64_t outside_orbit_ = 0;  ///< Revolutions.
+  std::string last_outside_orbit_;  ///< Why the last of them has none.
+};
+
+}  // namespace spindrift

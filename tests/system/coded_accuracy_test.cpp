@@ -1,0 +1,120 @@
+// The axis out of coded telemetry, from `spindrift simulate` to the archive of `spindrift process`:
+// its sigma is what the edges allow, and its errors are what the sigma promises.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/frames/celestial.h"
+#include "tests/support/archive_rows.h"
+#include "tests/support/information_limit.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/program.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+constexpr double kDuration_s = 600.0;
+constexpr int kPasses = 40;
+const std::filesystem::path kScenario =
+    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios" / "gto-nominal.toml";
+
+/// Of the scenario, like the orbit and the sensors of the limit.
+Eigen::Vector3d true_axis_icrf() {
+  return direction_icrf({.ra_rad = 100.0 * kDegree_rad, .dec_rad = -55.0 * kDegree_rad});
+}
+
+/// The least standard deviation that any estimator can have.
+double information_limit_rad() {
+  const auto orbit = KeplerOrbit::make({.epoch = testing::kTransferStart,
+                                        .semi_major_axis_km = 24400.0,
+                                        .eccentricity = 0.73,
+                                        .inclination_rad = 28.5 * kDegree_rad,
+                                        .raan_rad = 300.0 * kDegree_rad,
+                                        .argument_of_perigee_rad = 178.0 * kDegree_rad,
+                                        .mean_anomaly_rad = 30.0 * kDegree_rad});
+  const testing::SpinningBody body{.axis_icrf = true_axis_icrf(),
+                                   .rate_rad_s = 2.0 * std::numbers::pi,
+                                   .first_turn_rad = 0.0,
+                                   .config = testing::usual_config()};
+  const auto around = testing::seen_from(Orbit{orbit.value()}, testing::spherical_horizon_km(40.0));
+  return std::sqrt(testing::cramer_rao_rad2(body, around, kDuration_s).trace());
+}
+
+/// The archive of a pass of coded frames.
+std::filesystem::path processed(const TemporaryFolder& folder, int seed) {
+  std::string text = text_of(kScenario);
+  const std::string duration = "duration_s = 600.0\n";
+  text.insert(text.find(duration), "seed = " + std::to_string(seed) + "\n");
+  const auto scenario = folder.write("scenario.toml", text + "[telemetry]\nkind = \"coded\"\n");
+  const auto pass = folder.path() / "pass";
+  Program simulate{{"simulate", scenario.string(), "--out", pass.string()}};
+  EXPECT_EQ(simulate.exit_status(), 0) << simulate.log();
+  auto db = folder.path() / "processed.db";
+  Program process{{"process", "--mission", (pass / "mission.toml").string(), "--telemetry",
+                   pass.string(), "--db", db.string(), "--strict"}};
+  EXPECT_EQ(process.exit_status(), 0) << process.log();
+  return db;
+}
+
+struct Answer {
+  Eigen::Vector3d axis_icrf;
+  Eigen::Matrix2d covariance_rad2;
+};
+
+Answer answer_of(const std::filesystem::path& db, const std::string& estimator) {
+  const auto value = [&](const std::string& column) {
+    return real_of(db,
+                   "SELECT " + column + " FROM pass_answer WHERE estimator = '" + estimator + "'");
+  };
+  const double east_north = value("cov_east_north_deg2");
+  Eigen::Matrix2d covariance_deg2;
+  covariance_deg2 << value("cov_east_east_deg2"), east_north, east_north,
+      value("cov_north_north_deg2");
+  return {.axis_icrf = direction_icrf(
+              {.ra_rad = value("ra_deg") * kDegree_rad, .dec_rad = value("dec_deg") * kDegree_rad}),
+          .covariance_rad2 = covariance_deg2 * kDegree_rad * kDegree_rad};
+}
+
+struct Sums {
+  double squared_error = 0.0;   ///< In units of the covariance.
+  double variance_ratio = 0.0;  ///< To the least that the edges allow.
+};
+
+TEST(CodedAccuracy, SigmaIsWhatTheEdgesAllowAndErrorsAreWhatItPromises) {
+  const double limit_rad = information_limit_rad();
+  Sums mean;
+  Sums sequential;
+  for (int seed = 1; seed <= kPasses; ++seed) {
+    SCOPED_TRACE(seed);
+    const TemporaryFolder folder;
+    const auto db = processed(folder, seed);
+    ASSERT_FALSE(HasFailure());
+    for (const auto& [estimator, sums] : {std::pair{"mean", &mean}, {"sequential", &sequential}}) {
+      const Answer answer = answer_of(db, estimator);
+      const Eigen::Vector2d error_rad = testing::error_rad(answer.axis_icrf, true_axis_icrf());
+      sums->squared_error += error_rad.dot(answer.covariance_rad2.ldlt().solve(error_rad));
+      sums->variance_ratio += answer.covariance_rad2.trace() / (limit_rad * limit_rad) / kPasses;
+    }
+  }
+  // 0.05 % and 99.95 % points of chi-square with 80 degrees of freedom: 99.9 % of all seeds lie
+  // between.
+  for (const Sums& sums : {mean, sequential}) {
+    EXPECT_GT(sums.squared_error, 44.79);
+    EXPECT_LT(sums.squared_error, 128.26);
+  }
+  EXPECT_NEAR(sequential.variance_ratio, 1.0, 0.05);
+  // The mean uses whole fixes only: an edge whose revolution has none, or a bad one, is lost to it.
+  EXPECT_GT(mean.variance_ratio, 0.95);
+  EXPECT_LT(mean.variance_ratio, 1.25);
+}
+
+}  // namespace
+}  // namespace spindrift

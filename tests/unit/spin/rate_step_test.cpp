@@ -1,0 +1,64 @@
+#include "pipelines/spin/rate_step.h"
+
+#include <gtest/gtest.h>
+
+#include "pipelines/spin/time_span.h"
+
+namespace spindrift {
+namespace {
+
+const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+constexpr double kNoise_s = 1e-4;
+
+TEST(RateStep, EdgesOfANewRateAreACombOfTheirOwn) {
+  RateStepWatch watch;
+  for (int turn = 0; turn < 5; ++turn) {
+    watch.add(later_by_s(kStart, turn * 1.0), true);
+    EXPECT_FALSE(watch.new_comb(kNoise_s));
+  }
+  // From four wrong ones on the question is asked, but six on the comb are needed; the last good
+  // edge, where the rate steps, is the first of them.
+  for (int turn = 1; turn <= 4; ++turn) {
+    watch.add(later_by_s(kStart, 4.0 + turn * 0.9), false);
+    EXPECT_FALSE(watch.new_comb(kNoise_s)) << turn;
+  }
+  watch.add(later_by_s(kStart, 4.0 + 5 * 0.9), false);
+  const auto comb = watch.new_comb(kNoise_s);
+  ASSERT_TRUE(comb);
+  EXPECT_NEAR(comb->period_s, 0.9, 1e-9);
+
+  watch.forget();
+  watch.add(later_by_s(kStart, 4.0 + 6 * 0.9), false);
+  EXPECT_FALSE(watch.new_comb(kNoise_s));
+}
+
+TEST(RateStep, AnEdgeThatTheClockExpectsRaisesNoQuestion) {
+  RateStepWatch watch;
+  for (int turn = 0; turn < 8; ++turn) {
+    watch.add(later_by_s(kStart, turn * 0.9), false);
+  }
+  ASSERT_TRUE(watch.new_comb(kNoise_s));
+  watch.add(later_by_s(kStart, 8 * 0.9), true);
+  EXPECT_FALSE(watch.new_comb(kNoise_s));
+}
+
+TEST(RateStep, StraysAmongGoodEdgesLeaveTheClockItsComb) {
+  RateStepWatch watch;
+  for (int turn = 0; turn < 5; ++turn) {
+    watch.add(later_by_s(kStart, turn * 1.0), true);
+    watch.add(later_by_s(kStart, turn * 1.0 + 0.13 + 0.07 * turn), false);
+    EXPECT_FALSE(watch.new_comb(kNoise_s)) << turn;
+  }
+}
+
+TEST(RateStep, ACombThatTheLastEdgeIsNotOnIsNoReason) {
+  RateStepWatch watch;
+  for (int turn = 0; turn < 8; ++turn) {
+    watch.add(later_by_s(kStart, turn * 0.9), false);
+  }
+  watch.add(later_by_s(kStart, 7.4 * 0.9), false);
+  EXPECT_FALSE(watch.new_comb(kNoise_s));
+}
+
+}  // namespace
+}  // namespace spindrift
