@@ -192,10 +192,15 @@ void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
     }
     return;
   }
-  if (const auto axis_icrf = recent_axes_.axis_icrf()) {
-    predict(candidate, *axis_icrf);
+  if (predicted_from_) {
+    predict(candidate, predicted_from_->axis_icrf);
   }
   settle(candidate, out);
+  recent_.push_back(std::move(candidate));
+  if (recent_.size() > static_cast<std::size_t>(config_.screening.window)) {
+    recent_.pop_front();
+  }
+  predict_anew_where_better_known();
 }
 
 void SpinPass::settle_first(SpinOutput& out) {
@@ -223,16 +228,25 @@ void SpinPass::settle_first(SpinOutput& out) {
       trust_.count(axis_candidates(config_, candidate.measured, *candidate.sightlines));
     }
   }
-  std::vector<Candidate> first = std::exchange(first_, {});
-  for (Candidate& candidate : first) {
+  for (Candidate& candidate : first_) {
     settle(candidate, out);
   }
-  // What follows is predicted from their mean: so that it is compared with the like.
-  if (const auto axis_icrf = recent_axes_.axis_icrf()) {
-    screening_ = ScreeningWindow{config_.screening};
-    for (Candidate& candidate : first) {
-      predict(candidate, *axis_icrf);
-    }
+  recent_.assign(std::make_move_iterator(first_.begin()), std::make_move_iterator(first_.end()));
+  first_.clear();
+  predict_anew_where_better_known();
+}
+
+/// Residuals are comparable when all are against one axis: whenever twice as many fixes know it
+/// better, all are predicted anew.
+void SpinPass::predict_anew_where_better_known() {
+  const auto axis_icrf = recent_axes_.axis_icrf();
+  if (!axis_icrf || (predicted_from_ && mean_.count() < 2 * predicted_from_->fixes)) {
+    return;
+  }
+  predicted_from_ = {.axis_icrf = *axis_icrf, .fixes = mean_.count()};
+  screening_ = ScreeningWindow{config_.screening};
+  for (Candidate& candidate : recent_) {
+    predict(candidate, *axis_icrf);
   }
 }
 
@@ -346,6 +360,8 @@ void SpinPass::begin_anew(TaiTime t) {
   mean_.begin_anew(t);
   recent_axes_ = AxisWindow{static_cast<std::size_t>(config_.screening.window)};
   screening_ = ScreeningWindow{config_.screening};
+  predicted_from_.reset();
+  recent_.clear();
   disambiguator_ = Disambiguator{config_};
 }
 

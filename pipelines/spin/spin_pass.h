@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,6 +78,7 @@ class SpinPass {
   void consider(const Revolution& revolution, SpinOutput& out);
   void settle_first(SpinOutput& out);
   void settle(Candidate& candidate, SpinOutput& out);
+  void predict_anew_where_better_known();
   void predict(Candidate& candidate, const Eigen::Vector3d& axis_icrf);
   void screen(Candidate& candidate) const;
   std::vector<SpinFix> find_fixes(const Candidate& candidate);
@@ -99,7 +101,15 @@ class SpinPass {
   Associator associator_;
   std::vector<Candidate> first_;  ///< Held back; empty once settled.
   bool started_ = false;
+  /// The mean attitude that measurements are compared with.
+  struct Prediction {
+    Eigen::Vector3d axis_icrf;
+    std::size_t fixes;  ///< That it rested on.
+  };
+
   ScreeningWindow screening_;
+  std::optional<Prediction> predicted_from_;
+  std::deque<Candidate> recent_;  ///< As many as the window of the screening has.
   AxisWindow recent_axes_;
   Disambiguator disambiguator_;
   MeanEstimator mean_;
