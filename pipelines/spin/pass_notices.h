@@ -25,7 +25,7 @@ namespace spindrift {
 
 class PassNotices {
  public:
-  explicit PassNotices(const SpinConfig& config) : config_{config} {}
+  explicit PassNotices(SpinConfig config) : config_{std::move(config)} {}
 
   // As it happens.
   void edge_came(PulseChannel channel) { heard_.at(index_of(channel)) = true; }

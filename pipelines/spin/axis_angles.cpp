@@ -1,0 +1,235 @@
+#include "pipelines/spin/axis_angles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "pipelines/spin/geometry.h"
+#include "pipelines/spin/mixed_azimuth.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kGrazingSigmas = 3.0;
+// One root fits better than another only beyond so many sigmas of noise: of the thousands of fixes
+// of a pass, none is then the wrong one. And of the model, whose errors are drawn but once.
+constexpr double kToldApartSigmas = 5.0;
+constexpr double kToldApartModelSigmas = 3.0;
+// A chord narrower than so many sigmas grazes: where noise of five sigmas changes its cosine, the
+// second order is a quarter of the first.
+constexpr double kNarrowSigmas = 10.0;
+// The linear solution divides by Delta, which must not be its own noise.
+constexpr double kDeterminantSigmas = 5.0;
+
+double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
+
+/// Cones that touch within noise and model. Where they miss each other by so little, the roots that
+/// are missing may be the true ones.
+/// @param excess By how much they miss each other, as a cosine; negative where they cross.
+void note_grazing(const Uncertain& excess, AxisSolutions& found) {
+  const bool grazing = std::abs(excess.value()) <=
+                       kGrazingSigmas * std::hypot(noise_of(excess), model_uncertainty_of(excess));
+  found.grazing = found.grazing || grazing;
+  found.told_apart = found.told_apart && !grazing;
+}
+
+/// theta_e from both chords. The limb of either beam enters by the difference of the two chord
+/// equations, (cos gN - cos gS) cos(theta_e) + ... = cos(rho_N) - cos(rho_S).
+Uncertain earth_angle_from_both(const FixInput& input) {
+  Uncertain earth = earth_angle_from_two_chords(*input.north(), *input.south());
+  const auto slope_of = [&](const ChordOf<Uncertain>& chord) {
+    const double mount_rad = chord.mount_angle_rad;
+    return std::sin(mount_rad) * std::cos(0.5 * chord.chord_rad.value()) * std::cos(earth.value()) -
+           std::cos(mount_rad) * std::sin(earth.value());
+  };
+  const double shift =
+      -std::sin(input.sightlines.disc_rad) / (slope_of(*input.north()) - slope_of(*input.south()));
+  earth.derivatives()(kEdges + NorthLimb) += shift;
+  earth.derivatives()(kEdges + SouthLimb) -= shift;
+  return earth;
+}
+
+/// The roots of theta_e by the lone chord; where there is none, the reason.
+std::vector<Uncertain> earth_angles_from_one(const FixInput& input, AxisSolutions& found) {
+  const ChordOf<Uncertain>& chord = input.lone_chord();
+  const Uncertain a = certain(std::cos(chord.mount_angle_rad));
+  const Uncertain b = std::sin(chord.mount_angle_rad) * Uncertain{cos(0.5 * chord.chord_rad)};
+  ConeRootsOf<Uncertain> roots = cone_roots(a, b, Uncertain{cos(input.lone_disc_rad())});
+  note_grazing(roots.excess, found);
+  if (chord.chord_rad.value() < kNarrowSigmas * noise_of(chord.chord_rad)) {
+    found.grazing = true;
+    found.told_apart = false;
+  }
+  if (!(roots.excess.value() < 0.0)) {
+    found.reason = fmt::format(
+        "chord {:.4f} deg is wider than the Earth's disc of half-angle {:.4f} deg allows at "
+        "mounting angle {:.4f} deg",
+        degrees(chord.chord_rad.value()), degrees(input.sightlines.disc_rad),
+        degrees(chord.mount_angle_rad));
+  } else if (roots.angles_rad.empty()) {
+    found.reason = "no earth angle in (0, 180) deg gives the measured chord";
+  }
+  return std::move(roots.angles_rad);
+}
+
+/// How badly a place fits the angle between Sun and Earth.
+Uncertain misfit(const FixInput& input, const AxisAngles& place) {
+  const Uncertain along =
+      Uncertain{cos(place.sun_angle_rad)} * Uncertain{cos(place.earth_angle_rad)};
+  const Uncertain sines =
+      Uncertain{sin(place.sun_angle_rad)} * Uncertain{sin(place.earth_angle_rad)};
+  const Uncertain off =
+      along + sines * Uncertain{cos(place.dihedral_rad)} - std::cos(input.sun_earth_rad);
+  return off.value() < 0.0 ? Uncertain{-off} : off;
+}
+
+/// Not only does one of them fit better: beyond noise and model it does so, and the other does not
+/// fit at all. (Noise that both share drops out of the difference; it may have moved both so far
+/// that the true one fits worse.)
+bool fits_beyond_doubt(const FixInput& input, const AxisAngles& better, const AxisAngles& worse) {
+  const auto beyond_doubt = [](const Uncertain& value) {
+    return value.value() > std::hypot(kToldApartSigmas * noise_of(value),
+                                      kToldApartModelSigmas * model_uncertainty_of(value));
+  };
+  const Uncertain misfit_of_worse = misfit(input, worse);
+  return beyond_doubt(misfit_of_worse) &&
+         beyond_doubt(Uncertain{misfit_of_worse - misfit(input, better)});
+}
+
+/// Cases 2 and 3 with the dihedral.
+AxisSolutions from_one_chord(const FixInput& input) {
+  const OneChordInput<Uncertain> measured{.chord = input.lone_chord(),
+                                          .sun_angle_rad = *input.sun_angle,
+                                          .dihedral_rad = *input.dihedral,
+                                          .sun_earth_rad = input.sun_earth_rad,
+                                          .disc_rad = input.lone_disc_rad()};
+  const Uncertain signed_delta = determinant(measured);
+  const double delta = std::abs(signed_delta.value());
+  AxisSolutions found;
+  const auto add = [&](const Uncertain& earth_angle_rad) {
+    found.places.push_back({.sun_angle_rad = *input.sun_angle,
+                            .earth_angle_rad = earth_angle_rad,
+                            .dihedral_rad = *input.dihedral});
+  };
+  if (delta >= input.config.geometry.determinant_usable &&
+      delta > kDeterminantSigmas * noise_of(signed_delta)) {
+    const Uncertain earth_angle_rad = earth_angle_linear(measured);
+    if (earth_angle_rad > 0.0 && earth_angle_rad < std::numbers::pi) {
+      add(earth_angle_rad);
+    } else {
+      found.reason =
+          "the measured sun angle, chord and dihedral contradict each other: no earth angle in "
+          "(0, 180) deg fits them";
+    }
+    return found;
+  }
+  for (const Uncertain& earth_angle_rad : earth_angles_from_one(input, found)) {
+    add(earth_angle_rad);
+  }
+  std::sort(found.places.begin(), found.places.end(),
+            [&](const AxisAngles& a, const AxisAngles& b) {
+              return misfit(input, a).value() < misfit(input, b).value();
+            });
+  if (found.places.size() > 1) {
+    found.told_apart = found.told_apart && delta > input.config.geometry.determinant_ambiguous &&
+                       fits_beyond_doubt(input, found.places[0], found.places[1]);
+  }
+  return found;
+}
+
+/// The dihedral withheld: cones about Sun and Earth meet in two axes.
+void meet(const FixInput& input, const Uncertain& earth_angle_rad, AxisSolutions& found) {
+  const Uncertain& sun_angle_rad = *input.sun_angle;
+  const Uncertain cosine =
+      (std::cos(input.sun_earth_rad) -
+       Uncertain{cos(sun_angle_rad)} * Uncertain{cos(earth_angle_rad)}) /
+      Uncertain{Uncertain{sin(sun_angle_rad)} * Uncertain{sin(earth_angle_rad)}};
+  const Uncertain excess =
+      cosine.value() < 0.0 ? Uncertain{-cosine - 1.0} : Uncertain{cosine - 1.0};
+  note_grazing(excess, found);
+  if (!(excess.value() < 0.0)) {
+    found.reason = fmt::format(
+        "the cones of {:.4f} deg about the Sun and {:.4f} deg about the Earth do not meet, which "
+        "stand {:.4f} deg apart",
+        degrees(sun_angle_rad.value()), degrees(earth_angle_rad.value()),
+        degrees(input.sun_earth_rad));
+    return;
+  }
+  const Uncertain dihedral_rad = acos(cosine);
+  found.places.push_back({sun_angle_rad, earth_angle_rad, dihedral_rad});
+  found.places.push_back({sun_angle_rad, earth_angle_rad, -dihedral_rad});
+}
+
+/// Cases 4 to 6: theta_s from the dihedral and the angle between Sun and Earth.
+void find_sun_angles(const FixInput& input, const Uncertain& earth_angle_rad,
+                     AxisSolutions& found) {
+  const Uncertain b = Uncertain{sin(earth_angle_rad)} * Uncertain{cos(*input.dihedral)};
+  const ConeRootsOf<Uncertain> roots =
+      cone_roots(Uncertain{cos(earth_angle_rad)}, b, certain(std::cos(input.sun_earth_rad)));
+  note_grazing(roots.excess, found);
+  if (roots.angles_rad.empty()) {
+    found.reason = "no sun angle in (0, 180) deg fits the measured earth angle and dihedral";
+  }
+  for (const Uncertain& sun_angle_rad : roots.angles_rad) {
+    found.places.push_back({sun_angle_rad, earth_angle_rad, *input.dihedral});
+  }
+}
+
+/// Case 7 and its like: sun angle and dihedral from their one combination that sun2 gives. The
+/// roots are searched; their derivatives are those of an implicit function.
+void unmix(const FixInput& input, const Uncertain& earth_angle_rad, AxisSolutions& found) {
+  const MixedAzimuth mixed{.sensor = input.config.sun_sensor,
+                           .azimuth_rad = input.mixed_azimuth->value(),
+                           .earth_angle_rad = earth_angle_rad.value(),
+                           .sun_earth_rad = input.sun_earth_rad};
+  const SlitLags slit = slit_lags(mixed);
+  // Neither angle moves the misfit by more than itself.
+  Uncertain miss = certain(slit.nearest_miss);
+  miss.derivatives() =
+      earth_angle_rad.derivatives().cwiseAbs() + input.mixed_azimuth->derivatives().cwiseAbs();
+  note_grazing(miss, found);
+  if (slit.lags.empty()) {
+    found.reason = "no sun angle that sun slit 2 can see fits the measured earth angle and azimuth";
+  }
+  for (const SlitLag& lag : slit.lags) {
+    Uncertain lag_rad = certain(lag.lag_rad);
+    lag_rad.derivatives() = lag.to_earth_angle * earth_angle_rad.derivatives() +
+                            lag.to_azimuth * input.mixed_azimuth->derivatives();
+    const Uncertain sun_angle_rad = with_model_error(
+        atan2(certain(std::tan(input.config.sun_sensor.slit_cant_rad)), Uncertain{sin(lag_rad)}),
+        SunAngleError);
+    found.places.push_back(
+        {sun_angle_rad, earth_angle_rad,
+         Uncertain{*input.mixed_azimuth + lag_rad + input.config.sun_sensor.slit_separation_rad}});
+  }
+}
+
+}  // namespace
+
+AxisSolutions solve_axis_angles(const FixInput& input) {
+  if (input.sun_angle && input.dihedral && !input.both_chords()) {
+    return from_one_chord(input);
+  }
+  AxisSolutions found;
+  const std::vector<Uncertain> earth_angles = input.both_chords()
+                                                  ? std::vector{earth_angle_from_both(input)}
+                                                  : earth_angles_from_one(input, found);
+  for (const Uncertain& earth_angle_rad : earth_angles) {
+    if (input.sun_angle && input.dihedral) {
+      found.places.push_back({*input.sun_angle, earth_angle_rad, *input.dihedral});
+    } else if (input.sun_angle) {
+      meet(input, earth_angle_rad, found);
+    } else if (input.dihedral) {
+      find_sun_angles(input, earth_angle_rad, found);
+    } else {
+      unmix(input, earth_angle_rad, found);
+    }
+  }
+  found.told_apart = found.told_apart && found.places.size() == 1;
+  return found;
+}
+
+}  // namespace spindrift

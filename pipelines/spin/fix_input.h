@@ -1,0 +1,45 @@
+/// @file
+/// What one revolution gives to solve the axis from: its good measurements with all that makes them
+/// uncertain.
+
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "pipelines/spin/config.h"
+#include "pipelines/spin/geometry.h"
+#include "pipelines/spin/measurement.h"
+#include "pipelines/spin/sightlines.h"
+#include "pipelines/spin/uncertain.h"
+
+namespace spindrift {
+
+/// Refers to what it was made of.
+struct FixInput {
+  const SpinConfig& config;
+  const RevolutionMeasurements& measured;
+  const Sightlines& sightlines;
+  double sun_earth_rad;
+  std::optional<Uncertain> sun_angle;
+  std::optional<Uncertain> dihedral;  ///< The mean of the two, where both are there.
+  std::optional<Uncertain> mixed_azimuth;
+  std::array<std::optional<ChordOf<Uncertain>>, 2> chords;
+
+  const std::optional<ChordOf<Uncertain>>& north() const { return chords[0]; }
+  const std::optional<ChordOf<Uncertain>>& south() const { return chords[1]; }
+  bool both_chords() const { return north() && south(); }
+  const ChordOf<Uncertain>& lone_chord() const { return north() ? *north() : *south(); }
+  /// rho, as the beam of the side sees it.
+  Uncertain disc_rad(Side side) const {
+    return with_model_error(certain(sightlines.disc_rad),
+                            side == Side::North ? NorthLimb : SouthLimb);
+  }
+  Uncertain lone_disc_rad() const { return disc_rad(north() ? Side::North : Side::South); }
+};
+
+/// Beams mounted alike are one beam: north.
+FixInput fix_input(const SpinConfig& config, const RevolutionMeasurements& measured,
+                   const Sightlines& sightlines);
+
+}  // namespace spindrift
