@@ -508,7 +508,7 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   mean_.keep(revolution.number, candidate.measured, *candidate.sightlines);
   for (const SpinFix& fix : fixes) {
     say_why_not_accepted(fix, out);
-    if (mean_.take(fix, revolution.number)) {
+    if (mean_.take(fix)) {
       recent_axes_.add(fix);
       mean_moved = true;
     }
