@@ -150,6 +150,14 @@ void AngleEquations::add(const SpinConfig& config, const RevolutionMeasurements&
   angles_ += rows;
 }
 
+AngleEquations& AngleEquations::operator+=(const AngleEquations& other) {
+  normal_ += other.normal_;
+  right_ += other.right_;
+  squares_ += other.squares_;
+  angles_ += other.angles_;
+  return *this;
+}
+
 /// What no angle fixes is known to a radian.
 Eigen::Matrix2d AngleEquations::axis_information() const {
   return normal_.topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
@@ -170,6 +178,12 @@ Eigen::Matrix2d AngleEquations::tangent_from_reference() const {
 Eigen::Matrix2d AngleEquations::covariance_rad2() const {
   const Eigen::Matrix2d turned = tangent_from_reference();
   return turned * axis_information().ldlt().solve(turned.transpose());
+}
+
+Eigen::Matrix2d AngleEquations::scatter_rad2(const Eigen::Matrix2d& of_right) const {
+  const Eigen::Matrix2d moved =
+      axis_information().ldlt().solve(tangent_from_reference().transpose()).transpose();
+  return moved * of_right * moved.transpose();
 }
 
 Eigen::Matrix<double, 2, kModelErrors> AngleEquations::model_shift() const {

@@ -33,11 +33,16 @@ class AngleEquations {
   void add(const SpinConfig& config, const RevolutionMeasurements& measured,
            const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf);
 
+  /// @param other Of the same reference, and of other revolutions.
+  AngleEquations& operator+=(const AngleEquations& other);
+
   /// The axis that fits best where the model has no errors. Unit; a direction that no angle fixes
   /// stays at the reference.
   Eigen::Vector3d axis_icrf() const;
   /// In the tangent plane at that axis: east, north. A direction that no angle fixes has a radian.
   Eigen::Matrix2d covariance_rad2() const;
+  /// What the axis scatters by, likewise, where the right sides of its two equations do so by that.
+  Eigen::Matrix2d scatter_rad2(const Eigen::Matrix2d& of_right) const;
   /// What each error of the model moves the axis by, for every radian of it; likewise.
   Eigen::Matrix<double, 2, kModelErrors> model_shift() const;
 

@@ -18,6 +18,8 @@ constexpr double kLinear_rad = std::numbers::pi / 180.0;
 // Where a pass of the first fixes moves their mean by less, they are linear about it.
 constexpr double kConverged_rad = 1e-5;
 constexpr int kMostPasses = 8;
+// Where fewer of the fixes that there might be are settled, the mean is that of a selection.
+constexpr double kMostlySettled = 0.5;
 
 }  // namespace
 
@@ -29,57 +31,74 @@ void MeanEstimator::keep(std::int64_t revolution, const RevolutionMeasurements& 
   }
 }
 
-bool MeanEstimator::take(const SpinFix& fix, std::int64_t newest) {
-  // Where two roots come together within the noise, revolutions without a root are missing: the
-  // mean of such fixes lies to one side.
-  const bool settled = fix.accepted && !fix.grazing;
-  unsettled_ += fix.resolution == Resolution::Ambiguous || (fix.accepted && fix.grazing) ? 1 : 0;
-  unsettled_ -= settled && fix.revolution != newest ? 1 : 0;
-  if (!settled || (began_ && fix.t < *began_)) {
-    return false;
-  }
+bool MeanEstimator::take(const SpinFix& fix) {
   const auto kept = std::find_if(kept_.rbegin(), kept_.rend(), [&](const Kept& candidate) {
     return candidate.revolution == fix.revolution;
   });
-  if (kept == kept_.rend()) {
+  if (kept == kept_.rend() || (began_ && fix.t < *began_)) {
     return false;
   }
-  if (!kept->in_mean) {
+  const bool settled = fix.accepted && !fix.grazing;
+  if (settled && !kept->settled) {
     add(*kept, fix);
+  } else if (!settled) {
+    leave_out(*kept, fix);
   }
-  return true;
+  return settled;
+}
+
+/// Revolutions without a root at all are missing besides: next to those that graze hardly any, as
+/// long as one of twenty is settled, and as many where one of a thousand is. As long as nothing
+/// tells branches apart it is not the noise that leaves their fixes open.
+void MeanEstimator::leave_out(Kept& kept, const SpinFix& fix) {
+  const bool by_noise = fix.grazing ? fix.accepted || fix.resolution == Resolution::Ambiguous
+                                    : mean_ && fix.resolution == Resolution::Ambiguous;
+  if (by_noise && !kept.left_out && !kept.settled) {
+    kept.left_out = true;
+    left_out_[fix.geometry_case] += 1.0;
+    if (mean_) {
+      mean_ = fixes_->mean(left_out_);
+    }
+  }
 }
 
 void MeanEstimator::add(Kept& kept, const SpinFix& fix) {
-  if (!equations_) {
-    equations_.emplace(fix.axis_icrf);
+  if (!fixes_) {
+    fixes_.emplace(fix.axis_icrf);
   }
-  equations_->add(config_, kept.measured, kept.sightlines, axis_icrf());
-  kept.in_mean = true;
-  ++count_;
-  if (std::has_single_bit(count_)) {
+  if (kept.left_out) {
+    left_out_[fix.geometry_case] -= 1.0;
+  }
+  kept.geometry_case = fix.geometry_case;
+  kept.settled = true;
+  fixes_->add(fix.geometry_case, config_, kept.measured, kept.sightlines,
+              mean_ ? axis_icrf() : fix.axis_icrf);
+  mean_ = fixes_->mean(left_out_);
+  ++settled_;
+  if (std::has_single_bit(settled_)) {
     linearise_anew();
   }
-  if (noise_rad2().trace() < kLinear_rad * kLinear_rad) {
-    verdict_ = judge_model(*equations_, 0.0);
+  if (mean_->covariance_rad2.trace() < kLinear_rad * kLinear_rad) {
+    verdict_ = judge_model(mean_->equations, 0.0);
   }
 }
 
 /// The first are added about a mean that rests on few. While all are kept, they are linear about
 /// what they have in common; afterwards the mean hardly moves.
 void MeanEstimator::linearise_anew() {
-  const auto in_mean = [](const Kept& kept) { return kept.in_mean; };
-  if (static_cast<std::size_t>(std::count_if(kept_.begin(), kept_.end(), in_mean)) != count_) {
+  const auto is_settled = [](const Kept& kept) { return kept.settled; };
+  if (static_cast<std::size_t>(std::count_if(kept_.begin(), kept_.end(), is_settled)) != settled_) {
     return;
   }
   for (int pass = 0; pass < kMostPasses; ++pass) {
     const Eigen::Vector3d axis = axis_icrf();
-    equations_.emplace(axis);
+    fixes_.emplace(axis);
     for (const Kept& kept : kept_) {
-      if (kept.in_mean) {
-        equations_->add(config_, kept.measured, kept.sightlines, axis);
+      if (kept.settled) {
+        fixes_->add(kept.geometry_case, config_, kept.measured, kept.sightlines, axis);
       }
     }
+    mean_ = fixes_->mean(left_out_);
     if (angle_between_rad(axis, axis_icrf()) < kConverged_rad) {
       return;
     }
@@ -91,22 +110,14 @@ void MeanEstimator::begin_anew(TaiTime t) {
   began_ = t;
 }
 
-/// Where a share s of the fixes is left out because nothing settles them, those that are settled
-/// lie to one side: by up to s sigma of a single fix, which their number does not reduce.
-Eigen::Matrix2d MeanEstimator::noise_rad2() const {
-  const auto settled = static_cast<double>(count_);
-  const double unsettled = std::max(0.0, static_cast<double>(unsettled_));
-  const double share = unsettled / (settled + unsettled);
-  return equations_->covariance_rad2() * (1.0 + settled * share * share);
-}
-
 Eigen::Matrix2d MeanEstimator::covariance_rad2() const {
-  const Eigen::Matrix<double, 2, kModelErrors> shift = equations_->model_shift();
-  return noise_rad2() * verdict_.excess_noise + shift * verdict_.errors_rad2 * shift.transpose();
+  const Eigen::Matrix<double, 2, kModelErrors> shift = mean_->equations.model_shift();
+  return mean_->covariance_rad2 * verdict_.excess_noise +
+         shift * verdict_.errors_rad2 * shift.transpose();
 }
 
 Eigen::Matrix2d MeanEstimator::covariance_if_moved_rad2() const {
-  return verdict_.excess_noise > 1.0 ? noise_rad2() : covariance_rad2();
+  return verdict_.excess_noise > 1.0 ? mean_->covariance_rad2 : covariance_rad2();
 }
 
 SpinEstimate MeanEstimator::estimate(const Revolution& revolution) const {
@@ -124,7 +135,11 @@ SpinEstimate MeanEstimator::estimate(const Revolution& revolution) const {
 std::string MeanEstimator::status() const {
   const bool noisy = verdict_.excess_noise > 1.0;
   const bool off = verdict_.error_rad > 0.0;
-  const std::string fixes = fmt::format("{} fixes", count_);
+  const std::string fixes = fmt::format("{} fixes", mean_->count);
+  if (mean_->settled_share < kMostlySettled) {
+    return fmt::format("DOUBTFUL, {}, {:.0f} % of such graze or are ambiguous", fixes,
+                       100.0 * (1.0 - mean_->settled_share));
+  }
   if (!noisy && !off) {
     return fmt::format("OK, {}{}", fixes, began_ ? " since " + format_utc(*began_, 0) : "");
   }

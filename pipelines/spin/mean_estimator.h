@@ -7,8 +7,12 @@
 /// that the fixes state. Both depend on the noise of the fix, in the second order, and do not
 /// average out: where one beam is all there is, it lay up to nine of its sigmas to one side.
 ///
-/// Its covariance holds the noise of the fixes, what those that nothing settled may have moved it
-/// by, and what the residuals show to be wrong with noise and model.
+/// Its covariance holds the noise of the fixes, what it may have moved it by that others were left
+/// out for their noise (fixes_by_case.h), and what the residuals show to be wrong with noise and
+/// model. Cases that it may move by more than they help are not in it. The status begins with
+///     OK         all is well, or the model is off within its allowance
+///     DOUBTFUL   the residuals scatter more than their noise, or the model is off by more; or most
+///                fixes like those that it rests on were left out
 
 #pragma once
 
@@ -16,12 +20,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
+<<<<<<< HEAD
 #include "pipelines/spin/angle_equations.h"
+=======
+#include "pipelines/spin/association.h"
+>>>>>>> mean
 #include "pipelines/spin/config.h"
+#include "pipelines/spin/fixes_by_case.h"
 #include "pipelines/spin/measurement.h"
 #include "pipelines/spin/model_check.h"
 #include "pipelines/spin/products.h"
@@ -39,17 +49,16 @@ class MeanEstimator {
   void keep(std::int64_t revolution, const RevolutionMeasurements& measured,
             const Sightlines& sightlines);
 
-  /// @param newest The revolution at whose end the fix was settled.
-  /// @return Whether it is in the mean now: it is accepted, does not graze, and is not of before
+  /// @return Whether it may be in the mean: it is accepted, does not graze, and is not of before
   ///         the mean began.
-  bool take(const SpinFix& fix, std::int64_t newest);
+  bool take(const SpinFix& fix);
 
   /// When the axis has moved, a mean of the whole pass would lie where it never was.
   void begin_anew(TaiTime t);
 
   /// Of fixes in the mean; the following need one.
-  std::size_t count() const { return count_; }
-  Eigen::Vector3d axis_icrf() const { return equations_->axis_icrf(); }
+  std::size_t count() const { return mean_ ? mean_->count : 0; }
+  Eigen::Vector3d axis_icrf() const { return mean_->equations.axis_icrf(); }
   Eigen::Matrix2d covariance_rad2() const;  ///< In the tangent plane: east, north.
   /// Likewise, against the question whether the axis has moved: a wrong model moves the mean and
   /// lets residuals scatter as before; a move does not.
@@ -62,20 +71,23 @@ class MeanEstimator {
     std::int64_t revolution;
     RevolutionMeasurements measured;
     Sightlines sightlines;
-    bool in_mean = false;
+    int geometry_case = 0;  ///< Of its fix, if taken; likewise the following.
+    bool settled = false;
+    bool left_out = false;
   };
 
+  void leave_out(Kept& kept, const SpinFix& fix);
   void add(Kept& kept, const SpinFix& fix);
   void linearise_anew();
-  Eigen::Matrix2d noise_rad2() const;
   std::string status() const;
 
   SpinConfig config_;
   std::deque<Kept> kept_;  ///< The last revolutions.
-  std::optional<AngleEquations> equations_;
-  std::size_t count_ = 0;
+  std::optional<FixesByCase> fixes_;
+  std::size_t settled_ = 0;         ///< So many are in these.
+  std::map<int, double> left_out_;  ///< Fixes, by geometry case.
+  std::optional<MeanOfCases> mean_;
   ModelVerdict verdict_;
-  std::int64_t unsettled_ = 0;    ///< AMBIGUOUS fixes since the mean began.
   std::optional<TaiTime> began_;  ///< Empty: with the pass.
 };
 

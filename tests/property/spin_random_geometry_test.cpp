@@ -27,7 +27,7 @@ TEST(SpinRandomGeometry, MeansLieWithinWhatTheyPromise) {
   double squares = 0.0;
   double worst = 0.0;
   int means = 0;
-  int doubted = 0;
+  int selected = 0;
   for (int pass = 0; pass < kPasses; ++pass) {
     std::mt19937_64 rng{static_cast<std::uint64_t>(pass)};
     const testing::RandomPass drawn = testing::random_pass(rng);
@@ -48,14 +48,17 @@ TEST(SpinRandomGeometry, MeansLieWithinWhatTheyPromise) {
     EXPECT_LT(squared, 18.0) << mean.status;
     squares += squared;
     worst = std::max(worst, squared);
-    doubted += mean.status.starts_with("DOUBTFUL") ? 1 : 0;
+    const bool is_selection = mean.status.ends_with("% of such graze or are ambiguous");
+    EXPECT_TRUE(is_selection || !mean.status.starts_with("DOUBTFUL")) << mean.status;
+    selected += is_selection ? 1 : 0;
     ++means;
   }
   RecordProperty("means", means);
+  RecordProperty("selected", selected);
   RecordProperty("mean_square", std::to_string(squares / (2.0 * means)));
   RecordProperty("worst", std::to_string(worst));
   EXPECT_GT(means, kPasses * 3 / 4);
-  EXPECT_EQ(doubted, 0);
+  EXPECT_LE(selected, kPasses / 20);
   // Chi-square with 2 n degrees of freedom: n of two has a mean of 1 and a variance of 1/n. Four
   // sigmas above; below, where fixes that nothing settles widen the covariance, five.
   EXPECT_LT(squares / (2.0 * means), 1.0 + 4.0 / std::sqrt(means));
