@@ -1,6 +1,8 @@
 #include "pipelines/ground_model/coded_telemetry.h"
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace spindrift {
 namespace {
@@ -8,31 +10,77 @@ namespace {
 /// The double nearest to so many nanoseconds: what a file of telemetry reads back as.
 double on_nanosecond(double interval_s) { return std::round(interval_s * 1e9) / 1e9; }
 
-double on_grid(double interval_s, double resolution_s) {
-  return on_nanosecond(std::round(interval_s / resolution_s) * resolution_s);
-}
+class OnBoardCounter {
+ public:
+  explicit OnBoardCounter(double resolution_s) : resolution_s_{resolution_s} {}
+
+  /// @param sent_down Whether the link carries it.
+  void see(const Pulse& pulse, bool sent_down) {
+    if (pulse.channel == PulseChannel::Sun1) {
+      const CodedFrame next{.t = pulse.t, .period_s = period_until(pulse.t), .delay_s = {}};
+      close();
+      open_ = next;
+      whole_ = sent_down;
+    } else if (open_) {
+      auto& delay_s = open_->delay_s.at(index_of(pulse.channel));
+      delay_s = delay_s ? delay_s : delay_at(pulse.t);
+      whole_ = whole_ && sent_down;
+    }
+  }
+
+  std::vector<CodedFrame> frames() && {
+    close();
+    return std::move(frames_);
+  }
+
+ private:
+  /// Empty beyond what the counter holds.
+  std::optional<double> counted(TaiTime t) const {
+    const double ticks = std::round(seconds_between(open_->t, t) / resolution_s_);
+    const double interval_s = on_nanosecond(ticks * resolution_s_);
+    return interval_s <= kLongestPeriod_s ? std::optional{interval_s} : std::nullopt;
+  }
+
+  std::optional<double> period_until(TaiTime t) const {
+    const auto period_s = open_ ? counted(t) : std::nullopt;
+    return period_s > 0.0 ? period_s : std::nullopt;
+  }
+
+  std::optional<double> delay_at(TaiTime t) const {
+    const auto delay_s = counted(t);
+    return delay_s && open_->period_s ? on_nanosecond(std::fmod(*delay_s, *open_->period_s))
+                                      : delay_s;
+  }
+
+  void close() {
+    if (open_ && whole_) {
+      frames_.push_back(*open_);
+    }
+    open_.reset();
+  }
+
+  double resolution_s_;
+  std::optional<CodedFrame> open_;
+  bool whole_ = true;  ///< So far, no edge of `open_` fell in a silence.
+  std::vector<CodedFrame> frames_;
+};
 
 }  // namespace
 
-std::vector<CodedFrame> coded_telemetry(const std::vector<ReceivedPulse>& pulses,
-                                        double resolution_s) {
-  std::vector<CodedFrame> frames;
-  for (const auto& [pulse, damage] : pulses) {
-    if (pulse.channel == PulseChannel::Sun1) {
-      CodedFrame frame{.t = pulse.t, .period_s = {}, .delay_s = {}};
-      if (!frames.empty()) {
-        frame.period_s = on_grid(seconds_between(frames.back().t, pulse.t), resolution_s);
-      }
-      frames.push_back(frame);
-    } else if (!frames.empty() && !frames.back().delay_s.at(index_of(pulse.channel))) {
-      const CodedFrame& frame = frames.back();
-      const double delay_s = on_grid(seconds_between(frame.t, pulse.t), resolution_s);
-      const bool modulo = frame.period_s && *frame.period_s > 0.0;
-      frames.back().delay_s.at(index_of(pulse.channel)) =
-          modulo ? on_nanosecond(std::fmod(delay_s, *frame.period_s)) : delay_s;
+std::vector<CodedFrame> coded_telemetry(const ReceivedPass& pass, double resolution_s) {
+  OnBoardCounter counter{resolution_s};
+  auto silenced = pass.silenced.begin();
+  const auto see_silenced_until = [&](auto is_later) {
+    for (; silenced != pass.silenced.end() && !is_later(*silenced); ++silenced) {
+      counter.see(*silenced, false);
     }
+  };
+  for (const ReceivedPulse& received : pass.pulses) {
+    see_silenced_until([&](const Pulse& pulse) { return pulse.t > received.pulse.t; });
+    counter.see(received.pulse, true);
   }
-  return frames;
+  see_silenced_until([](const Pulse&) { return false; });
+  return std::move(counter).frames();
 }
 
 }  // namespace spindrift

@@ -35,6 +35,11 @@ struct Arrival {
   std::optional<Damage> damage;
 };
 
+struct Arrivals {
+  std::vector<Arrival> received;
+  std::vector<Arrival> silenced;
+};
+
 bool is_silent(const PulseLink& link, double t_s) {
   return std::any_of(link.silences.begin(), link.silences.end(), [t_s](const Silence& silence) {
     return t_s >= silence.from_s && t_s < silence.to_s;
@@ -43,7 +48,7 @@ bool is_silent(const PulseLink& link, double t_s) {
 
 /// Everything that can befall one edge. Draws as often whatever happens.
 void send(const PulseLink& link, const TrueEdge& edge, Chance& chance, ReceivedPass& pass,
-          std::vector<Arrival>& arrivals) {
+          Arrivals& arrivals) {
   const ChannelFaults& faults = link.channels.at(index_of(edge.channel));
   const bool sun = edge.channel == PulseChannel::Sun1 || edge.channel == PulseChannel::Sun2;
   const bool lost = chance.uniform() < faults.lost;
@@ -52,31 +57,34 @@ void send(const PulseLink& link, const TrueEdge& edge, Chance& chance, ReceivedP
   const double way = chance.either_way();
   const double again_s = (1.0 - chance.uniform()) * link.doubled_max_s;
   const double noise_s = (sun ? link.noise.sun_s : link.noise.infrared_s) * chance.normal();
-  if (lost || faults.dead || is_silent(link, edge.t_s)) {
-    ++pass.missing;
+  const bool silent = is_silent(link, edge.t_s);
+  pass.missing += lost || faults.dead || silent ? 1 : 0;
+  if (lost || faults.dead) {
     return;
   }
   const double off_s = std::copysign(
       link.spoilt_min_s + std::abs(way) * (link.spoilt_max_s - link.spoilt_min_s), way);
   const double t_s = edge.t_s + noise_s + (spoilt ? off_s : 0.0);
-  arrivals.push_back({.t_s = t_s,
-                      .channel = edge.channel,
-                      .damage = spoilt ? std::optional{Damage::Spoilt} : std::nullopt});
+  auto& seen = silent ? arrivals.silenced : arrivals.received;
+  seen.push_back({.t_s = t_s,
+                  .channel = edge.channel,
+                  .damage = spoilt ? std::optional{Damage::Spoilt} : std::nullopt});
   if (doubled) {
-    arrivals.push_back({.t_s = t_s + again_s, .channel = edge.channel, .damage = Damage::Doubled});
+    seen.push_back({.t_s = t_s + again_s, .channel = edge.channel, .damage = Damage::Doubled});
   }
 }
 
 void add_spurious(const PulseLink& link, double duration_s, std::int64_t revolutions,
-                  Chance& chance, std::vector<Arrival>& arrivals) {
+                  Chance& chance, Arrivals& arrivals) {
   for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
     for (std::int64_t turn = 0; turn < revolutions; ++turn) {
       const bool comes = chance.uniform() < link.channels.at(channel).spurious;
       const double t_s = chance.uniform() * duration_s;
-      if (comes && !link.channels.at(channel).dead && !is_silent(link, t_s)) {
-        arrivals.push_back({.t_s = t_s,
-                            .channel = static_cast<PulseChannel>(channel),
-                            .damage = Damage::Spurious});
+      if (comes && !link.channels.at(channel).dead) {
+        (is_silent(link, t_s) ? arrivals.silenced : arrivals.received)
+            .push_back({.t_s = t_s,
+                        .channel = static_cast<PulseChannel>(channel),
+                        .damage = Damage::Spurious});
       }
     }
   }
@@ -119,19 +127,26 @@ ReceivedPass receive(const PulseLink& link, const std::vector<TrueEdge>& edges, 
                      double duration_s, std::int64_t revolutions) {
   Chance chance{link.seed};
   ReceivedPass pass;
-  std::vector<Arrival> arrivals;
-  arrivals.reserve(edges.size());
+  Arrivals arrivals;
+  arrivals.received.reserve(edges.size());
   for (const TrueEdge& edge : edges) {
     send(link, edge, chance, pass, arrivals);
   }
   add_spurious(link, duration_s, revolutions, chance, arrivals);
-  sort_by_time(arrivals);
-  interfere(link.interference_s, chance, arrivals);
-  sort_by_time(arrivals);
-  pass.pulses.reserve(arrivals.size());
-  for (const Arrival& arrival : arrivals) {
-    pass.pulses.push_back({.pulse = {.t = shifted(start, arrival.t_s), .channel = arrival.channel},
-                           .damage = arrival.damage});
+  sort_by_time(arrivals.received);
+  interfere(link.interference_s, chance, arrivals.received);
+  sort_by_time(arrivals.received);
+  sort_by_time(arrivals.silenced);
+  const auto pulse = [start](const Arrival& arrival) {
+    return Pulse{.t = shifted(start, arrival.t_s), .channel = arrival.channel};
+  };
+  pass.pulses.reserve(arrivals.received.size());
+  for (const Arrival& arrival : arrivals.received) {
+    pass.pulses.push_back({.pulse = pulse(arrival), .damage = arrival.damage});
+  }
+  pass.silenced.reserve(arrivals.silenced.size());
+  for (const Arrival& arrival : arrivals.silenced) {
+    pass.silenced.push_back(pulse(arrival));
   }
   return pass;
 }

@@ -56,6 +56,7 @@ struct ReceivedPulse {
 
 struct ReceivedPass {
   std::vector<ReceivedPulse> pulses;  ///< In order of time and channel.
+  std::vector<Pulse> silenced;        ///< Seen on board, swallowed by a silence; in the same order.
   std::int64_t missing = 0;           ///< True edges that did not arrive.
 };
 
@@ -63,7 +64,8 @@ struct ReceivedPass {
 /// chances of an edge do not depend on what befalls the others.
 ///
 /// Spurious edges fall evenly over the pass of `duration_s` and its `revolutions` turns. Edges that
-/// interfere are each displaced, evenly, by up to half the interference time.
+/// interfere are each displaced, evenly, by up to half the interference time; silenced ones neither
+/// are nor do.
 ReceivedPass receive(const PulseLink& link, const std::vector<TrueEdge>& edges, TaiTime start,
                      double duration_s, std::int64_t revolutions);
 

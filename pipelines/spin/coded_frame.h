@@ -13,6 +13,9 @@
 
 namespace spindrift {
 
+/// Between two sun1. One revolution a minute, far slower than what is stabilised by its spin.
+inline constexpr double kLongestPeriod_s = 60.0;
+
 /// The six leading edges as intervals measured on board. Empty: not received.
 struct CodedFrame {
   TaiTime t;                       ///< Of its sun1 edge.

@@ -12,9 +12,6 @@
 
 namespace spindrift {
 
-/// One revolution a minute, far slower than what is stabilised by its spin.
-inline constexpr double kLongestPeriod_s = 60.0;
-
 /// A delay is modulo the period, but both are measured apart: noise and rounding may put a delay
 /// of nearly the period just beyond it. Further than this it is none.
 inline constexpr double kLongestDelay_periods = 1.01;

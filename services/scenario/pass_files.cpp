@@ -81,7 +81,7 @@ Expected<void> write_telemetry(const std::filesystem::path& path, const Scenario
   }
   return write_rows(path,
                     "t_tai_ns,period_s,sun2_s,north_in_s,north_out_s,south_in_s,south_out_s\n",
-                    coded_telemetry(pass.received.pulses, scenario.telemetry.coded_resolution_s));
+                    coded_telemetry(pass.received, scenario.telemetry.coded_resolution_s));
 }
 
 std::vector<std::filesystem::path> telemetry_paths(const std::filesystem::path& folder,

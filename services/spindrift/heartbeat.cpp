@@ -17,6 +17,8 @@ namespace spindrift {
 namespace {
 
 constexpr std::chrono::seconds kPeriod{1};
+// Who looks at the log later must not have to look far back.
+constexpr int kBeatsUntilSaidAgain = 10;
 
 std::string service_name() {
   std::array<char, 48> host{};
@@ -69,6 +71,7 @@ void Heartbeat::beat() {
     }
   }
   note_losses(*status);
+  note_storing(watched_.archive.statistics().failure);
   publish_health(*status);
   if (!status->taking && !status->failure.empty() && !std::exchange(failed_, true)) {
     spdlog::critical("not taking samples: {}", status->failure);
@@ -90,6 +93,14 @@ void Heartbeat::note_losses(const TelemetrySubscriberStatus& status) {
     spdlog::error("Cyclone reports {} lost samples", status.reader.lost);
   }
   lost_ = status.reader.lost;
+}
+
+void Heartbeat::note_storing(const std::optional<Error>& failure) {
+  beats_not_storing_ = failure ? beats_not_storing_ + 1 : 0;
+  if (failure && beats_not_storing_ % kBeatsUntilSaidAgain == 0) {
+    spdlog::critical("the archive still does not store, nothing more is accepted: {}",
+                     failure->message);
+  }
 }
 
 void Heartbeat::publish_health(const TelemetrySubscriberStatus& status) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -41,6 +42,7 @@ class Heartbeat {
   void run(const std::stop_token& stop);
   void beat();
   void note_losses(const TelemetrySubscriberStatus& status);
+  void note_storing(const std::optional<Error>& failure);
   void publish_health(const TelemetrySubscriberStatus& status);
   void say_once(const std::string& problem);
 
@@ -51,6 +53,7 @@ class Heartbeat {
   GapWatch gap_watch_;
   std::map<std::string, std::uint64_t> gaps_;  ///< Lasting ones, as last told.
   std::uint32_t lost_ = 0;
+  int beats_not_storing_ = 0;
   bool failed_ = false;
   std::jthread thread_;  // Last: it uses the others.
 };

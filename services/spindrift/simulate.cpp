@@ -84,7 +84,7 @@ Expected<void> to_bus(const SimulateOptions& options, const Scenario& scenario,
                       const SimulatedPass& pass) {
   const std::vector<CodedFrame> frames =
       scenario.telemetry.coded
-          ? coded_telemetry(pass.received.pulses, scenario.telemetry.coded_resolution_s)
+          ? coded_telemetry(pass.received, scenario.telemetry.coded_resolution_s)
           : std::vector<CodedFrame>{};
   const auto sent = send_telemetry(
       {.bus = {.domain = options.domain, .partition = options.partition},

@@ -15,6 +15,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
+constexpr std::chrono::seconds kWaitInSilence{1};  // One that is there is found within it.
 constexpr std::chrono::seconds kWaitForSubscriber{30};
 constexpr std::chrono::seconds kWaitForArrival{60};
 // Who is told to stop does not wait long for a subscriber that hangs.
@@ -43,7 +44,13 @@ Expected<void> wait_for_subscriber(const TelemetryOutput& output, const Sending&
           return sending.coded ? output.coded().wait_for_subscriber(slice) : Expected<void>{};
         });
   };
-  if (auto found = try_for(kWaitForSubscriber, stop, subscribed); !found) {
+  auto found = try_for(kWaitInSilence, stop, subscribed);
+  if (!found && !stop.stop_requested()) {
+    spdlog::info("waiting for a subscriber in domain {}, partition '{}'", sending.bus.domain,
+                 sending.bus.partition);
+    found = try_for(kWaitForSubscriber - kWaitInSilence, stop, subscribed);
+  }
+  if (!found) {
     return Unexpected{
         {ErrorCode::Unavailable,
          fmt::format("nobody subscribes in domain {}, partition '{}' (waited {} s); start `serve` "

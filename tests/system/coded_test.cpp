@@ -20,9 +20,10 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 const std::filesystem::path kPass = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin" / "coded";
 const std::string kMission = (kPass / "mission.toml").string();
-const std::string kScenario =
-    (std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios" / "gto-nominal.toml")
-        .string();
+const std::filesystem::path kScenarios =
+    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios";
+const std::string kScenario = (kScenarios / "gto-nominal.toml").string();
+const std::string kDirty = (kScenarios / "gto-dirty.toml").string();
 
 std::vector<std::string> on(const bus::BusConfig& bus, std::vector<std::string> arguments) {
   arguments.insert(arguments.end(),
@@ -101,6 +102,19 @@ TEST(Coded, SimulatedPassGivesTheSameProductsFromTheBusAsFromFiles) {
   serve(mission, served, {"simulate", scenario, "--publish", "--speed", "0"});
   EXPECT_EQ(coded_rows(offline).size(), 600U);
   EXPECT_EQ(product_rows(served), product_rows(offline));
+}
+
+TEST(Coded, SimulatedPassWithASilenceAndEveryFaultIsTelemetryThatCanBeTrue) {
+  const TemporaryFolder folder;
+  const std::string scenario =
+      folder.write("scenario.toml", text_of(kDirty) + "[telemetry]\nkind = \"coded\"\n").string();
+  const auto pass = folder.path() / "pass";
+  Program simulate{{"simulate", scenario, "--out", pass.string()}};
+  ASSERT_EQ(simulate.exit_status(), 0) << simulate.log();
+  const auto db = folder.path() / "processed.db";
+  process((pass / "mission.toml").string(), pass, db);
+  // 12 turns of 60 rpm: as many sun1 in a row are not lost, but a minute of silence is longer.
+  EXPECT_LT(real_of(db, "SELECT max(period_s) FROM coded_frame"), 12.0);
 }
 
 TEST(Coded, SimulatedPassOfBothKindsIsPublishedAsBoth) {

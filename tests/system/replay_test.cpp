@@ -1,6 +1,7 @@
 // `spindrift replay` and `simulate --publish` as somebody at a terminal has them: how they end, and
 // what they draw.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -62,10 +63,13 @@ TEST(Sending, ToldToStopSaysHowFarItCameAndEndsWithOne) {
   }
 }
 
-TEST(Sending, ToldToStopWhileNobodySubscribesEndsAtOnce) {
+TEST(Sending, SaysThatItWaitsForASubscriberAndEndsAtOnceWhenToldTo) {
   for (const auto& sender : kSenders) {
-    Program sending{on(bus_of_its_own(), sender)};
-    ASSERT_TRUE(sending.says("domain")) << sending.log();
+    const bus::BusConfig bus = bus_of_its_own();
+    Program sending{on(bus, sender)};
+    ASSERT_TRUE(sending.says(fmt::format("waiting for a subscriber in domain {}, partition '{}'",
+                                         bus.domain, bus.partition)))
+        << sending.log();
     sending.signal(SIGINT);
     EXPECT_EQ(sending.exit_status(), 1);
     EXPECT_THAT(sending.log(), HasSubstr("stopped by a signal: 0 edges and 0 coded frames"));

@@ -200,6 +200,17 @@ TEST(Serve, StopsAcceptingLoudlyWhenTheDiskIsFullAndEndsWithOne) {
                   (kPasses / "gms5").string(), "--speed", "0", "--domain",
                   std::to_string(service.bus().domain), "--partition", service.bus().partition}};
   ASSERT_TRUE(service.program().says("the archive does not store")) << service.program().log();
+  // Who comes later learns it from the bus and from the log.
+  const auto participant = bus::Participant::create(service.bus()).value();
+  const auto health =
+      bus::Reader<spindrift_Health>::create(participant, bus::kHealthTopic, bus::results_qos())
+          .value();
+  EXPECT_TRUE(eventually([&] {
+    std::string status;
+    health.take([&](const spindrift_Health& beat) { status = beat.status; }).value();
+    return status.starts_with("not storing: ");
+  }));
+  EXPECT_TRUE(service.program().says("the archive still does not store"));
   EXPECT_EQ(service.stop(), 1);
   EXPECT_THAT(service.program().log(), HasSubstr("rows that were accepted are not in archive"));
   replay.signal(SIGKILL);

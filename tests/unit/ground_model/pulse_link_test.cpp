@@ -115,6 +115,18 @@ TEST(PulseLink, HearsNothingOfADeadChannelNorDuringASilence) {
   EXPECT_EQ(pass.missing, 1501 + kTurns);
 }
 
+TEST(PulseLink, KeepsApartWhatASilenceSwallows) {
+  PulseLink link = silent_link();
+  const auto all = received(link).pulses;
+  link.silences = {{.from_s = 100.0, .to_s = 200.0}, {.from_s = 150.0, .to_s = 400.05}};
+  const ReceivedPass pass = received(link);
+  ASSERT_EQ(pass.silenced.size(), 6U * 300U + 1U);
+  ASSERT_EQ(pass.pulses.size() + pass.silenced.size(), all.size());
+  for (std::size_t i = 0; i < pass.silenced.size(); ++i) {
+    ASSERT_EQ(pass.silenced[i], all[6U * 100U + i].pulse);
+  }
+}
+
 TEST(PulseLink, SpoilsNeighboursOfDifferentChannelsOnly) {
   PulseLink link = silent_link();
   link.interference_s = 0.002;
