@@ -25,11 +25,7 @@
 #include <string>
 #include <utility>
 
-<<<<<<< HEAD
 #include "pipelines/spin/angle_equations.h"
-=======
-#include "pipelines/spin/association.h"
->>>>>>> mean
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/fixes_by_case.h"
 #include "pipelines/spin/measurement.h"

@@ -335,13 +335,8 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   bool mean_moved = false;
   mean_.keep(revolution.number, candidate.measured, *candidate.sightlines);
   for (const SpinFix& fix : fixes) {
-<<<<<<< HEAD
     say_why_not_accepted(fix);
-    if (mean_.take(fix, revolution.number)) {
-=======
-    say_why_not_accepted(fix, out);
     if (mean_.take(fix)) {
->>>>>>> mean
       recent_axes_.add(fix);
       mean_moved = true;
     }
