@@ -284,6 +284,10 @@ class OemReader {
 
   bool done() const { return rest_.empty(); }
 
+  /// The first data line read that is not later than the one before it: told of what is otherwise
+  /// well formed.
+  const std::optional<Error>& disorder() const { return disorder_; }
+
   Expected<void> read_header() {
     if (done() || !rest_.front().text.starts_with("CCSDS_OEM_VERS")) {
       return refused(line_number(), "an OEM in KVN form must begin with CCSDS_OEM_VERS");
@@ -310,8 +314,14 @@ class OemReader {
       if (!point) {
         return Unexpected{point.error()};
       }
-      // Of one segment, times out of order are found as such.
-      const bool judged = last_point_ && (points.empty() || last_point_->t < point->t);
+      const bool in_order = points.empty() || points.back().t < point->t;
+      if (!in_order && !disorder_) {
+        disorder_ = refused(last_line_, fmt::format("the time must be later than that of the data "
+                                                    "line before it, {}",
+                                                    format_utc(points.back().t, 9)))
+                        .value();
+      }
+      const bool judged = last_point_ && in_order;
       if (const auto jump = judged ? jump_km(*last_point_, *point) : std::nullopt) {
         return refused(last_line_,
                        fmt::format("the orbit jumps: {:.0f} km from where the data line before it, "
@@ -453,6 +463,7 @@ class OemReader {
 
   std::span<const Line> rest_;
   int last_line_ = 1;
+  std::optional<Error> disorder_;
   std::optional<EphemerisPoint> last_point_;  ///< Of this segment or the one before.
 };
 
@@ -471,6 +482,9 @@ Expected<OrbitEphemeris> parse_oem(std::string_view text) {
       return Unexpected{segment.error()};
     }
     segments.push_back(std::move(*segment));
+  }
+  if (reader.disorder()) {
+    return Unexpected{*reader.disorder()};
   }
   return OrbitEphemeris::make(std::move(segments));
 }
