@@ -67,6 +67,8 @@ using Entries = std::map<std::string_view, Entry>;
 using ReadTime = Expected<TaiTime> (*)(std::string_view);
 
 struct Meta {
+  std::string object_name;
+  std::string object_id;
   ReadTime read_time = nullptr;
   TaiTime start;
   TaiTime stop;
@@ -257,6 +259,8 @@ Expected<void> set_interpolation(const Entries& entries, Meta& meta) {
 
 Expected<Meta> meta_from(const Entries& entries) {
   Meta meta;
+  meta.object_name = entries.at("OBJECT_NAME").value;
+  meta.object_id = entries.at("OBJECT_ID").value;
   return check_frame(entries)
       .and_then([&] { return read_time_of(entries); })
       .and_then([&](ReadTime read_time) {
@@ -274,7 +278,9 @@ OemSegment segment_from(const Meta& meta, std::vector<EphemerisPoint> points) {
           .usable_to = std::min(meta.usable_stop, points.back().t),
           .interpolation = meta.interpolation.value_or(Interpolation::Hermite),
           .degree = meta.interpolation ? meta.degree : most_hermite,
-          .points = std::move(points)};
+          .points = std::move(points),
+          .object_name = meta.object_name,
+          .object_id = meta.object_id};
 }
 
 /// Takes lines from the front of what is left over.
