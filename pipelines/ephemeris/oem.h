@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -33,6 +34,8 @@ struct OemSegment {
   Interpolation interpolation;
   int degree;
   std::vector<EphemerisPoint> points;
+  std::string object_name = {};  ///< As its metadata has it; likewise:
+  std::string object_id = {};
 };
 
 /// Points that one interpolation looks at; two at least, so that it never extrapolates. An even
@@ -54,6 +57,7 @@ class OrbitEphemeris {
   /// @return NoCoverage, saying by how much `t` lies outside.
   Expected<OrbitState> at(TaiTime t) const;
 
+  const std::vector<OemSegment>& segments() const { return segments_; }
   TaiTime usable_from() const { return segments_.front().usable_from; }
   TaiTime usable_to() const { return segments_.back().usable_to; }
 

@@ -67,6 +67,8 @@ using Entries = std::map<std::string_view, Entry>;
 using ReadTime = Expected<TaiTime> (*)(std::string_view);
 
 struct Meta {
+  std::string object_name;
+  std::string object_id;
   ReadTime read_time = nullptr;
   TaiTime start;
   TaiTime stop;
@@ -257,6 +259,8 @@ Expected<void> set_interpolation(const Entries& entries, Meta& meta) {
 
 Expected<Meta> meta_from(const Entries& entries) {
   Meta meta;
+  meta.object_name = entries.at("OBJECT_NAME").value;
+  meta.object_id = entries.at("OBJECT_ID").value;
   return check_frame(entries)
       .and_then([&] { return read_time_of(entries); })
       .and_then([&](ReadTime read_time) {
@@ -274,7 +278,9 @@ OemSegment segment_from(const Meta& meta, std::vector<EphemerisPoint> points) {
           .usable_to = std::min(meta.usable_stop, points.back().t),
           .interpolation = meta.interpolation.value_or(Interpolation::Hermite),
           .degree = meta.interpolation ? meta.degree : most_hermite,
-          .points = std::move(points)};
+          .points = std::move(points),
+          .object_name = meta.object_name,
+          .object_id = meta.object_id};
 }
 
 /// Takes lines from the front of what is left over.
@@ -283,6 +289,10 @@ class OemReader {
   explicit OemReader(std::span<const Line> lines) : rest_{lines} {}
 
   bool done() const { return rest_.empty(); }
+
+  /// The first data line read that is not later than the one before it: told of what is otherwise
+  /// well formed.
+  const std::optional<Error>& disorder() const { return disorder_; }
 
   Expected<void> read_header() {
     if (done() || !rest_.front().text.starts_with("CCSDS_OEM_VERS")) {
@@ -310,8 +320,14 @@ class OemReader {
       if (!point) {
         return Unexpected{point.error()};
       }
-      // Of one segment, times out of order are found as such.
-      const bool judged = last_point_ && (points.empty() || last_point_->t < point->t);
+      const bool in_order = points.empty() || points.back().t < point->t;
+      if (!in_order && !disorder_) {
+        disorder_ = refused(last_line_, fmt::format("the time must be later than that of the data "
+                                                    "line before it, {}",
+                                                    format_utc(points.back().t, 9)))
+                        .value();
+      }
+      const bool judged = last_point_ && in_order;
       if (const auto jump = judged ? jump_km(*last_point_, *point) : std::nullopt) {
         return refused(last_line_,
                        fmt::format("the orbit jumps: {:.0f} km from where the data line before it, "
@@ -453,6 +469,7 @@ class OemReader {
 
   std::span<const Line> rest_;
   int last_line_ = 1;
+  std::optional<Error> disorder_;
   std::optional<EphemerisPoint> last_point_;  ///< Of this segment or the one before.
 };
 
@@ -471,6 +488,9 @@ Expected<OrbitEphemeris> parse_oem(std::string_view text) {
       return Unexpected{segment.error()};
     }
     segments.push_back(std::move(*segment));
+  }
+  if (reader.disorder()) {
+    return Unexpected{*reader.disorder()};
   }
   return OrbitEphemeris::make(std::move(segments));
 }

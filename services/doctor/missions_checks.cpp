@@ -49,6 +49,10 @@ std::vector<Check> check_settings(const MissionFacts& mission) {
         name, fmt::format("nothing reads [{}]", fmt::join(mission.idle, "], [")),
         fmt::format("take it out, or correct spacecraft.kind = \"{}\"", name_of(mission.kind))));
   }
+  if (!mission.doubt_about_orbit.empty()) {
+    checks.push_back(warning(name, mission.doubt_about_orbit,
+                             "make sure that the orbit is that of this spacecraft"));
+  }
   if (checks.empty()) {
     checks.push_back(ok(name, "sound"));
   }

@@ -26,7 +26,8 @@ MissionFacts mission_facts(const Mission& mission, TaiTime now) {
                      .ephemeris = {},
                      .no_orbit_now = {},
                      .infrared = !mission.spin || mission.spin->north || mission.spin->south,
-                     .idle = idle_tables(mission)};
+                     .idle = idle_tables(mission),
+                     .doubt_about_orbit = doubt_about_orbit(mission)};
   if (!mission.orbit) {
     return facts;
   }

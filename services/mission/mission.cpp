@@ -1,5 +1,8 @@
 #include "services/mission/mission.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -14,6 +17,24 @@ namespace spindrift {
 std::string_view name_of(SpacecraftKind kind) {
   static constexpr std::array<std::string_view, 2> kNames = {"spin", "three_axis"};
   return kNames.at(static_cast<std::size_t>(kind));
+}
+
+std::string doubt_about_orbit(const Mission& mission) {
+  const OrbitEphemeris* const ephemeris = mission.orbit ? mission.orbit->ephemeris() : nullptr;
+  if (ephemeris == nullptr) {
+    return {};
+  }
+  const auto& segments = ephemeris->segments();
+  const auto other = std::find_if(segments.begin(), segments.end(), [&](const OemSegment& segment) {
+    return segment.object_name != mission.spacecraft_id &&
+           segment.object_id != mission.spacecraft_id;
+  });
+  return other == segments.end()
+             ? std::string{}
+             : fmt::format(
+                   "the orbit file says OBJECT_NAME = {}, OBJECT_ID = {}, the mission "
+                   "file spacecraft.id = \"{}\"",
+                   other->object_name, other->object_id, mission.spacecraft_id);
 }
 
 Expected<Mission> load_mission(const std::filesystem::path& path) {

@@ -29,6 +29,10 @@ struct Mission {
   std::optional<std::string> orbit_sha256;  ///< Of the orbit file, if one is named.
 };
 
+/// That the orbit file is one of another spacecraft, going by its OBJECT_NAME and OBJECT_ID, which
+/// may be no more than another name; empty: one of them is `spacecraft_id`, or there is no file.
+std::string doubt_about_orbit(const Mission& mission);
+
 /// Reads a mission file, and the orbit file that it names, by the rules of
 /// schemas/mission.schema.toml.
 /// @return InvalidConfiguration with every problem, one a line:

@@ -53,6 +53,9 @@ Expected<void> process(const ProcessOptions& options) {
   if (!mission) {
     return Unexpected{mission.error()};
   }
+  if (const std::string doubt = doubt_about_orbit(*mission); !doubt.empty()) {
+    spdlog::warn("{}: {}", options.mission.string(), doubt);
+  }
   auto processor =
       Processor::make({*mission}, {.mode = "process", .telemetry = one_a_line(options.telemetry)});
   if (!processor) {

@@ -41,6 +41,9 @@ Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::
   for (const std::filesystem::path& path : paths) {
     auto mission = load_mission(path);
     if (mission) {
+      if (const std::string doubt = doubt_about_orbit(*mission); !doubt.empty()) {
+        spdlog::warn("{}: {}", path.string(), doubt);
+      }
       missions.push_back(std::move(*mission));
     } else {
       problems += (problems.empty() ? "" : "\n") + mission.error().message;

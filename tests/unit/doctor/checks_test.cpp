@@ -174,6 +174,15 @@ TEST(DoctorMissions, WarnsOfWhatHasNoEffect) {
   EXPECT_EQ(named(check_one(facts), "mission SPINNER").verdict, Verdict::Warning);
 }
 
+TEST(DoctorMissions, WarnsOfAnOrbitThatMayBeThatOfAnother) {
+  MissionFacts facts = spinner(48h);
+  facts.doubt_about_orbit = "the orbit file says OBJECT_NAME = GMS-5";
+  const Check check = named(check_one(facts), "mission SPINNER");
+  EXPECT_EQ(check.verdict, Verdict::Warning);
+  EXPECT_THAT(check.found, HasSubstr("GMS-5"));
+  expect_advice(check_one(facts));
+}
+
 // --- disk
 
 DiskFacts disk(std::uint64_t free_bytes) {

@@ -189,7 +189,8 @@ TEST(Oem, SaysWhichLineAndKeyIsWrong) {
       {"18", "2026-11-20T03:01:00 inf 450 0 0 7.5 0", "line 18:", "'inf' is not a number"},
       {"18", "2026-11-20T03:01:00 1e999 450 0 0 7.5 0", "line 18:", "'1e999' is not a number"},
       {"18", "2026-11-20T02:59:59 6990 450 0 0 7.5 0", "line 18:", "between START_TIME"},
-      {"18", "2026-11-20T03:02:00 6980 900 0 0 7.5 0", "segment 1:", "must be later"},
+      {"18", "2026-11-20T03:02:00 6980 900 0 0 7.5 0",
+       "line 19:", "must be later than that of the data line before it, 2026-11-20T03:0"},
   };
   for (const auto& [line, text, where, what] : cases) {
     SCOPED_TRACE(text);
@@ -311,9 +312,10 @@ TEST(Oem, FaultsThatFilesWereMadeForAreFound) {
       {"OEM-wrong-keyword.txt", "line 19:", "WRONG_KEYWORD = 123"},
       {"OEMExample8.txt", "line 16:", "INTERPOLATION = HERMITE: needs INTERPOLATION_DEGREE"},
       // One data line twice, or out of order.
-      {"OEMExample1.txt", "segment 3:", "1996-12-30T01:28:02.267000000Z must be later"},
-      {"OEMExampleWithHeaderComment.txt", "segment 3:", "must be later"},
-      {"OEM-Issue839.txt", "segment 3:", "must be later"},
+      {"OEMExample1.txt",
+       "line 81:", "later than that of the data line before it, 1996-12-30T01:28:02.267000000Z"},
+      {"OEMExampleWithHeaderComment.txt", "line 80:", "must be later"},
+      {"OEM-Issue839.txt", "line 80:", "must be later"},
       // The third segment covers the second one's time again.
       {"OEMExample3.txt", "segment 3:", "must not begin before"},
       {"OEMExample6.txt", "segment 3:", "must not begin before"},

@@ -218,6 +218,20 @@ TEST(Mission, FindsItsOrbitBesideIt) {
             "fa12bab2701921c14d404592742de10c1b9252419573b8ee588436c30390c9c1");
 }
 
+/// Of the contract's mission under another name. The orbit is that of LEOSAT, 2026-999A.
+std::string doubt_about_orbit_of(const char* spacecraft) {
+  return doubt_about_orbit(load(contract_with("spacecraft.id", spacecraft)).value());
+}
+
+TEST(Mission, DoubtsAnOrbitUnderTheNameOfAnother) {
+  EXPECT_EQ(doubt_about_orbit_of("'SPINNER'"),
+            "the orbit file says OBJECT_NAME = LEOSAT, OBJECT_ID = 2026-999A, the mission file "
+            "spacecraft.id = \"SPINNER\"");
+  EXPECT_EQ(doubt_about_orbit_of("'LEOSAT'"), "");
+  EXPECT_EQ(doubt_about_orbit_of("'2026-999A'"), "");
+  EXPECT_EQ(doubt_about_orbit(load(kElements).value()), "");
+}
+
 TEST(Mission, ReportsTenMistakesAsTenProblems) {
   EXPECT_THAT(
       problems_of(R"([spacecraft]
