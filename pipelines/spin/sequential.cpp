@@ -60,6 +60,8 @@ bool SequentialEstimator::heed(const SpinFix& fix, const Revolution& revolution,
   if (!said) {
     return false;
   }
+  // Afresh: what fixes have in common to one side does not average out.
+  starts->forget();
   if (!hypotheses_.empty() && !fix.grazing) {
     contradiction_.note(hypotheses_, *said);
   }
@@ -89,18 +91,14 @@ StartingPoints* SequentialEstimator::starting_points_for(const SpinFix& fix) {
 }
 
 /// Only an accepted fix may start the filter again; of those that all graze, any.
-bool SequentialEstimator::gives_way_to(const SpinFix& fix) {
+bool SequentialEstimator::gives_way_to(const SpinFix& fix) const {
   if (hypotheses_.empty()) {
     return true;
   }
   if (hypotheses_.provisional()) {
     return !fix.grazing || gates_.most_gated();
   }
-  if (!fix.accepted || !(gates_.most_gated() || fixes_contradict())) {
-    return false;
-  }
-  restarted_ = gates_.most_gated() ? "edges gated" : "fixes differ";
-  return true;
+  return fix.accepted && (gates_.most_gated() || fixes_contradict());
 }
 
 bool SequentialEstimator::fixes_contradict() const {
@@ -118,7 +116,10 @@ bool SequentialEstimator::begin(const SpinFix& fix, std::span<const StartingPoin
       return false;
     }
   }
-  restarts_ += hypotheses_.empty() || hypotheses_.provisional() ? 0 : 1;
+  if (!hypotheses_.empty() && !hypotheses_.provisional()) {
+    ++restarts_;
+    restarted_ = gates_.most_gated() ? "edges gated" : "fixes differ";
+  }
   hypotheses_ = std::move(started);
   if (fix.accepted) {
     take_side(fix, points.front());
@@ -128,9 +129,10 @@ bool SequentialEstimator::begin(const SpinFix& fix, std::span<const StartingPoin
   verdict_ = watch_.verdict();
   gates_ = {};
   contradiction_ = {};
-  settled_starts_ = StartingPoints{};
-  open_starts_ = StartingPoints{};
-  grazing_starts_ = StartingPoints{kFewestGrazing};
+  settled_starts_.forget();
+  open_starts_.forget();
+  grazing_starts_.forget();
+  unfollowed_.forget();
   return true;
 }
 
@@ -145,8 +147,8 @@ void SequentialEstimator::take_side(const SpinFix& fix, const StartingPoint& axi
   }
 }
 
-/// Candidates that no filter follows. What is settled is asked again only where the fixes
-/// contradict it.
+/// Filters begin where all fixes together have their branches: false candidates move on, and are
+/// told from the true one by it. What is settled is asked again only where fixes contradict it.
 void SequentialEstimator::join(std::span<const StartingPoint> points, const Revolution& revolution,
                                const Sky& sky) {
   if (hypotheses_.settled() && !fixes_contradict()) {
@@ -155,9 +157,11 @@ void SequentialEstimator::join(std::span<const StartingPoint> points, const Revo
   std::vector<StartingPoint> unfollowed;
   std::copy_if(points.begin(), points.end(), std::back_inserter(unfollowed),
                [&](const StartingPoint& point) { return hypotheses_.contradicted_by(point); });
-  for (const StartingPoint& point : unfollowed) {
-    if (hypotheses_.count() < kMostHypotheses) {
-      hypotheses_.add(point, config_, revolution, sky);
+  if (const auto known = unfollowed_.add(unfollowed)) {
+    for (const StartingPoint& point : known->points) {
+      if (hypotheses_.count() < kMostHypotheses) {
+        hypotheses_.add(point, config_, revolution, sky);
+      }
     }
   }
 }

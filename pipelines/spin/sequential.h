@@ -75,7 +75,7 @@ class SequentialEstimator {
  private:
   bool heed(const SpinFix& fix, const Revolution& revolution, const Sky& sky);
   StartingPoints* starting_points_for(const SpinFix& fix);
-  bool gives_way_to(const SpinFix& fix);
+  bool gives_way_to(const SpinFix& fix) const;
   bool begin(const SpinFix& fix, std::span<const StartingPoint> points,
              const Revolution& revolution, const Sky& sky);
   void take_side(const SpinFix& fix, const StartingPoint& axis);
@@ -92,6 +92,7 @@ class SequentialEstimator {
   StartingPoints settled_starts_;  ///< Of fixes that are settled.
   StartingPoints open_starts_;     ///< Of those that leave several candidates open.
   StartingPoints grazing_starts_;
+  StartingPoints unfollowed_;    ///< Candidates that no filter follows, since the start.
   Contradiction contradiction_;  ///< By fixes, since the start.
 
   GateWatch gates_;        ///< Since the start.

@@ -74,7 +74,6 @@ std::optional<StartingPoints::Known> StartingPoints::add(
                    [](const StartingPoint& point) { return well_known(point.covariance_rad2); })) {
     return std::nullopt;
   }
-  forget();
   return known;
 }
 

@@ -45,12 +45,13 @@ class StartingPoints {
   explicit StartingPoints(int fewest = 1) : fewest_{fewest} {}
 
   /// @param candidates Of one fix.
-  /// @return Empty until every branch that a candidate belongs to is well known. Then it begins
-  ///         afresh: what fixes have in common to one side does not average out.
+  /// @return What is known of the branches that they belong to; empty until each of them is well
+  ///         known.
   std::optional<Known> add(std::span<const StartingPoint> candidates);
 
- private:
   void forget();
+
+ private:
   std::size_t branch_of(const StartingPoint& candidate,
                         const std::vector<std::size_t>& taken) const;
 
