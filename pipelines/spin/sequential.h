@@ -4,13 +4,14 @@
 /// A fix starts it. Where the fix is AMBIGUOUS one filter starts at each of its candidates, and at
 /// those of later ones that are near none of them; all see the same edges, the likeliest is
 /// published, and the others are dropped when a later fix settles the matter or the edges
-/// themselves do. Likewise where only a PRIOR settled the fix: its candidate is published, and the
-/// others stay until the edges beat them; where they beat the prior's, the axis is theirs, and
-/// the status says so. Candidates known badly are averaged with those of the following fixes, until
-/// all are known well enough; grazing ones start filters only where there are no others for long,
-/// and then nothing but an accepted fix or a prior settles it. A filter that finds most edges
-/// where it does not expect them, or whose fixes name another axis, starts again at the next
-/// accepted fix, and says so.
+/// themselves do (hypotheses.h). Likewise where only a PRIOR settled the fix: its candidate is
+/// published, and the others stay until the edges beat them; where they beat the prior's, the axis
+/// is theirs, and the status says so. Candidates known badly are averaged with those of the
+/// following fixes, until all are known well enough (starting_points.h); grazing ones start filters
+/// only where there are no others for long, and then nothing but an accepted fix settles it. A
+/// filter that finds most edges where it does not expect them, or whose fixes name another axis
+/// (contradiction.h), starts again at the next accepted fix, and says so; where the fixes name
+/// several, it is AMBIGUOUS again.
 ///
 /// The status begins with
 ///     OK         all is well
