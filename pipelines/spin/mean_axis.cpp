@@ -1,5 +1,7 @@
 #include "pipelines/spin/mean_axis.h"
 
+#include <cmath>
+
 #include "pipelines/frames/celestial.h"
 
 namespace spindrift {
@@ -7,6 +9,9 @@ namespace {
 
 /// Of a fix: 1/rad^2.
 double weight_of(const Eigen::Matrix2d& covariance_rad2) { return 1.0 / covariance_rad2.trace(); }
+
+// Of a sum of squares, chi-square of at least one degree of freedom for each fix.
+constexpr double kScatterSigmas = 5.0;
 
 }  // namespace
 
@@ -24,6 +29,15 @@ void MeanAxis::add(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& cova
 Eigen::Matrix2d MeanAxis::covariance_rad2() const {
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(axis_icrf());
   return basis.transpose() * covariance_sum_ * basis / (weight_sum_ * weight_sum_);
+}
+
+double MeanAxis::excess_scatter() const {
+  const double freedom = static_cast<double>(count_) - 1.0;
+  if (freedom < 1.0) {
+    return 1.0;
+  }
+  const double scatter = (weight_sum_ - sum_icrf_.squaredNorm() / weight_sum_) / freedom;
+  return scatter > 1.0 + kScatterSigmas * std::sqrt(2.0 / freedom) ? scatter : 1.0;
 }
 
 void AxisWindow::add(const SpinFix& fix) {

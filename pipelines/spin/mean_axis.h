@@ -26,6 +26,9 @@ class MeanAxis {
   /// In the tangent plane at the mean: east, north. Fixes of different revolutions share no edge,
   /// so their errors add in quadrature.
   Eigen::Matrix2d covariance_rad2() const;
+  /// How many times the squares of the fixes' distances from the mean are what their covariances
+  /// make them, where that is significantly more than 1; else 1.
+  double excess_scatter() const;
 
  private:
   Eigen::Vector3d sum_icrf_ = Eigen::Vector3d::Zero();  ///< Weighted, as the following.

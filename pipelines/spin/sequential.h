@@ -4,13 +4,14 @@
 /// A fix starts it. Where the fix is AMBIGUOUS one filter starts at each of its candidates, and at
 /// those of later ones that are near none of them; all see the same edges, the likeliest is
 /// published, and the others are dropped when a later fix settles the matter or the edges
-/// themselves do. Likewise where only a PRIOR settled the fix: its candidate is published, and the
-/// others stay until the edges beat them; where they beat the prior's, the axis is theirs, and
-/// the status says so. Candidates known badly are averaged with those of the following fixes, until
-/// all are known well enough; grazing ones start filters only where there are no others for long,
-/// and then nothing but an accepted fix or a prior settles it. A filter that finds most edges
-/// where it does not expect them, or whose fixes name another axis, starts again at the next
-/// accepted fix, and says so.
+/// themselves do (hypotheses.h). Likewise where only a PRIOR settled the fix: its candidate is
+/// published, and the others stay until the edges beat them; where they beat the prior's, the axis
+/// is theirs, and the status says so. Candidates known badly are averaged with those of the
+/// following fixes, until all are known well enough (starting_points.h); grazing ones start filters
+/// only where there are no others for long, and then nothing but an accepted fix settles it. A
+/// filter that finds most edges where it does not expect them, or whose fixes name another axis
+/// (contradiction.h), starts again at the next accepted fix, and says so; where the fixes name
+/// several, it is AMBIGUOUS again.
 ///
 /// The status begins with
 ///     OK         all is well
@@ -29,30 +30,29 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "pipelines/spin/association.h"
 #include "pipelines/spin/config.h"
+#include "pipelines/spin/contradiction.h"
+#include "pipelines/spin/gate_watch.h"
+#include "pipelines/spin/hypotheses.h"
 #include "pipelines/spin/innovation_watch.h"
 #include "pipelines/spin/known_axis.h"
-#include "pipelines/spin/mean_axis.h"
+#include "pipelines/spin/model_check.h"
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/sky.h"
-#include "pipelines/spin/spin_filter.h"
 #include "pipelines/spin/starting_points.h"
 
 namespace spindrift {
 
 class SequentialEstimator {
  public:
-  explicit SequentialEstimator(SpinConfig config) : config_{std::move(config)} {}
+  explicit SequentialEstimator(SpinConfig config);
 
   /// @param revolution Not earlier than the one before; only its good edges are used.
   /// @param settled The fixes that were settled since the revolution before, in any order.
@@ -74,60 +74,37 @@ class SequentialEstimator {
   std::optional<KnownAxis> settled_by_edges() const;
 
  private:
-  /// One candidate for the axis and what speaks for it.
-  struct Hypothesis {
-    SpinFilter filter;
-    bool favoured = false;  ///< By a prior.
-    double edges = 0.0;
-    double log_likelihood = 0.0;  ///< Of them.
-    double squared_innovations =
-        0.0;               ///< Normalised, their sum: as many as edges when all is well.
-    EdgeTally tally = {};  ///< Of the last revolution.
-  };
-
-  Eigen::Matrix2d covariance_rad2() const;
-  void add_unlike(std::span<const SpinFix> settled, const Revolution& revolution, const Sky& sky);
-  bool fixes_contradict() const;
-  bool begin(std::span<const SpinFix> settled, const Revolution& revolution, const Sky& sky);
-  bool start(const SpinFix& fix, std::span<const StartingPoint> points,
+  bool heed(const SpinFix& fix, const Revolution& revolution, const Sky& sky);
+  StartingPoints* starting_points_for(const SpinFix& fix);
+  bool gives_way_to(const SpinFix& fix) const;
+  bool begin(const SpinFix& fix, std::span<const StartingPoint> points,
              const Revolution& revolution, const Sky& sky);
-  void follow(const SpinFix& fix, std::vector<Hypothesis> started);
-  bool restart_is_due(std::span<const SpinFix> settled);
-  void note_contradiction(const SpinFix& fix);
-  void take_side(const SpinFix& fix);
-  bool prior_stands() const;
+  void take_side(const SpinFix& fix, const StartingPoint& axis);
+  void join(std::span<const StartingPoint> points, const Revolution& revolution, const Sky& sky);
+  bool fixes_contradict() const;
   void work_in(const Revolution& revolution, const Sky& sky);
-  void drop_the_beaten();
-  void count(const EdgeTally& tally);
-  std::optional<PulseChannel> mostly_gated() const;
+  Eigen::Matrix2d covariance_rad2() const;
   std::string ambiguous_status() const;
   std::string status() const;
 
   SpinConfig config_;
-  std::vector<Hypothesis> hypotheses_;  ///< The likeliest first; empty before the first fix.
-  StartingPoints settled_starts_;       ///< Of fixes that might start it, since it last started.
-  StartingPoints open_starts_;          ///< Likewise, of those that leave several candidates open.
-  StartingPoints unlike_;               ///< Of candidates that no hypothesis is near to; likewise.
-  std::int64_t grazing_ = 0;            ///< Fixes, before the first that could start it.
-  bool provisional_ = false;            ///< Started by these: the true axis may be missing.
-  std::int64_t unheard_ = 0;      ///< Revolutions with fixes before the first that could start it.
-  std::int64_t revolutions_ = 0;  ///< Since the start; likewise the following.
-  std::int64_t gated_ = 0;
-  double gated_share_ = 0.0;  ///< Of the recent edges.
-  /// Of the recent revolutions, those in which the channel's edge was gated.
-  std::array<double, kPulseChannels> channel_gated_share_ = {};
-  bool settled_ = false;  ///< By a fix, or by the edges beyond doubt.
-  bool settled_by_edges_ = false;
-  bool prior_refuted_ = false;
+  Hypotheses hypotheses_;  ///< None before the first fix.
+
+  StartingPoints settled_starts_;  ///< Of fixes that are settled.
+  StartingPoints open_starts_;     ///< Of those that leave several candidates open.
+  StartingPoints grazing_starts_;
+  StartingPoints unfollowed_;    ///< Candidates that no filter follows, since the start.
+  Contradiction contradiction_;  ///< By fixes, since the start.
+
+  GateWatch gates_;        ///< Since the start.
+  InnovationWatch watch_;  ///< Over the restarts: noise and model stay what they are.
+  ModelVerdict verdict_;   ///< Of the watch.
   /// The gate opens for noise that made the filter begin anew before: then it was not the axis.
   double noise_at_restart_ = 1.0;
-  InnovationWatch watch_;   ///< Over the restarts: noise and model stay what they are.
-  ModelVerdict verdict_;    ///< Of the watch.
-  int contradicted_ = 0;    ///< Fixes against the axis, less those for it.
-  MeanAxis contradicting_;  ///< All fixes since it was last 0.
-  StartingPoints poor_;     ///< Of fixes known too badly to speak alone, since they last spoke.
-  int poor_fixes_ = 0;      ///< So many.
+
+  std::int64_t unheard_ = 0;  ///< Revolutions with fixes before the first that could start it.
   int restarts_ = 0;
+  bool prior_refuted_ = false;
   std::string_view restarted_;  ///< Why; empty: never.
 };
 

@@ -54,20 +54,32 @@ bool contradict(const StartingPoint& one, const StartingPoint& other) {
   return apart.dot(covariance.ldlt().solve(apart)) > kContradictionSigmas * kContradictionSigmas;
 }
 
-std::vector<StartingPoint> StartingPoints::add(std::span<const StartingPoint> candidates) {
+std::optional<StartingPoints::Known> StartingPoints::add(
+    std::span<const StartingPoint> candidates) {
   if (branches_.size() > kMostBranches) {
-    branches_.clear();
+    forget();
   }
-  std::vector<StartingPoint> middles;
+  ++fixes_;
+  Known known{.points = {}, .fixes = fixes_};
   std::vector<std::size_t> taken;
   for (const StartingPoint& candidate : candidates) {
     const std::size_t branch = branch_of(candidate, taken);
     branches_.resize(std::max(branches_.size(), branch + 1));
     branches_[branch].add(candidate.axis_icrf, candidate.covariance_rad2);
     taken.push_back(branch);
-    middles.push_back(middle_of(branches_[branch]));
+    known.points.push_back(middle_of(branches_[branch]));
   }
-  return middles;
+  if (fixes_ < fewest_ ||
+      !std::all_of(known.points.begin(), known.points.end(),
+                   [](const StartingPoint& point) { return well_known(point.covariance_rad2); })) {
+    return std::nullopt;
+  }
+  return known;
+}
+
+void StartingPoints::forget() {
+  branches_.clear();
+  fixes_ = 0;
 }
 
 /// The nearest that no other candidate of the fix has taken and that may be the same; else a new

@@ -1,12 +1,13 @@
 /// @file
-/// Where filters of the axis may begin: the candidates of fixes, averaged branch by branch until
-/// each is known well enough. One fix will do where the edges are sharp; where the body turns fast
-/// or the edges are noisy, it takes some.
+/// What fixes say of the axis: their candidates, averaged branch by branch until each is known well
+/// enough for a filter to begin there. One fix will do where the edges are sharp; where the body
+/// turns fast or the edges are noisy, it takes some.
 
 #pragma once
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,14 +35,28 @@ bool contradict(const StartingPoint& one, const StartingPoint& other);
 
 class StartingPoints {
  public:
+  /// What so many fixes say together: each point well known, the axis of the last fix first.
+  struct Known {
+    std::vector<StartingPoint> points;
+    int fixes = 0;
+  };
+
+  /// @param fewest Fixes that speak together, however well they are known.
+  explicit StartingPoints(int fewest = 1) : fewest_{fewest} {}
+
   /// @param candidates Of one fix.
-  /// @return What is known now of the branch that each belongs to.
-  std::vector<StartingPoint> add(std::span<const StartingPoint> candidates);
+  /// @return What is known of the branches that they belong to; empty until each of them is well
+  ///         known.
+  std::optional<Known> add(std::span<const StartingPoint> candidates);
+
+  void forget();
 
  private:
   std::size_t branch_of(const StartingPoint& candidate,
                         const std::vector<std::size_t>& taken) const;
 
+  int fewest_;
+  int fixes_ = 0;
   std::vector<MeanAxis> branches_;
 };
 

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/model_allowance.h"
 #include "pipelines/spin/spin_pass.h"
@@ -72,20 +71,9 @@ std::vector<SpinEstimate> of_sequential(const SpinOutput& output) {
 }
 
 TEST(SpinAmbiguous, CandidatesThatNothingSettlesAreSaidToBeAmbiguousToTheEnd) {
-  // Without sun slit 1 the two roots of this pass keep fitting all edges alike.
-  const Orbit orbit{KeplerOrbit::make({.epoch = testing::kTransferStart,
-                                       .semi_major_axis_km = 24400.0,
-                                       .eccentricity = 0.73,
-                                       .inclination_rad = 28.5 * kDegree_rad,
-                                       .raan_rad = 300.0 * kDegree_rad,
-                                       .argument_of_perigee_rad = 178.0 * kDegree_rad,
-                                       .mean_anomaly_rad = 30.0 * kDegree_rad})
-                        .value()};
-  const testing::SpinningBody body{
-      .axis_icrf = direction_icrf({.ra_rad = 100.0 * kDegree_rad, .dec_rad = -55.0 * kDegree_rad}),
-      .rate_rad_s = 2.0 * std::numbers::pi,
-      .first_turn_rad = 0.0,
-      .config = testing::usual_config()};
+  // Without sun slit 1 two axes of this pass keep fitting all edges alike.
+  const Orbit orbit = testing::orbit_across_the_earth();
+  const testing::SpinningBody body = testing::body_across_the_earth();
   auto edges = testing::edges_between(
       body, testing::seen_from(orbit, testing::spherical_horizon_km(40.0)), 0.0, 300.0);
   std::erase_if(edges, [](const auto& edge) { return edge.channel == PulseChannel::Sun1; });

@@ -10,7 +10,6 @@
 #include <random>
 #include <string>
 
-#include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/spin_pass.h"
 #include "tests/support/observed_spin.h"
@@ -121,23 +120,10 @@ int told_of_poor_leverage(const Orbit& orbit, testing::SpinningBody body) {
 }
 
 TEST(SpinWrongModel, PoorLeverageIsToldByTheGeometryWhateverTheNoise) {
-  const Orbit ahead{KeplerOrbit::make({.epoch = testing::kTransferStart,
-                                       .semi_major_axis_km = 24400.0,
-                                       .eccentricity = 0.73,
-                                       .inclination_rad = 28.5 * kDegree_rad,
-                                       .raan_rad = 300.0 * kDegree_rad,
-                                       .argument_of_perigee_rad = 178.0 * kDegree_rad,
-                                       .mean_anomaly_rad = 30.0 * kDegree_rad})
-                        .value()};
-  testing::SpinningBody body{
-      .axis_icrf = direction_icrf({.ra_rad = 100.0 * kDegree_rad, .dec_rad = -55.0 * kDegree_rad}),
-      .rate_rad_s = 2.0 * std::numbers::pi,
-      .first_turn_rad = 0.0,
-      .config = testing::usual_config()};
-  // Both beams look across the middle of the Earth.
+  testing::SpinningBody body = testing::body_across_the_earth();
   for (const double infrared_s : {5e-4, 2e-3}) {
     body.config.noise.infrared_s = infrared_s;
-    EXPECT_EQ(told_of_poor_leverage(ahead, body), 10) << infrared_s;
+    EXPECT_EQ(told_of_poor_leverage(testing::orbit_across_the_earth(), body), 10) << infrared_s;
   }
   std::mt19937_64 rng{81};
   const Orbit orbit = testing::transfer_orbit();

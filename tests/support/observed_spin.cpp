@@ -67,6 +67,25 @@ Surroundings seen_from(const Orbit& orbit, const Eigen::Vector3d& horizon_km) {
       .horizon_km = horizon_km};
 }
 
+Orbit orbit_across_the_earth() {
+  return Orbit{KeplerOrbit::make({.epoch = kTransferStart,
+                                  .semi_major_axis_km = 24400.0,
+                                  .eccentricity = 0.73,
+                                  .inclination_rad = 28.5 * kDegree_rad,
+                                  .raan_rad = 300.0 * kDegree_rad,
+                                  .argument_of_perigee_rad = 178.0 * kDegree_rad,
+                                  .mean_anomaly_rad = 30.0 * kDegree_rad})
+                   .value()};
+}
+
+SpinningBody body_across_the_earth() {
+  return {
+      .axis_icrf = direction_icrf({.ra_rad = 100.0 * kDegree_rad, .dec_rad = -55.0 * kDegree_rad}),
+      .rate_rad_s = 2.0 * kPi,
+      .first_turn_rad = 0.0,
+      .config = usual_config()};
+}
+
 SpinningBody random_body(const Surroundings& around, double tilt_rad, std::mt19937_64& rng) {
   std::uniform_real_distribution<double> uniform;
   const Eigen::Vector3d sun_icrf = around.sun_icrf(0.0);

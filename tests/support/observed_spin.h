@@ -35,6 +35,11 @@ Orbit transfer_orbit();
 /// on the Earth's pole of date, all turned with it.
 Surroundings seen_from(const Orbit& orbit, const Eigen::Vector3d& horizon_km);
 
+/// Both beams look across the same middle of the Earth: errors of the model move the axis far, and
+/// without sun slit 1 the two roots keep fitting all edges alike. From `kTransferStart` on.
+Orbit orbit_across_the_earth();
+SpinningBody body_across_the_earth();
+
 /// Chord, dihedral and sun angle well observed: an axis across the Earth's direction within
 /// `tilt_rad`, the Sun within 25 deg of the body's equator.
 SpinningBody random_body(const Surroundings& around, double tilt_rad, std::mt19937_64& rng);

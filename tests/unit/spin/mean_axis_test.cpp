@@ -128,6 +128,32 @@ TEST(MeanAxis, CovarianceIsTheScatterOfTheMean) {
   EXPECT_NEAR(squares, 2.0 * kMeans, 4.0 * std::sqrt(4.0 * kMeans));
 }
 
+TEST(MeanAxis, KnowsWhenFixesScatterMoreThanTheyState) {
+  constexpr double kSigma_rad = 1e-3;
+  const Eigen::Vector3d truth = at_deg(200.0, -80.0);
+  const Eigen::Matrix<double, 3, 2> basis = tangent_basis(truth);
+  std::mt19937_64 rng{62};
+  std::normal_distribution<double> normal{0.0, kSigma_rad};
+  for (const double times : {1.0, 5.0}) {
+    for (int trial = 0; trial < 100; ++trial) {
+      MeanAxis mean;
+      for (int count = 1; count <= 100; ++count) {
+        const double east_rad = times * normal(rng);
+        mean.add(
+            fix_at((truth + basis * Eigen::Vector2d{east_rad, times * normal(rng)}).normalized(),
+                   kSigma_rad * kSigma_rad * Eigen::Matrix2d::Identity()));
+        if (times == 1.0) {
+          EXPECT_EQ(mean.excess_scatter(), 1.0) << count;
+        }
+      }
+      if (times > 1.0) {
+        // Chi-square with 198 degrees of freedom: four of its sigmas.
+        EXPECT_NEAR(mean.excess_scatter() / (times * times), 1.0, 4.0 * std::sqrt(2.0 / 198.0));
+      }
+    }
+  }
+}
+
 TEST(AxisWindow, IsEmptyBeforeTheFirstFixAndWhereFixesCancel) {
   AxisWindow window{10};
   EXPECT_FALSE(window.axis_icrf());

@@ -472,6 +472,55 @@ TEST(Sequential, EdgesThatScatterMoreThanTheirNoiseAreDoubted) {
   }
 }
 
+/// So noisy that single fixes contradict any axis; one in ten leaves a second one open.
+SpinFix noisy_fix(Scene& scene, std::size_t i) {
+  constexpr double kTimes = 5.0;
+  SpinFix fix = scene.fix();
+  fix.axis_icrf =
+      testing::drawn_fix(scene.body.axis_icrf, kTimes * kFixSigma_rad, scene.rng).axis_icrf;
+  if (i % 10 == 9) {
+    fix.alternate_axes_icrf = {scene.turned_about_earth(40.0)};
+    fix.alternate_covariances_rad2 = {fix.covariance_rad2};
+    fix.resolution = Resolution::Prior;
+  }
+  return fix;
+}
+
+TEST(Sequential, FixesThatScatterMoreThanTheyStateDoNotTurnItAway) {
+  constexpr double kEdgeTimes = 2.0;
+  Scene scene;
+  const PulseNoise stated = scene.body.config.noise;
+  scene.body.config.noise = {.sun_s = kEdgeTimes * stated.sun_s,
+                             .infrared_s = kEdgeTimes * stated.infrared_s};
+  const auto seen = scene.seen(0.0, 300.0);
+  scene.body.config.noise = stated;
+  const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {
+    return std::vector{i == 0 ? scene.fix() : noisy_fix(scene, i)};
+  });
+  for (const SpinEstimate& estimate : all) {
+    EXPECT_THAT(estimate.status, Not(StartsWith("AMBIGUOUS")));
+  }
+  EXPECT_THAT(all.back().status, StartsWith("DOUBTFUL, residuals"));
+  EXPECT_THAT(all.back().status,
+              HasSubstr(", " + std::to_string(seen.size() - 1) + " revolutions"));
+  EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
+}
+
+TEST(Sequential, WhatIsSettledIsOpenAgainWhereFixesNameOtherAxes) {
+  // Without the Sun no edge speaks against the false axis, and no later fix is settled.
+  Scene scene;
+  const auto seen = without_sun(scene.seen(0.0, 60.0));
+  SpinFix wrong = scene.fix();
+  wrong.axis_icrf = scene.turned_about_earth(12.0);
+  const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {
+    return std::vector{
+        i == 0 ? wrong
+               : ambiguous(scene.fix(), scene.turned_about_earth(-30.0), scene.body.axis_icrf)};
+  });
+  EXPECT_THAT(all[20].status, StartsWith("OK"));
+  EXPECT_THAT(all.back().status, StartsWith("AMBIGUOUS"));
+}
+
 TEST(Sequential, AnAxisThatIsLostMayPointAnywhere) {
   Scene scene;
   const auto seen = scene.seen(0.0, 40.0);

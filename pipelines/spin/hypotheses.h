@@ -1,0 +1,79 @@
+/// @file
+/// Candidates for the axis, each with a filter that sees the same edges. They compete by the
+/// likelihood of these: a candidate is out when the edges are e^20 times likelier under another one
+/// that fits them, or when both filters have come to one axis.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "pipelines/spin/association.h"
+#include "pipelines/spin/config.h"
+#include "pipelines/spin/sky.h"
+#include "pipelines/spin/spin_filter.h"
+#include "pipelines/spin/starting_points.h"
+
+namespace spindrift {
+
+struct Hypothesis {
+  SpinFilter filter;
+  bool favoured = false;  ///< By a prior.
+  double edges = 0.0;
+  double log_likelihood = 0.0;       ///< Of them.
+  double squared_innovations = 0.0;  ///< Normalised, their sum: as many as edges when all is well.
+  EdgeTally tally = {};              ///< Of the last revolution.
+};
+
+/// So many edges say whether a hypothesis fits them.
+inline constexpr double kFewestEdgesToFit = 60.0;
+
+class Hypotheses {
+ public:
+  /// @param provisional The true axis may be missing: then the edges settle nothing.
+  explicit Hypotheses(bool provisional = false) : provisional_{provisional} {}
+
+  bool empty() const { return all_.empty(); }
+  std::size_t count() const { return all_.size(); }
+  bool provisional() const { return provisional_; }
+  /// One is left, by a fix or by the edges beyond doubt.
+  bool settled() const { return settled_ && all_.size() == 1; }
+  bool settled_by_edges() const { return settled_by_edges_ && all_.size() == 1; }
+
+  /// The likeliest first, but before it the prior's, until the edges beat that; likewise
+  /// `published`, of which there must be one.
+  const std::vector<Hypothesis>& all() const { return all_; }
+  const Hypothesis& published() const { return all_.front(); }
+
+  /// No filter may have this axis.
+  bool contradicted_by(const StartingPoint& point) const;
+
+  /// Nothing but a prior chose the one published, and the edges do not speak against it.
+  bool prior_stands() const;
+
+  /// Another candidate, with the benefit of the doubt: as likely so far as the one published.
+  /// @return False where none of the revolution's edges can tell its phase.
+  bool add(const StartingPoint& point, const SpinConfig& config, const Revolution& revolution,
+           const Sky& sky);
+
+  /// A fix settles which of them is true, unless it contradicts them all.
+  void settle_at(const StartingPoint& point);
+  /// Likewise a prior, but the others stay until the edges settle it.
+  void favour_at(const StartingPoint& point);
+
+  /// @param gate_noise Of the filters' update.
+  /// @return Whether the edges have beaten the candidate that a prior had chosen.
+  bool work_in(const SpinConfig& config, const Revolution& revolution, const Sky& sky,
+               double gate_noise);
+
+ private:
+  std::vector<Hypothesis>::iterator at(const StartingPoint& point);
+  bool drop_the_beaten();
+
+  std::vector<Hypothesis> all_;
+  bool provisional_;
+  bool settled_ = false;
+  bool settled_by_edges_ = false;
+};
+
+}  // namespace spindrift
