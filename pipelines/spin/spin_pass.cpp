@@ -392,13 +392,16 @@ void SpinPass::start_again_where_moved(const SpinEstimate& sequential) {
   notices_.axis_moved(sequential.t, apart_rad);
 }
 
+/// By the mean, or by the edges where these know it better.
 std::optional<KnownAxis> SpinPass::established_axis() const {
+  const std::optional<KnownAxis> by_edges = sequential_.settled_by_edges();
   if (mean_.count() < kEstablishedFixes) {
-    return sequential_.settled_by_edges();
+    return by_edges;
   }
-  return KnownAxis{
+  const KnownAxis by_mean{
       .axis_icrf = mean_.axis_icrf(),
       .sigma_rad = std::hypot(std::sqrt(mean_.covariance_rad2().trace()), kModelLimit_rad)};
+  return by_edges && by_edges->sigma_rad < by_mean.sigma_rad ? by_edges : by_mean;
 }
 
 }  // namespace spindrift

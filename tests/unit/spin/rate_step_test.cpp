@@ -9,27 +9,28 @@ namespace {
 
 const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 constexpr double kNoise_s = 1e-4;
+constexpr double kPeriod_s = 1.0;
 
 TEST(RateStep, EdgesOfANewRateAreACombOfTheirOwn) {
   RateStepWatch watch;
   for (int turn = 0; turn < 5; ++turn) {
     watch.add(later_by_s(kStart, turn * 1.0), true);
-    EXPECT_FALSE(watch.new_comb(kNoise_s));
+    EXPECT_FALSE(watch.new_comb(kNoise_s, kPeriod_s));
   }
   // From four wrong ones on the question is asked, but six on the comb are needed; the last good
   // edge, where the rate steps, is the first of them.
   for (int turn = 1; turn <= 4; ++turn) {
     watch.add(later_by_s(kStart, 4.0 + turn * 0.9), false);
-    EXPECT_FALSE(watch.new_comb(kNoise_s)) << turn;
+    EXPECT_FALSE(watch.new_comb(kNoise_s, kPeriod_s)) << turn;
   }
   watch.add(later_by_s(kStart, 4.0 + 5 * 0.9), false);
-  const auto comb = watch.new_comb(kNoise_s);
+  const auto comb = watch.new_comb(kNoise_s, kPeriod_s);
   ASSERT_TRUE(comb);
   EXPECT_NEAR(comb->period_s, 0.9, 1e-9);
 
   watch.forget();
   watch.add(later_by_s(kStart, 4.0 + 6 * 0.9), false);
-  EXPECT_FALSE(watch.new_comb(kNoise_s));
+  EXPECT_FALSE(watch.new_comb(kNoise_s, kPeriod_s));
 }
 
 TEST(RateStep, AnEdgeThatTheClockExpectsRaisesNoQuestion) {
@@ -37,9 +38,9 @@ TEST(RateStep, AnEdgeThatTheClockExpectsRaisesNoQuestion) {
   for (int turn = 0; turn < 8; ++turn) {
     watch.add(later_by_s(kStart, turn * 0.9), false);
   }
-  ASSERT_TRUE(watch.new_comb(kNoise_s));
+  ASSERT_TRUE(watch.new_comb(kNoise_s, kPeriod_s));
   watch.add(later_by_s(kStart, 8 * 0.9), true);
-  EXPECT_FALSE(watch.new_comb(kNoise_s));
+  EXPECT_FALSE(watch.new_comb(kNoise_s, kPeriod_s));
 }
 
 TEST(RateStep, StraysAmongGoodEdgesLeaveTheClockItsComb) {
@@ -47,7 +48,7 @@ TEST(RateStep, StraysAmongGoodEdgesLeaveTheClockItsComb) {
   for (int turn = 0; turn < 5; ++turn) {
     watch.add(later_by_s(kStart, turn * 1.0), true);
     watch.add(later_by_s(kStart, turn * 1.0 + 0.13 + 0.07 * turn), false);
-    EXPECT_FALSE(watch.new_comb(kNoise_s)) << turn;
+    EXPECT_FALSE(watch.new_comb(kNoise_s, kPeriod_s)) << turn;
   }
 }
 
@@ -57,7 +58,28 @@ TEST(RateStep, ACombThatTheLastEdgeIsNotOnIsNoReason) {
     watch.add(later_by_s(kStart, turn * 0.9), false);
   }
   watch.add(later_by_s(kStart, 7.4 * 0.9), false);
-  EXPECT_FALSE(watch.new_comb(kNoise_s));
+  EXPECT_FALSE(watch.new_comb(kNoise_s, kPeriod_s));
+}
+
+/// Time stamps that stepped back by a third of a turn: both trains lie on a comb of a third.
+TEST(RateStep, ThinlyFilledTeethOfAFractionAreNoNewRate) {
+  RateStepWatch watch;
+  for (int turn = 0; turn < 9; ++turn) {
+    watch.add(later_by_s(kStart, turn / 2 + (turn % 2 == 0 ? 0.0 : 1.0 / 3.0)), turn % 2 == 0);
+  }
+  watch.add(later_by_s(kStart, 4.0 + 1.0 / 3.0), false);
+  EXPECT_FALSE(watch.new_comb(kNoise_s, kPeriod_s));
+}
+
+TEST(RateStep, AThreefoldRateIsOne) {
+  RateStepWatch watch;
+  for (int turn = 0; turn < 9; ++turn) {
+    watch.add(later_by_s(kStart, turn / 3.0), turn % 3 == 0);
+  }
+  watch.add(later_by_s(kStart, 10.0 / 3.0), false);
+  const auto comb = watch.new_comb(kNoise_s, kPeriod_s);
+  ASSERT_TRUE(comb);
+  EXPECT_NEAR(comb->period_s, 1.0 / 3.0, 1e-9);
 }
 
 }  // namespace
