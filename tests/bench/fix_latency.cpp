@@ -78,17 +78,20 @@ struct Event {
   std::size_t pulse;
 };
 
-/// The pulses of a spacecraft are later than those of the first, all within a second: at any time
-/// the load has all phases, and as in a pass what is sent together was measured together.
-std::chrono::nanoseconds delay(std::size_t spacecraft, std::size_t of) {
-  return std::chrono::nanoseconds{1'000'000'000 * spacecraft / of};
+/// The passes begin one after the other, all within ten seconds, since each settles its first ten
+/// revolutions at once. At any time the load has all phases, and as in a pass what is sent together
+/// was measured together.
+std::chrono::nanoseconds delay(std::size_t spacecraft) {
+  // No part of a turn.
+  constexpr std::chrono::nanoseconds kApart{100'700'000};
+  return spacecraft * kApart;
 }
 
 std::vector<Event> events(const std::vector<Pulse>& pulses, std::size_t spacecraft, double speed) {
   std::vector<Event> all;
   for (std::size_t s = 0; s < spacecraft; ++s) {
     for (std::size_t i = 0; i < pulses.size(); ++i) {
-      const TaiTime t = pulses[i].t + delay(s, spacecraft);
+      const TaiTime t = pulses[i].t + delay(s);
       all.push_back(
           {.due_s = seconds_between(pulses.front().t, t) / speed, .spacecraft = s, .pulse = i});
     }
@@ -127,7 +130,7 @@ void run(const std::string& mission_file, const std::string& pulses_file, std::s
                                               std::chrono::duration<double>{event.due_s}));
     written[event.spacecraft][event.pulse] = steady_clock::now();
     Pulse pulse = pulses[event.pulse];
-    pulse.t += delay(event.spacecraft, spacecraft);
+    pulse.t += delay(event.spacecraft);
     or_exit(publisher.publish(names[event.spacecraft], pulse, std::stop_token{}));
   }
   std::this_thread::sleep_for(std::chrono::seconds{2});
@@ -136,7 +139,7 @@ void run(const std::string& mission_file, const std::string& pulses_file, std::s
 
   std::vector<double> taken_us;
   for (const Seen& fix : seen) {
-    const TaiTime t = fix.t - delay(fix.spacecraft, spacecraft);
+    const TaiTime t = fix.t - delay(fix.spacecraft);
     if (const auto edge = closing.find(t); edge != closing.end()) {
       taken_us.push_back(
           std::chrono::duration<double, std::micro>(fix.at - written[fix.spacecraft][edge->second])
