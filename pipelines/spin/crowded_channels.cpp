@@ -19,8 +19,9 @@ std::vector<InterferingChannels> CrowdedChannels::expect(const ExpectedPhases& p
       const auto other = static_cast<PulseChannel>(j);
       if (phases.interfere(one, other, turn, clock_sigma_turns)) {
         crowded_.at(i) = crowded_.at(j) = true;
-        if (note(one, other, t)) {
-          began.push_back({.one = one, .other = other, .first = t, .last = t});
+        if (const InterferingChannels& channels = note(one, other, t);
+            channels.revolutions == kFewestInterfering) {
+          began.push_back(channels);
         }
       }
     }
@@ -28,17 +29,16 @@ std::vector<InterferingChannels> CrowdedChannels::expect(const ExpectedPhases& p
   return began;
 }
 
-bool CrowdedChannels::note(PulseChannel one, PulseChannel other, TaiTime t) {
+const InterferingChannels& CrowdedChannels::note(PulseChannel one, PulseChannel other, TaiTime t) {
   auto known =
       std::find_if(interfering_.begin(), interfering_.end(),
                    [&](const InterferingChannels& c) { return c.one == one && c.other == other; });
-  const bool first = known == interfering_.end();
-  if (first) {
+  if (known == interfering_.end()) {
     known = interfering_.insert(known, {.one = one, .other = other, .first = t, .last = t});
   }
   known->last = t;
   ++known->revolutions;
-  return first;
+  return *known;
 }
 
 double CrowdedChannels::displacement_s() const { return window_s_ / std::sqrt(12.0); }

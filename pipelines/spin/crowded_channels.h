@@ -23,6 +23,9 @@ struct InterferingChannels {
   std::int64_t revolutions = 0;
 };
 
+/// In fewer revolutions it may have been a phase learnt from a wrong edge.
+inline constexpr std::int64_t kFewestInterfering = 3;
+
 class CrowdedChannels {
  public:
   /// @param window_s Edges nearer to each other than this spoil each other; 0: none do.
@@ -30,7 +33,7 @@ class CrowdedChannels {
 
   /// Those of the revolution that closes.
   /// @param t Start of that revolution.
-  /// @return Pairs that are among them for the first time in the pass.
+  /// @return Pairs that have now been among them in `kFewestInterfering` revolutions.
   std::vector<InterferingChannels> expect(const ExpectedPhases& phases, double turn,
                                           double clock_sigma_turns, TaiTime t);
 
@@ -45,8 +48,7 @@ class CrowdedChannels {
   double displacement_s() const;
 
  private:
-  /// @return Whether for the first time.
-  bool note(PulseChannel one, PulseChannel other, TaiTime t);
+  const InterferingChannels& note(PulseChannel one, PulseChannel other, TaiTime t);
 
   double window_s_;
   std::array<bool, kPulseChannels> crowded_{};

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
 
+#include "pipelines/frames/celestial.h"
 #include "pipelines/spin/edge_use.h"
 #include "pipelines/spin/model_allowance.h"
 #include "pipelines/time/utc.h"
@@ -14,6 +16,9 @@ namespace {
 // Where beams cross the Earth well apart, an axis moves by three or four times the errors of the
 // model; where both look across the same middle of it, by ten.
 constexpr double kPoorLeverage = 6.0;
+constexpr double kPriorSigmas = 5.0;
+// What is said of it, is said once.
+constexpr std::string_view kPrior = "prior";
 
 /// Why the fixes of that case leave several candidates.
 std::string_view what_is_missing(int geometry_case) {
@@ -103,10 +108,27 @@ void PassNotices::fix_contradicts_itself() {
 
 /// What the prior chose is not of the axis that the edges show.
 void PassNotices::prior_contradicted(TaiTime t) {
-  say(
-      fmt::format("{}: the edges contradict the prior of the mission: the axis is another one, the "
-                  "mean begins anew",
-                  format_utc(t)));
+  say_first(kPrior, fmt::format("{}: the edges contradict the prior of the mission: the axis is "
+                                "another one, the mean begins anew",
+                                format_utc(t)));
+}
+
+/// A prior that has nothing to choose may be wrong as well.
+void PassNotices::estimated(const SpinEstimate& estimate) {
+  last_status_ = estimate.status;
+  if (!config_.prior || !estimate.status.starts_with("OK")) {
+    return;
+  }
+  const double apart_rad = angle_between_rad(config_.prior->axis_icrf, estimate.axis_icrf);
+  const double sigma_rad =
+      std::hypot(config_.prior->sigma_rad, std::sqrt(estimate.covariance_rad2.trace()));
+  if (apart_rad > std::hypot(kPriorSigmas * sigma_rad, kModelLimit_rad)) {
+    say_first(kPrior, fmt::format("{}: the axis is {:.1f} deg from the prior of the mission "
+                                  "(spin.prior), {:.0f} times the sigma of both: the edges decide "
+                                  "without it",
+                                  format_utc(estimate.t), apart_rad * 180.0 / std::numbers::pi,
+                                  apart_rad / sigma_rad));
+  }
 }
 
 void PassNotices::axis_moved(TaiTime t, double apart_rad) {
@@ -137,6 +159,9 @@ void PassNotices::pass_ended(std::span<const InterferingChannels> interfering,
     say(fmt::format("no edge at all came from {}", silent));
   }
   for (const InterferingChannels& channels : interfering) {
+    if (channels.revolutions < kFewestInterfering) {
+      continue;
+    }
     say(fmt::format(
         "{} and {} were too near to each other in {} revolutions from {} to {}: their edges there "
         "are left out",

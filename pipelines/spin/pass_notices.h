@@ -42,8 +42,8 @@ class PassNotices {
   void fix_contradicts_itself();
   void prior_contradicted(TaiTime t);
   void axis_moved(TaiTime t, double apart_rad);
-  /// By the estimator `sequential`.
-  void estimated(const std::string& status) { last_status_ = status; }
+  /// By `sequential`.
+  void estimated(const SpinEstimate& estimate);
 
   /// @param interfering In the whole pass.
   void pass_ended(std::span<const InterferingChannels> interfering,

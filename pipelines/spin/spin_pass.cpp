@@ -345,7 +345,7 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
     out.products.emplace_back(mean_.estimate(revolution));
   }
   if (sequential) {
-    notices_.estimated(sequential->status);
+    notices_.estimated(*sequential);
     out.products.emplace_back(std::move(*sequential));
   }
 }

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <cmath>
+
 #include "tests/support/spinning_body.h"
 
 namespace spindrift {
@@ -26,6 +29,16 @@ std::vector<std::string> at_the_end(PassNotices& notices) {
   notices.take();
   notices.pass_ended({}, SequentialEstimator{kConfig});
   return notices.take();
+}
+
+SpinEstimate estimate_of(const char* status) {
+  return {.t = tai_from_ns(1'795'143'637'000'000'000),
+          .estimator = SpinEstimator::Sequential,
+          .axis_icrf = Eigen::Vector3d::UnitX(),
+          .covariance_rad2 = Eigen::Matrix2d::Identity() * 1e-8,
+          .spin_rate_rad_s = 6.28,
+          .spin_rate_sigma_rad_s = 1e-6,
+          .status = status};
 }
 
 TEST(PassNotices, EachThingIsSaidOnce) {
@@ -65,7 +78,7 @@ TEST(PassNotices, WithoutAnyRevolutionThePeriodIsWhatIsMissing) {
 TEST(PassNotices, TheEndSaysWhyTheAxisIsAmbiguous) {
   PassNotices notices{kConfig};
   notices.has_fix(4);
-  notices.estimated("AMBIGUOUS: two candidates");
+  notices.estimated(estimate_of("AMBIGUOUS: two candidates"));
   EXPECT_THAT(at_the_end(notices), ElementsAre(HasSubstr("for want of good sun2 edges")));
 }
 
@@ -75,6 +88,21 @@ TEST(PassNotices, FixesWithoutAnEstimateAreSaidToBeTooUncertain) {
   notices.has_fix(1);
   EXPECT_THAT(notices.take(), ElementsAre("revolution 0 is the first that gives no fix: no chord"));
   EXPECT_THAT(at_the_end(notices), ElementsAre(HasSubstr("'sequential' never began")));
+}
+
+TEST(PassNotices, APriorThatIsFarFromTheAxisIsNamedOnceThoughNothingHadToBeChosen) {
+  SpinConfig config = kConfig;
+  config.prior = {.axis_icrf = Eigen::Vector3d::UnitX(), .sigma_rad = 0.017};
+  SpinEstimate estimate = estimate_of("OK, 9 revolutions, 0 edges gated");
+  PassNotices notices{config};
+  notices.estimated(estimate);
+  EXPECT_THAT(notices.take(), IsEmpty());
+  estimate.axis_icrf = {std::cos(0.2), std::sin(0.2), 0.0};
+  notices.estimated(estimate);
+  notices.estimated(estimate);
+  EXPECT_THAT(
+      notices.take(),
+      ElementsAre(HasSubstr("11.5 deg from the prior of the mission (spin.prior), 12 times")));
 }
 
 }  // namespace
