@@ -394,7 +394,7 @@ void SpinPass::start_again_where_moved(const SpinEstimate& sequential) {
 
 /// By the mean, or by the edges where these know it better.
 std::optional<KnownAxis> SpinPass::established_axis() const {
-  const std::optional<KnownAxis> by_edges = sequential_.settled_by_edges();
+  std::optional<KnownAxis> by_edges = sequential_.settled_by_edges();
   if (mean_.count() < kEstablishedFixes) {
     return by_edges;
   }

@@ -9,8 +9,15 @@ namespace {
 
 constexpr int kPages = 64;
 
-thread_local bool paced = false;
-thread_local int written_pages = 0;
+struct Pace {
+  bool kept = false;
+  int written_pages = 0;
+};
+
+Pace& of_this_thread() {
+  thread_local Pace pace;
+  return pace;
+}
 
 // What fails here is left to the sync that follows all of them.
 void bring_to_disk(int file) {
@@ -21,7 +28,8 @@ void bring_to_disk(int file) {
 
 ssize_t write_page(int file, const void* bytes, size_t count, off64_t offset) {
   const ssize_t written = pwrite64(file, bytes, count, offset);
-  if (paced && written >= 0 && ++written_pages % kPages == 0) {
+  Pace& pace = of_this_thread();
+  if (pace.kept && written >= 0 && ++pace.written_pages % kPages == 0) {
     bring_to_disk(file);
   }
   return written;
@@ -38,9 +46,9 @@ bool take_place() {
 
 PacedWrites::PacedWrites() {
   static const bool taken = take_place();
-  paced = taken;
+  of_this_thread().kept = taken;
 }
 
-PacedWrites::~PacedWrites() { paced = false; }
+PacedWrites::~PacedWrites() { of_this_thread().kept = false; }
 
 }  // namespace spindrift
