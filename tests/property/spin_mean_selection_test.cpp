@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -23,24 +22,11 @@
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
-
 /// Sun angle and Earth as scenarios/gto-nominal.toml has them: where sun2 is missing (case 4) the
 /// two roots of the sun angle come together within the noise, and one fix of a hundred escapes.
 struct Scene {
-  Orbit orbit = Orbit{KeplerOrbit::make({.epoch = testing::kTransferStart,
-                                         .semi_major_axis_km = 24400.0,
-                                         .eccentricity = 0.73,
-                                         .inclination_rad = 28.5 * kDegree_rad,
-                                         .raan_rad = 300.0 * kDegree_rad,
-                                         .argument_of_perigee_rad = 178.0 * kDegree_rad,
-                                         .mean_anomaly_rad = 30.0 * kDegree_rad})
-                          .value()};
-  testing::SpinningBody body{
-      .axis_icrf = direction_icrf({.ra_rad = 100.0 * kDegree_rad, .dec_rad = -55.0 * kDegree_rad}),
-      .rate_rad_s = 2.0 * std::numbers::pi,
-      .first_turn_rad = 0.0,
-      .config = testing::usual_config()};
+  Orbit orbit = testing::orbit_across_the_earth();
+  testing::SpinningBody body = testing::body_across_the_earth();
   std::vector<testing::Edge> edges;
 
   explicit Scene(double duration_s)
