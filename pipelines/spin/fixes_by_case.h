@@ -18,9 +18,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
-#include <utility>
+#include <vector>
 
 #include "pipelines/spin/angle_equations.h"
 #include "pipelines/spin/config.h"
@@ -42,27 +44,57 @@ struct MeanOfCases {
   double settled_share;  ///< Of the fixes that there might be, each case by its weight in the mean.
 };
 
+/// Fixes of one case, by stretches in each of which so many came to be settled or left out: as the
+/// geometry turns, those that noise leaves out become more or fewer.
 class FixesByCase {
  public:
-  /// @param reference_icrf Unit; as AngleEquations.
-  explicit FixesByCase(Eigen::Vector3d reference_icrf)
-      : reference_icrf_{std::move(reference_icrf)} {}
+  /// @param stretch_fixes Of so many fixes of a case; once so many more of it have come, those
+  ///        before are neither added nor taken back any more.
+  explicit FixesByCase(std::size_t stretch_fixes) : stretch_fixes_{stretch_fixes} {}
 
+  /// Where the next fix of the case belongs.
+  std::int64_t next_stretch(int geometry_case);
+  void leave_out(int geometry_case, std::int64_t stretch);
+  void take_back(int geometry_case, std::int64_t stretch);
   /// @param axis_icrf As AngleEquations.
-  void add(int geometry_case, const SpinConfig& config, const RevolutionMeasurements& measured,
-           const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf);
+  void add(int geometry_case, std::int64_t stretch, const SpinConfig& config,
+           const RevolutionMeasurements& measured, const Sightlines& sightlines,
+           const Eigen::Vector3d& axis_icrf);
+
+  /// Forgets the fixes, but not what was left out.
+  /// @param reference_icrf Unit; as AngleEquations.
+  void begin_at(const Eigen::Vector3d& reference_icrf);
 
   /// There must be a fix.
-  MeanOfCases mean(const std::map<int, double>& left_out) const;
+  MeanOfCases mean() const;
 
  private:
-  struct OfCase {
+  struct Group {
     AngleEquations equations;
     std::size_t count = 0;
-  };
+    std::size_t left_out = 0;
 
-  Eigen::Vector3d reference_icrf_;
-  std::map<int, OfCase> cases_;
+    Group& operator+=(const Group& other);
+    double share() const;
+  };
+  /// The last two stretches.
+  struct Open {
+    std::int64_t number = 0;  ///< Of the last.
+    Group last;
+    Group before;
+  };
+  /// Earlier ones, those together that are settled alike.
+  static constexpr std::array kShares{1.0, 0.99, 0.9, 0.5, 0.0};
+
+  Group empty() const { return {.equations = AngleEquations{reference_icrf_}}; }
+  Group& group_of(int geometry_case, std::int64_t stretch);
+  void close(const Group& stretch);
+  std::vector<Group> groups() const;
+
+  std::size_t stretch_fixes_;
+  Eigen::Vector3d reference_icrf_ = Eigen::Vector3d::UnitZ();
+  std::map<int, Open> open_;  ///< By geometry case.
+  std::vector<Group> closed_{kShares.size(), empty()};
 };
 
 }  // namespace spindrift

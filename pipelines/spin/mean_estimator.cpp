@@ -39,8 +39,8 @@ bool MeanEstimator::take(const SpinFix& fix) {
     return false;
   }
   const bool settled = fix.accepted && !fix.grazing;
-  if (settled && !kept->settled) {
-    add(*kept, fix);
+  if (settled && kept->fate != Fate::Settled) {
+    settle(*kept, fix);
   } else if (!settled) {
     leave_out(*kept, fix);
   }
@@ -53,27 +53,30 @@ bool MeanEstimator::take(const SpinFix& fix) {
 void MeanEstimator::leave_out(Kept& kept, const SpinFix& fix) {
   const bool by_noise = fix.grazing ? fix.accepted || fix.resolution == Resolution::Ambiguous
                                     : mean_ && fix.resolution == Resolution::Ambiguous;
-  if (by_noise && !kept.left_out && !kept.settled) {
-    kept.left_out = true;
-    left_out_[fix.geometry_case] += 1.0;
+  if (by_noise && kept.fate == Fate::Open) {
+    kept.fate = Fate::LeftOut;
+    kept.geometry_case = fix.geometry_case;
+    kept.stretch = fixes_.next_stretch(fix.geometry_case);
+    fixes_.leave_out(kept.geometry_case, kept.stretch);
     if (mean_) {
-      mean_ = fixes_->mean(left_out_);
+      mean_ = fixes_.mean();
     }
   }
 }
 
-void MeanEstimator::add(Kept& kept, const SpinFix& fix) {
-  if (!fixes_) {
-    fixes_.emplace(fix.axis_icrf);
+void MeanEstimator::settle(Kept& kept, const SpinFix& fix) {
+  if (!mean_) {
+    fixes_.begin_at(fix.axis_icrf);
   }
-  if (kept.left_out) {
-    left_out_[fix.geometry_case] -= 1.0;
+  if (kept.fate == Fate::LeftOut) {
+    fixes_.take_back(kept.geometry_case, kept.stretch);
+  } else {
+    kept.geometry_case = fix.geometry_case;
+    kept.stretch = fixes_.next_stretch(fix.geometry_case);
   }
-  kept.geometry_case = fix.geometry_case;
-  kept.settled = true;
-  fixes_->add(fix.geometry_case, config_, kept.measured, kept.sightlines,
-              mean_ ? axis_icrf() : fix.axis_icrf);
-  mean_ = fixes_->mean(left_out_);
+  kept.fate = Fate::Settled;
+  add(kept, mean_ ? axis_icrf() : fix.axis_icrf);
+  mean_ = fixes_.mean();
   ++settled_;
   if (std::has_single_bit(settled_)) {
     linearise_anew();
@@ -83,22 +86,26 @@ void MeanEstimator::add(Kept& kept, const SpinFix& fix) {
   }
 }
 
+void MeanEstimator::add(const Kept& kept, const Eigen::Vector3d& axis_icrf) {
+  fixes_.add(kept.geometry_case, kept.stretch, config_, kept.measured, kept.sightlines, axis_icrf);
+}
+
 /// The first are added about a mean that rests on few. While all are kept, they are linear about
 /// what they have in common; afterwards the mean hardly moves.
 void MeanEstimator::linearise_anew() {
-  const auto is_settled = [](const Kept& kept) { return kept.settled; };
+  const auto is_settled = [](const Kept& kept) { return kept.fate == Fate::Settled; };
   if (static_cast<std::size_t>(std::count_if(kept_.begin(), kept_.end(), is_settled)) != settled_) {
     return;
   }
   for (int pass = 0; pass < kMostPasses; ++pass) {
     const Eigen::Vector3d axis = axis_icrf();
-    fixes_.emplace(axis);
+    fixes_.begin_at(axis);
     for (const Kept& kept : kept_) {
-      if (kept.settled) {
-        fixes_->add(kept.geometry_case, config_, kept.measured, kept.sightlines, axis);
+      if (is_settled(kept)) {
+        add(kept, axis);
       }
     }
-    mean_ = fixes_->mean(left_out_);
+    mean_ = fixes_.mean();
     if (angle_between_rad(axis, axis_icrf()) < kConverged_rad) {
       return;
     }

@@ -20,7 +20,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -38,7 +37,8 @@ namespace spindrift {
 
 class MeanEstimator {
  public:
-  explicit MeanEstimator(SpinConfig config) : config_{std::move(config)} {}
+  explicit MeanEstimator(SpinConfig config)
+      : config_{std::move(config)}, fixes_{static_cast<std::size_t>(config_.screening.window)} {}
 
   /// The measurements of a revolution, before its fix is taken: a fix may be settled as late as the
   /// window of screening allows.
@@ -63,25 +63,26 @@ class MeanEstimator {
   SpinEstimate estimate(const Revolution& revolution) const;
 
  private:
+  enum class Fate { Open, LeftOut, Settled };
   struct Kept {
     std::int64_t revolution;
     RevolutionMeasurements measured;
     Sightlines sightlines;
-    int geometry_case = 0;  ///< Of its fix, if taken; likewise the following.
-    bool settled = false;
-    bool left_out = false;
+    Fate fate = Fate::Open;
+    int geometry_case = 0;  ///< Of its fix, unless open; likewise the following.
+    std::int64_t stretch = 0;
   };
 
   void leave_out(Kept& kept, const SpinFix& fix);
-  void add(Kept& kept, const SpinFix& fix);
+  void settle(Kept& kept, const SpinFix& fix);
+  void add(const Kept& kept, const Eigen::Vector3d& axis_icrf);
   void linearise_anew();
   std::string status() const;
 
   SpinConfig config_;
   std::deque<Kept> kept_;  ///< The last revolutions.
-  std::optional<FixesByCase> fixes_;
-  std::size_t settled_ = 0;         ///< So many are in these.
-  std::map<int, double> left_out_;  ///< Fixes, by geometry case.
+  FixesByCase fixes_;
+  std::size_t settled_ = 0;  ///< So many are in these.
   std::optional<MeanOfCases> mean_;
   ModelVerdict verdict_;
   std::optional<TaiTime> began_;  ///< Empty: with the pass.

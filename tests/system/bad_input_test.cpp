@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -185,10 +186,10 @@ TEST(MissingChannel, LeavesTheCaseThatTheOthersAllow) {
     for (const char* const estimator : {"mean", "sequential"}) {
       ASSERT_FALSE(outcome.run[estimator].is_null());
       const double sigma_deg = outcome.run[estimator]["sigma_deg"].get<double>();
-      EXPECT_LT(error_deg(outcome.run[estimator]), 3.0 * sigma_deg) << estimator;
-      // Two chords without a sun angle graze so often that their mean cannot be had better.
+      EXPECT_LT(error_deg(outcome.run[estimator]), std::min(0.2, 3.0 * sigma_deg)) << estimator;
+      // Without a sun angle, the cones cross rather than touch in the second half only.
       const bool is_poor = main_case == 4 && estimator == std::string_view{"mean"};
-      EXPECT_LT(sigma_deg, is_poor ? 1.0 : 0.1) << estimator;
+      EXPECT_LT(sigma_deg, is_poor ? 0.2 : 0.1) << estimator;
     }
   }
 }

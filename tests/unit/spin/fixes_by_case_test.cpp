@@ -25,6 +25,24 @@ RevolutionMeasurements without_sun2(const Scene& scene, std::mt19937_64& rng) {
   return measured;
 }
 
+void add(FixesByCase& fixes, int geometry_case, const Scene& scene,
+         const RevolutionMeasurements& measured) {
+  fixes.add(geometry_case, fixes.next_stretch(geometry_case), scene.config, measured,
+            scene.sightlines(), scene.axis_icrf);
+}
+
+void leave_out(FixesByCase& fixes, int geometry_case, int count) {
+  for (int i = 0; i < count; ++i) {
+    fixes.leave_out(geometry_case, fixes.next_stretch(geometry_case));
+  }
+}
+
+FixesByCase fixes_about(const Scene& scene, std::size_t stretch_fixes = 1000) {
+  FixesByCase fixes{stretch_fixes};
+  fixes.begin_at(scene.axis_icrf);
+  return fixes;
+}
+
 /// Of all events of one probability, a half-space shifts the mean the most: by the density at its
 /// edge over the probability.
 TEST(FixesByCase, ShiftIsThatOfAHalfSpaceAtLeastAndHalfAsMuchMoreAtMost) {
@@ -41,15 +59,15 @@ TEST(FixesByCase, ShiftIsThatOfAHalfSpaceAtLeastAndHalfAsMuchMoreAtMost) {
 TEST(FixesByCase, WithNothingLeftOutTheMeanIsThatOfAllFixes) {
   const Scene scene;
   std::mt19937_64 rng{31};
-  FixesByCase fixes{scene.axis_icrf};
+  FixesByCase fixes = fixes_about(scene);
   AngleEquations all{scene.axis_icrf};
   for (int i = 0; i < 20; ++i) {
     const RevolutionMeasurements measured =
         i % 2 == 0 ? seen(scene, rng) : without_sun2(scene, rng);
-    fixes.add(i % 2 == 0 ? 1 : 4, scene.config, measured, scene.sightlines(), scene.axis_icrf);
+    add(fixes, i % 2 == 0 ? 1 : 4, scene, measured);
     all.add(scene.config, measured, scene.sightlines(), scene.axis_icrf);
   }
-  const MeanOfCases mean = fixes.mean({});
+  const MeanOfCases mean = fixes.mean();
   EXPECT_EQ(mean.count, 20U);
   EXPECT_NEAR(mean.settled_share, 1.0, 1e-6);
   EXPECT_LT(angle_between_rad(mean.equations.axis_icrf(), all.axis_icrf()), 1e-12);
@@ -59,15 +77,16 @@ TEST(FixesByCase, WithNothingLeftOutTheMeanIsThatOfAllFixes) {
 TEST(FixesByCase, ACaseMostlyLeftOutIsNotInTheMeanOfOthers) {
   const Scene scene;
   std::mt19937_64 rng{32};
-  FixesByCase fixes{scene.axis_icrf};
+  FixesByCase fixes = fixes_about(scene);
   AngleEquations others{scene.axis_icrf};
   for (int i = 0; i < 10; ++i) {
-    fixes.add(4, scene.config, without_sun2(scene, rng), scene.sightlines(), scene.axis_icrf);
+    add(fixes, 4, scene, without_sun2(scene, rng));
     const RevolutionMeasurements measured = seen(scene, rng);
-    fixes.add(1, scene.config, measured, scene.sightlines(), scene.axis_icrf);
+    add(fixes, 1, scene, measured);
     others.add(scene.config, measured, scene.sightlines(), scene.axis_icrf);
   }
-  const MeanOfCases mean = fixes.mean({{4, 90.0}});
+  leave_out(fixes, 4, 90);
+  const MeanOfCases mean = fixes.mean();
   EXPECT_EQ(mean.count, 10U);
   EXPECT_NEAR(mean.settled_share, 1.0, 1e-6);
   EXPECT_TRUE(mean.covariance_rad2.isApprox(others.covariance_rad2(), 1e-9));
@@ -78,11 +97,12 @@ TEST(FixesByCase, ACaseMostlyLeftOutIsNotInTheMeanOfOthers) {
 TEST(FixesByCase, ASelectionByItselfIsAsUncertainAsItsShift) {
   const Scene scene;
   std::mt19937_64 rng{33};
-  FixesByCase fixes{scene.axis_icrf};
+  FixesByCase fixes = fixes_about(scene);
   for (int i = 0; i < 10; ++i) {
-    fixes.add(4, scene.config, without_sun2(scene, rng), scene.sightlines(), scene.axis_icrf);
+    add(fixes, 4, scene, without_sun2(scene, rng));
   }
-  const MeanOfCases mean = fixes.mean({{4, 90.0}});
+  leave_out(fixes, 4, 90);
+  const MeanOfCases mean = fixes.mean();
   EXPECT_EQ(mean.count, 10U);
   EXPECT_NEAR(mean.settled_share, 0.1, 1e-4);
   // sqrt(2 ln 10) sigma of ten fixes.
@@ -98,15 +118,64 @@ TEST(FixesByCase, ASelectionCountsByItsWeight) {
   blunt.config.noise = {.sun_s = 30.0 * sharp.config.noise.sun_s,
                         .infrared_s = 30.0 * sharp.config.noise.infrared_s};
   std::mt19937_64 rng{34};
-  FixesByCase fixes{sharp.axis_icrf};
-  for (int i = 0; i < 10; ++i) {
-    fixes.add(1, sharp.config, seen(sharp, rng), sharp.sightlines(), sharp.axis_icrf);
-    fixes.add(2, blunt.config, seen(blunt, rng), blunt.sightlines(), blunt.axis_icrf);
+  FixesByCase fixes = fixes_about(sharp);
+  for (int i = 0; i < 100; ++i) {
+    add(fixes, 1, sharp, seen(sharp, rng));
+    add(fixes, 2, blunt, seen(blunt, rng));
   }
-  // One of a hundred is left out of case 1, nine of ten of case 2.
-  const MeanOfCases mean = fixes.mean({{1, 0.1}, {2, 90.0}});
+  leave_out(fixes, 1, 1);
+  leave_out(fixes, 2, 900);
+  const MeanOfCases mean = fixes.mean();
   EXPECT_GT(mean.settled_share, 0.98);
   EXPECT_LT(mean.covariance_rad2.trace(), 1.1 * mean.equations.covariance_rad2().trace());
+}
+
+/// The geometry has turned, and noise leaves none out any more: those settled before are the
+/// selection, not these.
+TEST(FixesByCase, AStretchIsNoSelectionBecauseAnEarlierOneIs) {
+  const Scene scene;
+  std::mt19937_64 rng{35};
+  constexpr std::size_t kStretch = 20;
+  FixesByCase fixes = fixes_about(scene, kStretch);
+  add(fixes, 4, scene, without_sun2(scene, rng));
+  leave_out(fixes, 4, kStretch - 1);
+  AngleEquations later{scene.axis_icrf};
+  for (std::size_t i = 0; i < 3 * kStretch; ++i) {
+    const RevolutionMeasurements measured = without_sun2(scene, rng);
+    add(fixes, 4, scene, measured);
+    later.add(scene.config, measured, scene.sightlines(), scene.axis_icrf);
+  }
+  const MeanOfCases mean = fixes.mean();
+  EXPECT_EQ(mean.count, 3 * kStretch);
+  EXPECT_NEAR(mean.settled_share, 1.0, 1e-6);
+  EXPECT_TRUE(mean.covariance_rad2.isApprox(later.covariance_rad2(), 1e-9));
+  EXPECT_LT(angle_between_rad(mean.equations.axis_icrf(), later.axis_icrf()), 1e-12);
+}
+
+/// As long as a stretch has few, chance may have settled all of them.
+TEST(FixesByCase, AStretchThatBeginsCountsWithTheOneBefore) {
+  const Scene scene;
+  std::mt19937_64 rng{36};
+  constexpr std::size_t kStretch = 20;
+  FixesByCase fixes = fixes_about(scene, kStretch);
+  for (std::size_t i = 0; i < kStretch / 2; ++i) {
+    add(fixes, 4, scene, without_sun2(scene, rng));
+  }
+  leave_out(fixes, 4, kStretch / 2);
+  add(fixes, 4, scene, without_sun2(scene, rng));
+  const MeanOfCases mean = fixes.mean();
+  EXPECT_EQ(mean.count, kStretch / 2 + 1);
+  EXPECT_NEAR(mean.settled_share, 11.0 / 21.0, 1e-4);
+}
+
+TEST(FixesByCase, WhatIsTakenBackIsNotLeftOut) {
+  const Scene scene;
+  std::mt19937_64 rng{37};
+  FixesByCase fixes = fixes_about(scene);
+  add(fixes, 4, scene, without_sun2(scene, rng));
+  leave_out(fixes, 4, 2);
+  fixes.take_back(4, 0);
+  EXPECT_NEAR(fixes.mean().settled_share, 0.5, 1e-4);
 }
 
 }  // namespace
