@@ -1,6 +1,5 @@
 #include "pipelines/frames/celestial.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -37,6 +36,13 @@ Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& axis_icrf) {
   basis.col(0) = east;
   basis.col(1) = axis_icrf.normalized().cross(east);
   return basis;
+}
+
+Eigen::Matrix2d tangent_from_tilts(const Eigen::Quaterniond& q_icrf_frame) {
+  const Eigen::Matrix3d R_icrf_frame = q_icrf_frame.toRotationMatrix();
+  Eigen::Matrix<double, 3, 2> moved_icrf;
+  moved_icrf << -R_icrf_frame.col(1), R_icrf_frame.col(0);
+  return tangent_basis(R_icrf_frame.col(2)).transpose() * moved_icrf;
 }
 
 double wrapped_rad(double angle_rad) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace spindrift {
 
@@ -24,6 +25,10 @@ double angle_between_rad(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 /// Columns east and north: an orthonormal basis of the plane tangent to the sphere at `axis_icrf`.
 /// At a celestial pole, where east has no meaning, it is the basis of right ascension 0.
 Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& axis_icrf);
+
+/// Turns a frame's third axis when the frame turns about its own first and second axes: from these
+/// small angles to displacements in the tangent plane, east and north; a rotation or reflection.
+Eigen::Matrix2d tangent_from_tilts(const Eigen::Quaterniond& q_icrf_frame);
 
 /// `angle_rad` wrapped into (-pi, pi].
 double wrapped_rad(double angle_rad);

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "pipelines/spin/sensor_biases.h"
+
 namespace spindrift {
 
 /// A pair of slits, the second canted against the first, which lies in a meridian.
@@ -53,6 +55,11 @@ struct SpinPrior {
   double sigma_rad;
 };
 
+/// What the estimator `batch` determines beside axis and rate.
+struct SpinBatch {
+  std::optional<BiasSet> biases = {};  ///< Empty: those that the edges ask for.
+};
+
 // No sensor has a default: written as a whole, never default-constructed.
 struct SpinConfig {
   SunSensor sun_sensor;
@@ -63,6 +70,7 @@ struct SpinConfig {
   SpinScreening screening;
   SpinGeometry geometry;
   std::optional<SpinPrior> prior;
+  SpinBatch batch = {};
 };
 
 }  // namespace spindrift

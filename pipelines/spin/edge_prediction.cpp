@@ -14,73 +14,128 @@ namespace {
 constexpr double kLeastSlope = 0.1;
 
 using PerError = Eigen::Matrix<double, 1, kModelErrors>;
+using PerBias = Eigen::Matrix<double, 1, kSensorBiases>;
 
-std::optional<PredictedEdge> slit_edge(const Eigen::Vector3d& sun_spin, double separation_rad,
-                                       double cant_rad) {
+/// Where the Sun stands: the azimuth of a slit in a meridian when it sees it.
+struct SunView {
+  double azimuth_rad;
+  double angle_rad;  ///< theta_s, from the axis.
+  Eigen::Vector3d azimuth_per_rotation;
+  Eigen::Vector3d angle_per_rotation;
+};
+
+std::optional<SunView> view_of_sun(const Eigen::Vector3d& sun_spin) {
   const double across = std::hypot(sun_spin.x(), sun_spin.y());
-  const double sin_lag = std::tan(cant_rad) * sun_spin.z() / across;
-  if (!(across > kLeastSlope && std::abs(sin_lag) < 1.0)) {
+  if (!(across > kLeastSlope)) {
     return std::nullopt;
   }
-  const double middle_rad = std::atan2(sun_spin.y(), sun_spin.x()) + std::asin(sin_lag);
-  // The Sun lies in the slit's plane: sun.normal = 0. Its derivatives as in horizon.h.
-  const double cos_cant = std::cos(cant_rad);
-  const Eigen::Vector3d normal{-cos_cant * std::sin(middle_rad), cos_cant * std::cos(middle_rad),
-                               std::sin(cant_rad)};
-  const Eigen::Vector3d slope = sun_spin.cross(normal);
-  if (!(slope.z() > kLeastSlope * cos_cant * across)) {
+  const Eigen::Vector3d towards{sun_spin.x() / across, sun_spin.y() / across, 0.0};
+  const double cotangent = sun_spin.z() / across;
+  return SunView{.azimuth_rad = std::atan2(sun_spin.y(), sun_spin.x()),
+                 .angle_rad = std::atan2(across, sun_spin.z()),
+                 .azimuth_per_rotation = {cotangent * towards.x(), cotangent * towards.y(), -1.0},
+                 .angle_per_rotation = {towards.y(), -towards.x(), 0.0}};
+}
+
+std::optional<PredictedEdge> sun1_edge(const Eigen::Vector3d& sun_spin) {
+  const auto sun = view_of_sun(sun_spin);
+  if (!sun) {
     return std::nullopt;
   }
+  return PredictedEdge{.phase_rad = sun->azimuth_rad,
+                       .phase_per_rotation = sun->azimuth_per_rotation,
+                       .phase_per_error = PerError::Zero(),
+                       .phase_per_bias = PerBias::Zero()};
+}
+
+std::optional<PredictedEdge> sun2_edge(const SunSensor& sensor, const Eigen::Vector3d& sun_spin,
+                                       const SensorBiases& biases) {
+  const auto sun = view_of_sun(sun_spin);
+  if (!sun) {
+    return std::nullopt;
+  }
+  const double measured_rad = sun->angle_rad + biases[SunAngleBias];
+  const double tan_cant = std::tan(sensor.slit_cant_rad);
+  const double sin_lag = tan_cant / std::tan(measured_rad);
   const double cos_lag = std::sqrt(1.0 - sin_lag * sin_lag);
-  return PredictedEdge{.phase_rad = wrapped_rad(middle_rad + separation_rad),
-                       .phase_per_rotation = -slope / slope.z(),
-                       .phase_per_error = PerError::Unit(SunAngleError) *
-                                          (-std::tan(cant_rad) / (across * across * cos_lag))};
+  // Also where the slit ends: sin_lag of more than 1 leaves no number.
+  if (!(cos_lag > kLeastSlope)) {
+    return std::nullopt;
+  }
+  const double sine = std::sin(measured_rad);
+  const double by_sun_angle = -tan_cant / (sine * sine * cos_lag);
+  return PredictedEdge{
+      .phase_rad = wrapped_rad(sun->azimuth_rad + std::asin(sin_lag) + sensor.slit_separation_rad +
+                               biases[SlitSeparationBias]),
+      .phase_per_rotation = sun->azimuth_per_rotation + by_sun_angle * sun->angle_per_rotation,
+      .phase_per_error = by_sun_angle * PerError::Unit(SunAngleError),
+      .phase_per_bias =
+          by_sun_angle * PerBias::Unit(SunAngleBias) + PerBias::Unit(SlitSeparationBias)};
+}
+
+struct BeamBiases {
+  SensorBias mount_angle;
+  SensorBias chord;
+};
+
+BeamBiases biases_of(Side side) {
+  return side == Side::North ? BeamBiases{NorthMountAngleBias, NorthChordBias}
+                             : BeamBiases{SouthMountAngleBias, SouthChordBias};
 }
 
 std::optional<PredictedEdge> beam_edge(const SpinConfig& config, Side side, const EarthView& earth,
-                                       Crossing crossing) {
+                                       Crossing crossing, const SensorBiases& biases) {
   const auto& sensor = sensor_of(config, side);
   if (!sensor) {
     return std::nullopt;
   }
-  const auto limb =
-      limb_crossing(horizon_axes(config.horizon), earth, sensor->mount_angle_rad, crossing);
+  const auto [mount_angle, chord] = biases_of(side);
+  Horizon horizon = config.horizon;
+  horizon.co2_altitude_km += biases[Co2HeightBias];
+  const auto limb = limb_crossing(horizon_axes(horizon), earth,
+                                  sensor->mount_angle_rad + biases[mount_angle], crossing);
   if (!limb) {
     return std::nullopt;
   }
   const bool north = side == Side::North;
   const ModelError limb_error = north ? NorthLimb : SouthLimb;
   const ModelError azimuth_error = north ? NorthAzimuth : SouthAzimuth;
-  return PredictedEdge{.phase_rad = wrapped_rad(limb->azimuth_rad + sensor->azimuth_rad),
-                       .phase_per_rotation = limb->azimuth_per_rotation,
-                       .phase_per_error = limb->azimuth_per_limb * PerError::Unit(limb_error) +
-                                          PerError::Unit(azimuth_error)};
+  const double half_chord = crossing == Crossing::In ? -0.5 : 0.5;
+  return PredictedEdge{
+      .phase_rad = wrapped_rad(limb->azimuth_rad + sensor->azimuth_rad + biases[DihedralBias] +
+                               half_chord * biases[chord]),
+      .phase_per_rotation = limb->azimuth_per_rotation,
+      .phase_per_error =
+          limb->azimuth_per_limb * PerError::Unit(limb_error) + PerError::Unit(azimuth_error),
+      .phase_per_bias = limb->azimuth_per_mount * PerBias::Unit(mount_angle) +
+                        half_chord * PerBias::Unit(chord) + PerBias::Unit(DihedralBias) +
+                        limb->azimuth_per_height_km * PerBias::Unit(Co2HeightBias)};
 }
 
 }  // namespace
 
 std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& sky,
-                                          const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge) {
+                                          const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge,
+                                          const SensorBiases& biases) {
   const auto sun_spin = [&]() -> Eigen::Vector3d { return R_spin_icrf * sky.sun_icrf; };
-  const auto earth = [&] {
-    return EarthView{.spacecraft_spin_km = R_spin_icrf * spacecraft_icrf_km(sky, edge.t),
-                     .pole_spin = R_spin_icrf * sky.earth_pole_icrf};
+  const auto beam = [&](Side side, Crossing crossing) {
+    const EarthView earth{.spacecraft_spin_km = R_spin_icrf * spacecraft_icrf_km(sky, edge.t),
+                          .pole_spin = R_spin_icrf * sky.earth_pole_icrf};
+    return beam_edge(config, side, earth, crossing, biases);
   };
-  const SunSensor& sun = config.sun_sensor;
   switch (edge.channel) {
     case PulseChannel::Sun1:
-      return slit_edge(sun_spin(), 0.0, 0.0);
+      return sun1_edge(sun_spin());
     case PulseChannel::Sun2:
-      return slit_edge(sun_spin(), sun.slit_separation_rad, sun.slit_cant_rad);
+      return sun2_edge(config.sun_sensor, sun_spin(), biases);
     case PulseChannel::NorthIn:
-      return beam_edge(config, Side::North, earth(), Crossing::In);
+      return beam(Side::North, Crossing::In);
     case PulseChannel::NorthOut:
-      return beam_edge(config, Side::North, earth(), Crossing::Out);
+      return beam(Side::North, Crossing::Out);
     case PulseChannel::SouthIn:
-      return beam_edge(config, Side::South, earth(), Crossing::In);
+      return beam(Side::South, Crossing::In);
     case PulseChannel::SouthOut:
-      return beam_edge(config, Side::South, earth(), Crossing::Out);
+      return beam(Side::South, Crossing::Out);
   }
   return std::nullopt;
 }

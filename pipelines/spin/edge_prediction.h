@@ -8,6 +8,9 @@
 ///     sun1         phase = azimuth of s
 ///     sun2         phase = azimuth of s + psi0 + asin(tan I cot theta_s)
 ///     north, south phase = azimuth where the beam crosses the limb (horizon.h) + a
+///
+/// with theta_s, psi0, the mounting angle, the limb's height, a and the ends of the chord as the
+/// biases of the sensors have them (sensor_biases.h).
 
 #pragma once
 
@@ -17,6 +20,7 @@
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/model_allowance.h"
 #include "pipelines/spin/pulse.h"
+#include "pipelines/spin/sensor_biases.h"
 #include "pipelines/spin/sky.h"
 
 namespace spindrift {
@@ -29,13 +33,16 @@ struct PredictedEdge {
   /// Likewise, for a radian of each error of the model: the limb farther out, the sun angle
   /// measured too large, the beam farther behind slit 1.
   Eigen::Matrix<double, 1, kModelErrors> phase_per_error;
+  /// Likewise, for each bias; rad/rad, or rad/km.
+  Eigen::Matrix<double, 1, kSensorBiases> phase_per_bias;
 };
 
 /// @param edge Its time says where the Earth then stands.
 /// @return Empty when there is no such edge: the sensor does not exist, the slit cannot see so far
 ///         from its equator, or the beam misses the Earth, or one of these is all but so.
 std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& sky,
-                                          const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge);
+                                          const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge,
+                                          const SensorBiases& biases = SensorBiases::Zero());
 
 /// One standard deviation of the time of an edge, s.
 double edge_sigma_s(const PulseNoise& noise, PulseChannel channel);

@@ -20,6 +20,7 @@ class TangentForm {
  public:
   TangentForm(const HorizonAxes& axes, const EarthView& earth)
       : pole_{earth.pole_spin},
+        axes_{axes},
         flattening_{std::pow(axes.equatorial_km / axes.polar_km, 2) - 1.0},
         stretched_{stretched(earth.spacecraft_spin_km / axes.equatorial_km)},
         outside_{earth.spacecraft_spin_km.dot(stretched_) / axes.equatorial_km - 1.0} {}
@@ -27,6 +28,21 @@ class TangentForm {
   /// Q d.
   Eigen::Vector3d times(const Eigen::Vector3d& direction) const {
     return stretched_ * stretched_.dot(direction) - outside_ * stretched(direction);
+  }
+  /// Change of d.Q d with the height of the horizon, 1/km; per half of it as everything here.
+  double half_per_height(const Eigen::Vector3d& direction) const {
+    const double along = stretched_.dot(direction);
+    const double squeeze = direction.dot(stretched(direction));
+    const double flattening_per_km = 2.0 * axes_.equatorial_km *
+                                     (axes_.polar_km - axes_.equatorial_km) /
+                                     std::pow(axes_.polar_km, 3);
+    const double up = pole_.dot(stretched_) / (1.0 + flattening_);
+    const double north = pole_.dot(direction);
+    const double along_per_km = -along / axes_.equatorial_km + flattening_per_km * up * north;
+    const double outside_per_km =
+        -2.0 * (outside_ + 1.0) / axes_.equatorial_km + flattening_per_km * up * up;
+    return along * along_per_km -
+           0.5 * (flattening_per_km * north * north * outside_ + squeeze * outside_per_km);
   }
   bool points_down(const Eigen::Vector3d& direction) const {
     return stretched_.dot(direction) < 0.0;
@@ -38,6 +54,7 @@ class TangentForm {
   }
 
   Eigen::Vector3d pole_;
+  HorizonAxes axes_;
   double flattening_;          ///< (a/b)^2 - 1.
   Eigen::Vector3d stretched_;  ///< M r.
   double outside_;             ///< r.M r - 1.
@@ -96,11 +113,17 @@ std::optional<LimbCrossing> limb_crossing(const HorizonAxes& axes, const EarthVi
     if (std::abs(correction_rad) < kConverged_rad) {
       const bool enters = slope.z() > 0.0;
       const Eigen::Vector3d per_rotation = -slope / slope.z();
+      const Eigen::Vector3d outwards{cos_mount * std::cos(azimuth_rad),
+                                     cos_mount * std::sin(azimuth_rad), -sin_mount};
+      const double per_mount = -outwards.dot(gradient) / slope.z();
+      const double per_height_km = -form.half_per_height(beam) / slope.z();
       const bool crosses = form.points_down(beam) && enters == (crossing == Crossing::In) &&
                            per_rotation.norm() < kSteepest;
       return crosses ? std::optional{LimbCrossing{.azimuth_rad = wrapped_rad(azimuth_rad),
                                                   .azimuth_per_rotation = per_rotation,
-                                                  .azimuth_per_limb = per_limb(earth, beam)}}
+                                                  .azimuth_per_limb = per_limb(earth, beam),
+                                                  .azimuth_per_mount = per_mount,
+                                                  .azimuth_per_height_km = per_height_km}}
                      : std::nullopt;
     }
   }

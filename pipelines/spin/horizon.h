@@ -37,6 +37,8 @@ struct LimbCrossing {
   Eigen::Vector3d azimuth_per_rotation;
   double
       azimuth_per_limb;  ///< Likewise, when the limb is a radian farther from the Earth's centre.
+  double azimuth_per_mount;      ///< Likewise, by the mounting angle.
+  double azimuth_per_height_km;  ///< Likewise, by the height of the horizon above the Earth.
 };
 
 /// The Earth as the frame `spin` sees it.

@@ -41,14 +41,6 @@ double log_normal_density(double squared_innovation, double variance) {
   return -0.5 * (squared_innovation + std::log(2.0 * std::numbers::pi * variance));
 }
 
-/// Tilts of the frame into displacements of the axis in the tangent plane.
-Eigen::Matrix2d tangent_from_tilts(const Eigen::Quaterniond& q_icrf_spin) {
-  const Eigen::Matrix3d R_icrf_spin = q_icrf_spin.toRotationMatrix();
-  Eigen::Matrix<double, 3, 2> moved_icrf;
-  moved_icrf << -R_icrf_spin.col(1), R_icrf_spin.col(0);
-  return tangent_basis(R_icrf_spin.col(2)).transpose() * moved_icrf;
-}
-
 }  // namespace
 
 GoodEdges::GoodEdges(const Revolution& revolution) {

@@ -1,0 +1,71 @@
+#include "pipelines/spin/batch/attitude_change.h"
+
+#include <Eigen/Dense>
+#include <vector>
+
+namespace spindrift {
+namespace {
+
+constexpr std::size_t kSpans = 64;
+// Chi-square of five degrees: one in 10^9 for one place of the change, of which there are 63.
+constexpr double kSignificant = 55.0;
+
+using Motion = Eigen::Matrix<double, kMotionUnknowns, kMotionUnknowns>;
+
+/// What fitting these edges by themselves would gain.
+double gain_of(const PassInformation& part) {
+  const Motion information =
+      part.information.topLeftCorner<kMotionUnknowns, kMotionUnknowns>() + Motion::Identity();
+  const Eigen::Matrix<double, kMotionUnknowns, 1> score = part.score.head<kMotionUnknowns>();
+  return score.dot(information.ldlt().solve(score));
+}
+
+bool mostly_outliers(const PassInformation& part) { return part.outlier_share() > 0.5; }
+
+/// A state that fits one attitude leaves the edges of the other as outliers.
+std::optional<AttitudeChange> change_to_outliers(const std::vector<SpanInformation>& spans) {
+  for (std::size_t i = spans.size() - 1; i > 0; --i) {
+    if (mostly_outliers(spans[i].of) != mostly_outliers(spans[i - 1].of)) {
+      return AttitudeChange{.t = spans[i].begin,
+                            .first_edge = spans[i].first_edge,
+                            .gain = static_cast<double>(spans[i].of.edges + spans[i].of.outliers) *
+                                    kOutlierSigmas * kOutlierSigmas};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<AttitudeChange> find_change(const PassModel& model, std::span<const PassEdge> edges,
+                                          const SpinState& state) {
+  const std::vector<SpanInformation> spans = information_by_span(model, edges, state, kSpans);
+  if (spans.size() < 2) {
+    return std::nullopt;
+  }
+  if (const auto change = change_to_outliers(spans)) {
+    return change;
+  }
+  PassInformation after;
+  for (const SpanInformation& span : spans) {
+    after += span.of;
+  }
+  const double together = gain_of(after);
+  const double excess_noise = after.excess_noise(kMotionUnknowns);
+  PassInformation before;
+  std::optional<AttitudeChange> best;
+  for (std::size_t i = 1; i < spans.size(); ++i) {
+    before += spans[i - 1].of;
+    after = {};
+    for (std::size_t j = i; j < spans.size(); ++j) {
+      after += spans[j].of;
+    }
+    const double gain = (gain_of(before) + gain_of(after) - together) / excess_noise;
+    if (gain > kSignificant && (!best || gain > best->gain)) {
+      best = AttitudeChange{.t = spans[i].begin, .first_edge = spans[i].first_edge, .gain = gain};
+    }
+  }
+  return best;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,27 @@
+/// @file
+/// Whether a pass is of one attitude and one even rate: a manoeuvre shows in the residuals.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "pipelines/spin/batch/pass_information.h"
+#include "pipelines/spin/batch/pass_model.h"
+
+namespace spindrift {
+
+/// Where two states, one before and one after, explain the edges beyond doubt better than one.
+struct AttitudeChange {
+  TaiTime t;               ///< The span in which it lies begins here.
+  std::size_t first_edge;  ///< Of those after it.
+  double gain;             ///< Of log likelihood, times two.
+};
+
+/// @param state The one that explains them best.
+/// @return The last change; empty where there is none.
+std::optional<AttitudeChange> find_change(const PassModel& model, std::span<const PassEdge> edges,
+                                          const SpinState& state);
+
+}  // namespace spindrift

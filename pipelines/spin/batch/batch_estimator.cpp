@@ -1,0 +1,296 @@
+#include "pipelines/spin/batch/batch_estimator.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/batch/attitude_change.h"
+#include "pipelines/spin/batch/batch_fit.h"
+#include "pipelines/spin/batch/bias_choice.h"
+#include "pipelines/spin/batch/first_clock.h"
+#include "pipelines/spin/batch/pass_information.h"
+#include "pipelines/time/utc.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+// Fewer turns do not tell rate and drift from noise.
+constexpr std::int64_t kFewestTurns = 3;
+// More outliers are no dirt of a pass but another motion, or none.
+constexpr double kManyOutliers = 0.2;
+constexpr double kMostOutliers = 0.5;
+// An axis known no better is not determined: cones about Sun or Earth, more or less.
+constexpr double kLost_rad = 10.0 * kDegree_rad;
+// Two ends of two starts are one solution within this.
+constexpr double kSameAxis_rad = 0.1 * kDegree_rad;
+// exp(10) times as likely settles it, as for the filters of `sequential`.
+constexpr double kSettled = 20.0;
+constexpr int kMostChanges = 4;
+constexpr int kMostBiases = 3;
+
+Unexpected unobservable(std::string message) {
+  return Unexpected{{ErrorCode::Unobservable, std::move(message)}};
+}
+
+/// A fit, and how well it explains its edges.
+struct Explained {
+  BatchFit fit;
+  BiasSet estimated;
+  PassInformation information;
+
+  double misfit() const {
+    return information.squares +
+           static_cast<double>(information.outliers) * kOutlierSigmas * kOutlierSigmas;
+  }
+};
+
+Expected<Explained> explain(const PassModel& model, std::span<const PassEdge> edges,
+                            const SpinState& start, BiasSet estimated) {
+  return fit(model, edges, start, estimated).map([&](const BatchFit& found) {
+    return Explained{.fit = found,
+                     .estimated = estimated,
+                     .information = information_of(model, edges, found.state)};
+  });
+}
+
+/// The likeliest, and another that is nearly so.
+struct Best {
+  Explained best;
+  std::optional<Eigen::Vector3d> or_axis_icrf;
+};
+
+Expected<Best> best_of(const PassModel& model, std::span<const PassEdge> edges,
+                       std::span<const Eigen::Vector3d> starts, BiasSet estimated) {
+  std::vector<Explained> all;
+  std::optional<Error> reason;
+  for (const Eigen::Vector3d& start : starts) {
+    const auto found = first_state(model, edges, start).and_then([&](const SpinState& state) {
+      return explain(model, edges, state, estimated);
+    });
+    if (found) {
+      all.push_back(*found);
+    } else if (!reason) {
+      reason = found.error();
+    }
+  }
+  if (all.empty()) {
+    return Unexpected{*reason};
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Explained& a, const Explained& b) { return a.misfit() < b.misfit(); });
+  const Eigen::Vector3d axis_icrf = all.front().fit.state.axis_icrf();
+  const auto other = std::find_if(all.begin(), all.end(), [&](const Explained& one) {
+    return angle_between_rad(one.fit.state.axis_icrf(), axis_icrf) > kSameAxis_rad &&
+           one.misfit() < all.front().misfit() + kSettled;
+  });
+  return Best{.best = all.front(),
+              .or_axis_icrf =
+                  other == all.end() ? std::nullopt : std::optional{other->fit.state.axis_icrf()}};
+}
+
+/// All that is found out of the edges from the last change on.
+struct Solved {
+  PassModel model;
+  std::span<const PassEdge> edges;
+  Best of;
+  std::optional<TaiTime> changed;
+};
+
+/// A wrong bias lets residuals drift as the geometry turns, which is no change of the attitude.
+bool is_change(const std::optional<AttitudeChange>& change, const Explained& found) {
+  if (!change) {
+    return false;
+  }
+  const auto bias = most_wanted_bias(found.information, found.estimated);
+  return !bias || change->gain > bias->gain + kSettled;
+}
+
+Expected<void> suffices(std::span<const PassEdge> edges) {
+  const auto turns = edges.empty() ? 0 : edges.back().revolution - edges.front().revolution + 1;
+  if (turns < kFewestTurns || edges.size() <= static_cast<std::size_t>(kBatchUnknowns)) {
+    return unobservable(
+        fmt::format("{} edges of {} turns: axis, phase, rate and drift need more than {} edges of "
+                    "at least {} turns",
+                    edges.size(), turns, kBatchUnknowns, kFewestTurns));
+  }
+  return {};
+}
+
+Expected<Solved> solve_since_change(const SpinConfig& config, const Orbit& orbit,
+                                    std::span<const PassEdge> edges,
+                                    std::span<const Eigen::Vector3d> starts, BiasSet estimated) {
+  std::optional<TaiTime> changed;
+  for (int change = 0; change < kMostChanges; ++change) {
+    if (const auto enough = suffices(edges); !enough) {
+      return Unexpected{enough.error()};
+    }
+    auto model = PassModel::make(config, orbit, edges);
+    if (!model) {
+      return Unexpected{model.error()};
+    }
+    auto best = best_of(*model, edges, starts, estimated);
+    if (!best) {
+      return Unexpected{best.error()};
+    }
+    const auto found = find_change(*model, edges, best->best.fit.state);
+    if (!is_change(found, best->best)) {
+      return Solved{
+          .model = *std::move(model), .edges = edges, .of = *std::move(best), .changed = changed};
+    }
+    changed = found->t;
+    edges = edges.subspan(found->first_edge);
+  }
+  return unobservable(fmt::format(
+      "attitude or rate change all the time, last at {}: no one state explains the edges",
+      format_utc(*changed, 0)));
+}
+
+/// @return What the choice among biases leaves open of the axis, tilts, rad^2.
+Expected<Eigen::Matrix2d> add_wanted_biases(Solved& solved) {
+  Eigen::Matrix2d open_rad2 = Eigen::Matrix2d::Zero();
+  for (int i = 0; i < kMostBiases; ++i) {
+    const Explained& now = solved.of.best;
+    const auto wanted = most_wanted_bias(now.information, now.estimated);
+    if (!wanted) {
+      break;
+    }
+    BiasSet estimated = now.estimated;
+    estimated.set(static_cast<std::size_t>(wanted->bias));
+    open_rad2 += other_biases_rad2(now.information, now.estimated, wanted->bias);
+    auto with_bias = explain(solved.model, solved.edges, now.fit.state, estimated);
+    if (!with_bias) {
+      return Unexpected{with_bias.error()};
+    }
+    solved.of.best = *std::move(with_bias);
+  }
+  return open_rad2;
+}
+
+std::string bias_in_words(const BiasEstimate& bias) {
+  const BiasPrior& prior = prior_of(bias.bias);
+  const double unit = prior.is_angle ? kDegree_rad : 1.0;
+  return fmt::format("{} {:+.3f} +/- {:.3f} {}", prior.words, bias.value / unit, bias.sigma / unit,
+                     prior.is_angle ? "deg" : "km");
+}
+
+/// Of the biases not estimated, what one step from the state would make of all together.
+std::vector<BiasEstimate> all_biases(const Explained& found) {
+  BiasSet all;
+  all.set();
+  const Observability together{found.information, all};
+  const Observability estimated{found.information, found.estimated};
+  const SensorBiases would_be =
+      found.fit.state.biases + together.bias_step(found.information, found.fit.state.biases);
+  std::vector<BiasEstimate> biases = together.biases(would_be);
+  for (const BiasEstimate& bias : estimated.biases(found.fit.state.biases)) {
+    biases[static_cast<std::size_t>(bias.bias)] = bias;
+  }
+  return biases;
+}
+
+std::string status_of(const Solved& solved, const BatchSolution& solution) {
+  const Explained& best = solved.of.best;
+  const bool noisy = solution.noise > 1.0;
+  const bool dirty = best.information.outlier_share() > kManyOutliers;
+  const bool bounded = best.fit.at_bound.any();
+  std::string status =
+      noisy || dirty || bounded ? "DOUBTFUL" : (solved.of.or_axis_icrf ? "AMBIGUOUS" : "OK");
+  if (solved.of.or_axis_icrf) {
+    const RaDec other = ra_dec_of(*solved.of.or_axis_icrf);
+    status += fmt::format(", or ra {:.2f} dec {:.2f} deg", other.ra_rad / kDegree_rad,
+                          other.dec_rad / kDegree_rad);
+  }
+  status += fmt::format(", {} edges", solution.edges);
+  if (solution.changed) {
+    status +=
+        fmt::format(" since {}, where attitude or rate changed", format_utc(*solution.changed, 0));
+  }
+  if (solution.outliers > 0) {
+    status += fmt::format(", {} outliers", solution.outliers);
+  }
+  if (noisy) {
+    status += fmt::format(", noise x {:.1f}", solution.noise);
+  }
+  for (const BiasEstimate& bias : solution.biases) {
+    const auto index = static_cast<std::size_t>(bias.bias);
+    if (best.fit.at_bound[index]) {
+      status += fmt::format(", {} runs to its bound", prior_of(bias.bias).words);
+    } else if (best.estimated[index]) {
+      status += bias.observable ? ", " + bias_in_words(bias)
+                                : fmt::format(", {} not determined", prior_of(bias.bias).words);
+    }
+  }
+  return status;
+}
+
+}  // namespace
+
+Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit,
+                                    std::span<const PassEdge> edges,
+                                    std::span<const Eigen::Vector3d> starts) {
+  if (starts.empty()) {
+    return unobservable("no fix has given an axis to begin at");
+  }
+  auto solved =
+      solve_since_change(config, orbit, edges, starts, config.batch.biases.value_or(BiasSet{}));
+  if (!solved) {
+    return Unexpected{solved.error()};
+  }
+  Eigen::Matrix2d open_rad2 = Eigen::Matrix2d::Zero();
+  if (!config.batch.biases) {
+    const auto added = add_wanted_biases(*solved);
+    if (!added) {
+      return Unexpected{added.error()};
+    }
+    open_rad2 = *added;
+  }
+  const Explained& best = solved->of.best;
+  const PassInformation& information = best.information;
+  if (information.outlier_share() > kMostOutliers) {
+    return unobservable(
+        fmt::format("the solution diverged: {} of {} edges are not where it has them",
+                    information.outliers, information.outliers + information.edges));
+  }
+  const Observability observed{information, best.estimated};
+  const Eigen::Matrix2d bound_rad2 = observed.axis_covariance_rad2();
+  if (!(bound_rad2.trace() < kLost_rad * kLost_rad)) {
+    return unobservable(
+        fmt::format("these edges leave the axis open by {:.0f} deg: a cone about Sun or Earth",
+                    std::sqrt(bound_rad2.trace()) / kDegree_rad));
+  }
+  const int unknowns = kMotionUnknowns + static_cast<int>(best.estimated.count());
+  const double excess_noise = information.excess_noise(unknowns);
+  const Eigen::Matrix2d turned = tangent_from_tilts(best.fit.state.q_icrf_spin);
+  const double half_s = solved->model.half_s();
+  BatchSolution solution{
+      .estimate =
+          {.t = solved->edges.back().pulse.t,
+           .estimator = SpinEstimator::Batch,
+           .axis_icrf = best.fit.state.axis_icrf(),
+           .covariance_rad2 = turned * (bound_rad2 * excess_noise + open_rad2) * turned.transpose(),
+           .spin_rate_rad_s = best.fit.state.rate_rad_s + best.fit.state.drift_rad_s2 * half_s,
+           .spin_rate_sigma_rad_s = std::sqrt(observed.last_rate_variance(half_s) * excess_noise),
+           .status = {}},
+      .bound_rad = std::sqrt(bound_rad2.trace()),
+      .biases = all_biases(best),
+      .undetermined = {},
+      .singular_values = observed.singular_values(),
+      .changed = solved->changed,
+      .edges = information.edges,
+      .outliers = information.outliers,
+      .noise = std::sqrt(excess_noise),
+      .iterations = best.fit.iterations};
+  BiasSet all;
+  all.set();
+  solution.undetermined =
+      Observability{information, config.batch.biases.value_or(all)}.undetermined();
+  solution.estimate.status = status_of(*solved, solution);
+  return solution;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,57 @@
+/// @file
+/// The estimator `batch`: the state of the body that makes all edges of a pass the likeliest, with
+/// the biases of the sensors that they show, and the bound that no estimator can beat beside it.
+///
+/// It begins at every axis it is given and keeps the likeliest. Where two axes explain the edges
+/// alike it is AMBIGUOUS. A pass in which the attitude or the rate has changed is solved from the
+/// last change on. Biases are those that the mission asks for; where it does not say, the edges
+/// decide, one bias after the other, as long as one explains the residuals beyond doubt.
+///
+/// The status begins with
+///     OK         all is well
+///     AMBIGUOUS  another axis, named, fits as well
+///     DOUBTFUL   the edges scatter more than their noise, many are outliers, or a bias runs to
+///                what no sensor exceeds
+
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/orbit.h"
+#include "pipelines/spin/batch/observability.h"
+#include "pipelines/spin/batch/pass_model.h"
+#include "pipelines/spin/config.h"
+#include "pipelines/spin/products.h"
+
+namespace spindrift {
+
+struct BatchSolution {
+  SpinEstimate estimate;
+  /// Cramer-Rao bound of the axis, both directions together, with the stated noise and the biases
+  /// that are estimated.
+  double bound_rad;
+  /// Of every bias: as estimated; of the others what the edges would say of all biases together.
+  std::vector<BiasEstimate> biases;
+  /// Directions that the edges leave open were all biases of the pass unknown, in words.
+  std::vector<std::string> undetermined;
+  std::vector<double> singular_values;  ///< Observability::singular_values().
+  std::optional<TaiTime> changed;       ///< Attitude or rate did, the last time.
+  std::int64_t edges;                   ///< That it rests on.
+  std::int64_t outliers;
+  double noise;  ///< Root of their mean square against the stated noise.
+  int iterations;
+};
+
+/// @param edges In order of time.
+/// @param starts Axes to begin at, unit, ICRF, likeliest first.
+/// @return Unobservable where edges or starts do not suffice, with what is missing; NoCoverage.
+Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit,
+                                    std::span<const PassEdge> edges,
+                                    std::span<const Eigen::Vector3d> starts);
+
+}  // namespace spindrift

@@ -1,0 +1,203 @@
+#include "pipelines/spin/batch/batch_fit.h"
+
+#include <ceres/loss_function.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
+#include <ceres/sized_cost_function.h>
+#include <ceres/solver.h>
+#include <ceres/types.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <vector>
+
+#include "pipelines/spin/batch/pass_information.h"
+
+namespace spindrift {
+namespace {
+
+// Beyond a hundredth of the sigma of a pass of 100,000 revolutions nothing changes any more.
+constexpr double kFunctionTolerance = 1e-10;
+constexpr int kMostIterations = 50;
+// First so many edges, spread over the pass, whose far ones still pull.
+constexpr std::size_t kCoarse = 6000;
+constexpr double kCoarseLoss_sigmas = 3.0;
+
+/// Parameters as Ceres has them: rate and drift as changes since the start, in the angle they make.
+struct Parameters {
+  Eigen::Quaterniond q_icrf_spin;
+  Eigen::Vector2d clock = Eigen::Vector2d::Zero();
+  SensorBiases biases;
+};
+
+class Fit {
+ public:
+  Fit(const PassModel& model, const SpinState& start)
+      : model_{model},
+        start_{start},
+        parameters_{.q_icrf_spin = start.q_icrf_spin, .biases = start.biases} {}
+
+  SpinState state_at(const double* q, const double* clock, const double* biases) const {
+    const double half_s = model_.half_s();
+    return {.q_icrf_spin = Eigen::Quaterniond{Eigen::Map<const Eigen::Vector4d>{q}},
+            .rate_rad_s = start_.rate_rad_s + clock[0] / half_s,
+            .drift_rad_s2 = start_.drift_rad_s2 + 2.0 * clock[1] / (half_s * half_s),
+            .biases = Eigen::Map<const SensorBiases>{biases}};
+  }
+  SpinState state() const {
+    return state_at(parameters_.q_icrf_spin.coeffs().data(), parameters_.clock.data(),
+                    parameters_.biases.data());
+  }
+  const PassModel& model() const { return model_; }
+  Parameters& parameters() { return parameters_; }
+
+ private:
+  const PassModel& model_;
+  SpinState start_;
+  Parameters parameters_;
+};
+
+/// Turns of the sky's axes by half of what Ceres' manifold steps, as changes of the quaternion.
+Eigen::Matrix<double, 4, 3> quaternion_per_turn(const Eigen::Quaterniond& q) {
+  Eigen::Matrix<double, 4, 3> slopes;
+  slopes << q.w(), q.z(), -q.y(),  //
+      -q.z(), q.w(), q.x(),        //
+      q.y(), -q.x(), q.w(),        //
+      -q.x(), -q.y(), -q.z();
+  return slopes;
+}
+
+class EdgeCost final : public ceres::SizedCostFunction<1, 4, 2, kSensorBiases> {
+ public:
+  EdgeCost(const Fit& fit, const Pulse& edge) : fit_{&fit}, edge_{edge} {}
+
+  bool Evaluate(double const* const* at, double* residual, double** jacobians) const override {
+    const SpinState state = fit_->state_at(at[0], at[1], at[2]);
+    const auto edge = fit_->model().residual(edge_, state);
+    // Where there is no such edge it is an outlier, and nothing moves it.
+    residual[0] = edge ? edge->off : kOutlierSigmas;
+    if (jacobians != nullptr) {
+      write(edge ? edge->slopes : EdgeSlopes::Zero(), state, jacobians);
+    }
+    return std::isfinite(residual[0]);
+  }
+
+ private:
+  static void write(const EdgeSlopes& slopes, const SpinState& state, double** jacobians) {
+    if (jacobians[0] != nullptr) {
+      const Eigen::RowVector3d by_half_turn =
+          2.0 * slopes.head<3>() * state.q_icrf_spin.conjugate().toRotationMatrix();
+      Eigen::Map<Eigen::RowVector4d>{jacobians[0]} =
+          by_half_turn * quaternion_per_turn(state.q_icrf_spin).transpose();
+    }
+    if (jacobians[1] != nullptr) {
+      Eigen::Map<Eigen::RowVector2d>{jacobians[1]} = slopes.segment<2>(3);
+    }
+    if (jacobians[2] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, 1, kSensorBiases>>{jacobians[2]} =
+          slopes.tail<kSensorBiases>();
+    }
+  }
+
+  const Fit* fit_;
+  Pulse edge_;
+};
+
+class PriorCost final : public ceres::SizedCostFunction<kSensorBiases, kSensorBiases> {
+ public:
+  bool Evaluate(double const* const* at, double* residuals, double** jacobians) const override {
+    for (int i = 0; i < kSensorBiases; ++i) {
+      const double sigma = prior_of(static_cast<SensorBias>(i)).sigma;
+      residuals[i] = at[0][i] / sigma;
+      for (int j = 0; jacobians != nullptr && jacobians[0] != nullptr && j < kSensorBiases; ++j) {
+        jacobians[0][i * kSensorBiases + j] = i == j ? 1.0 / sigma : 0.0;
+      }
+    }
+    return true;
+  }
+};
+
+void hold_biases(ceres::Problem& problem, double* biases, BiasSet estimated) {
+  std::vector<int> held;
+  for (int i = 0; i < kSensorBiases; ++i) {
+    if (!estimated[static_cast<std::size_t>(i)]) {
+      held.push_back(i);
+      continue;
+    }
+    const double bound = prior_of(static_cast<SensorBias>(i)).bound;
+    problem.SetParameterLowerBound(biases, i, -bound);
+    problem.SetParameterUpperBound(biases, i, bound);
+  }
+  if (estimated.none()) {
+    problem.SetParameterBlockConstant(biases);
+  } else if (!held.empty()) {
+    problem.SetManifold(biases, new ceres::SubsetManifold{kSensorBiases, held});
+  }
+}
+
+ceres::Solver::Summary solve(Fit& fit, std::span<const PassEdge> edges, std::size_t stride,
+                             ceres::LossFunction& loss, BiasSet estimated) {
+  std::deque<EdgeCost> costs;  // Where they are they stay.
+  for (std::size_t i = 0; i < edges.size(); i += stride) {
+    costs.emplace_back(fit, edges[i].pulse);
+  }
+  ceres::Problem::Options keeping;
+  keeping.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  keeping.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  keeping.disable_all_safety_checks = true;
+  PriorCost prior;
+  ceres::Problem problem{keeping};
+  Parameters& at = fit.parameters();
+  double* const q = at.q_icrf_spin.coeffs().data();
+  for (EdgeCost& cost : costs) {
+    problem.AddResidualBlock(&cost, &loss, q, at.clock.data(), at.biases.data());
+  }
+  problem.AddResidualBlock(&prior, nullptr, at.biases.data());
+  problem.SetManifold(q, new ceres::EigenQuaternionManifold);
+  hold_biases(problem, at.biases.data(), estimated);
+
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.num_threads = 1;
+  options.max_num_iterations = kMostIterations;
+  options.function_tolerance = kFunctionTolerance;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  return summary;
+}
+
+BiasSet biases_at_bound(const SensorBiases& biases, BiasSet estimated) {
+  BiasSet at_bound;
+  for (int i = 0; i < kSensorBiases; ++i) {
+    const double bound = prior_of(static_cast<SensorBias>(i)).bound;
+    at_bound[static_cast<std::size_t>(i)] =
+        estimated[static_cast<std::size_t>(i)] && std::abs(biases[i]) > 0.999 * bound;
+  }
+  return at_bound;
+}
+
+}  // namespace
+
+Expected<BatchFit> fit(const PassModel& model, std::span<const PassEdge> edges,
+                       const SpinState& start, BiasSet estimated) {
+  Fit fit{model, start};
+  ceres::HuberLoss coarse{kCoarseLoss_sigmas};
+  ceres::TukeyLoss fine{kOutlierSigmas};
+  const std::size_t stride = std::max<std::size_t>(edges.size() / kCoarse, 1);
+  solve(fit, edges, stride, coarse, estimated);
+  const ceres::Solver::Summary summary = solve(fit, edges, 1, fine, estimated);
+  if (!summary.IsSolutionUsable()) {
+    return Unexpected{
+        {ErrorCode::Unobservable,
+         fmt::format("no state of the body explains the edges: {}", summary.message)}};
+  }
+  const SpinState state = fit.state();
+  return BatchFit{.state = state,
+                  .at_bound = biases_at_bound(state.biases, estimated),
+                  .iterations = static_cast<int>(summary.iterations.size())};
+}
+
+}  // namespace spindrift

@@ -1,0 +1,26 @@
+/// @file
+/// The maximum-likelihood state of a pass: Ceres over all its edges, each with Tukey's biweight.
+
+#pragma once
+
+#include <span>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/spin/batch/pass_model.h"
+
+namespace spindrift {
+
+struct BatchFit {
+  SpinState state;
+  BiasSet at_bound;  ///< Biases that ran to what no sensor exceeds.
+  int iterations;
+};
+
+/// @param start Near enough that edges are told from outliers within a few degrees.
+/// @param estimated The biases that are unknown, each about zero by its prior; the others stay as
+///        they are at the start.
+/// @return Diverged where no minimum is found.
+Expected<BatchFit> fit(const PassModel& model, std::span<const PassEdge> edges,
+                       const SpinState& start, BiasSet estimated);
+
+}  // namespace spindrift

@@ -1,0 +1,30 @@
+/// @file
+/// Which biases the edges of a pass ask for, where nobody has said which to estimate.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "pipelines/spin/batch/batch_fit.h"
+#include "pipelines/spin/batch/pass_information.h"
+
+namespace spindrift {
+
+struct BiasGain {
+  SensorBias bias;
+  double gain;  ///< Of log likelihood, times two: of noise alone, a chi-square of one degree.
+};
+
+/// The bias that would explain the residuals best, beside those that are estimated already.
+/// @param information At the best state with these.
+/// @return Empty where noise explains them as well: at a chance of 1e-4 a pass there is one.
+std::optional<BiasGain> most_wanted_bias(const PassInformation& information, BiasSet estimated);
+
+/// Mean square of what the axis would move by, were not `chosen` but another bias the true one,
+/// each weighted with how likely the residuals make it; tilts of the frame `spin`, rad^2.
+/// @param information At the best state without it.
+Eigen::Matrix2d other_biases_rad2(const PassInformation& information, BiasSet estimated,
+                                  SensorBias chosen);
+
+}  // namespace spindrift

@@ -1,0 +1,145 @@
+#include "pipelines/spin/batch/observability.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace spindrift {
+namespace {
+
+// The edges must at least halve what was known of a bias before.
+constexpr double kObservableShare = 0.5;
+// A bias that has so much of an open direction takes part in it.
+constexpr double kTakesPart = 0.35;
+
+using Scales = Eigen::Matrix<double, kBatchUnknowns, 1>;
+
+/// One radian of motion, one sigma of the prior of a bias.
+Scales scales() {
+  Scales all = Scales::Ones();
+  for (int i = 0; i < kSensorBiases; ++i) {
+    all[kMotionUnknowns + i] = prior_of(static_cast<SensorBias>(i)).sigma;
+  }
+  return all;
+}
+
+std::string in_words(const std::vector<std::string_view>& names) {
+  if (names.size() == 1) {
+    return fmt::format("{} is not determined in this geometry", names.front());
+  }
+  const std::vector<std::string_view> first{names.begin(), names.end() - 1};
+  return fmt::format("{} and {} cannot be told apart in this geometry", fmt::join(first, ", "),
+                     names.back());
+}
+
+}  // namespace
+
+Observability::Observability(const PassInformation& information, BiasSet estimated) {
+  const Scales unit = scales();
+  scaled_ = unit.asDiagonal() * information.information * unit.asDiagonal();
+  Matrix with_priors = scaled_;
+  for (int i = 0; i < kSensorBiases; ++i) {
+    const int row = kMotionUnknowns + i;
+    if (estimated[static_cast<std::size_t>(i)]) {
+      estimated_.push_back(static_cast<SensorBias>(i));
+      with_priors(row, row) += 1.0;
+    } else {
+      for (Matrix* const matrix : {&scaled_, &with_priors}) {
+        matrix->row(row).setZero();
+        matrix->col(row).setZero();
+      }
+      with_priors(row, row) = 1.0;
+    }
+  }
+  with_priors.diagonal().head<kMotionUnknowns>().array() += 1.0;
+  covariance_ =
+      unit.asDiagonal() * with_priors.ldlt().solve(Matrix::Identity()).eval() * unit.asDiagonal();
+}
+
+double Observability::last_rate_variance(double half_s) const {
+  // Rate at the middle, and twice what the drift turns the body by in half the pass.
+  const Eigen::Vector2d last{1.0 / half_s, 2.0 / half_s};
+  return last.dot(covariance_.block<2, 2>(3, 3) * last);
+}
+
+SensorBiases Observability::bias_step(const PassInformation& information,
+                                      const SensorBiases& biases) const {
+  Eigen::Matrix<double, kBatchUnknowns, 1> score = information.score;
+  SensorBiases step = SensorBiases::Zero();
+  for (const SensorBias bias : estimated_) {
+    const double prior = prior_of(bias).sigma;
+    score[kMotionUnknowns + bias] += biases[bias] / (prior * prior);
+  }
+  const Eigen::Matrix<double, kBatchUnknowns, 1> all = -covariance_ * score;
+  for (const SensorBias bias : estimated_) {
+    step[bias] = all[kMotionUnknowns + bias];
+  }
+  return step;
+}
+
+std::vector<double> Observability::singular_values() const {
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver{scaled_, Eigen::EigenvaluesOnly};
+  std::vector<double> values;
+  const auto unknowns = static_cast<Eigen::Index>(kMotionUnknowns + estimated_.size());
+  for (Eigen::Index i = 0; i < unknowns; ++i) {
+    values.push_back(std::sqrt(std::max(solver.eigenvalues()[kBatchUnknowns - 1 - i], 0.0)));
+  }
+  return values;
+}
+
+std::vector<BiasEstimate> Observability::biases(const SensorBiases& biases) const {
+  std::vector<BiasEstimate> all;
+  for (const SensorBias bias : estimated_) {
+    const double prior = prior_of(bias).sigma;
+    const double sigma = std::sqrt(covariance_(kMotionUnknowns + bias, kMotionUnknowns + bias));
+    const bool observable = sigma < kObservableShare * prior;
+    all.push_back({.bias = bias,
+                   .value = observable ? biases[bias] : 0.0,
+                   .sigma = observable ? sigma : prior,
+                   .observable = observable});
+  }
+  return all;
+}
+
+/// Eigenvectors of what the edges say of the biases, the motion eliminated. Zero for those that are
+/// not estimated, which no bias of the set mixes with.
+std::vector<std::string> Observability::undetermined() const {
+  const Matrix motion_known = [&] {
+    Matrix information = scaled_;
+    information.diagonal().head<kMotionUnknowns>().array() += 1.0;
+    return information;
+  }();
+  const auto count = static_cast<Eigen::Index>(estimated_.size());
+  Eigen::MatrixXd left(count, count);
+  const Eigen::Matrix<double, kMotionUnknowns, kMotionUnknowns> motion =
+      motion_known.topLeftCorner<kMotionUnknowns, kMotionUnknowns>();
+  const Eigen::Matrix<double, kMotionUnknowns, kSensorBiases> mixed =
+      motion_known.topRightCorner<kMotionUnknowns, kSensorBiases>();
+  const Eigen::Matrix<double, kSensorBiases, kSensorBiases> eliminated =
+      motion_known.bottomRightCorner<kSensorBiases, kSensorBiases>() -
+      mixed.transpose() * motion.ldlt().solve(mixed);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index j = 0; j < count; ++j) {
+      left(i, j) = eliminated(estimated_[static_cast<std::size_t>(i)],
+                              estimated_[static_cast<std::size_t>(j)]);
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{left};
+  std::vector<std::string> all;
+  for (Eigen::Index i = 0; i < count && solver.eigenvalues()[i] < 1.0; ++i) {
+    std::vector<std::string_view> names;
+    for (Eigen::Index j = 0; j < count; ++j) {
+      if (std::abs(solver.eigenvectors()(j, i)) > kTakesPart) {
+        names.push_back(prior_of(estimated_[static_cast<std::size_t>(j)]).words);
+      }
+    }
+    all.push_back(in_words(names));
+  }
+  return all;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,56 @@
+/// @file
+/// What the edges of a pass determine, and what they do not.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "pipelines/spin/batch/batch_fit.h"
+#include "pipelines/spin/batch/pass_information.h"
+
+namespace spindrift {
+
+/// One bias, as edges and prior together have it.
+struct BiasEstimate {
+  SensorBias bias;
+  double value;  ///< rad, or km; zero, the prior, where not observable.
+  double sigma;  ///< That of the prior where not observable.
+  bool observable;
+};
+
+/// The covariance of motion and biases, the priors of the biases included.
+class Observability {
+ public:
+  /// @param estimated The others are known to be what they are in the state.
+  Observability(const PassInformation& information, BiasSet estimated);
+
+  /// Tilts of the frame `spin`, rad^2; where the edges leave a direction open, large.
+  Eigen::Matrix2d axis_covariance_rad2() const { return covariance_.topLeftCorner<2, 2>(); }
+  /// Of the rate at the end of the pass. @param half_s Its half length.
+  double last_rate_variance(double half_s) const;
+
+  /// What the estimated biases would move by from a state that is the best with others held.
+  /// @param information Of that state; @param biases too.
+  SensorBiases bias_step(const PassInformation& information, const SensorBiases& biases) const;
+
+  /// Singular values of the whitened equations, in units of the priors (motion: 1 rad), largest
+  /// first: below 1 the edges say less of a direction than was known before.
+  std::vector<double> singular_values() const;
+
+  /// @param biases Of the state.
+  std::vector<BiasEstimate> biases(const SensorBiases& biases) const;
+
+  /// Every direction of the biases that the edges leave open, as a person would say it.
+  std::vector<std::string> undetermined() const;
+
+ private:
+  using Matrix = Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns>;
+
+  std::vector<SensorBias> estimated_;
+  Matrix scaled_ = Matrix::Zero();  ///< Information in units of the priors, without them.
+  Matrix covariance_ = Matrix::Zero();
+};
+
+}  // namespace spindrift

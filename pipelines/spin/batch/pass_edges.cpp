@@ -1,0 +1,103 @@
+#include "pipelines/spin/batch/pass_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+#include "pipelines/frames/celestial.h"
+
+namespace spindrift {
+namespace {
+
+// From so near a fit ends at the same place.
+constexpr double kSameStart_rad = 2.0 * std::numbers::pi / 180.0;
+
+/// Not where it should be, or with nothing to compare it with; else it is one of several edges of
+/// an angle that failed its test.
+bool is_bad(Rejection rejection) {
+  using enum Rejection;
+  switch (rejection) {
+    case Unassociated:
+    case Late:
+    case OutOfTime:
+    case Interference:
+    case Phase:
+    case NoSensor:
+    case NoOrbit:
+      return true;
+    case Geometry:
+    case Period:
+    case SunAngle:
+    case NorthChord:
+    case SouthChord:
+    case NorthDihedral:
+    case SouthDihedral:
+    case MixedAzimuth:
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void PassEdges::note(const SpinProduct& product) {
+  std::visit([this](const auto& value) { note(value); }, product);
+}
+
+void PassEdges::note(const PulseUse& use) {
+  if (use.revolution && !(use.rejected_by && is_bad(*use.rejected_by))) {
+    edges_.push_back({.pulse = use.pulse, .revolution = *use.revolution});
+    last_revolution_ = std::max(last_revolution_, *use.revolution);
+  }
+}
+
+void PassEdges::note(const SpinEstimate& estimate) {
+  if (estimate.estimator == SpinEstimator::Mean) {
+    mean_ = estimate;
+  } else if (estimate.estimator == SpinEstimator::Sequential) {
+    sequential_ = estimate;
+  }
+}
+
+void PassEdges::keep_last(std::int64_t revolutions) {
+  std::erase_if(edges_, [&](const PassEdge& edge) {
+    return edge.revolution <= last_revolution_ - revolutions;
+  });
+}
+
+std::vector<PassEdge> PassEdges::edges() const {
+  std::vector<PassEdge> sorted = edges_;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const PassEdge& a, const PassEdge& b) { return a.pulse < b.pulse; });
+  const auto same = [](const PassEdge& a, const PassEdge& b) { return a.pulse == b.pulse; };
+  sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
+  return sorted;
+}
+
+std::vector<Eigen::Vector3d> PassEdges::starts() const {
+  std::vector<Eigen::Vector3d> all;
+  const auto add = [&all](const Eigen::Vector3d& axis_icrf) {
+    const bool known = std::any_of(all.begin(), all.end(), [&](const Eigen::Vector3d& other) {
+      return angle_between_rad(other, axis_icrf) < kSameStart_rad;
+    });
+    if (!known) {
+      all.push_back(axis_icrf);
+    }
+  };
+  for (const auto* const estimate : {&sequential_, &mean_}) {
+    if (*estimate) {
+      add((*estimate)->axis_icrf);
+    }
+  }
+  const bool settled = sequential_ && !sequential_->status.starts_with("AMBIGUOUS");
+  if (last_fix_ && !settled) {
+    add(last_fix_->axis_icrf);
+    for (const Eigen::Vector3d& alternate : last_fix_->alternate_axes_icrf) {
+      add(alternate);
+    }
+  }
+  return all;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,44 @@
+/// @file
+/// What the estimator `batch` needs of a pass, gathered from its products as they arise.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "pipelines/spin/batch/pass_model.h"
+#include "pipelines/spin/products.h"
+
+namespace spindrift {
+
+class PassEdges {
+ public:
+  void note(const SpinProduct& product);
+
+  /// Forgets all but so many of the last revolutions.
+  void keep_last(std::int64_t revolutions);
+
+  /// All edges that a revolution had a place for, in order of time; those too whose angles failed
+  /// their test, as an angle rests on several edges and the fit finds the one.
+  std::vector<PassEdge> edges() const;
+
+  /// Axes to begin at: of the other estimators, and where these are AMBIGUOUS all that are left.
+  std::vector<Eigen::Vector3d> starts() const;
+
+ private:
+  void note(const PulseUse& use);
+  void note(const SpinFix& fix) { last_fix_ = fix; }
+  void note(const SpinEstimate& estimate);
+  template <class Other>
+  void note(const Other& /*product*/) {}
+
+  std::vector<PassEdge> edges_;
+  std::int64_t last_revolution_ = 0;
+  std::optional<SpinEstimate> mean_;
+  std::optional<SpinEstimate> sequential_;
+  std::optional<SpinFix> last_fix_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,74 @@
+#include "pipelines/spin/batch/pass_information.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spindrift {
+namespace {
+
+// A chance of one in a million for noise as stated.
+constexpr double kSignificantSigmas = 4.75;
+
+}  // namespace
+
+PassInformation& PassInformation::operator+=(const PassInformation& other) {
+  information += other.information;
+  score += other.score;
+  squares += other.squares;
+  edges += other.edges;
+  outliers += other.outliers;
+  return *this;
+}
+
+double PassInformation::outlier_share() const {
+  return static_cast<double>(outliers) / static_cast<double>(edges + outliers);
+}
+
+double PassInformation::excess_noise(int unknowns) const {
+  const auto freedom = static_cast<double>(edges - unknowns);
+  if (!(freedom > 0.0)) {
+    return 1.0;
+  }
+  // A chi-square of so many degrees is normal enough from ten on; below, the limit is only wider.
+  const double limit = freedom + kSignificantSigmas * std::sqrt(2.0 * freedom) +
+                       kSignificantSigmas * kSignificantSigmas * 2.0 / 3.0;
+  return squares > limit ? squares / freedom : 1.0;
+}
+
+PassInformation information_of(const PassModel& model, std::span<const PassEdge> edges,
+                               const SpinState& state) {
+  PassInformation sum;
+  for (const PassEdge& edge : edges) {
+    const auto residual = model.residual(edge.pulse, state);
+    if (!residual || !(std::abs(residual->off) < kOutlierSigmas)) {
+      ++sum.outliers;
+      continue;
+    }
+    sum.information.selfadjointView<Eigen::Lower>().rankUpdate(residual->slopes.transpose());
+    const double part = residual->off / kOutlierSigmas;
+    const double weight = (1.0 - part * part) * (1.0 - part * part);
+    sum.score += residual->slopes.transpose() * (weight * residual->off);
+    sum.squares += residual->off * residual->off;
+    ++sum.edges;
+  }
+  sum.information = Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns>{
+      sum.information.selfadjointView<Eigen::Lower>()};
+  return sum;
+}
+
+std::vector<SpanInformation> information_by_span(const PassModel& model,
+                                                 std::span<const PassEdge> edges,
+                                                 const SpinState& state, std::size_t spans) {
+  std::vector<SpanInformation> all;
+  const std::size_t most = std::min(spans, edges.size());
+  for (std::size_t i = 0; i < most; ++i) {
+    const std::size_t first = i * edges.size() / most;
+    const std::size_t end = (i + 1) * edges.size() / most;
+    all.push_back({.begin = edges[first].pulse.t,
+                   .first_edge = first,
+                   .of = information_of(model, edges.subspan(first, end - first), state)});
+  }
+  return all;
+}
+
+}  // namespace spindrift

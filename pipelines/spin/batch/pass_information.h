@@ -1,0 +1,49 @@
+/// @file
+/// What all edges of a pass together say of a state: the normal equations of pass_model.h's
+/// unknowns, and how well the state explains them.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pipelines/spin/batch/pass_model.h"
+
+namespace spindrift {
+
+/// Farther from where the state has it (sigmas) an edge has no weight: Tukey's biweight, which
+/// loses 1.5 % of the information of normal noise.
+inline constexpr double kOutlierSigmas = 6.0;
+
+struct PassInformation {
+  Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns> information =
+      Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns>::Zero();
+  /// Slopes times residuals: where a step of the unknowns by -(information^-1 score) leads to zero.
+  Eigen::Matrix<double, kBatchUnknowns, 1> score = Eigen::Matrix<double, kBatchUnknowns, 1>::Zero();
+  double squares = 0.0;  ///< Of the residuals.
+  std::int64_t edges = 0;
+  std::int64_t outliers = 0;  ///< Not among these.
+
+  PassInformation& operator+=(const PassInformation& other);
+  double outlier_share() const;
+  /// How many times their variance is what the stated noise makes it; 1 unless significantly more.
+  /// @param unknowns Estimated from these edges.
+  double excess_noise(int unknowns) const;
+};
+
+PassInformation information_of(const PassModel& model, std::span<const PassEdge> edges,
+                               const SpinState& state);
+
+/// The same by spans of the pass that hold equally many edges. At most `spans`, each at least one.
+struct SpanInformation {
+  TaiTime begin;
+  std::size_t first_edge;
+  PassInformation of;
+};
+std::vector<SpanInformation> information_by_span(const PassModel& model,
+                                                 std::span<const PassEdge> edges,
+                                                 const SpinState& state, std::size_t spans);
+
+}  // namespace spindrift

@@ -1,0 +1,82 @@
+/// @file
+/// What a body that spins about an axis at rest, at a rate that drifts evenly, gives of edges, and
+/// how far those that came are from it. In the unknowns
+///
+///     tilt x, tilt y, phase      rotation of the frame `spin` about its own axes, rad
+///     rate, drift                each as the angle that it makes at the ends of the pass, rad
+///     biases                     sensor_biases.h
+///
+/// an edge is one equation, (rate dt + drift dt^2/2 - phase predicted) / (rate sigma_t) = noise of
+/// one standard deviation, with dt from the middle of the pass: the time of a pulse, whitened.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/orbit.h"
+#include "pipelines/spin/config.h"
+#include "pipelines/spin/pulse.h"
+#include "pipelines/spin/sensor_biases.h"
+#include "pipelines/spin/sky.h"
+
+namespace spindrift {
+
+/// An edge that a revolution had a place for.
+struct PassEdge {
+  Pulse pulse;
+  std::int64_t revolution;
+};
+
+/// The frame `spin` has its third axis on the spin axis and turns with the rest of the sky: at the
+/// middle of the pass slit 1 is on its first axis.
+struct SpinState {
+  Eigen::Quaterniond q_icrf_spin;
+  double rate_rad_s;  ///< At the middle of the pass.
+  double drift_rad_s2;
+  SensorBiases biases = SensorBiases::Zero();
+
+  Eigen::Vector3d axis_icrf() const { return q_icrf_spin * Eigen::Vector3d::UnitZ(); }
+};
+
+inline constexpr int kMotionUnknowns = 5;
+inline constexpr int kBatchUnknowns = kMotionUnknowns + kSensorBiases;
+using EdgeSlopes = Eigen::Matrix<double, 1, kBatchUnknowns>;
+
+/// An edge against a state.
+struct EdgeResidual {
+  double off;         ///< In standard deviations of its noise; positive: late.
+  EdgeSlopes slopes;  ///< Of `off`.
+};
+
+class PassModel {
+ public:
+  /// @param edges In order of time, at least one.
+  /// @return NoCoverage where the orbit does not reach all of them.
+  static Expected<PassModel> make(const SpinConfig& config, const Orbit& orbit,
+                                  std::span<const PassEdge> edges);
+
+  /// @return Empty where the state has no such edge.
+  std::optional<EdgeResidual> residual(const Pulse& edge, const SpinState& state) const;
+
+  const SpinConfig& config() const { return config_; }
+  const Sky& sky_at(TaiTime t) const;
+  TaiTime middle() const { return middle_; }
+  double half_s() const { return half_s_; }  ///< From the middle of the pass to its ends.
+
+ private:
+  PassModel(const SpinConfig& config, TaiTime first, TaiTime last);
+
+  SpinConfig config_;
+  TaiTime first_;
+  TaiTime middle_;
+  double half_s_;
+  std::vector<Sky> skies_;  ///< One for every kSkySpan_s.
+};
+
+}  // namespace spindrift

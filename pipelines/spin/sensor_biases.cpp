@@ -1,0 +1,48 @@
+#include "pipelines/spin/sensor_biases.h"
+
+#include <algorithm>
+#include <array>
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = 0.017453292519943295;
+// Twice what alignments are good to (model_allowance.h): a bias that is asked for is suspected.
+constexpr double kAngle_rad = 0.3 * kDegree_rad;
+constexpr double kMostAngle_rad = 3.0 * kDegree_rad;
+// Seasons and latitude move the 14 to 16 um horizon by a few km (WGS-84 surface + 40 km nominal).
+constexpr double kHeight_km = 4.0;
+constexpr double kMostHeight_km = 30.0;
+
+constexpr BiasPrior angle(std::string_view name, std::string_view words) {
+  return {
+      .name = name, .words = words, .is_angle = true, .sigma = kAngle_rad, .bound = kMostAngle_rad};
+}
+
+// By SensorBias.
+constexpr std::array<BiasPrior, kSensorBiases> kPriors{
+    angle("sun_angle", "sun angle"),
+    angle("slit_separation", "separation of the sun slits"),
+    angle("north_chord", "north chord"),
+    angle("south_chord", "south chord"),
+    angle("north_mount_angle", "north mounting angle"),
+    angle("south_mount_angle", "south mounting angle"),
+    angle("dihedral", "azimuth between sun sensor and beams"),
+    BiasPrior{.name = "co2_height",
+              .words = "height of the infrared horizon",
+              .is_angle = false,
+              .sigma = kHeight_km,
+              .bound = kMostHeight_km}};
+
+}  // namespace
+
+const BiasPrior& prior_of(SensorBias bias) { return kPriors.at(static_cast<std::size_t>(bias)); }
+
+std::optional<SensorBias> bias_of(std::string_view name) {
+  const auto* const found = std::find_if(
+      kPriors.begin(), kPriors.end(), [&](const BiasPrior& prior) { return prior.name == name; });
+  return found == kPriors.end() ? std::nullopt
+                                : std::optional{static_cast<SensorBias>(found - kPriors.begin())};
+}
+
+}  // namespace spindrift

@@ -1,0 +1,76 @@
+/// The recorded passes, solved as a whole.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/batch/batch_estimator.h"
+#include "pipelines/spin/batch/pass_edges.h"
+#include "pipelines/spin/spin_pass.h"
+#include "tests/support/recorded_pass.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+Expected<BatchSolution> solved(const testing::RecordedPass& recorded) {
+  SpinPass pass{recorded.config, recorded.orbit};
+  PassEdges edges;
+  const auto note = [&edges](const SpinOutput& output) {
+    for (const SpinProduct& product : output.products) {
+      edges.note(product);
+    }
+  };
+  for (const Pulse& pulse : recorded.pulses) {
+    note(pass.push(pulse));
+  }
+  for (const CodedFrame& frame : recorded.frames) {
+    note(pass.push(frame));
+  }
+  note(pass.finish());
+  return solve_batch(recorded.config, recorded.orbit, edges.edges(), edges.starts());
+}
+
+struct Recorded {
+  const char* name;
+  HorizonModel horizon;
+  double limit_deg;
+};
+
+class BatchOfRecorded : public ::testing::TestWithParam<Recorded> {};
+
+TEST_P(BatchOfRecorded, IsWithinItsLimitAndThreeSigmas) {
+  testing::RecordedPass recorded = testing::recorded_pass(GetParam().name);
+  recorded.config.horizon.model = GetParam().horizon;
+  const auto solution = solved(recorded);
+  ASSERT_TRUE(solution) << solution.error().message;
+  const SpinEstimate& estimate = solution->estimate;
+  const double error_deg =
+      angle_between_rad(estimate.axis_icrf, recorded.true_axis_icrf) / kDegree_rad;
+  const double sigma_deg = std::sqrt(estimate.covariance_rad2.trace()) / kDegree_rad;
+  printf("%s err %.4f sigma %.4f bound %.4f iterations %d: %s\n", GetParam().name, error_deg, sigma_deg,
+         solution->bound_rad / kDegree_rad, solution->iterations, estimate.status.c_str());
+  for (auto& b : solution->biases) printf("   %s %.5f %.5f %d\n", std::string(prior_of(b.bias).name).c_str(), b.value / (prior_of(b.bias).is_angle ? kDegree_rad : 1), b.sigma/ (prior_of(b.bias).is_angle ? kDegree_rad : 1), b.observable);
+  for (auto& u : solution->undetermined) printf("   %s\n", u.c_str());
+  EXPECT_LT(error_deg, GetParam().limit_deg);
+  EXPECT_LT(error_deg, 3.0 * sigma_deg);
+}
+
+INSTANTIATE_TEST_SUITE_P(Passes, BatchOfRecorded,
+                         ::testing::Values(Recorded{"nominal", HorizonModel::Sphere, 0.05},
+                                           Recorded{"dirty", HorizonModel::Ellipsoid, 0.05},
+                                           Recorded{"coded", HorizonModel::Sphere, 0.1},
+                                           Recorded{"north-only", HorizonModel::Sphere, 0.1},
+                                           Recorded{"gms5", HorizonModel::Ellipsoid, 0.02}),
+                         [](const auto& recorded) {
+                           std::string name = recorded.param.name;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace spindrift
