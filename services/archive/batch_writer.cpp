@@ -1,8 +1,10 @@
 #include "services/archive/batch_writer.h"
 
 #include <SQLiteCpp/Transaction.h>
+#include <fmt/format.h>
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -129,7 +131,14 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                      "INSERT OR REPLACE INTO spin_estimate (run_id, t_tai_ns, estimator, ra_deg,"
                      " dec_deg, sigma_deg, cov_east_east_deg2, cov_east_north_deg2,"
                      " cov_north_north_deg2, spin_rate_rpm, sigma_rpm, status)"
-                     " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"} {}
+                     " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+      spin_batch_{database,
+                  "INSERT OR REPLACE INTO spin_batch (run_id, t_tai_ns, bound_deg, edges, outliers,"
+                  " noise, iterations, singular_values, undetermined, changed_tai_ns)"
+                  " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+      spin_bias_{database,
+                 "INSERT OR REPLACE INTO spin_bias (run_id, estimator, name, value, unit, sigma,"
+                 " observable) VALUES (?, ?, ?, ?, ?, ?, ?)"} {}
 
 Expected<void> BatchWriter::write(std::span<const ArchiveBatch> batches) {
   try {
@@ -167,6 +176,9 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
   for (const SpinProduct& product : batch.products) {
     std::visit([&](const auto& value) { insert(batch, value); }, product);
   }
+  if (batch.batch) {
+    insert(batch.run_id, *batch.batch);
+  }
   for (const SourceCount& count : batch.source_counts) {
     insert(batch.run_id, count);
   }
@@ -202,6 +214,7 @@ void BatchWriter::withdraw(const ArchiveBatch& batch, TaiTime from) {
   execute_for_run("DELETE FROM revolution WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run("DELETE FROM spin_fix WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run("DELETE FROM spin_estimate WHERE run_id = ?1 AND t_tai_ns >= ?2");
+  execute_for_run("DELETE FROM spin_batch WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run(
       "DELETE FROM pulse_use WHERE run_id = ?1 AND t_tai_ns >= ?2 AND spacecraft_id ="
       " (SELECT spacecraft_id FROM run WHERE run_id = ?1)");
@@ -294,6 +307,24 @@ void BatchWriter::insert(const ArchiveBatch& batch, const SpinEstimate& estimate
           covariance.east_north_deg2, covariance.north_north_deg2,
           estimate.spin_rate_rad_s * kRpmPerRad_s, estimate.spin_rate_sigma_rad_s * kRpmPerRad_s,
           estimate.status);
+}
+
+void BatchWriter::insert(const std::string& run_id, const BatchSolution& solution) {
+  std::optional<std::int64_t> changed_tai_ns;
+  if (solution.changed) {
+    changed_tai_ns = tai_ns(*solution.changed);
+  }
+  execute(spin_batch_, run_id, tai_ns(solution.estimate.t), solution.bound_rad * kDegPerRad,
+          solution.edges, solution.outliers, solution.noise, std::int64_t{solution.iterations},
+          nlohmann::json(solution.singular_values).dump(),
+          fmt::format("{}", fmt::join(solution.undetermined, "\n")), changed_tai_ns);
+  for (const BiasEstimate& bias : solution.biases) {
+    const BiasPrior& prior = prior_of(bias.bias);
+    const double to_unit = prior.is_angle ? kDegPerRad : 1.0;
+    execute(spin_bias_, run_id, name_of(solution.estimate.estimator), prior.name,
+            bias.value * to_unit, std::string_view{prior.is_angle ? "deg" : "km"},
+            bias.sigma * to_unit, as_flag(bias.observable));
+  }
 }
 
 }  // namespace spindrift

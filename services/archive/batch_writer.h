@@ -39,6 +39,7 @@ class BatchWriter {
   void insert(const ArchiveBatch& batch, const SpinFix& fix);
   void insert_candidates(const ArchiveBatch& batch, const SpinFix& fix);
   void insert(const ArchiveBatch& batch, const SpinEstimate& estimate);
+  void insert(const std::string& run_id, const BatchSolution& solution);
 
   SQLite::Database& database_;
   SQLite::Statement spacecraft_;
@@ -56,6 +57,8 @@ class BatchWriter {
   SQLite::Statement spin_fix_candidates_gone_;
   SQLite::Statement spin_fix_candidate_;
   SQLite::Statement spin_estimate_;
+  SQLite::Statement spin_batch_;
+  SQLite::Statement spin_bias_;
 };
 
 }  // namespace spindrift

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/products.h"
 #include "services/ingest/rejected_input.h"
 #include "services/ingest/sample.h"
@@ -59,6 +60,7 @@ struct ArchiveBatch {
   std::vector<CodedSample> coded = {};
   std::vector<RejectedInput> rejected = {};
   std::vector<SpinProduct> products = {};
+  std::optional<BatchSolution> batch = {};  ///< Its estimate is among the products.
   std::vector<SourceCount> source_counts = {};
   std::optional<std::string> finished_utc = {};  ///< ISO 8601, ending in Z.
 };
@@ -66,7 +68,8 @@ struct ArchiveBatch {
 /// Rows that `batch` asks for, those the archive already holds included.
 inline std::size_t row_count(const ArchiveBatch& batch) {
   return batch.pulses.size() + batch.coded.size() + batch.rejected.size() + batch.products.size() +
-         batch.source_counts.size() + (batch.start ? 1 : 0) + (batch.finished_utc ? 1 : 0);
+         batch.source_counts.size() + (batch.start ? 1 : 0) + (batch.batch ? 1 : 0) +
+         (batch.finished_utc ? 1 : 0);
 }
 
 }  // namespace spindrift

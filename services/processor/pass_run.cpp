@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <iterator>
 #include <utility>
 #include <variant>
@@ -9,6 +10,12 @@
 #include "services/clock/wall_clock.h"
 
 namespace spindrift {
+namespace {
+
+constexpr std::chrono::minutes kBetweenBatches{1};
+
+}  // namespace
+
 void LatestResults::note(const std::vector<SpinProduct>& products) {
   for (const SpinProduct& product : products) {
     if (const auto* estimate = std::get_if<SpinEstimate>(&product)) {
@@ -26,11 +33,12 @@ void LatestResults::move_to(std::vector<SpinProduct>& products) {
   }
 }
 
-PassRun::PassRun(const Mission& mission, const std::string& run_id)
+PassRun::PassRun(const Mission& mission, const std::string& run_id, BatchPlan plan)
     : spacecraft_id_{mission.spacecraft_id},
       config_{*mission.spin},
       orbit_{*mission.orbit},
-      pass_{config_, orbit_} {
+      pass_{config_, orbit_},
+      plan_{plan} {
   begin(run_id);
 }
 
@@ -41,6 +49,9 @@ void PassRun::begin(const std::string& run_id) {
   summary_ = std::move(fresh);
   pass_ = SpinPass{config_, orbit_};
   catch_up_.reset();
+  edges_ = {};
+  next_batch_.reset();
+  due_.reset();
 }
 
 ArchiveBatch PassRun::batch() const {
@@ -92,12 +103,46 @@ void PassRun::compute(const Sample& sample, ArchiveBatch& computed) {
   }
 }
 
+BatchTask PassRun::batch_task() const {
+  return {.run_id = summary_.run_id,
+          .spacecraft_id = spacecraft_id_,
+          .config = &config_,
+          .orbit = &orbit_,
+          .pass = edges_};
+}
+
+/// By the time of telemetry, so that the same telemetry gives the same solutions. What is stored
+/// already needs none.
+void PassRun::note_time(TaiTime t) {
+  if (plan_ == BatchPlan::WholePass || (next_batch_ && t < *next_batch_)) {
+    return;
+  }
+  if (next_batch_ && !catch_up_) {
+    edges_.keep_last(kLastRevolutions);
+    due_ = batch_task();
+  }
+  next_batch_ = t + kBetweenBatches;
+}
+
+std::optional<BatchTask> PassRun::take_batch_task() { return std::exchange(due_, std::nullopt); }
+
 ArchiveBatch PassRun::finish() {
   ArchiveBatch last = batch();
   SpinOutput output = pass_.finish();
   note(output);
   last.products = std::move(output.products);
   last.finished_utc = utc_now();
+  if (plan_ == BatchPlan::EveryMinute) {
+    edges_.keep_last(kLastRevolutions);
+  }
+  if (auto solution = solve(batch_task())) {
+    summary_.count(solution->estimate);
+    summary_.batch = *solution;
+    last.products.emplace_back(solution->estimate);
+    last.batch = *std::move(solution);
+  } else if (summary_.revolutions > 0) {
+    spdlog::warn("{}: no batch solution: {}", spacecraft_id_, solution.error().message);
+  }
   return last;
 }
 
@@ -113,6 +158,10 @@ void PassRun::note(const SpinOutput& output) {
   }
   for (const SpinProduct& product : output.products) {
     summary_.count(product);
+    edges_.note(product);
+    if (const auto* estimate = std::get_if<SpinEstimate>(&product)) {
+      note_time(estimate->t);
+    }
   }
 }
 

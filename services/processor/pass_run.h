@@ -13,6 +13,7 @@
 #include "pipelines/spin/spin_pass.h"
 #include "services/archive/records.h"
 #include "services/mission/mission.h"
+#include "services/processor/batch_task.h"
 #include "services/processor/run_summary.h"
 
 namespace spindrift {
@@ -35,10 +36,18 @@ class LatestResults {
   std::map<std::string_view, SpinProduct> latest_;
 };
 
+/// When the estimator `batch` runs, beside the end of the pass.
+enum class BatchPlan {
+  WholePass,   ///< Then only, over all edges.
+  EveryMinute  ///< Of telemetry; each time, in the end too, over the last revolutions.
+};
+
 class PassRun {
  public:
+  static constexpr std::int64_t kLastRevolutions = 1000;
+
   /// @param mission Of a spinner.
-  PassRun(const Mission& mission, const std::string& run_id);
+  PassRun(const Mission& mission, const std::string& run_id, BatchPlan plan);
 
   /// The run is `run_id`, which is stored, and its samples come again first. What was made from
   /// `again_from` on, which the run may not have got to, is stored again, and with it the results
@@ -47,7 +56,10 @@ class PassRun {
 
   std::vector<ArchiveBatch> compute(const PassInput& input);
 
-  /// The pass has ended: what was still held, and the end of the run.
+  /// What became due while computing; to be solved by whoever has the time.
+  std::optional<BatchTask> take_batch_task();
+
+  /// The pass has ended: what was still held, its batch solution, and the end of the run.
   ArchiveBatch finish();
 
   /// Of all runs so far, but for what was received, which this side does not see.
@@ -59,6 +71,8 @@ class PassRun {
   template <class Sample>
   void compute(const Sample& sample, ArchiveBatch& computed);
   void note(const SpinOutput& output);
+  void note_time(TaiTime t);
+  BatchTask batch_task() const;
 
   /// What is stored already comes by once more.
   struct CatchUp {
@@ -73,6 +87,10 @@ class PassRun {
   RunSummary summary_;
   SpinPass pass_;
   std::optional<CatchUp> catch_up_;
+  BatchPlan plan_;
+  PassEdges edges_;
+  std::optional<TaiTime> next_batch_;
+  std::optional<BatchTask> due_;
 };
 
 }  // namespace spindrift

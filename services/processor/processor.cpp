@@ -71,7 +71,9 @@ Expected<Processor> Processor::make(const std::vector<Mission>& missions,
       refuse(fmt::format("two mission files name the spacecraft '{}': one is allowed", spacecraft));
     } else {
       processor.runs_.emplace_back(mission, source, processor.runs_.size());
-      processor.passes_.emplace_back(mission, processor.runs_.back().run_id());
+      processor.passes_.emplace_back(
+          mission, processor.runs_.back().run_id(),
+          source.mode == "process" ? BatchPlan::WholePass : BatchPlan::EveryMinute);
     }
   }
   if (!problems.empty()) {
@@ -162,6 +164,10 @@ void Processor::distribute(std::vector<Sample>& samples, std::vector<Sample> Sam
 
 std::vector<ArchiveBatch> Processor::compute(const PassInput& work) {
   return passes_.at(work.spacecraft).compute(work);
+}
+
+std::optional<BatchTask> Processor::take_batch_task(const PassInput& work) {
+  return passes_.at(work.spacecraft).take_batch_task();
 }
 
 std::vector<ArchiveBatch> Processor::take(SampleBatch samples) {

@@ -51,6 +51,9 @@ class Processor {
 
   std::vector<ArchiveBatch> compute(const PassInput& work);
 
+  /// What became due in the last `compute` of that work.
+  std::optional<BatchTask> take_batch_task(const PassInput& work);
+
   /// Both, for those who have one thread.
   std::vector<ArchiveBatch> take(SampleBatch samples);
 

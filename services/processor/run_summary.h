@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/products.h"
 
 namespace spindrift {
@@ -27,6 +29,7 @@ struct RunSummary {
   std::map<int, std::int64_t> fixes_by_case;
   std::map<std::string_view, std::int64_t> fixes_by_resolution;  ///< AMBIGUOUS among them.
   std::map<SpinEstimator, SpinEstimate> estimates;               ///< The last of each.
+  std::optional<BatchSolution> batch;
 
   void count(const SpinProduct& product);
 

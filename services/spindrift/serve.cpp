@@ -5,8 +5,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <stop_token>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -30,6 +32,8 @@ namespace {
 constexpr std::size_t kSamplesTaken = 65'536;
 // Samples between the thread that routes and the one that computes: a whole day's pass in a burst.
 constexpr std::size_t kSamplesToCompute = 1'000'000;
+// Batch solutions that wait; of more that become due the next ones, a minute later, take the place.
+constexpr std::size_t kBatchTasks = 256;
 constexpr std::chrono::milliseconds kStuckPoll{200};
 // A backlog of what was stored is computed for so long after the signal to stop. What is left then
 // is computed at the next start.
@@ -86,10 +90,30 @@ Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& ta
   return {};
 }
 
+/// Solves until `tasks` is closed and empty, or the service is told to stop: the end of a run has a
+/// solution of its own.
+void solve_batches(BoundedQueue<BatchTask>& tasks, Archive& archive, const Patience& patience) {
+  std::map<std::string, std::string> said;
+  while (const auto task = tasks.take()) {
+    if (patience.stopping) {
+      continue;
+    }
+    auto solution = solve(*task);
+    if (!solution) {
+      std::string& reason = said[task->spacecraft_id];
+      if (std::exchange(reason, solution.error().message) != solution.error().message) {
+        spdlog::warn("{}: no batch solution: {}", task->spacecraft_id, reason);
+      }
+    } else if (!archive.submit(archived(*task, *std::move(solution)))) {
+      tasks.close();  // Those who compute meet the same archive, and say so.
+    }
+  }
+}
+
 /// Works until `work` is closed and empty, or the archive refuses.
 /// @return samples that were left when patience ended.
-Expected<std::size_t> compute(BoundedQueue<PassInput>& work, Processor& processor, Archive& archive,
-                              const Patience& patience) {
+Expected<std::size_t> compute(BoundedQueue<PassInput>& work, BoundedQueue<BatchTask>& tasks,
+                              Processor& processor, Archive& archive, const Patience& patience) {
   std::size_t left = 0;
   while (const auto input = work.take()) {
     if (patience.ended) {
@@ -97,6 +121,9 @@ Expected<std::size_t> compute(BoundedQueue<PassInput>& work, Processor& processo
     } else if (auto stored = submit_all(archive, processor.compute(*input)); !stored) {
       work.close();  // Nobody empties it any more.
       return Unexpected{stored.error()};
+    }
+    if (auto task = processor.take_batch_task(*input); task && tasks.size() < kBatchTasks) {
+      tasks.push(*std::move(task));
     }
   }
   return left;
@@ -108,10 +135,14 @@ Expected<void> route_and_compute(std::vector<PassInput> again, BoundedQueue<Samp
                                  BoundedQueue<PassInput>& work, Processor& processor,
                                  Archive& archive, const Patience& patience) {
   Expected<std::size_t> left;
-  std::thread computing{[&] { left = compute(work, processor, archive, patience); }};
+  BoundedQueue<BatchTask> tasks{kBatchTasks};
+  std::thread solving{[&] { solve_batches(tasks, archive, patience); }};
+  std::thread computing{[&] { left = compute(work, tasks, processor, archive, patience); }};
   const auto routed = route(std::move(again), taken, processor, archive, work);
   work.close();
   computing.join();
+  tasks.close();
+  solving.join();
   if (!routed || !left) {
     return routed ? Unexpected{left.error()} : routed;
   }

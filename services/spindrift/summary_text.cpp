@@ -85,6 +85,23 @@ nlohmann::json to_json(const SpinEstimate& estimate) {
           {"sigma_rpm", shown.sigma_rpm},   {"status", estimate.status}};
 }
 
+double in_unit(SensorBias bias, double value) {
+  return prior_of(bias).is_angle ? value * kDegPerRad : value;
+}
+
+void add(const BatchSolution& solution, nlohmann::json& json) {
+  json["bound_deg"] = solution.bound_rad * kDegPerRad;
+  json["outliers"] = solution.outliers;
+  json["undetermined"] = solution.undetermined;
+  for (const BiasEstimate& bias : solution.biases) {
+    json["biases"][std::string{prior_of(bias.bias).name}] = {
+        {"value", in_unit(bias.bias, bias.value)},
+        {"sigma", in_unit(bias.bias, bias.sigma)},
+        {"unit", prior_of(bias.bias).is_angle ? "deg" : "km"},
+        {"observable", bias.observable}};
+  }
+}
+
 }  // namespace
 
 std::string to_text(const RunSummary& summary) {
@@ -116,9 +133,13 @@ nlohmann::json to_json(const RunSummary& summary) {
                       {"fixes_by_case", to_json(summary.fixes_by_case)},
                       {"fixes_by_resolution", to_json(summary.fixes_by_resolution)},
                       {"mean", nullptr},
-                      {"sequential", nullptr}};
+                      {"sequential", nullptr},
+                      {"batch", nullptr}};
   for (const auto& [estimator, estimate] : summary.estimates) {
     json[std::string{name_of(estimator)}] = to_json(estimate);
+  }
+  if (summary.batch) {
+    add(*summary.batch, json["batch"]);
   }
   return json;
 }

@@ -12,6 +12,7 @@
 #include "pipelines/spin/batch/batch_fit.h"
 #include "pipelines/spin/batch/bias_choice.h"
 #include "pipelines/spin/batch/first_clock.h"
+#include "pipelines/spin/batch/observability.h"
 #include "pipelines/spin/batch/pass_information.h"
 #include "pipelines/time/utc.h"
 

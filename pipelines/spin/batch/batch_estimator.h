@@ -16,36 +16,15 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
-#include "pipelines/spin/batch/observability.h"
+#include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/batch/pass_model.h"
 #include "pipelines/spin/config.h"
-#include "pipelines/spin/products.h"
 
 namespace spindrift {
-
-struct BatchSolution {
-  SpinEstimate estimate;
-  /// Cramer-Rao bound of the axis, both directions together, with the stated noise and the biases
-  /// that are estimated.
-  double bound_rad;
-  /// Of every bias: as estimated; of the others what the edges would say of all biases together.
-  std::vector<BiasEstimate> biases;
-  /// Directions that the edges leave open were all biases of the pass unknown, in words.
-  std::vector<std::string> undetermined;
-  std::vector<double> singular_values;  ///< Observability::singular_values().
-  std::optional<TaiTime> changed;       ///< Attitude or rate did, the last time.
-  std::int64_t edges;                   ///< That it rests on.
-  std::int64_t outliers;
-  double noise;  ///< Root of their mean square against the stated noise.
-  int iterations;
-};
 
 /// @param edges In order of time.
 /// @param starts Axes to begin at, unit, ICRF, likeliest first.

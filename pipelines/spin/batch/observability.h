@@ -7,18 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/spin/batch/batch_fit.h"
+#include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/batch/pass_information.h"
 
 namespace spindrift {
-
-/// One bias, as edges and prior together have it.
-struct BiasEstimate {
-  SensorBias bias;
-  double value;  ///< rad, or km; zero, the prior, where not observable.
-  double sigma;  ///< That of the prior where not observable.
-  bool observable;
-};
 
 /// The covariance of motion and biases, the priors of the biases included.
 class Observability {

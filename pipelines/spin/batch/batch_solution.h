@@ -1,0 +1,42 @@
+/// @file
+/// What the estimator `batch` finds out of a pass.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/spin/products.h"
+#include "pipelines/spin/sensor_biases.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// One bias, as edges and prior together have it.
+struct BiasEstimate {
+  SensorBias bias;
+  double value;  ///< rad, or km; zero, the prior, where not observable.
+  double sigma;  ///< That of the prior where not observable.
+  bool observable;
+};
+
+struct BatchSolution {
+  SpinEstimate estimate;
+  /// Cramer-Rao bound of the axis, both directions together, with the stated noise and the biases
+  /// that are estimated.
+  double bound_rad;
+  /// Of every bias: as estimated; of the others what the edges would say of all biases together.
+  std::vector<BiasEstimate> biases;
+  /// Directions that the edges leave open were all biases of the pass unknown, in words.
+  std::vector<std::string> undetermined;
+  std::vector<double> singular_values;  ///< Of the whitened equations, largest first.
+  std::optional<TaiTime> changed;       ///< Attitude or rate did, the last time.
+  std::int64_t edges;                   ///< That it rests on.
+  std::int64_t outliers;
+  double noise;  ///< Root of their mean square against the stated noise.
+  int iterations;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,29 @@
+/// @file
+/// The estimator `batch` for the edges that a pass has so far: a value that any thread may solve.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "pipelines/spin/batch/pass_edges.h"
+#include "pipelines/spin/config.h"
+#include "services/archive/records.h"
+
+namespace spindrift {
+
+struct BatchTask {
+  std::string run_id;
+  std::string spacecraft_id;
+  const SpinConfig* config;  ///< Of the PassRun, which outlives the task; so is the orbit.
+  const Orbit* orbit;
+  PassEdges pass;
+};
+
+Expected<BatchSolution> solve(const BatchTask& task);
+
+/// For the archive.
+ArchiveBatch archived(const BatchTask& task, BatchSolution solution);
+
+}  // namespace spindrift
