@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "pipelines/frames/celestial.h"
@@ -172,6 +173,34 @@ Expected<Eigen::Matrix2d> add_wanted_biases(Solved& solved) {
   return open_rad2;
 }
 
+/// @param bound_rad2 Of the axis.
+std::optional<Error> axis_left_open(const Eigen::Matrix2d& bound_rad2) {
+  if (bound_rad2.trace() < kLost_rad * kLost_rad) {
+    return std::nullopt;
+  }
+  return Error{ErrorCode::Unobservable,
+               fmt::format("these edges leave the axis open by {:.0f} deg: a cone about Sun or "
+                           "Earth, or less",
+                           std::min(std::sqrt(bound_rad2.trace()) / kDegree_rad, 180.0))};
+}
+
+/// What the edges leave open wanders off.
+Error why_diverged(const Solved& solved, const Eigen::Vector3d& start_icrf) {
+  const auto start = first_state(solved.model, solved.edges, start_icrf);
+  if (start) {
+    const PassInformation there =
+        information_of(solved.model, solved.edges, *start, std::numeric_limits<double>::infinity());
+    const Observability observed{there, solved.of.best.estimated};
+    if (auto open = axis_left_open(observed.axis_covariance_rad2())) {
+      return *std::move(open);
+    }
+  }
+  const PassInformation& found = solved.of.best.information;
+  return {ErrorCode::Unobservable,
+          fmt::format("the solution diverged: {} of {} edges are not where it has them",
+                      found.outliers, found.outliers + found.edges)};
+}
+
 std::string bias_in_words(const BiasEstimate& bias) {
   const BiasPrior& prior = prior_of(bias.bias);
   const double unit = prior.is_angle ? kDegree_rad : 1.0;
@@ -181,15 +210,15 @@ std::string bias_in_words(const BiasEstimate& bias) {
 
 /// Of the biases not estimated, what one step from the state would make of all together.
 std::vector<BiasEstimate> all_biases(const Explained& found) {
-  BiasSet all;
-  all.set();
-  const Observability together{found.information, all};
-  const Observability estimated{found.information, found.estimated};
-  const SensorBiases would_be =
-      found.fit.state.biases + together.bias_step(found.information, found.fit.state.biases);
-  std::vector<BiasEstimate> biases = together.biases(would_be);
-  for (const BiasEstimate& bias : estimated.biases(found.fit.state.biases)) {
-    biases[static_cast<std::size_t>(bias.bias)] = bias;
+  const SensorBiases& now = found.fit.state.biases;
+  const Observability together{found.information, seen_biases(found.information) | found.estimated};
+  const Observability alone{found.information, found.estimated};
+  const SensorBiases step = together.bias_step(found.information, now);
+  std::vector<BiasEstimate> biases = together.biases(now + step);
+  for (const BiasEstimate& estimated : alone.biases(now)) {
+    *std::find_if(biases.begin(), biases.end(), [&](const BiasEstimate& bias) {
+      return bias.bias == estimated.bias;
+    }) = estimated;
   }
   return biases;
 }
@@ -253,16 +282,12 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
   const Explained& best = solved->of.best;
   const PassInformation& information = best.information;
   if (information.outlier_share() > kMostOutliers) {
-    return unobservable(
-        fmt::format("the solution diverged: {} of {} edges are not where it has them",
-                    information.outliers, information.outliers + information.edges));
+    return Unexpected{why_diverged(*solved, starts.front())};
   }
   const Observability observed{information, best.estimated};
   const Eigen::Matrix2d bound_rad2 = observed.axis_covariance_rad2();
-  if (!(bound_rad2.trace() < kLost_rad * kLost_rad)) {
-    return unobservable(
-        fmt::format("these edges leave the axis open by {:.0f} deg: a cone about Sun or Earth",
-                    std::sqrt(bound_rad2.trace()) / kDegree_rad));
+  if (const auto open = axis_left_open(bound_rad2)) {
+    return Unexpected{*open};
   }
   const int unknowns = kMotionUnknowns + static_cast<int>(best.estimated.count());
   const double excess_noise = information.excess_noise(unknowns);
@@ -286,10 +311,8 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
       .outliers = information.outliers,
       .noise = std::sqrt(excess_noise),
       .iterations = best.fit.iterations};
-  BiasSet all;
-  all.set();
-  solution.undetermined =
-      Observability{information, config.batch.biases.value_or(all)}.undetermined();
+  const BiasSet suspected = config.batch.biases.value_or(seen_biases(information));
+  solution.undetermined = Observability{information, suspected}.undetermined();
   solution.estimate.status = status_of(*solved, solution);
   return solution;
 }

@@ -2,7 +2,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <vector>
 
@@ -15,13 +17,13 @@ namespace {
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 // So many tell a parabola to a fraction of a degree.
 constexpr std::size_t kEnough = 4000;
-// Edges that lie elsewhere are dropped, and the parabola is fitted again.
-constexpr int kPasses = 6;
+// The first parabola is off by a turn at most from one end to the other: little within a span.
+constexpr int kSpans = 64;
+constexpr int kPasses = 3;
 
 struct Counted {
   double part;       ///< Time from the middle of the pass, in half lengths.
   double phase_rad;  ///< Predicted, in the turn that the revolution has.
-  std::int64_t revolution;
 };
 
 /// Sun1 begins a turn; edges of the same revolution follow within it, those of chords that straddle
@@ -43,6 +45,35 @@ Eigen::Vector3d parabola(const std::vector<Counted>& counted) {
   return normal.ldlt().solve(right);
 }
 
+double phase_at(const Eigen::Vector3d& clock, double part) {
+  return clock[0] + (clock[1] + clock[2] * part) * part;
+}
+
+/// An edge may have been counted to the turn before or after. Each span of the pass has most of its
+/// edges in one place of the circle, which moves little from one to the next.
+void count_anew(const Eigen::Vector3d& clock, std::vector<Counted>& counted) {
+  std::array<std::complex<double>, kSpans> places{};
+  const auto span_of = [](const Counted& edge) {
+    const auto span = static_cast<int>(0.5 * (edge.part + 1.0) * kSpans);
+    return static_cast<std::size_t>(std::clamp(span, 0, kSpans - 1));
+  };
+  for (const Counted& edge : counted) {
+    places.at(span_of(edge)) += std::polar(1.0, edge.phase_rad - phase_at(clock, edge.part));
+  }
+  std::array<double, kSpans> place_rad{};
+  double last_rad = 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places.at(i) != 0.0) {
+      last_rad += wrapped_rad(std::arg(places.at(i)) - last_rad);
+    }
+    place_rad.at(i) = last_rad;
+  }
+  for (Counted& edge : counted) {
+    const double near_rad = phase_at(clock, edge.part) + place_rad.at(span_of(edge));
+    edge.phase_rad = near_rad + wrapped_rad(edge.phase_rad - near_rad);
+  }
+}
+
 }  // namespace
 
 Expected<SpinState> first_state(const PassModel& model, std::span<const PassEdge> edges,
@@ -61,8 +92,7 @@ Expected<SpinState> first_state(const PassModel& model, std::span<const PassEdge
       counted.push_back(
           {.part = seconds_between(model.middle(), edge.pulse.t) / model.half_s(),
            .phase_rad = unwrapped_rad(predicted->phase_rad, std::atan2(sun_spin.y(), sun_spin.x()),
-                                      edge.revolution - middle),
-           .revolution = edge.revolution});
+                                      edge.revolution - middle)});
     }
   }
   if (counted.empty()) {
@@ -71,13 +101,7 @@ Expected<SpinState> first_state(const PassModel& model, std::span<const PassEdge
   }
   Eigen::Vector3d clock = parabola(counted);
   for (int pass = 0; pass < kPasses; ++pass) {
-    // An edge near sun1 may have been counted to the turn before or after.
-    for (Counted& edge : counted) {
-      const double off_rad =
-          edge.phase_rad - (clock[0] + (clock[1] + clock[2] * edge.part) * edge.part);
-      edge.phase_rad -=
-          std::abs(off_rad) < 2.0 * kTurn_rad ? kTurn_rad * std::round(off_rad / kTurn_rad) : 0.0;
-    }
+    count_anew(clock, counted);
     clock = parabola(counted);
   }
   return SpinState{.q_icrf_spin = q_icrf_spin * Eigen::Quaterniond{Eigen::AngleAxisd{

@@ -38,6 +38,15 @@ std::string in_words(const std::vector<std::string_view>& names) {
 
 }  // namespace
 
+BiasSet seen_biases(const PassInformation& information) {
+  BiasSet seen;
+  for (int i = 0; i < kSensorBiases; ++i) {
+    const int row = kMotionUnknowns + i;
+    seen[static_cast<std::size_t>(i)] = information.information(row, row) > 0.0;
+  }
+  return seen;
+}
+
 Observability::Observability(const PassInformation& information, BiasSet estimated) {
   const Scales unit = scales();
   scaled_ = unit.asDiagonal() * information.information * unit.asDiagonal();
@@ -114,6 +123,9 @@ std::vector<std::string> Observability::undetermined() const {
     return information;
   }();
   const auto count = static_cast<Eigen::Index>(estimated_.size());
+  if (count == 0) {
+    return {};
+  }
   Eigen::MatrixXd left(count, count);
   const Eigen::Matrix<double, kMotionUnknowns, kMotionUnknowns> motion =
       motion_known.topLeftCorner<kMotionUnknowns, kMotionUnknowns>();

@@ -12,6 +12,9 @@
 
 namespace spindrift {
 
+/// Those that any edge of the pass depends on.
+BiasSet seen_biases(const PassInformation& information);
+
 /// The covariance of motion and biases, the priors of the biases included.
 class Observability {
  public:

@@ -36,16 +36,16 @@ double PassInformation::excess_noise(int unknowns) const {
 }
 
 PassInformation information_of(const PassModel& model, std::span<const PassEdge> edges,
-                               const SpinState& state) {
+                               const SpinState& state, double outlier_sigmas) {
   PassInformation sum;
   for (const PassEdge& edge : edges) {
     const auto residual = model.residual(edge.pulse, state);
-    if (!residual || !(std::abs(residual->off) < kOutlierSigmas)) {
+    if (!residual || !(std::abs(residual->off) < outlier_sigmas)) {
       ++sum.outliers;
       continue;
     }
     sum.information.selfadjointView<Eigen::Lower>().rankUpdate(residual->slopes.transpose());
-    const double part = residual->off / kOutlierSigmas;
+    const double part = residual->off / outlier_sigmas;
     const double weight = (1.0 - part * part) * (1.0 - part * part);
     sum.score += residual->slopes.transpose() * (weight * residual->off);
     sum.squares += residual->off * residual->off;

@@ -33,8 +33,9 @@ struct PassInformation {
   double excess_noise(int unknowns) const;
 };
 
+/// @param outlier_sigmas Infinity for a state so far off that all edges seem outliers.
 PassInformation information_of(const PassModel& model, std::span<const PassEdge> edges,
-                               const SpinState& state);
+                               const SpinState& state, double outlier_sigmas = kOutlierSigmas);
 
 /// The same by spans of the pass that hold equally many edges. At most `spans`, each at least one.
 struct SpanInformation {

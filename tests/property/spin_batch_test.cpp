@@ -1,0 +1,57 @@
+/// The covariance of `batch` is a promise, and its bound is that of Fisher.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/batch_statistics.h"
+#include "tests/support/information_limit.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+TEST(SpinBatch, ErrorsAreThoseThatTheCovariancePromises) {
+  const testing::BatchStatistics sums = testing::many_passes(200, 60.0, {}, 1777);
+  EXPECT_EQ(sums.failures, 0);
+  // 95 % of chi-square, 400 degrees of freedom.
+  EXPECT_GT(sums.squares, 346.5);
+  EXPECT_LT(sums.squares, 457.3);
+}
+
+TEST(SpinBatch, ErrorsAreThoseThatTheCovariancePromisesWithBiases) {
+  const BiasSet estimated =
+      BiasSet{}.set(NorthChordBias).set(SouthMountAngleBias).set(DihedralBias);
+  const testing::BatchStatistics sums = testing::many_passes(200, 60.0, estimated, 1801);
+  EXPECT_EQ(sums.failures, 0);
+  EXPECT_GT(sums.squares, 346.5);
+  EXPECT_LT(sums.squares, 457.3);
+  // Four sigmas of the mean of chi-squares of one degree each, which the prior correlates.
+  ASSERT_GT(sums.biases, 100);
+  EXPECT_NEAR(sums.bias_squares / sums.biases, 1.0, 4.0 * std::sqrt(2.0 / sums.biases));
+}
+
+TEST(SpinBatch, TheBoundIsThatOfTheInformationLimit) {
+  const Orbit orbit = testing::transfer_orbit();
+  const testing::Surroundings around =
+      testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  std::mt19937_64 rng{1922};
+  for (int pass = 0; pass < 8; ++pass) {
+    const testing::SpinningBody body = testing::random_body(around, 4.0 * kDegree_rad, rng);
+    SpinConfig config = body.config;
+    config.batch.biases = BiasSet{};
+    const double turns = 60.0;
+    const double duration_s = turns * 2.0 * std::numbers::pi / body.rate_rad_s;
+    const auto solution = solve_batch(
+        config, orbit, testing::noisy_pass(body, testing::edges_of_turns(body, around, turns), rng),
+        {{testing::start_near(body, kDegree_rad, rng)}});
+    ASSERT_TRUE(solution) << solution.error().message;
+    const double limit_rad = std::sqrt(testing::cramer_rao_rad2(body, around, duration_s).trace());
+    // The limit knows that the rate does not drift, which the axis hardly depends on.
+    EXPECT_NEAR(solution->bound_rad / limit_rad, 1.0, 0.01) << "pass " << pass;
+  }
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,45 @@
+/// @file
+/// Edges of the oracle's body with their turns counted: what the estimator `batch` is fed.
+
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "pipelines/spin/batch/pass_model.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift::testing {
+
+/// Of so many turns from `kTransferStart` on, with the noise that the mission states.
+inline std::vector<Edge> edges_of_turns(const SpinningBody& body, const Surroundings& around,
+                                        double turns) {
+  return edges_between(body, around, 0.0, turns * 2.0 * std::numbers::pi / body.rate_rad_s);
+}
+
+inline std::vector<PassEdge> counted(const SpinningBody& body, const std::vector<Pulse>& pulses) {
+  std::vector<PassEdge> counted;
+  for (const Pulse& pulse : pulses) {
+    const double turns =
+        seconds_between(kTransferStart, pulse.t) * body.rate_rad_s / (2.0 * std::numbers::pi);
+    counted.push_back({.pulse = pulse, .revolution = static_cast<std::int64_t>(std::floor(turns))});
+  }
+  return counted;
+}
+
+inline std::vector<PassEdge> noisy_pass(const SpinningBody& body, const std::vector<Edge>& edges,
+                                        std::mt19937_64& rng) {
+  return counted(body, pulses_from(edges, kTransferStart, body.config.noise, rng));
+}
+
+/// Some degrees from the axis, as a fix would be.
+inline Eigen::Vector3d start_near(const SpinningBody& body, double off_rad, std::mt19937_64& rng) {
+  const double azimuth_rad = std::uniform_real_distribution{0.0, 2.0 * std::numbers::pi}(rng);
+  return Eigen::AngleAxisd{azimuth_rad, body.axis_icrf} *
+         (Eigen::AngleAxisd{off_rad, body.axis_icrf.unitOrthogonal()} * body.axis_icrf);
+}
+
+}  // namespace spindrift::testing

@@ -1,0 +1,186 @@
+/// What `batch` says of a pass that is not as it should be.
+
+#include "pipelines/spin/batch/batch_estimator.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "pipelines/frames/celestial.h"
+#include "tests/support/batch_pass.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::SpinningBody;
+using ::testing::StartsWith;
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+struct Scene {
+  std::mt19937_64 rng{1809};
+  Orbit orbit = testing::transfer_orbit();
+  testing::Surroundings around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  SpinningBody body = testing::random_body(around, 3.0 * kDegree_rad, rng);
+
+  std::vector<PassEdge> pass(double turns) {
+    return testing::noisy_pass(body, testing::edges_of_turns(body, around, turns), rng);
+  }
+  Expected<BatchSolution> solved(const std::vector<PassEdge>& edges, double off_deg = 1.0) {
+    const Eigen::Vector3d start = testing::start_near(body, off_deg * kDegree_rad, rng);
+    return solve_batch(body.config, orbit, edges, {{start}});
+  }
+  double error_sigmas(const BatchSolution& solution) const {
+    return angle_between_rad(solution.estimate.axis_icrf, body.axis_icrf) /
+           std::sqrt(solution.estimate.covariance_rad2.trace());
+  }
+};
+
+const BiasEstimate& of(const BatchSolution& solution, SensorBias bias) {
+  return *std::find_if(solution.biases.begin(), solution.biases.end(),
+                       [&](const BiasEstimate& estimate) { return estimate.bias == bias; });
+}
+
+void widen_chord(const SpinningBody& body, PulseChannel in, PulseChannel out, double wider_rad,
+                 std::vector<PassEdge>& edges) {
+  const auto half = std::chrono::nanoseconds{std::llround(0.5e9 * wider_rad / body.rate_rad_s)};
+  for (PassEdge& edge : edges) {
+    edge.pulse.t += edge.pulse.channel == out ? half : -half * (edge.pulse.channel == in ? 1 : 0);
+  }
+}
+
+TEST(BatchEstimator, FindsTheAxisFromAFixThatIsDegreesOff) {
+  Scene scene;
+  const auto edges = scene.pass(200.0);
+  for (const double off_deg : {0.1, 1.0, 5.0, 15.0}) {
+    SCOPED_TRACE(off_deg);
+    const auto solution = scene.solved(edges, off_deg);
+    ASSERT_TRUE(solution) << solution.error().message;
+    EXPECT_LT(scene.error_sigmas(*solution), 3.0);
+    EXPECT_THAT(solution->estimate.status, StartsWith("OK, 1"));
+    EXPECT_LE(solution->outliers, 1);
+  }
+}
+
+TEST(BatchEstimator, ANorthChordThatIsThreeTenthsOfADegreeWideIsFoundAndNamed) {
+  Scene scene;
+  auto edges = scene.pass(600.0);
+  widen_chord(scene.body, PulseChannel::NorthIn, PulseChannel::NorthOut, 0.3 * kDegree_rad, edges);
+  const auto solution = scene.solved(edges);
+  ASSERT_TRUE(solution) << solution.error().message;
+  EXPECT_LT(scene.error_sigmas(*solution), 3.0) << solution->estimate.status;
+  const BiasEstimate& bias = of(*solution, NorthChordBias);
+  EXPECT_TRUE(bias.observable) << solution->estimate.status;
+  EXPECT_NEAR(bias.value, 0.3 * kDegree_rad, 3.0 * bias.sigma);
+  EXPECT_GT(bias.value, 5.0 * bias.sigma);
+  EXPECT_THAT(solution->estimate.status, HasSubstr("north chord +0."));
+}
+
+TEST(BatchEstimator, AManoeuvreIsNamedAndTheAxisIsThatAfterIt) {
+  Scene scene;
+  const auto before = scene.pass(300.0);
+  SpinningBody after = scene.body;
+  after.axis_icrf =
+      (Eigen::AngleAxisd{1.0 * kDegree_rad, after.axis_icrf.unitOrthogonal()} * after.axis_icrf);
+  std::vector<PassEdge> edges;
+  const auto moved =
+      testing::noisy_pass(after, testing::edges_of_turns(after, scene.around, 600.0), scene.rng);
+  for (const PassEdge& edge : moved) {
+    if (edge.revolution >= 300) {
+      edges.push_back(edge);
+    }
+  }
+  const TaiTime moved_at = edges.front().pulse.t;
+  edges.insert(edges.begin(), before.begin(), before.end());
+  scene.body = after;
+  const auto solution = scene.solved(edges);
+  ASSERT_TRUE(solution) << solution.error().message;
+  ASSERT_TRUE(solution->changed) << solution->estimate.status;
+  // A sixty-fourth of the pass is 9.4 turns.
+  EXPECT_NEAR(seconds_between(moved_at, *solution->changed) * after.rate_rad_s, 0.0,
+              10.0 * 2.0 * std::numbers::pi);
+  EXPECT_LT(scene.error_sigmas(*solution), 3.0) << solution->estimate.status;
+  EXPECT_THAT(solution->estimate.status, HasSubstr("where attitude or rate changed"));
+}
+
+TEST(BatchEstimator, NoiseBeyondWhatIsStatedIsDoubtedAndCovered) {
+  Scene scene;
+  const SpinConfig stated = scene.body.config;
+  scene.body.config.noise.sun_s *= 3.0;
+  scene.body.config.noise.infrared_s *= 3.0;
+  const auto edges = scene.pass(200.0);
+  scene.body.config = stated;
+  const auto solution = scene.solved(edges);
+  ASSERT_TRUE(solution) << solution.error().message;
+  EXPECT_THAT(solution->estimate.status, StartsWith("DOUBTFUL"));
+  EXPECT_NEAR(solution->noise, 2.8, 0.3);  // Beyond six sigmas an edge is an outlier.
+  EXPECT_LT(scene.error_sigmas(*solution), 3.0);
+}
+
+TEST(BatchEstimator, FewerEdgesThanUnknownsAreTooFew) {
+  Scene scene;
+  auto edges = scene.pass(200.0);
+  edges.resize(10);
+  const auto solution = scene.solved(edges);
+  ASSERT_FALSE(solution);
+  EXPECT_EQ(solution.error().code, ErrorCode::Unobservable);
+  EXPECT_THAT(solution.error().message, HasSubstr("10 edges of 2 turns"));
+}
+
+TEST(BatchEstimator, OneTurnAndNoEdgeAreTooFew) {
+  Scene scene;
+  for (const double turns : {1.0, 0.0}) {
+    const auto solution = scene.solved(scene.pass(turns));
+    ASSERT_FALSE(solution);
+    EXPECT_THAT(solution.error().message, HasSubstr("need more than 13 edges of at least 3 turns"));
+  }
+}
+
+TEST(BatchEstimator, EdgesOfOneSensorAloneLeaveTheAxisOpen) {
+  Scene scene;
+  auto edges = scene.pass(60.0);
+  std::erase_if(edges, [](const PassEdge& edge) {
+    return edge.pulse.channel != PulseChannel::NorthIn &&
+           edge.pulse.channel != PulseChannel::NorthOut;
+  });
+  const auto solution = scene.solved(edges);
+  ASSERT_FALSE(solution) << solution->estimate.status;
+  EXPECT_THAT(solution.error().message, HasSubstr("a cone about Sun or Earth"));
+}
+
+TEST(BatchEstimator, WithoutAStartThereIsNone) {
+  Scene scene;
+  const auto solution = solve_batch(scene.body.config, scene.orbit, scene.pass(60.0), {});
+  ASSERT_FALSE(solution);
+  EXPECT_THAT(solution.error().message, HasSubstr("no fix"));
+}
+
+TEST(BatchEstimator, AStartOnTheOtherSideOfTheSkyDivergesAndIsNoSolution) {
+  Scene scene;
+  const auto edges = scene.pass(100.0);
+  const auto solution =
+      solve_batch(scene.body.config, scene.orbit, edges, {{-scene.body.axis_icrf}});
+  // Either it finds its way, or it says that it did not.
+  if (solution) {
+    EXPECT_LT(scene.error_sigmas(*solution), 3.0) << solution->estimate.status;
+  } else {
+    EXPECT_EQ(solution.error().code, ErrorCode::Unobservable);
+  }
+}
+
+TEST(BatchEstimator, ABiasBeyondWhatASensorMayHaveRunsToItsBound) {
+  Scene scene;
+  auto edges = scene.pass(300.0);
+  scene.body.config.batch.biases = BiasSet{}.set(NorthChordBias);
+  widen_chord(scene.body, PulseChannel::NorthIn, PulseChannel::NorthOut, 5.0 * kDegree_rad, edges);
+  const auto solution = scene.solved(edges);
+  ASSERT_TRUE(solution) << solution.error().message;
+  EXPECT_THAT(solution->estimate.status, StartsWith("DOUBTFUL"));
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,117 @@
+/// The equations that `batch` solves, against the oracle and against finite differences away from
+/// the solution.
+
+#include "pipelines/spin/batch/pass_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "tests/support/batch_pass.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+struct Scene {
+  std::mt19937_64 rng{11};
+  Orbit orbit = testing::transfer_orbit();
+  testing::Surroundings around;
+  testing::SpinningBody body;
+  std::vector<PassEdge> edges;
+
+  explicit Scene(HorizonModel horizon)
+      : around{testing::seen_from(orbit, horizon == HorizonModel::Sphere
+                                             ? testing::spherical_horizon_km(40.0)
+                                             : testing::ellipsoidal_horizon_km(40.0))},
+        body{testing::random_body(around, 4.0 * kDegree_rad, rng)} {
+    body.config.horizon.model = horizon;
+    edges = testing::counted(body, testing::pulses_from(testing::edges_of_turns(body, around, 20.0),
+                                                        testing::kTransferStart));
+  }
+
+  PassModel model() const { return PassModel::make(body.config, orbit, edges).value(); }
+
+  /// The body as the model has it: its own frame, seen from the middle of the pass.
+  SpinState truth(const PassModel& model) const {
+    const auto frame = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), body.axis_icrf);
+    const double turn_rad =
+        body.first_turn_rad +
+        body.rate_rad_s * seconds_between(testing::kTransferStart, model.middle());
+    return {.q_icrf_spin =
+                frame * Eigen::Quaterniond{Eigen::AngleAxisd{turn_rad, Eigen::Vector3d::UnitZ()}},
+            .rate_rad_s = body.rate_rad_s,
+            .drift_rad_s2 = 0.0};
+  }
+};
+
+class PassModels : public ::testing::TestWithParam<HorizonModel> {};
+
+TEST_P(PassModels, TheTrueStateLeavesNothingOver) {
+  const Scene scene{GetParam()};
+  const PassModel model = scene.model();
+  const SpinState truth = scene.truth(model);
+  for (const PassEdge& edge : scene.edges) {
+    const auto residual = model.residual(edge.pulse, truth);
+    ASSERT_TRUE(residual);
+    // A hundredth of the noise: the sky stands still for ten seconds.
+    EXPECT_NEAR(residual->off, 0.0, 0.01) << name_of(edge.pulse.channel);
+  }
+}
+
+SpinState stepped(const PassModel& model, SpinState state, int unknown, double step) {
+  const double half_s = model.half_s();
+  if (unknown < 3) {
+    state.q_icrf_spin = state.q_icrf_spin *
+                        Eigen::Quaterniond{Eigen::AngleAxisd{step, Eigen::Vector3d::Unit(unknown)}};
+  } else if (unknown == 3) {
+    state.rate_rad_s += step / half_s;
+  } else if (unknown == 4) {
+    state.drift_rad_s2 += 2.0 * step / (half_s * half_s);
+  } else {
+    state.biases[unknown - kMotionUnknowns] += step;
+  }
+  return state;
+}
+
+TEST_P(PassModels, SlopesAreThoseOfTheResidual) {
+  const Scene scene{GetParam()};
+  const PassModel model = scene.model();
+  // Away from the solution, in every unknown.
+  SpinState state = scene.truth(model);
+  for (int i = 0; i < kMotionUnknowns; ++i) {
+    state = stepped(model, state, i, 0.01);
+  }
+  for (int i = 0; i < kSensorBiases; ++i) {
+    const auto bias = static_cast<SensorBias>(i);
+    state.biases[i] = (i % 2 == 0 ? 0.7 : -0.7) * prior_of(bias).sigma;
+  }
+  int compared = 0;
+  for (const PassEdge& edge : scene.edges) {
+    const auto here = model.residual(edge.pulse, state);
+    ASSERT_TRUE(here);
+    for (int i = 0; i < kBatchUnknowns; ++i) {
+      const double step = i == kMotionUnknowns + Co2HeightBias ? 1e-3 : 1e-6;
+      const auto after = model.residual(edge.pulse, stepped(model, state, i, step));
+      const auto before = model.residual(edge.pulse, stepped(model, state, i, -step));
+      ASSERT_TRUE(after && before);
+      const double slope = (after->off - before->off) / (2.0 * step);
+      EXPECT_NEAR(here->slopes[i], slope, 1e-6 * here->slopes.head<3>().norm())
+          << name_of(edge.pulse.channel) << ", unknown " << i;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Horizons, PassModels,
+                         ::testing::Values(HorizonModel::Sphere, HorizonModel::Ellipsoid),
+                         [](const auto& model) {
+                           return model.param == HorizonModel::Sphere ? "Sphere" : "Ellipsoid";
+                         });
+
+}  // namespace
+}  // namespace spindrift
