@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/beam_view.h"
@@ -54,10 +55,18 @@ AxisSolutions follow(const FixInput& on_sphere, const AxisAngles& place) {
   return found;
 }
 
+bool is_among(const std::vector<AxisAngles>& places, const AxisAngles& place,
+              const Sightlines& sightlines) {
+  const Eigen::Vector3d axis_icrf = axis_of(sightlines, place);
+  return std::any_of(places.begin(), places.end(), [&](const AxisAngles& other) {
+    return angle_between_rad(axis_of(sightlines, other), axis_icrf) < kSame_rad;
+  });
+}
+
 }  // namespace
 
 AxisSolutions solve_on_horizon(const FixInput& on_sphere) {
-  const AxisSolutions first = solve_axis_angles(on_sphere);
+  AxisSolutions first = solve_axis_angles(on_sphere);
   if (first.places.empty()) {
     return first;
   }
@@ -66,13 +75,8 @@ AxisSolutions solve_on_horizon(const FixInput& on_sphere) {
     AxisSolutions there = follow(on_sphere, place);
     found.grazing = found.grazing || there.grazing;
     found.reason = std::move(there.reason);
-    const bool known =
-        std::any_of(found.places.begin(), found.places.end(), [&](const AxisAngles& other) {
-          return !there.places.empty() &&
-                 angle_between_rad(axis_of(on_sphere.sightlines, other),
-                                   axis_of(on_sphere.sightlines, there.places.front())) < kSame_rad;
-        });
-    if (!there.places.empty() && !known) {
+    if (!there.places.empty() &&
+        !is_among(found.places, there.places.front(), on_sphere.sightlines)) {
       found.places.push_back(there.places.front());
     }
   }
