@@ -6,7 +6,6 @@
 namespace spindrift::wgs84 {
 
 inline constexpr double kEquatorialRadius_km = 6378.137;
-inline constexpr double kFlattening = 1.0 / 298.257223563;
 inline constexpr double kPolarRadius_km = 6356.752314245;
 
 }  // namespace spindrift::wgs84

@@ -33,23 +33,23 @@ void note_grazing(const Uncertain& excess, AxisSolutions& found) {
   const bool grazing = std::abs(excess.value()) <=
                        kGrazingSigmas * std::hypot(noise_of(excess), model_uncertainty_of(excess));
   found.grazing = found.grazing || grazing;
-  found.told_apart = found.told_apart && !grazing;
 }
 
-/// theta_e from both chords. The limb of either beam enters by the difference of the two chord
-/// equations, (cos gN - cos gS) cos(theta_e) + ... = cos(rho_N) - cos(rho_S).
+/// theta_e from both chords, which needs no rho; where the beams see the Earth at different
+/// half-angles, their chord equations differ by
+///
+///     (cos gN - cos gS) cos(theta_e) + b sin(theta_e) = cos(rho_N) - cos(rho_S)
 Uncertain earth_angle_from_both(const FixInput& input) {
-  Uncertain earth = earth_angle_from_two_chords(*input.north(), *input.south());
-  const auto slope_of = [&](const ChordOf<Uncertain>& chord) {
-    const double mount_rad = chord.mount_angle_rad;
-    return std::sin(mount_rad) * std::cos(0.5 * chord.chord_rad.value()) * std::cos(earth.value()) -
-           std::cos(mount_rad) * std::sin(earth.value());
-  };
-  const double shift =
-      -std::sin(input.sightlines.disc_rad) / (slope_of(*input.north()) - slope_of(*input.south()));
-  earth.derivatives()(kEdges + NorthLimb) += shift;
-  earth.derivatives()(kEdges + SouthLimb) -= shift;
-  return earth;
+  const ChordOf<Uncertain>& north = *input.north();
+  const ChordOf<Uncertain>& south = *input.south();
+  const double a = std::cos(north.mount_angle_rad) - std::cos(south.mount_angle_rad);
+  const Uncertain b = std::sin(north.mount_angle_rad) * Uncertain{cos(0.5 * north.chord_rad)} -
+                      std::sin(south.mount_angle_rad) * Uncertain{cos(0.5 * south.chord_rad)};
+  const Uncertain difference =
+      Uncertain{cos(input.disc_rad(Side::North))} - Uncertain{cos(input.disc_rad(Side::South))};
+  const Uncertain sine =
+      std::copysign(1.0, a) * difference / Uncertain{sqrt(Uncertain{a * a + b * b})};
+  return earth_angle_from_two_chords(north, south) - Uncertain{asin(sine)};
 }
 
 /// The roots of theta_e by the lone chord; where there is none, the reason.
@@ -61,13 +61,12 @@ std::vector<Uncertain> earth_angles_from_one(const FixInput& input, AxisSolution
   note_grazing(roots.excess, found);
   if (chord.chord_rad.value() < kNarrowSigmas * noise_of(chord.chord_rad)) {
     found.grazing = true;
-    found.told_apart = false;
   }
   if (!(roots.excess.value() < 0.0)) {
     found.reason = fmt::format(
         "chord {:.4f} deg is wider than the Earth's disc of half-angle {:.4f} deg allows at "
         "mounting angle {:.4f} deg",
-        degrees(chord.chord_rad.value()), degrees(input.sightlines.disc_rad),
+        degrees(chord.chord_rad.value()), degrees(input.lone_disc_rad().value()),
         degrees(chord.mount_angle_rad));
   } else if (roots.angles_rad.empty()) {
     found.reason = "no earth angle in (0, 180) deg gives the measured chord";
@@ -100,22 +99,28 @@ bool fits_beyond_doubt(const FixInput& input, const AxisAngles& better, const Ax
 }
 
 /// Cases 2 and 3 with the dihedral.
-AxisSolutions from_one_chord(const FixInput& input) {
-  const OneChordInput<Uncertain> measured{.chord = input.lone_chord(),
-                                          .sun_angle_rad = *input.sun_angle,
-                                          .dihedral_rad = *input.dihedral,
-                                          .sun_earth_rad = input.sun_earth_rad,
-                                          .disc_rad = input.lone_disc_rad()};
-  const Uncertain signed_delta = determinant(measured);
-  const double delta = std::abs(signed_delta.value());
-  AxisSolutions found;
+OneChordInput<Uncertain> one_chord(const FixInput& input) {
+  return {.chord = input.lone_chord(),
+          .sun_angle_rad = *input.sun_angle,
+          .dihedral_rad = *input.dihedral,
+          .sun_earth_rad = input.sun_earth_rad,
+          .disc_rad = input.lone_disc_rad()};
+}
+
+bool has_one_chord_with_all_else(const FixInput& input) {
+  return input.sun_angle && input.dihedral && !input.both_chords();
+}
+
+void solve_one_chord(const FixInput& input, AxisSolutions& found) {
+  const OneChordInput<Uncertain> measured = one_chord(input);
+  const Uncertain delta = determinant(measured);
   const auto add = [&](const Uncertain& earth_angle_rad) {
     found.places.push_back({.sun_angle_rad = *input.sun_angle,
                             .earth_angle_rad = earth_angle_rad,
                             .dihedral_rad = *input.dihedral});
   };
-  if (delta >= input.config.geometry.determinant_usable &&
-      delta > kDeterminantSigmas * noise_of(signed_delta)) {
+  if (std::abs(delta.value()) >= input.config.geometry.determinant_usable &&
+      std::abs(delta.value()) > kDeterminantSigmas * noise_of(delta)) {
     const Uncertain earth_angle_rad = earth_angle_linear(measured);
     if (earth_angle_rad > 0.0 && earth_angle_rad < std::numbers::pi) {
       add(earth_angle_rad);
@@ -124,20 +129,11 @@ AxisSolutions from_one_chord(const FixInput& input) {
           "the measured sun angle, chord and dihedral contradict each other: no earth angle in "
           "(0, 180) deg fits them";
     }
-    return found;
+    return;
   }
   for (const Uncertain& earth_angle_rad : earth_angles_from_one(input, found)) {
     add(earth_angle_rad);
   }
-  std::sort(found.places.begin(), found.places.end(),
-            [&](const AxisAngles& a, const AxisAngles& b) {
-              return misfit(input, a).value() < misfit(input, b).value();
-            });
-  if (found.places.size() > 1) {
-    found.told_apart = found.told_apart && delta > input.config.geometry.determinant_ambiguous &&
-                       fits_beyond_doubt(input, found.places[0], found.places[1]);
-  }
-  return found;
 }
 
 /// The dihedral withheld: cones about Sun and Earth meet in two axes.
@@ -210,26 +206,44 @@ void unmix(const FixInput& input, const Uncertain& earth_angle_rad, AxisSolution
 }  // namespace
 
 AxisSolutions solve_axis_angles(const FixInput& input) {
-  if (input.sun_angle && input.dihedral && !input.both_chords()) {
-    return from_one_chord(input);
-  }
   AxisSolutions found;
-  const std::vector<Uncertain> earth_angles = input.both_chords()
-                                                  ? std::vector{earth_angle_from_both(input)}
-                                                  : earth_angles_from_one(input, found);
-  for (const Uncertain& earth_angle_rad : earth_angles) {
-    if (input.sun_angle && input.dihedral) {
-      found.places.push_back({*input.sun_angle, earth_angle_rad, *input.dihedral});
-    } else if (input.sun_angle) {
-      meet(input, earth_angle_rad, found);
-    } else if (input.dihedral) {
-      find_sun_angles(input, earth_angle_rad, found);
-    } else {
-      unmix(input, earth_angle_rad, found);
+  if (has_one_chord_with_all_else(input)) {
+    solve_one_chord(input, found);
+  } else {
+    const std::vector<Uncertain> earth_angles = input.both_chords()
+                                                    ? std::vector{earth_angle_from_both(input)}
+                                                    : earth_angles_from_one(input, found);
+    for (const Uncertain& earth_angle_rad : earth_angles) {
+      if (input.sun_angle && input.dihedral) {
+        found.places.push_back({*input.sun_angle, earth_angle_rad, *input.dihedral});
+      } else if (input.sun_angle) {
+        meet(input, earth_angle_rad, found);
+      } else if (input.dihedral) {
+        find_sun_angles(input, earth_angle_rad, found);
+      } else {
+        unmix(input, earth_angle_rad, found);
+      }
     }
   }
-  found.told_apart = found.told_apart && found.places.size() == 1;
+  for (AxisAngles& place : found.places) {
+    place.beams = input.beams;
+  }
   return found;
+}
+
+void rank(const FixInput& input, AxisSolutions& found) {
+  found.told_apart = found.places.size() == 1 && !found.grazing;
+  if (found.places.size() < 2 || !has_one_chord_with_all_else(input)) {
+    return;
+  }
+  std::sort(found.places.begin(), found.places.end(),
+            [&](const AxisAngles& a, const AxisAngles& b) {
+              return misfit(input, a).value() < misfit(input, b).value();
+            });
+  found.told_apart = !found.grazing &&
+                     std::abs(determinant(one_chord(input)).value()) >
+                         input.config.geometry.determinant_ambiguous &&
+                     fits_beyond_doubt(input, found.places[0], found.places[1]);
 }
 
 }  // namespace spindrift

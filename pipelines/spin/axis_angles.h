@@ -17,17 +17,22 @@ struct AxisAngles {
   Uncertain sun_angle_rad;
   Uncertain earth_angle_rad;
   Uncertain dihedral_rad;
+  BeamViews beams = {};  ///< That it was solved with.
 };
 
 /// What was found on the way to a solution.
 struct AxisSolutions {
-  std::vector<AxisAngles> places;  ///< Best first.
-  bool told_apart = true;
+  std::vector<AxisAngles> places;
+  bool told_apart = false;  ///< Only rank() knows.
   bool grazing = false;
   std::string reason;  ///< Why there is none.
 };
 
+/// With what the beams of `input` are said to see.
 /// @param input With a chord, and an azimuth or a sun angle.
 AxisSolutions solve_axis_angles(const FixInput& input);
+
+/// Best first, and whether the first is beyond doubt the true one.
+void rank(const FixInput& input, AxisSolutions& found);
 
 }  // namespace spindrift

@@ -9,9 +9,9 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/axis_angles.h"
-#include "pipelines/spin/earth_motion.h"
 #include "pipelines/spin/fix_input.h"
 #include "pipelines/spin/geometry.h"
+#include "pipelines/spin/horizon_roots.h"
 #include "pipelines/spin/uncertain.h"
 
 namespace spindrift {
@@ -31,19 +31,15 @@ bool agrees(double contradiction, double noise) {
   return std::abs(contradiction) <= kContradictionSigmas * noise + kModelLimit_rad;
 }
 
-/// What it would be had no edge been late.
-double in_time(const Uncertain& value, const EdgeNoise& late) {
-  return value.value() - value.derivatives().head<kEdges>().dot(late);
-}
-
 /// Both chords show the disc that the orbit gives.
-bool disc_agrees(const FixInput& input, const Uncertain& earth_angle_rad, const EdgeNoise& late) {
-  const Uncertain cosine = cos_disc_seen(*input.north(), earth_angle_rad);
+bool disc_agrees(const FixInput& input, const AxisAngles& place) {
+  const Uncertain cosine = cos_disc_seen(*input.north(), place.earth_angle_rad);
   if (!(std::abs(cosine.value()) < 1.0)) {
     return false;
   }
   const Uncertain disc_rad = acos(cosine);
-  return agrees(in_time(disc_rad, late) - input.sightlines.disc_rad, noise_of(disc_rad));
+  return agrees(disc_rad.value() - place.beams.at(index_of(Side::North)).disc_rad,
+                noise_of(disc_rad));
 }
 
 AxisCandidate candidate_at(const FixInput& input, const AxisAngles& place) {
@@ -59,9 +55,6 @@ AxisCandidate candidate_at(const FixInput& input, const AxisAngles& place) {
     solved[i] = axis[i].value();
     shifts.row(i) = axis[i].derivatives();
   }
-  const EdgeNoise late =
-      late_by_earth_motion(input.config, input.measured, input.sightlines, solved.normalized());
-  solved -= shifts.leftCols<kEdges>() * late;
   const double norm = solved.norm();
   const Eigen::Vector3d unit = solved / norm;
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(unit);
@@ -71,8 +64,8 @@ AxisCandidate candidate_at(const FixInput& input, const AxisAngles& place) {
   return {.axis_icrf = unit,
           .covariance_rad2 = noise * noise.transpose(),
           .norm = norm,
-          .consistent = agrees(norm - 1.0, norm_noise) &&
-                        (!input.both_chords() || disc_agrees(input, place.earth_angle_rad, late)),
+          .consistent =
+              agrees(norm - 1.0, norm_noise) && (!input.both_chords() || disc_agrees(input, place)),
           .model_shift_icrf = basis * tangent.rightCols<kModelErrors>()};
 }
 
@@ -139,14 +132,14 @@ Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
   if (result.geometry_case < 1 || result.geometry_case > 7) {
     return unobservable(cone_in_words(result.geometry_case));
   }
-  const FixInput input = fix_input(config, measured, sightlines);
+  const FixInput input = fix_input(config, measured, sightlines, views_of_sphere(sightlines));
   if (!(input.sun_earth_rad > kInLine_rad &&
         input.sun_earth_rad < std::numbers::pi - kInLine_rad)) {
     return unobservable(
         fmt::format("Sun and Earth stand {:.3f} deg apart: the axis needs between 3 and 177 deg",
                     input.sun_earth_rad * 180.0 / std::numbers::pi));
   }
-  const AxisSolutions found = solve_axis_angles(input);
+  const AxisSolutions found = solve_on_horizon(input);
   if (found.places.empty()) {
     return found.grazing ? unobservable(found.reason)
                          : Unexpected{{ErrorCode::InvalidInput, found.reason}};

@@ -2,7 +2,8 @@
 /// The spin axes that one revolution alone allows: cases 1 to 7 of spin.md, with the Delta rules.
 ///
 /// Every angle is solved together with its derivatives to the sources of error, so that each
-/// candidate has its covariance, and what shares an edge is correlated.
+/// candidate has its covariance, and what shares an edge is correlated. The Earth is the mission's,
+/// moving, with its horizon.
 
 #pragma once
 

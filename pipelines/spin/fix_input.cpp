@@ -13,7 +13,13 @@ Uncertain with_azimuth_errors(Uncertain value, bool north, bool south) {
   return value;
 }
 
-std::optional<Uncertain> dihedral_of(const RevolutionMeasurements& measured) {
+/// An azimuth of the Earth's centre, from one of the chords' middles.
+Uncertain of_centre(const Measured& azimuth, const BeamViews& beams) {
+  return uncertain(azimuth) + lead_rad(beams, azimuth.noise_rad);
+}
+
+std::optional<Uncertain> dihedral_of(const RevolutionMeasurements& measured,
+                                     const BeamViews& beams) {
   const auto north = good_value_of(measured, SpinQuantity::NorthDihedral);
   const auto south = good_value_of(measured, SpinQuantity::SouthDihedral);
   if (!north && !south) {
@@ -21,19 +27,20 @@ std::optional<Uncertain> dihedral_of(const RevolutionMeasurements& measured) {
   }
   const Measured mean =
       north && south ? mean_round_the_circle(*north, *south) : (north ? *north : *south);
-  return with_azimuth_errors(uncertain(mean), north.has_value(), south.has_value());
+  return with_azimuth_errors(of_centre(mean, beams), north.has_value(), south.has_value());
 }
 
 }  // namespace
 
 FixInput fix_input(const SpinConfig& config, const RevolutionMeasurements& measured,
-                   const Sightlines& sightlines) {
+                   const Sightlines& sightlines, const BeamViews& beams) {
   FixInput input{.config = config,
                  .measured = measured,
                  .sightlines = sightlines,
+                 .beams = beams,
                  .sun_earth_rad = angle_between_rad(sightlines.sun_icrf, sightlines.earth_icrf),
                  .sun_angle = {},
-                 .dihedral = dihedral_of(measured),
+                 .dihedral = dihedral_of(measured, beams),
                  .mixed_azimuth = {},
                  .chords = {}};
   if (const auto sun = good_value_of(measured, SpinQuantity::SunAngle)) {
@@ -43,8 +50,8 @@ FixInput fix_input(const SpinConfig& config, const RevolutionMeasurements& measu
     const auto takes_part = [&](Side side) {
       return good_value_of(measured, kChords.at(index_of(side))).has_value();
     };
-    input.mixed_azimuth =
-        with_azimuth_errors(uncertain(*mixed), takes_part(Side::North), takes_part(Side::South));
+    input.mixed_azimuth = with_azimuth_errors(of_centre(*mixed, beams), takes_part(Side::North),
+                                              takes_part(Side::South));
   }
   for (const Side side : kSides) {
     const auto chord = good_value_of(measured, kChords.at(index_of(side)));

@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 
+#include "pipelines/spin/beam_view.h"
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/geometry.h"
 #include "pipelines/spin/measurement.h"
@@ -20,6 +21,7 @@ struct FixInput {
   const SpinConfig& config;
   const RevolutionMeasurements& measured;
   const Sightlines& sightlines;
+  BeamViews beams;  ///< That azimuths are corrected by.
   double sun_earth_rad;
   std::optional<Uncertain> sun_angle;
   std::optional<Uncertain> dihedral;  ///< The mean of the two, where both are there.
@@ -32,7 +34,7 @@ struct FixInput {
   const ChordOf<Uncertain>& lone_chord() const { return north() ? *north() : *south(); }
   /// rho, as the beam of the side sees it.
   Uncertain disc_rad(Side side) const {
-    return with_model_error(certain(sightlines.disc_rad),
+    return with_model_error(certain(beams.at(index_of(side)).disc_rad),
                             side == Side::North ? NorthLimb : SouthLimb);
   }
   Uncertain lone_disc_rad() const { return disc_rad(north() ? Side::North : Side::South); }
@@ -40,6 +42,6 @@ struct FixInput {
 
 /// Beams mounted alike are one beam: north.
 FixInput fix_input(const SpinConfig& config, const RevolutionMeasurements& measured,
-                   const Sightlines& sightlines);
+                   const Sightlines& sightlines, const BeamViews& beams);
 
 }  // namespace spindrift

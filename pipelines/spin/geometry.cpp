@@ -28,8 +28,6 @@ Expected<double> earth_disc_half_angle_rad(double range_km, double co2_altitude_
   return std::asin(horizon_km / range_km);
 }
 
-double oblateness_rad(double disc_rad) { return wgs84::kFlattening * std::sin(disc_rad); }
-
 bool mounted_alike(double one_rad, double other_rad) {
   return std::abs(std::cos(one_rad) - std::cos(other_rad)) < kAlike;
 }

@@ -21,10 +21,6 @@ namespace spindrift {
 /// @return Unobservable when the spacecraft is not above that sphere, or beyond a million km.
 Expected<double> earth_disc_half_angle_rad(double range_km, double co2_altitude_km);
 
-/// How far an oblate Earth's limb lies from that of the sphere, at most: the seat of what the
-/// spherical horizon leaves out. @param disc_rad rho.
-double oblateness_rad(double disc_rad);
-
 /// A chord across the Earth's disc, and the mounting angle of the beam that drew it.
 template <class T>
 struct ChordOf {

@@ -8,7 +8,6 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/axis_candidates.h"
-#include "pipelines/spin/horizon_allowance.h"
 #include "pipelines/spin/model_allowance.h"
 #include "pipelines/spin/revolution_products.h"
 #include "pipelines/spin/time_span.h"
@@ -35,15 +34,6 @@ Eigen::Vector3d median_axis(const std::vector<Eigen::Vector3d>& axes) {
 }
 
 }  // namespace
-
-std::vector<std::string> settings_without_effect(const SpinConfig& config) {
-  if (config.horizon.model == HorizonModel::Sphere) {
-    return {};
-  }
-  return {
-      "spin.horizon.model = \"ellipsoid\": the estimators use it; fixes use the spherical horizon, "
-      "and their sigma includes what that leaves out"};
-}
 
 SpinPass::SpinPass(const SpinConfig& config, Orbit orbit)
     : config_{config},
@@ -311,16 +301,11 @@ void SpinPass::say_why_not_accepted(const SpinFix& fix) {
 
 void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   const Revolution& revolution = candidate.revolution;
-  const double disc_rad = candidate.sightlines->disc_rad;
   const std::vector<SpinFix> fixes = find_fixes(candidate);
-  std::vector<SpinFix> announced;
-  std::transform(
-      fixes.begin(), fixes.end(), std::back_inserter(announced),
-      [&](const SpinFix& fix) { return with_horizon_allowance(config_.horizon, disc_rad, fix); });
   std::optional<SpinEstimate> sequential;
   if (const auto sky = surroundings_.sky(revolution.t_start)) {
     sequential = sequential_.update(
-        revolution, *sky, trust_.deserved() ? std::span{announced} : std::span<SpinFix>{});
+        revolution, *sky, trust_.deserved() ? std::span{fixes} : std::span<const SpinFix>{});
     if (sequential_.prior_refuted() && config_.prior) {
       forget_prior(revolution.t_start);
     }
@@ -329,9 +314,7 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
       start_again_where_moved(*sequential);
     }
   }
-  for (SpinFix& fix : announced) {
-    out.products.emplace_back(std::move(fix));
-  }
+  std::copy(fixes.begin(), fixes.end(), std::back_inserter(out.products));
   bool mean_moved = false;
   mean_.keep(revolution.number, candidate.measured, *candidate.sightlines);
   for (const SpinFix& fix : fixes) {

@@ -43,10 +43,6 @@ struct SpinOutput {
   std::vector<std::string> notices;   ///< What a person should know; each said once a pass.
 };
 
-/// What `config` asks for and this version does not do in full, in words: nothing is ignored
-/// silently.
-std::vector<std::string> settings_without_effect(const SpinConfig& config);
-
 class SpinPass {
  public:
   static constexpr std::size_t kFirstRevolutions = 10;

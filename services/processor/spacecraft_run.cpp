@@ -88,11 +88,7 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
              // The clock only sets the run apart from earlier ones; within it samples are counted.
              .first_arrival = tai_ns(tai_now())},
       run_id_{new_run_id()},
-      next_arrival_{start_.first_arrival} {
-  for (const std::string& setting : settings_without_effect(*mission.spin)) {
-    spdlog::warn("{}: {}", mission.spacecraft_id, setting);
-  }
-}
+      next_arrival_{start_.first_arrival} {}
 
 ArchiveBatch SpacecraftRun::batch() const {
   ArchiveBatch batch;

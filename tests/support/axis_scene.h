@@ -26,6 +26,7 @@ struct AxisScene {
   double rate_rad_s = 2.0 * std::numbers::pi / 6.0;
   SpinConfig config = usual_config();
   TaiTime start = tai_from_ns(1'795'143'637'000'000'000);
+  HorizonModel earth = HorizonModel::Sphere;  ///< What it is; `config` says what it is taken for.
 
   static constexpr double kRange_km = 16000.0;
 
@@ -35,10 +36,16 @@ struct AxisScene {
             .disc_rad = std::asin(6418.137 / kRange_km),
             .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
   }
+  Surroundings around() const {
+    Surroundings around = at_rest(sun_icrf, kRange_km * earth_icrf);
+    around.horizon_km =
+        earth == HorizonModel::Sphere ? spherical_horizon_km(40.0) : ellipsoidal_horizon_km(40.0);
+    return around;
+  }
   Revolution seen() const {
     return revolution_seen(
         {.axis_icrf = axis_icrf, .rate_rad_s = rate_rad_s, .first_turn_rad = 0.1, .config = config},
-        at_rest(sun_icrf, kRange_km * earth_icrf), start);
+        around(), start);
   }
   Expected<SpinFix> fix(const std::set<SpinQuantity>& left_out = {}) const {
     return lone_fix(config, seen(), left_out, sightlines());

@@ -66,13 +66,6 @@ TEST(Process, FindsTheAxisOfEveryRecordedPassWithinItsFigureAndThreeOfItsSigma) 
   }
 }
 
-TEST(Process, SaysWhatItDoesNotDoWithTheEllipsoid) {
-  const TemporaryFolder folder;
-  Program program{arguments("gms5", folder.path() / "out.db")};
-  ASSERT_EQ(program.exit_status(), 0) << program.log();
-  EXPECT_THAT(program.log(), HasSubstr("spin.horizon.model"));
-}
-
 TEST(Process, PrintsWhatItStored) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "out.db";

@@ -1,0 +1,116 @@
+#include "pipelines/spin/beam_view.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/geometry.h"
+#include "pipelines/spin/horizon.h"
+
+namespace spindrift {
+namespace {
+
+/// The Earth of the mission about one axis.
+class Earth {
+ public:
+  Earth(const Horizon& horizon, const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf)
+      : axes_{horizon_axes(horizon)}, sightlines_{sightlines}, axis_icrf_{axis_icrf} {
+    R_icrf_spin_ << tangent_basis(axis_icrf), axis_icrf;
+  }
+
+  BeamView seen_by(double mount_angle_rad, const EarthCrossing& crossing) const {
+    if (const auto view = crossed_by(mount_angle_rad, crossing)) {
+      return *view;
+    }
+    const bool beyond = mount_angle_rad > earth_angle_rad();
+    const double limb_rad = nearest_limb_rad(beyond);
+    const double lower_rad = 2.0 * (sightlines_.disc_rad - limb_rad);
+    BeamView view = crossed_by(mount_angle_rad + (beyond ? -lower_rad : lower_rad), crossing)
+                        .value_or(BeamView{.disc_rad = limb_rad});
+    view.chord_rad.reset();
+    return view;
+  }
+
+ private:
+  double range_km() const { return axes_.equatorial_km / std::sin(sightlines_.disc_rad); }
+  double earth_angle_rad() const { return angle_between_rad(axis_icrf_, sightlines_.earth_icrf); }
+
+  EarthView at(TaiTime t) const {
+    const Eigen::Vector3d earth_icrf =
+        sightlines_.earth_icrf +
+        seconds_between(sightlines_.t_earth, t) * sightlines_.earth_motion_icrf_s;
+    return {.spacecraft_spin_km = -range_km() * (R_icrf_spin_.transpose() * earth_icrf),
+            .pole_spin = R_icrf_spin_.transpose() * sightlines_.earth_pole_icrf};
+  }
+
+  /// Empty: it misses the limb, or only grazes it.
+  std::optional<BeamView> crossed_by(double mount_angle_rad, const EarthCrossing& crossing) const {
+    const auto in = limb_crossing(axes_, at(crossing.t_in), mount_angle_rad, Crossing::In);
+    const auto out = limb_crossing(axes_, at(crossing.t_out), mount_angle_rad, Crossing::Out);
+    if (!in || !out) {
+      return std::nullopt;
+    }
+    const Eigen::Vector3d centre_spin = R_icrf_spin_.transpose() * sightlines_.earth_icrf;
+    const double centre_rad = std::atan2(centre_spin.y(), centre_spin.x());
+    const double before_rad = wrapped_rad(centre_rad - in->azimuth_rad);
+    const double behind_rad = wrapped_rad(out->azimuth_rad - centre_rad);
+    const Chord chord{.mount_angle_rad = mount_angle_rad, .chord_rad = before_rad + behind_rad};
+    return BeamView{.disc_rad = std::acos(cos_disc_seen(chord, earth_angle_rad())),
+                    .lead_rad = 0.5 * (before_rad - behind_rad),
+                    .chord_rad = chord.chord_rad};
+  }
+
+  /// From the Earth's centre, in the plane of axis and Earth, beyond the centre or on this side of
+  /// it: where a beam that swept this plane would cross it.
+  double nearest_limb_rad(bool beyond) const {
+    const Eigen::Vector3d& earth_icrf = sightlines_.earth_icrf;
+    const Eigen::Vector3d across = axis_icrf_.cross(earth_icrf).normalized();
+    Eigen::Matrix3d R_icrf_sweep;
+    R_icrf_sweep << earth_icrf, across.cross(earth_icrf), across;
+    const EarthView earth{.spacecraft_spin_km = -range_km() * Eigen::Vector3d::UnitX(),
+                          .pole_spin = R_icrf_sweep.transpose() * sightlines_.earth_pole_icrf};
+    const auto limb =
+        limb_crossing(axes_, earth, 0.5 * std::numbers::pi, beyond ? Crossing::Out : Crossing::In);
+    return limb ? std::abs(limb->azimuth_rad) : sightlines_.disc_rad;
+  }
+
+  HorizonAxes axes_;
+  const Sightlines& sightlines_;
+  Eigen::Vector3d axis_icrf_;
+  Eigen::Matrix3d R_icrf_spin_;
+};
+
+}  // namespace
+
+BeamViews views_of_sphere(const Sightlines& sightlines) {
+  return {BeamView{.disc_rad = sightlines.disc_rad}, BeamView{.disc_rad = sightlines.disc_rad}};
+}
+
+BeamViews views_of_horizon(const SpinConfig& config, const RevolutionMeasurements& measured,
+                           const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf) {
+  const Earth earth{config.horizon, sightlines, axis_icrf};
+  BeamViews views = views_of_sphere(sightlines);
+  for (const Side side : kSides) {
+    const auto& beam = sensor_of(config, side);
+    const auto& crossing = measured.crossing(side);
+    if (beam && crossing) {
+      views.at(index_of(side)) = earth.seen_by(beam->mount_angle_rad, *crossing);
+    }
+  }
+  return views;
+}
+
+double lead_rad(const BeamViews& beams, const EdgeNoise& noise_rad) {
+  double sum_rad = 0.0;
+  int resting_on = 0;
+  for (const Side side : kSides) {
+    if (noise_rad(static_cast<Eigen::Index>(kInChannels.at(index_of(side)))) != 0.0) {
+      sum_rad += beams.at(index_of(side)).lead_rad;
+      ++resting_on;
+    }
+  }
+  return resting_on > 0 ? sum_rad / resting_on : 0.0;
+}
+
+}  // namespace spindrift

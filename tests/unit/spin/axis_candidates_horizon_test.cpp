@@ -1,0 +1,178 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/axis_candidates.h"
+#include "tests/support/axis_scene.h"
+
+namespace spindrift {
+namespace {
+
+using Scene = testing::AxisScene;
+using enum SpinQuantity;
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+/// Both chords, and each alone.
+const std::array<std::set<SpinQuantity>, 3> kLeftOut = {std::set<SpinQuantity>{},
+                                                        std::set{SouthChord}, std::set{NorthChord}};
+
+/// The spin axis tilted against the Earth's, the Earth at an angle from it, the Sun well aside.
+Scene tilted_scene(double tilt_deg, double earth_angle_deg, HorizonModel earth) {
+  Scene scene{.earth = earth};
+  scene.config.horizon.model = earth;
+  scene.axis_icrf = Eigen::AngleAxisd{tilt_deg * kDegree_rad, Eigen::Vector3d::UnitX()} *
+                    Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d side = Eigen::AngleAxisd{0.3, scene.axis_icrf} * Eigen::Vector3d::UnitX();
+  const auto from_axis = [&](double angle_rad) -> Eigen::Vector3d {
+    return Eigen::AngleAxisd{angle_rad, scene.axis_icrf.cross(side)} * scene.axis_icrf;
+  };
+  scene.earth_icrf = from_axis(earth_angle_deg * kDegree_rad);
+  scene.sun_icrf = Eigen::AngleAxisd{1.2, scene.axis_icrf} * from_axis(1.8);
+  return scene;
+}
+
+std::vector<Scene> usual_scenes(HorizonModel earth) {
+  std::vector<Scene> scenes;
+  for (const double tilt_deg : {0.0, 20.0, 40.0, 60.0, 80.0}) {
+    for (const double earth_angle_deg : {80.0, 90.0, 97.0}) {
+      scenes.push_back(tilted_scene(tilt_deg, earth_angle_deg, earth));
+    }
+  }
+  return scenes;
+}
+
+class Horizons : public ::testing::TestWithParam<HorizonModel> {};
+
+TEST_P(Horizons, ExactEdgesGiveTheTrueAxis) {
+  for (const Scene& scene : usual_scenes(GetParam())) {
+    for (const auto& left_out : kLeftOut) {
+      const SpinFix fix = scene.fix(left_out).value();
+      EXPECT_TRUE(fix.accepted);
+      EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), testing::kExact_rad);
+      EXPECT_NEAR(fix.norm, 1.0, testing::kExact_rad);
+    }
+  }
+}
+
+TEST_P(Horizons, TakingItForTheOtherCostsWhatTheDesignSays) {
+  double squares = 0.0;
+  int fixes = 0;
+  for (Scene scene : usual_scenes(GetParam())) {
+    scene.config.horizon.model =
+        GetParam() == HorizonModel::Sphere ? HorizonModel::Ellipsoid : HorizonModel::Sphere;
+    for (const auto& left_out : kLeftOut) {
+      squares +=
+          std::pow(angle_between_rad(scene.fix(left_out).value().axis_icrf, scene.axis_icrf), 2);
+      ++fixes;
+    }
+  }
+  const double off_deg = std::sqrt(squares / fixes) / kDegree_rad;
+  EXPECT_GT(off_deg, 0.03);
+  EXPECT_LT(off_deg, 0.11);
+}
+
+TEST_P(Horizons, ExactEdgesGiveTheTrueAxisWhileTheEarthMoves) {
+  const Eigen::Vector3d motion_icrf_s{-5e-4, 1e-4, 2e-4};  // 0.03 deg/s.
+  for (const Scene& scene : usual_scenes(GetParam())) {
+    testing::Surroundings around = scene.around();
+    around.earth_icrf_km = [&](double t_s) -> Eigen::Vector3d {
+      return Scene::kRange_km * (scene.earth_icrf + t_s * motion_icrf_s);
+    };
+    const Revolution seen = testing::revolution_seen({.axis_icrf = scene.axis_icrf,
+                                                      .rate_rad_s = scene.rate_rad_s,
+                                                      .first_turn_rad = 0.1,
+                                                      .config = scene.config},
+                                                     around, scene.start);
+    Sightlines sightlines = scene.sightlines();
+    sightlines.t_earth = scene.start;
+    sightlines.earth_motion_icrf_s = motion_icrf_s;
+    for (const auto& left_out : kLeftOut) {
+      const SpinFix fix = testing::lone_fix(scene.config, seen, left_out, sightlines).value();
+      EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), testing::kExact_rad);
+    }
+  }
+}
+
+TEST_P(Horizons, AFixTurnsWithAllThatItWasMadeFrom) {
+  std::mt19937_64 rng{94};
+  std::normal_distribution<double> normal;
+  for (const Scene& scene : usual_scenes(GetParam())) {
+    const Revolution seen = testing::noisy(scene, scene.seen(), rng);
+    const double w = normal(rng);
+    const double x = normal(rng);
+    const double y = normal(rng);
+    const Eigen::Quaterniond turn = Eigen::Quaterniond{w, x, y, normal(rng)}.normalized();
+    Sightlines sightlines = scene.sightlines();
+    sightlines.t_earth = scene.start;
+    sightlines.earth_motion_icrf_s = {1e-4, 2e-4, -3e-4};
+    Sightlines turned = sightlines;
+    for (Eigen::Vector3d Sightlines::*direction :
+         {&Sightlines::sun_icrf, &Sightlines::earth_icrf, &Sightlines::earth_pole_icrf,
+          &Sightlines::earth_motion_icrf_s}) {
+      turned.*direction = turn * (sightlines.*direction);
+    }
+    for (const auto& left_out : kLeftOut) {
+      const SpinFix fix = testing::lone_fix(scene.config, seen, left_out, sightlines).value();
+      const SpinFix there = testing::lone_fix(scene.config, seen, left_out, turned).value();
+      EXPECT_LT(angle_between_rad(there.axis_icrf, turn * fix.axis_icrf), 1e-10);
+      EXPECT_NEAR(there.norm, fix.norm, 1e-10);
+      EXPECT_NEAR(there.covariance_rad2.trace() / fix.covariance_rad2.trace(), 1.0, 1e-6);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AxisCandidates, Horizons,
+                         ::testing::Values(HorizonModel::Sphere, HorizonModel::Ellipsoid),
+                         [](const auto& model) {
+                           return model.param == HorizonModel::Sphere ? "Sphere" : "Ellipsoid";
+                         });
+
+TEST(AxisCandidatesOnTheEllipsoid, ABeamThatOnTheSphereWouldMissItHasAFixToo) {
+  // From the equator, a beam that dips 0.1 to 0.3 deg below the pole's limb: the sphere's stands
+  // 0.09 deg higher, and the axis that it gives has the beam pass above the pole.
+  const double limb_rad = std::atan(
+      6396.752314245 / std::sqrt(Scene::kRange_km * Scene::kRange_km - 6418.137 * 6418.137));
+  for (const double tilt_deg : {0.0, 10.0}) {
+    for (const double depth_deg : {0.1, 0.2, 0.3}) {
+      Scene scene = tilted_scene(tilt_deg, 90.0, HorizonModel::Ellipsoid);
+      scene.config.noise = {.sun_s = 2e-6, .infrared_s = 2e-6};
+      scene.config.north->mount_angle_rad =
+          0.5 * std::numbers::pi - limb_rad + depth_deg * kDegree_rad;
+      const SpinFix fix = scene.fix({SouthChord, SouthDihedral}).value();
+      EXPECT_EQ(fix.geometry_case, 2);
+      EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 0.0005 * kDegree_rad)
+          << tilt_deg << " " << depth_deg;
+    }
+  }
+}
+
+TEST(AxisCandidatesOnTheEllipsoid, RootsThatOnlyTheSphereAllowsAreNone) {
+  // From pole to pole the sphere's chord is wider than the ellipsoid allows any.
+  Scene scene = tilted_scene(90.0, 89.5, HorizonModel::Sphere);
+  scene.config.north->mount_angle_rad = 0.5 * std::numbers::pi;
+  scene.config.south.reset();
+  const RevolutionMeasurements measured =
+      testing::measured_without(scene.config, scene.seen(), {SunAngle});
+  const auto candidates = [&] {
+    return axis_candidates(scene.config, measured, scene.sightlines());
+  };
+  EXPECT_FALSE(candidates().value().candidates.empty());
+  scene.config.horizon.model = HorizonModel::Ellipsoid;
+  const auto found = candidates();
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::Unobservable);
+  EXPECT_NE(found.error().message.find("wider than the Earth's disc"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,106 @@
+#include "pipelines/spin/beam_view.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/geometry.h"
+#include "tests/support/axis_scene.h"
+
+namespace spindrift {
+namespace {
+
+using Scene = testing::AxisScene;
+
+// Three edges at half a nanosecond.
+constexpr double kNanosecond_rad = 1.5e-9;
+
+Scene oblique_scene() {
+  Scene scene{.axis_icrf = Eigen::Vector3d{0.5, -0.1, 1.0}.normalized(),
+              .earth = HorizonModel::Ellipsoid};
+  scene.config.horizon.model = HorizonModel::Ellipsoid;
+  const double earth_angle_rad = angle_between_rad(scene.axis_icrf, scene.earth_icrf);
+  scene.config.north->mount_angle_rad = earth_angle_rad - 0.1;
+  scene.config.south->mount_angle_rad = earth_angle_rad + 0.1;
+  return scene;
+}
+
+TEST(BeamView, OfTheSphereAtRestIsItsDisc) {
+  const Scene scene;
+  const Sightlines sightlines = scene.sightlines();
+  const BeamViews beams = views_of_horizon(scene.config, measure(scene.config, scene.seen()),
+                                           sightlines, scene.axis_icrf);
+  const double earth_angle_rad = angle_between_rad(scene.axis_icrf, scene.earth_icrf);
+  for (const Side side : kSides) {
+    const BeamView& beam = beams.at(index_of(side));
+    EXPECT_NEAR(beam.disc_rad, sightlines.disc_rad, 1e-13);
+    EXPECT_NEAR(beam.lead_rad, 0.0, 1e-13);
+    EXPECT_NEAR(beam.chord_rad.value(),
+                predict_chord_rad(sensor_of(scene.config, side)->mount_angle_rad, earth_angle_rad,
+                                  sightlines.disc_rad)
+                    .value(),
+                1e-13);
+  }
+}
+
+TEST(BeamView, OfAnOblateEarthThatMovesHasTheChordsAndMiddlesOfTheOracle) {
+  const Scene scene = oblique_scene();
+  const Eigen::Vector3d motion_icrf_s{-5e-4, 1e-4, 2e-4};
+  testing::Surroundings around = scene.around();
+  around.earth_icrf_km = [&](double t_s) -> Eigen::Vector3d {
+    return Scene::kRange_km * (scene.earth_icrf + t_s * motion_icrf_s);
+  };
+  const RevolutionMeasurements measured =
+      measure(scene.config, testing::revolution_seen({.axis_icrf = scene.axis_icrf,
+                                                      .rate_rad_s = scene.rate_rad_s,
+                                                      .first_turn_rad = 0.1,
+                                                      .config = scene.config},
+                                                     around, scene.start));
+  Sightlines sightlines = scene.sightlines();
+  sightlines.t_earth = scene.start;
+  sightlines.earth_motion_icrf_s = motion_icrf_s;
+  const BeamViews beams = views_of_horizon(scene.config, measured, sightlines, scene.axis_icrf);
+  const double dihedral_rad =
+      predict_angles(scene.axis_icrf, scene.sun_icrf, scene.earth_icrf).dihedral_rad;
+  for (const Side side : kSides) {
+    const BeamView& beam = beams.at(index_of(side));
+    const EarthCrossing& crossing = *measured.crossing(side);
+    EXPECT_NEAR(beam.chord_rad.value(), crossing.chord->value_rad, kNanosecond_rad);
+    EXPECT_NEAR(wrapped_rad(dihedral_rad - beam.lead_rad), crossing.dihedral->value_rad,
+                kNanosecond_rad);
+    EXPECT_GT(std::abs(beam.lead_rad), 1e-4);
+  }
+}
+
+TEST(BeamView, LeadsAreThoseOfTheBeamsThatAnAzimuthRestsOn) {
+  const BeamViews beams = {BeamView{.disc_rad = 0.4, .lead_rad = 0.01},
+                           BeamView{.disc_rad = 0.4, .lead_rad = 0.03}};
+  EdgeNoise noise_rad = EdgeNoise::Zero();
+  EXPECT_EQ(lead_rad(beams, noise_rad), 0.0);
+  noise_rad(static_cast<Eigen::Index>(PulseChannel::SouthIn)) = 1e-3;
+  EXPECT_DOUBLE_EQ(lead_rad(beams, noise_rad), 0.03);
+  noise_rad(static_cast<Eigen::Index>(PulseChannel::NorthIn)) = 1e-3;
+  EXPECT_DOUBLE_EQ(lead_rad(beams, noise_rad), 0.02);
+}
+
+TEST(BeamView, OfABeamThatMissesIsOfOneThatDoesNot) {
+  // From the equator over the north pole: closed forms of both limbs there.
+  Scene scene{.sun_icrf = Eigen::Vector3d::UnitY(),
+              .earth_icrf = Eigen::Vector3d::UnitX(),
+              .axis_icrf = Eigen::Vector3d::UnitZ()};
+  const double polar_limb_rad = std::atan(
+      6396.752314245 / std::sqrt(Scene::kRange_km * Scene::kRange_km - 6418.137 * 6418.137));
+  scene.config.north->mount_angle_rad = std::acos(0.0) - polar_limb_rad - 1e-4;
+  const RevolutionMeasurements measured = measure(scene.config, scene.seen());
+  ASSERT_TRUE(measured.crossing(Side::North));
+  scene.config.horizon.model = HorizonModel::Ellipsoid;
+  const BeamView north =
+      views_of_horizon(scene.config, measured, scene.sightlines(), scene.axis_icrf)[0];
+  EXPECT_FALSE(north.chord_rad);
+  EXPECT_NEAR(north.disc_rad, polar_limb_rad, 2e-5);
+  EXPECT_NEAR(north.lead_rad, 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace spindrift
