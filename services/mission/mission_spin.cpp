@@ -28,6 +28,17 @@ std::optional<SpinPrior> prior(const TomlValues& values) {
                    .sigma_rad = radians(values, "spin.prior.sigma_deg")};
 }
 
+SpinBatch batch(const TomlValues& values) {
+  SpinBatch batch;
+  for (int i = 0; i < kSensorBiases; ++i) {
+    const std::string key = "spin.batch." + std::string{prior_of(static_cast<SensorBias>(i)).name};
+    if (const auto estimated = value_if<bool>(values, key)) {
+      batch.biases = batch.biases.value_or(BiasSet{}).set(static_cast<std::size_t>(i), *estimated);
+    }
+  }
+  return batch;
+}
+
 HorizonModel horizon_model(const std::string& name) {
   return name == "sphere" ? HorizonModel::Sphere : HorizonModel::Ellipsoid;
 }
@@ -50,7 +61,8 @@ SpinConfig spin_config(const TomlValues& values) {
                     .interference_s = number(values, "spin.screening.interference_s")},
       .geometry = {.determinant_usable = number(values, "spin.geometry.determinant_usable"),
                    .determinant_ambiguous = number(values, "spin.geometry.determinant_ambiguous")},
-      .prior = prior(values)};
+      .prior = prior(values),
+      .batch = batch(values)};
 }
 
 }  // namespace spindrift

@@ -26,6 +26,7 @@
 
 #include "services/processor/version.h"
 #include "services/progress/progress_bar.h"
+#include "services/spindrift/batch.h"
 #include "services/spindrift/doctor.h"
 #include "services/spindrift/process.h"
 #include "services/spindrift/replay.h"
@@ -46,6 +47,7 @@ constexpr double kFastest = 1e6;
 
 /// What the command line asks for.
 struct Request {
+  spindrift::BatchOptions batch;
   spindrift::ProcessOptions process;
   spindrift::ServeOptions serve;
   spindrift::ReplayOptions replay;
@@ -106,6 +108,19 @@ void add_process(CLI::App& app, Request& request) {
   command.add_flag("--strict", options.strict, "A bad row of telemetry is an error");
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] { request.run = [&] { return process(request.process); }; });
+}
+
+void add_batch(CLI::App& app, Request& request) {
+  spindrift::BatchOptions& options = request.batch;
+  CLI::App& command =
+      *app.add_subcommand("batch", "Solve a stored run as a whole, with biases and bound");
+  command.add_option("--mission", options.mission, "Mission file")->check(check_path)->required();
+  command.add_option("--db", options.db, "Archive; it is only read")->check(check_path)->required();
+  command.add_option("--run", options.run, "Run; without, the newest of the spacecraft");
+  command.add_option("--last", options.last_revolutions, "Only so many of the last revolutions")
+      ->check(CLI::PositiveNumber);
+  command.add_flag("--json", options.json, "Print one JSON object");
+  command.callback([&] { request.run = [&] { return batch(request.batch); }; });
 }
 
 void add_serve(CLI::App& app, Request& request) {
@@ -215,6 +230,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string{"spindrift "} + spindrift::kSoftwareVersion);
   app.require_subcommand(1);
   add_process(app, request);
+  add_batch(app, request);
   add_serve(app, request);
   add_replay(app, request);
   add_simulate(app, request);

@@ -6,6 +6,7 @@
 
 #include "pipelines/time/utc.h"
 #include "services/archive/stored_pass.h"
+#include "services/spindrift/batch_text.h"
 #include "services/units/degrees.h"
 
 namespace spindrift {
@@ -77,6 +78,8 @@ std::string axis_text(const RunSummary& summary) {
   return text + origins;
 }
 
+}  // namespace
+
 nlohmann::json to_json(const SpinEstimate& estimate) {
   const Readable shown = readable(estimate);
   return {{"t_tai_ns", tai_ns(estimate.t)}, {"utc", shown.utc},
@@ -84,25 +87,6 @@ nlohmann::json to_json(const SpinEstimate& estimate) {
           {"sigma_deg", shown.sigma_deg},   {"spin_rate_rpm", shown.rpm},
           {"sigma_rpm", shown.sigma_rpm},   {"status", estimate.status}};
 }
-
-double in_unit(SensorBias bias, double value) {
-  return prior_of(bias).is_angle ? value * kDegPerRad : value;
-}
-
-void add(const BatchSolution& solution, nlohmann::json& json) {
-  json["bound_deg"] = solution.bound_rad * kDegPerRad;
-  json["outliers"] = solution.outliers;
-  json["undetermined"] = solution.undetermined;
-  for (const BiasEstimate& bias : solution.biases) {
-    json["biases"][std::string{prior_of(bias.bias).name}] = {
-        {"value", in_unit(bias.bias, bias.value)},
-        {"sigma", in_unit(bias.bias, bias.sigma)},
-        {"unit", prior_of(bias.bias).is_angle ? "deg" : "km"},
-        {"observable", bias.observable}};
-  }
-}
-
-}  // namespace
 
 std::string to_text(const RunSummary& summary) {
   std::string text = fmt::format("{}  run {}\n", summary.spacecraft_id, summary.run_id);
@@ -115,7 +99,8 @@ std::string to_text(const RunSummary& summary) {
     text += fmt::format("               {} rejected: {}\n", count, test);
   }
   text += fmt::format("  revolutions  {} with sun1\n", summary.revolutions);
-  return text + fixes_text(summary) + axis_text(summary);
+  return text + fixes_text(summary) + axis_text(summary) +
+         (summary.batch ? to_text(*summary.batch) : std::string{});
 }
 
 nlohmann::json to_json(const RunSummary& summary) {
@@ -139,7 +124,7 @@ nlohmann::json to_json(const RunSummary& summary) {
     json[std::string{name_of(estimator)}] = to_json(estimate);
   }
   if (summary.batch) {
-    add(*summary.batch, json["batch"]);
+    json["batch"].update(to_json(*summary.batch));
   }
   return json;
 }

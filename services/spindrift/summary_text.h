@@ -18,6 +18,8 @@ std::string to_text(const RunSummary& summary);
 
 nlohmann::json to_json(const RunSummary& summary);
 
+nlohmann::json to_json(const SpinEstimate& estimate);
+
 /// An estimate on one line, for the log.
 std::string to_text(const SpinEstimate& estimate);
 

@@ -1,0 +1,144 @@
+#include "services/archive/stored_edges.h"
+
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Statement.h>
+#include <fmt/format.h>
+
+#include <numbers>
+#include <string_view>
+
+#include "pipelines/frames/celestial.h"
+#include "services/archive/connection.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+std::optional<std::string> find_run(SQLite::Database& database, const std::string& spacecraft_id,
+                                    const std::optional<std::string>& run_id) {
+  SQLite::Statement query{
+      database,
+      "SELECT run_id FROM run WHERE spacecraft_id = ?1 AND ifnull(run_id = ?2, 1)"
+      " AND EXISTS (SELECT 1 FROM revolution WHERE revolution.run_id = run.run_id)"
+      " ORDER BY first_arrival DESC, started_utc DESC LIMIT 1"};
+  query.bind(1, spacecraft_id);
+  if (run_id) {
+    query.bind(2, *run_id);
+  }
+  return query.executeStep() ? std::optional{query.getColumn(0).getString()} : std::nullopt;
+}
+
+template <class Name, class Value>
+Value named(std::string_view name, Value last, const Name& name_of_value) {
+  int value = 0;
+  while (value < static_cast<int>(last) && name_of_value(static_cast<Value>(value)) != name) {
+    ++value;
+  }
+  return static_cast<Value>(value);
+}
+
+PulseUse use_of(SQLite::Statement& row) {
+  PulseUse use{.pulse = {.t = tai_from_ns(row.getColumn(0).getInt64()),
+                         .channel = named(row.getColumn(1).getText(), PulseChannel::SouthOut,
+                                          [](PulseChannel channel) { return name_of(channel); })},
+               .revolution = row.getColumn(2).getInt64(),
+               .rejected_by = {}};
+  if (!row.getColumn(3).isNull()) {
+    use.rejected_by = named(row.getColumn(3).getText(), Rejection::MixedAzimuth,
+                            [](Rejection rejection) { return name_of(rejection); });
+  }
+  return use;
+}
+
+Eigen::Vector3d axis_of(SQLite::Statement& row) {
+  return direction_icrf({.ra_rad = row.getColumn(0).getDouble() * kDegree_rad,
+                         .dec_rad = row.getColumn(1).getDouble() * kDegree_rad});
+}
+
+void read_uses(SQLite::Database& database, StoredEdges& stored) {
+  SQLite::Statement query{database,
+                          "SELECT t_tai_ns, channel, revolution, rejected_by FROM pulse_use"
+                          " WHERE run_id = ? AND revolution IS NOT NULL"};
+  query.bind(1, stored.run_id);
+  while (query.executeStep()) {
+    stored.pass.note(SpinProduct{use_of(query)});
+  }
+}
+
+void read_estimate(SQLite::Database& database, SpinEstimator estimator, StoredEdges& stored) {
+  SQLite::Statement query{database,
+                          "SELECT ra_deg, dec_deg, status FROM spin_estimate"
+                          " WHERE run_id = ? AND estimator = ? ORDER BY t_tai_ns DESC LIMIT 1"};
+  query.bind(1, stored.run_id);
+  query.bind(2, std::string{name_of(estimator)});
+  if (query.executeStep()) {
+    stored.pass.note(SpinProduct{SpinEstimate{.t = {},
+                                              .estimator = estimator,
+                                              .axis_icrf = axis_of(query),
+                                              .covariance_rad2 = Eigen::Matrix2d::Zero(),
+                                              .spin_rate_rad_s = 0.0,
+                                              .spin_rate_sigma_rad_s = 0.0,
+                                              .status = query.getColumn(2).getString()}});
+  }
+}
+
+void read_last_fix(SQLite::Database& database, StoredEdges& stored) {
+  SQLite::Statement query{
+      database,
+      "WITH last AS (SELECT * FROM spin_fix WHERE run_id = ? ORDER BY revolution DESC LIMIT 1)"
+      " SELECT ra_deg, dec_deg FROM last"
+      " UNION ALL SELECT alternate_ra_deg, alternate_dec_deg FROM last"
+      " WHERE alternate_ra_deg IS NOT NULL"
+      " UNION ALL SELECT c.ra_deg, c.dec_deg FROM last"
+      " JOIN spin_fix_candidate AS c USING (run_id, revolution)"};
+  query.bind(1, stored.run_id);
+  std::optional<SpinFix> fix;
+  while (query.executeStep()) {
+    if (fix) {
+      fix->alternate_axes_icrf.push_back(axis_of(query));
+    } else {
+      fix = SpinFix{.revolution = 0,
+                    .t = {},
+                    .geometry_case = 0,
+                    .axis_icrf = axis_of(query),
+                    .covariance_rad2 = Eigen::Matrix2d::Zero(),
+                    .alternate_axes_icrf = {},
+                    .resolution = Resolution::Ambiguous,
+                    .norm = 1.0,
+                    .accepted = false};
+    }
+  }
+  if (fix) {
+    stored.pass.note(SpinProduct{*std::move(fix)});
+  }
+}
+
+}  // namespace
+
+Expected<StoredEdges> read_edges(const std::filesystem::path& archive,
+                                 const std::string& spacecraft_id,
+                                 const std::optional<std::string>& run_id) {
+  const auto read = read_archive(archive, [&](SQLite::Database& database) {
+    std::optional<StoredEdges> stored;
+    if (auto run = find_run(database, spacecraft_id, run_id)) {
+      stored = StoredEdges{.run_id = *std::move(run), .pass = {}};
+      read_uses(database, *stored);
+      read_estimate(database, SpinEstimator::Mean, *stored);
+      read_estimate(database, SpinEstimator::Sequential, *stored);
+      read_last_fix(database, *stored);
+    }
+    return stored;
+  });
+  if (!read) {
+    return Unexpected{read.error()};
+  }
+  if (!*read) {
+    return Unexpected{{ErrorCode::InvalidConfiguration,
+                       fmt::format("archive {} has no run{} of spacecraft '{}' with revolutions",
+                                   archive.string(), run_id ? " " + *run_id : "", spacecraft_id)}};
+  }
+  return **read;
+}
+
+}  // namespace spindrift

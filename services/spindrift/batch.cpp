@@ -1,0 +1,46 @@
+#include "services/spindrift/batch.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "pipelines/spin/batch/batch_estimator.h"
+#include "services/archive/stored_edges.h"
+#include "services/mission/mission.h"
+#include "services/spindrift/batch_text.h"
+#include "services/spindrift/summary_text.h"
+
+namespace spindrift {
+
+Expected<void> batch(const BatchOptions& options) {
+  const auto mission = load_mission(options.mission);
+  if (!mission) {
+    return Unexpected{mission.error()};
+  }
+  if (!mission->spin) {
+    return Unexpected{{ErrorCode::InvalidConfiguration,
+                       fmt::format("{}: spacecraft '{}' is no spinner", options.mission.string(),
+                                   mission->spacecraft_id)}};
+  }
+  auto stored = read_edges(options.db, mission->spacecraft_id, options.run);
+  if (!stored) {
+    return Unexpected{stored.error()};
+  }
+  if (options.last_revolutions) {
+    stored->pass.keep_last(*options.last_revolutions);
+  }
+  return solve_batch(*mission->spin, *mission->orbit, stored->pass.edges(), stored->pass.starts())
+      .map([&](const BatchSolution& solution) {
+        if (options.json) {
+          nlohmann::json object = to_json(solution.estimate);
+          object.update(to_json(solution));
+          object["run_id"] = stored->run_id;
+          fmt::print("{}\n", object.dump());
+        } else {
+          fmt::print("{}  run {}\n{}\n{}", mission->spacecraft_id, stored->run_id,
+                     to_text(solution.estimate), to_text(solution));
+        }
+      });
+}
+
+}  // namespace spindrift
