@@ -25,7 +25,7 @@ constexpr double kFewestTurns = 20.0;
 // The spectrum's memory goes by it: 2 GiB.
 constexpr double kMostTurns = 4e6;
 // A spectral line is a turn wide over the pass.
-constexpr double kConverged_lines = 1e-3;
+constexpr double kConverged_lines = 1e-6;
 constexpr int kMostSteps = 8;
 // What is left of a pattern without its slow changes, at least.
 constexpr double kLeastShare = 1e-6;
@@ -88,13 +88,13 @@ double chi_square(const TiltSignal& signal, double per_turn) {
                                                        : 0.0;
 }
 
-/// The same to a sensor that looks once a turn.
-std::vector<double> aliases_of(double per_turn) {
+/// The same to a sensor that looks once a turn; a line apart, lest it be itself.
+std::vector<double> aliases_of(double per_turn, double line) {
   std::vector<double> aliases;
   for (const double sense : {1.0, -1.0}) {
     for (double whole = -kFastestPerTurn; whole <= 2.0 * kFastestPerTurn; whole += 1.0) {
       const double alias = whole + sense * per_turn;
-      if (alias > 0.0 && alias <= kFastestPerTurn && alias != per_turn) {
+      if (alias > 0.0 && alias <= kFastestPerTurn && std::abs(alias - per_turn) > line) {
         aliases.push_back(alias);
       }
     }
@@ -111,7 +111,7 @@ struct Choice {
 Choice likeliest(const TiltSignal& signal, double per_turn) {
   std::vector<Choice> choices = {
       {.per_turn = per_turn, .chi_square = chi_square(signal, per_turn), .others = {}}};
-  for (const double alias : aliases_of(per_turn)) {
+  for (const double alias : aliases_of(per_turn, 1.0 / span_turns(signal))) {
     choices.push_back({.per_turn = alias, .chi_square = chi_square(signal, alias), .others = {}});
   }
   Choice best = *std::max_element(

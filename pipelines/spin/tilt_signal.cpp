@@ -14,7 +14,7 @@ namespace {
 
 // Sun and Earth turn by a parabola in this time, even on low orbits.
 constexpr double kStretch_s = 600.0;
-constexpr int kSlowUnknowns = 3;
+constexpr int kSlowUnknowns = 4;
 // Fewer say little beside their own parabola.
 constexpr std::size_t kFewestEdges = 12;
 // Residuals without any noise are no reason to trust them without bound.
@@ -64,18 +64,20 @@ std::vector<Edges> stretches_of(const Residuals& sorted) {
   return stretches;
 }
 
-/// An orthonormal basis of whitened parabolas.
-Eigen::MatrixX3d parabolas(Edges stretch) {
+/// An orthonormal basis of whitened parabolas and of what errors of the model do; where the latter
+/// are like the former, of any direction besides.
+Eigen::MatrixX4d parabolas(Edges stretch) {
   const double begin_s = stretch.front()->t_s;
   const double half_s = std::max(0.5 * (stretch.back()->t_s - begin_s), 1e-9);
-  Eigen::MatrixX3d columns(stretch.size(), kSlowUnknowns);
+  Eigen::MatrixX4d columns(stretch.size(), kSlowUnknowns);
   for (std::size_t i = 0; i < stretch.size(); ++i) {
     const double x = (stretch[i]->t_s - begin_s) / half_s - 1.0;
     columns.row(static_cast<Eigen::Index>(i)) =
-        Eigen::RowVector3d{1.0, x, x * x} / stretch[i]->sigma_rad;
+        Eigen::RowVector4d{1.0, x, x * x, stretch[i]->expected.phase_per_error.sum()} /
+        stretch[i]->sigma_rad;
   }
-  const Eigen::HouseholderQR<Eigen::MatrixX3d> qr{columns};
-  return qr.householderQ() * Eigen::MatrixX3d::Identity(columns.rows(), kSlowUnknowns);
+  const Eigen::HouseholderQR<Eigen::MatrixX4d> qr{columns};
+  return qr.householderQ() * Eigen::MatrixX4d::Identity(columns.rows(), kSlowUnknowns);
 }
 
 }  // namespace

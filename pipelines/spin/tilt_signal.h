@@ -15,8 +15,9 @@
 ///     q = S exp(-2 pi i n x),    S = s_x + i s_y
 ///
 /// Whatever changes slowly in a channel (axis, phase, rate and its drift, misplaced sensors, the
-/// shape of the Earth) is a parabola of its own in each stretch of ten minutes, and taken out: of
-/// the residuals and of what is fitted to them.
+/// shape of the Earth) is a parabola of its own in each stretch of ten minutes, and a share of what
+/// an error of the model does (which grows without bound where a chord vanishes). It is taken out:
+/// of the residuals and of what is fitted to them.
 
 #pragma once
 
@@ -76,7 +77,7 @@ class TiltSignal {
   Eigen::VectorXd turns_;
   Eigen::VectorXd off_;
   Eigen::VectorXcd per_tilt_;
-  Eigen::MatrixX3d slow_;  ///< Of each stretch, orthonormal.
+  Eigen::MatrixX4d slow_;  ///< Of each stretch, orthonormal.
   std::vector<Stretch> stretches_;
 };
 

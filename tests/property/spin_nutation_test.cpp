@@ -1,44 +1,78 @@
-/// Nutation is found where there is any, with honest errors, and not where there is none.
-
-#include "pipelines/spin/nutation.h"
+/// Nutation of a simulated body is found, within its sigma, and none where there is none.
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
-
-#include "pipelines/frames/celestial.h"
-#include "tests/support/steady_residuals.h"
+#include "tests/support/nutation_trials.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kDuration_s = 300.0;  // As many turns.
-constexpr PulseNoise kNoise = {.sun_s = 1e-4, .infrared_s = 5e-4};
+TEST(SpinNutation, OfTwoTenthsOfADegreeIsFoundInThreeHundredTurns) {
+  testing::NutationTrials trials{1};
+  for (int i = 0; i < 20; ++i) {
+    const Nutation nutation = trials.random_nutation(0.2);
+    SCOPED_TRACE(testing::text_of(nutation));
+    const auto search = trials.searched(nutation);
+    ASSERT_TRUE(search.found);
+    const testing::Deviations off = testing::deviations(*search.found, nutation);
+    EXPECT_LT(off.period_share, 0.01);
+    EXPECT_LT(off.half_angle_sigmas, 3.0);
+    EXPECT_TRUE(search.found->other_periods_s.empty());
+  }
+}
 
-TEST(Probe, Probe) {
-  std::mt19937_64 rng{1};
-  SpinTruth truth = testing::steady_truth();
-  const auto clean = testing::turning(truth, kDuration_s);
-  for (int i = 0; i < 5; ++i) {
-    const auto s = find_nutation(testing::steady_residuals(clean, kNoise, rng)).value();
-    printf("clean far %g limit %g deg found %d\n", s.false_alarm, s.detectable_rad / kDegree, s.found.has_value());
+TEST(SpinNutation, OfSlenderAndFlatBodiesIsToldApart) {
+  testing::NutationTrials trials{2};
+  for (const double inertia_ratio : {0.08, 0.2, 0.5, 0.9, 1.1, 1.5, 1.9}) {
+    SCOPED_TRACE(inertia_ratio);
+    const Nutation nutation = {.half_angle_rad = 0.2 * testing::kDegree_rad,
+                               .inertia_ratio = inertia_ratio,
+                               .first_azimuth_rad = 1.0};
+    const auto search = trials.searched(nutation);
+    ASSERT_TRUE(search.found);
+    EXPECT_LT(testing::deviations(*search.found, nutation).period_share, 1e-3);
   }
-  for (double J : {0.08, 0.2, 0.37, 0.5, 0.63, 0.9, 1.2, 1.5, 1.8, 2.0}) {
-    truth.motion.nutation = {.half_angle_rad = 0.2 * kDegree, .inertia_ratio = J, .first_azimuth_rad = 0.5};
-    const auto t = testing::turning(truth, kDuration_s);
-    const auto s = find_nutation(testing::steady_residuals(t, kNoise, rng)).value();
-    printf("J %g far %g limit %g deg found %d\n", J, s.false_alarm, s.detectable_rad / kDegree, s.found.has_value());
-    if (s.found) {
-      const auto& f = *s.found;
-      const double lean = wrapped_rad(0.5 + truth.motion.nutation.per_turn() * truth.motion.rate_rad_s * f.t_s);
-      printf("   t %g half %g +- %g; growth %g +- %g; period %g (%g) +- %g; lean %g +- %g off; others %zu\n", f.t_s,
-             f.half_angle_rad.value / kDegree, f.half_angle_rad.sigma / kDegree, f.growth_per_s.value, f.growth_per_s.sigma,
-             f.period_s.value, 1/truth.motion.nutation.per_turn(), f.period_s.sigma, wrapped_rad(f.lean_azimuth_rad.value - lean),
-             f.lean_azimuth_rad.sigma, f.other_periods_s.size());
-    }
+}
+
+TEST(SpinNutation, IsNotFoundWhereThereIsNone) {
+  testing::NutationTrials trials{3};
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_FALSE(trials.searched({}).found);
   }
+}
+
+TEST(SpinNutation, IsNotMadeUpOutOfMisplacedSensorsAndAnOblateEarth) {
+  for (const double duration_s : {300.0, 3600.0}) {
+    testing::NutationTrials trials{4, duration_s};
+    trials.truth.horizon =
+        infrared_horizon({.model = HorizonModel::Ellipsoid, .co2_altitude_km = 40.0},
+                         trials.truth.horizon.pole_icrf);
+    trials.truth.north->mount_angle_rad += 0.1 * testing::kDegree_rad;
+    trials.truth.south->chord_excess_rad = 0.1 * testing::kDegree_rad;
+    trials.truth.motion.rate_drift_rad_s2 = 1e-6;
+    trials.truth.motion.coning = {.tilt_rad = 0.1 * testing::kDegree_rad};
+    EXPECT_FALSE(trials.searched({}).found) << duration_s;
+  }
+}
+
+TEST(SpinNutation, BelowWhatCouldBeDetectedIsSaidToBe) {
+  testing::NutationTrials trials{5};
+  for (int i = 0; i < 10; ++i) {
+    const Nutation nutation = trials.random_nutation(0.004);
+    const auto search = trials.searched(nutation);
+    EXPECT_FALSE(search.found);
+    EXPECT_GT(search.detectable_rad, 3.0 * nutation.half_angle_rad);
+    EXPECT_LT(search.detectable_rad, 0.03 * testing::kDegree_rad);
+  }
+}
+
+TEST(SpinNutation, IsFoundWhereTheRateDrifts) {
+  testing::NutationTrials trials{6};
+  trials.truth.motion.rate_drift_rad_s2 = -2e-4;  // A rpm in ten minutes.
+  const Nutation nutation = trials.random_nutation(0.2);
+  const auto search = trials.searched(nutation);
+  ASSERT_TRUE(search.found);
+  EXPECT_NEAR(search.found->per_turn, nutation.per_turn(), 1e-3);
 }
 
 }  // namespace

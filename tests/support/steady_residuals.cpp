@@ -78,8 +78,9 @@ std::vector<SteadyResidual> steady_residuals(const Turning& turning, const Pulse
       sky_s = t_s;
       sky = sky_at(orbit, shifted(turning.truth.start, t_s));
     }
-    const auto expected = predict_edge(
-        config, sky, R_spin_icrf, {.t = shifted(turning.truth.start, t_s), .channel = edge.channel});
+    const auto expected =
+        predict_edge(config, sky, R_spin_icrf,
+                     {.t = shifted(turning.truth.start, t_s), .channel = edge.channel});
     if (expected) {
       const double azimuth_rad = motion.azimuth_rad(t_s);
       residuals.push_back({.channel = edge.channel,

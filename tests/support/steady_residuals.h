@@ -12,7 +12,7 @@
 
 namespace spindrift::testing {
 
-/// The usual sensors, exactly where they are said to be; noise-free azimuth 1 rad, 60 rpm, axis and
+/// The usual sensors, exactly where they are said to be, at 60 rpm; axis and
 /// start of `body_across_the_earth`.
 SpinTruth steady_truth();
 
