@@ -29,4 +29,14 @@ Turning turning(const SpinTruth& truth, double duration_s);
 std::vector<SteadyResidual> steady_residuals(const Turning& turning, const PulseNoise& noise,
                                              std::mt19937_64& rng);
 
+struct FittedConing {
+  Eigen::Vector2d coning_rad;
+  Eigen::Matrix2d covariance_rad2;
+};
+
+/// Coning that fits the edges best, with all that a steady spin has and the errors of the model.
+/// @param alignment_sigma_rad To which each error is known to be zero.
+FittedConing fitted_coning(const Turning& turning, const PulseNoise& noise,
+                           double alignment_sigma_rad, std::mt19937_64& rng);
+
 }  // namespace spindrift::testing
