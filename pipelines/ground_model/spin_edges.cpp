@@ -152,7 +152,7 @@ Expected<SpinEdges::View> SpinEdges::view(double t_s) {
   });
 }
 
-bool SpinEdges::hides_sun(const View& view) const {
+bool SpinEdges::hides_sun(const View& view) {
   return depth(view.squeezed_from_tipped * view.sun_tipped,
                view.squeezed_from_tipped * view.earth_tipped_km) > 0.0;
 }
@@ -171,7 +171,7 @@ SpinEdges::Due SpinEdges::sun_due(PulseChannel channel, const View& view) const 
                               : Due{.azimuth_rad = middle_rad, .seen = false};
 }
 
-SpinEdges::Due SpinEdges::earth_due(const TrueInfrared& sensor, bool in, const View& view) const {
+SpinEdges::Due SpinEdges::earth_due(const TrueInfrared& sensor, bool in, const View& view) {
   const double earth_rad = azimuth_of(view.earth_tipped_km);
   const Due unseen = {.azimuth_rad = earth_rad + sensor.azimuth_rad, .seen = false};
   const Eigen::Vector3d centre = view.squeezed_from_tipped * view.earth_tipped_km;

@@ -106,8 +106,8 @@ class SpinEdges {
   Expected<View> view(double t_s);
   Due due(PulseChannel channel, const View& view) const;
   Due sun_due(PulseChannel channel, const View& view) const;
-  Due earth_due(const TrueInfrared& sensor, bool in, const View& view) const;
-  bool hides_sun(const View& view) const;
+  static Due earth_due(const TrueInfrared& sensor, bool in, const View& view);
+  static bool hides_sun(const View& view);
   Expected<Crossing> crossing_near(PulseChannel channel, double guess_s);
   Expected<void> follow(Follower& follower, double end_s, std::vector<TrueEdge>& edges);
   Expected<void> start();

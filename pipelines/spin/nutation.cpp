@@ -131,7 +131,9 @@ double width_of(const TiltSignal& signal) {
   return kFastestPerTurn * std::sqrt(4.0 * std::numbers::pi * variance);
 }
 
-double false_alarm_of(double width, double z) {
+/// The bound has a meaning from its greatest value on, at a half.
+double false_alarm_of(double width, double chi_square) {
+  const double z = std::max(0.5, 0.5 * chi_square);
   return std::min(1.0, width * std::sqrt(z) * std::exp(-z));
 }
 
@@ -231,12 +233,11 @@ Expected<NutationSearch> find_nutation(std::span<const SteadyResidual> residuals
   signal.weigh_by(first.rest);
   const Choice choice = likeliest(signal, first.per_turn);
   const double width = width_of(signal);
-  const double z = 0.5 * choice.chi_square;
   const double threshold = threshold_of(width);
   NutationSearch search = {.found = std::nullopt,
-                           .false_alarm = false_alarm_of(width, z),
+                           .false_alarm = false_alarm_of(width, choice.chi_square),
                            .detectable_rad = detectable_rad(signal, threshold)};
-  if (z > threshold) {
+  if (0.5 * choice.chi_square > threshold) {
     search.found = nutation_of(signal, climbed(signal, choice.per_turn), choice.others);
   }
   return search;

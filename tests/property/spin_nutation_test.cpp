@@ -34,6 +34,16 @@ TEST(SpinNutation, OfSlenderAndFlatBodiesIsToldApart) {
   }
 }
 
+TEST(SpinNutation, OfDegreesIsFoundButForItsSecondOrder) {
+  testing::NutationTrials trials{7};
+  const Nutation nutation = trials.random_nutation(3.0);
+  SCOPED_TRACE(testing::text_of(nutation));
+  const auto search = trials.searched(nutation);
+  ASSERT_TRUE(search.found);
+  EXPECT_LT(testing::deviations(*search.found, nutation).period_share, 1e-3);
+  EXPECT_NEAR(search.found->half_angle_rad.value / nutation.half_angle_rad, 1.0, 0.03);
+}
+
 TEST(SpinNutation, IsNotFoundWhereThereIsNone) {
   testing::NutationTrials trials{3};
   for (int i = 0; i < 30; ++i) {

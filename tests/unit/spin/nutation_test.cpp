@@ -156,6 +156,13 @@ TEST(Nutation, HasTheSigmaOfTheScatterNotOfTheStatement) {
   EXPECT_NEAR(loud.detectable_rad / quiet.detectable_rad, 3.0, 0.1);
 }
 
+TEST(Nutation, IsNotFoundInEdgesThatAreWhereExpected) {
+  const auto search = find_nutation(tipped(kChannels, 100, circle(0.0, 0.3, 0.0))).value();
+  EXPECT_FALSE(search.found);
+  EXPECT_EQ(search.false_alarm, 1.0);
+  EXPECT_GT(search.detectable_rad, 0.0);
+}
+
 TEST(Nutation, ThatGoesRoundOnceATurnIsTakenForMisplacedSensors) {
   for (const double per_turn : {1.0, 2.0}) {
     EXPECT_FALSE(
