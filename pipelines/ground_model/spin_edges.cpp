@@ -26,8 +26,8 @@ constexpr int kMostSteps = 30;
 constexpr double kConverged_rad = 1e-13;
 constexpr int kMostHalvings = 60;
 
-double azimuth_of(const Eigen::Vector3d& direction_axes) {
-  return std::atan2(direction_axes.y(), direction_axes.x());
+double azimuth_of(const Eigen::Vector3d& direction) {
+  return std::atan2(direction.y(), direction.x());
 }
 
 /// How deep a ray from the spacecraft dips below the horizon, of any unit; negative: it misses.
@@ -39,12 +39,12 @@ double depth(const Eigen::Vector3d& ray, const Eigen::Vector3d& centre) {
 /// The depth of a beam that turns about the axis, by its azimuth.
 class BeamDepth {
  public:
-  /// @param squeezed_from_axes To the space of `depth`, where the Earth is at `centre`.
-  BeamDepth(double mount_angle_rad, const Eigen::Matrix3d& squeezed_from_axes,
+  /// @param squeezed_from_tipped To the space of `depth`, where the Earth is at `centre`.
+  BeamDepth(double mount_angle_rad, const Eigen::Matrix3d& squeezed_from_tipped,
             Eigen::Vector3d centre)
-      : east_{std::sin(mount_angle_rad) * squeezed_from_axes.col(0)},
-        north_{std::sin(mount_angle_rad) * squeezed_from_axes.col(1)},
-        along_{std::cos(mount_angle_rad) * squeezed_from_axes.col(2)},
+      : east_{std::sin(mount_angle_rad) * squeezed_from_tipped.col(0)},
+        north_{std::sin(mount_angle_rad) * squeezed_from_tipped.col(1)},
+        along_{std::cos(mount_angle_rad) * squeezed_from_tipped.col(2)},
         centre_{std::move(centre)},
         tangent_{std::sqrt(centre_.squaredNorm() - 1.0)} {}
 
@@ -143,17 +143,22 @@ Expected<SpinEdges::View> SpinEdges::view(double t_s) {
                        "the infrared horizon, {} km",
                        range_km, format_utc(t), truth_.horizon.equatorial_km)}};
     }
-    return View{.sun_axes = axes_from_icrf_ * sun_.direction_icrf(t, state),
-                .earth_axes_km = -(axes_from_icrf_ * state.position_icrf_km)};
+    const Eigen::Matrix3d R_axes_tipped = truth_.motion.R_axes_tipped(t_s);
+    const Eigen::Vector3d sun_axes = axes_from_icrf_ * sun_.direction_icrf(t, state);
+    const Eigen::Vector3d earth_axes_km = -(axes_from_icrf_ * state.position_icrf_km);
+    return View{.sun_tipped = R_axes_tipped.transpose() * sun_axes,
+                .earth_tipped_km = R_axes_tipped.transpose() * earth_axes_km,
+                .squeezed_from_tipped = squeezed_from_axes_ * R_axes_tipped};
   });
 }
 
-bool SpinEdges::hides_sun(const View& view) const {
-  return depth(squeezed_from_axes_ * view.sun_axes, squeezed_from_axes_ * view.earth_axes_km) > 0.0;
+bool SpinEdges::hides_sun(const View& view) {
+  return depth(view.squeezed_from_tipped * view.sun_tipped,
+               view.squeezed_from_tipped * view.earth_tipped_km) > 0.0;
 }
 
 SpinEdges::Due SpinEdges::sun_due(PulseChannel channel, const View& view) const {
-  const Eigen::Vector3d& sun = view.sun_axes;
+  const Eigen::Vector3d& sun = view.sun_tipped;
   const bool lit = !hides_sun(view);
   if (channel == PulseChannel::Sun1) {
     return {.azimuth_rad = azimuth_of(sun), .seen = lit};
@@ -166,11 +171,11 @@ SpinEdges::Due SpinEdges::sun_due(PulseChannel channel, const View& view) const 
                               : Due{.azimuth_rad = middle_rad, .seen = false};
 }
 
-SpinEdges::Due SpinEdges::earth_due(const TrueInfrared& sensor, bool in, const View& view) const {
-  const double earth_rad = azimuth_of(view.earth_axes_km);
+SpinEdges::Due SpinEdges::earth_due(const TrueInfrared& sensor, bool in, const View& view) {
+  const double earth_rad = azimuth_of(view.earth_tipped_km);
   const Due unseen = {.azimuth_rad = earth_rad + sensor.azimuth_rad, .seen = false};
-  const Eigen::Vector3d centre = squeezed_from_axes_ * view.earth_axes_km;
-  const BeamDepth beam{sensor.mount_angle_rad, squeezed_from_axes_, centre};
+  const Eigen::Vector3d centre = view.squeezed_from_tipped * view.earth_tipped_km;
+  const BeamDepth beam{sensor.mount_angle_rad, view.squeezed_from_tipped, centre};
   const auto deepest_rad = beam.deepest_near(earth_rad);
   if (!deepest_rad) {
     return unseen;

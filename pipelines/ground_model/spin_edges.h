@@ -1,8 +1,9 @@
 /// @file
 /// When the sensors of a spinning spacecraft really see the Sun and the Earth.
 ///
-/// Each edge is the root of its own condition at its own time: the body turns, the spacecraft moves
-/// along its orbit, the Sun along the ecliptic. For the geometry of an instant the condition gives
+/// Each edge is the root of its own condition at its own time: the body turns, nutates and cones,
+/// the spacecraft moves along its orbit, the Sun along the ecliptic. For the geometry of an
+/// instant, seen from the axes that are tipped with the body (spin_motion.h), the condition gives
 /// the azimuth that slit 1 must have,
 ///
 ///     sun1        the Sun's azimuth
@@ -82,10 +83,11 @@ class SpinEdges {
   std::int64_t revolutions() const { return revolutions_; }
 
  private:
-  /// Geometry of an instant about the spin axis.
+  /// Geometry of an instant about the sensors' axis.
   struct View {
-    Eigen::Vector3d sun_axes;       ///< Unit: east, north, axis.
-    Eigen::Vector3d earth_axes_km;  ///< Spacecraft -> Earth's centre.
+    Eigen::Vector3d sun_tipped;            ///< Unit.
+    Eigen::Vector3d earth_tipped_km;       ///< Spacecraft -> Earth's centre.
+    Eigen::Matrix3d squeezed_from_tipped;  ///< To a space where the horizon is the unit sphere.
   };
   /// Azimuth of slit 1 at which a channel's edge happens; without an edge one nearby, to count on.
   struct Due {
@@ -104,8 +106,8 @@ class SpinEdges {
   Expected<View> view(double t_s);
   Due due(PulseChannel channel, const View& view) const;
   Due sun_due(PulseChannel channel, const View& view) const;
-  Due earth_due(const TrueInfrared& sensor, bool in, const View& view) const;
-  bool hides_sun(const View& view) const;
+  static Due earth_due(const TrueInfrared& sensor, bool in, const View& view);
+  static bool hides_sun(const View& view);
   Expected<Crossing> crossing_near(PulseChannel channel, double guess_s);
   Expected<void> follow(Follower& follower, double end_s, std::vector<TrueEdge>& edges);
   Expected<void> start();
@@ -114,7 +116,7 @@ class SpinEdges {
   const Orbit* orbit_;
   ApparentSun sun_;
   Eigen::Matrix3d axes_from_icrf_;
-  Eigen::Matrix3d squeezed_from_axes_;  ///< To a space where the horizon is the unit sphere.
+  Eigen::Matrix3d squeezed_from_axes_;
   std::vector<Follower> followers_;
   std::int64_t revolutions_ = 0;
 };

@@ -108,6 +108,22 @@ void check_rate(TomlDocument& document) {
   }
 }
 
+Nutation nutation_of(const TomlValues& values) {
+  const auto half_angle_deg = value_if<double>(values, "attitude.nutation.half_angle_deg");
+  return half_angle_deg
+             ? Nutation{.half_angle_rad = *half_angle_deg / kDegPerRad,
+                        .inertia_ratio = number(values, "attitude.nutation.inertia_ratio"),
+                        .first_azimuth_rad = radians(values, "attitude.nutation.phase_deg")}
+             : Nutation{};
+}
+
+Coning coning_of(const TomlValues& values) {
+  const auto tilt_deg = value_if<double>(values, "attitude.coning.tilt_deg");
+  return tilt_deg ? Coning{.tilt_rad = *tilt_deg / kDegPerRad,
+                           .azimuth_rad = radians(values, "attitude.coning.azimuth_deg")}
+                  : Coning{};
+}
+
 SpinMotion motion_of(const TomlValues& values) {
   const double rad_s_per_rpm = 1.0 / kRpmPerRad_s;
   return {.axis_icrf = direction_icrf({.ra_rad = radians(values, "attitude.ra_deg"),
@@ -115,7 +131,9 @@ SpinMotion motion_of(const TomlValues& values) {
           .rate_rad_s = number(values, "attitude.rate_rpm") * rad_s_per_rpm,
           .rate_drift_rad_s2 =
               number(values, "attitude.rate_drift_rpm_h") * rad_s_per_rpm / kSecondsPerHour,
-          .first_azimuth_rad = radians(values, "attitude.azimuth_deg")};
+          .first_azimuth_rad = radians(values, "attitude.azimuth_deg"),
+          .nutation = nutation_of(values),
+          .coning = coning_of(values)};
 }
 
 std::optional<TrueInfrared> true_infrared(const TomlValues& values,

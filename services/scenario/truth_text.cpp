@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/celestial.h"
@@ -21,6 +22,19 @@ nlohmann::json bad_edges(const SimulatedPass& pass) {
   return edges;
 }
 
+nlohmann::ordered_json nutation(const SpinMotion& motion) {
+  const Nutation& nutation = motion.nutation;
+  return {{"half_angle_deg", nutation.half_angle_rad * kDegPerRad},
+          {"inertia_ratio", nutation.inertia_ratio},
+          {"period_s", 2.0 * std::numbers::pi / (motion.rate_rad_s * nutation.per_turn())},
+          {"phase_deg", nutation.first_azimuth_rad * kDegPerRad}};
+}
+
+nlohmann::ordered_json coning(const Coning& coning) {
+  return {{"tilt_deg", coning.tilt_rad * kDegPerRad},
+          {"azimuth_deg", coning.azimuth_rad * kDegPerRad}};
+}
+
 }  // namespace
 
 Expected<std::string> truth_text(const Scenario& scenario, const SimulatedPass& pass) {
@@ -33,7 +47,7 @@ Expected<std::string> truth_text(const Scenario& scenario, const SimulatedPass& 
   const Eigen::Vector3d& position = state->position_icrf_km;
   const Eigen::Vector3d sun = ApparentSun{}.direction_icrf(truth.start, *state);
   const auto [ra_deg, dec_deg] = place_deg(axis);
-  const nlohmann::ordered_json json = {
+  nlohmann::ordered_json json = {
       {"ra_deg", ra_deg},
       {"dec_deg", dec_deg},
       {"rpm", truth.motion.rate_rad_s * kRpmPerRad_s},
@@ -48,6 +62,12 @@ Expected<std::string> truth_text(const Scenario& scenario, const SimulatedPass& 
       {"earth_angle_deg", angle_between_rad(axis, -position) * kDegPerRad},
       {"rho_deg", std::asin(truth.horizon.equatorial_km / position.norm()) * kDegPerRad},
       {"bad_edges", bad_edges(pass)}};
+  if (truth.motion.nutation.half_angle_rad > 0.0) {
+    json["nutation"] = nutation(truth.motion);
+  }
+  if (truth.motion.coning.tilt_rad > 0.0) {
+    json["coning"] = coning(truth.motion.coning);
+  }
   return json.dump(1) + '\n';
 }
 

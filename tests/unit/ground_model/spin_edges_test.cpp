@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -189,6 +190,59 @@ TEST(SpinEdges, DoNotDependOnTheSlices) {
     EXPECT_EQ(joined[i].channel, whole[i].channel);
   }
   EXPECT_EQ(sliced.revolutions(), 20);
+}
+
+/// By how much the sensor misses what its edge is of, rad: the Sun off the slit's plane, the beam
+/// off the limb of a spherical Earth.
+double missed_rad(const SpinTruth& truth, const OrbitState& state, const TrueEdge& edge) {
+  const Eigen::Vector3d& axis = truth.motion.axis_icrf;
+  Eigen::Matrix3d R_icrf_axes;
+  R_icrf_axes << tangent_basis(axis), axis;
+  const Eigen::Matrix3d R_icrf_sensors =
+      R_icrf_axes * truth.motion.R_axes_tipped(edge.t_s) *
+      Eigen::AngleAxisd{truth.motion.azimuth_rad(edge.t_s), Eigen::Vector3d::UnitZ()};
+  if (edge.channel == PulseChannel::Sun1 || edge.channel == PulseChannel::Sun2) {
+    const Eigen::Vector3d sun = R_icrf_sensors.transpose() *
+                                ApparentSun{}.direction_icrf(shifted(truth.start, edge.t_s), state);
+    const bool first = edge.channel == PulseChannel::Sun1;
+    const double behind_rad = first ? 0.0 : truth.sun_sensor.slit_separation_rad;
+    const Eigen::Vector3d middle{std::cos(-behind_rad), std::sin(-behind_rad), 0.0};
+    const Eigen::Vector3d north =
+        Eigen::AngleAxisd{first ? 0.0 : truth.sun_sensor.slit_cant_rad, middle} *
+        Eigen::Vector3d::UnitZ();
+    return std::asin(sun.dot(middle.cross(north)));
+  }
+  const bool north =
+      edge.channel == PulseChannel::NorthIn || edge.channel == PulseChannel::NorthOut;
+  const TrueInfrared& sensor = north ? *truth.north : *truth.south;
+  const Eigen::Vector3d beam{std::sin(sensor.mount_angle_rad) * std::cos(-sensor.azimuth_rad),
+                             std::sin(sensor.mount_angle_rad) * std::sin(-sensor.azimuth_rad),
+                             std::cos(sensor.mount_angle_rad)};
+  const double disc_rad = std::asin(truth.horizon.equatorial_km / state.position_icrf_km.norm());
+  return angle_between_rad(R_icrf_sensors * beam, -state.position_icrf_km) - disc_rad;
+}
+
+TEST(SpinEdges, OfABodyThatNutatesAndConesAreWhereItsSensorsMeetSunAndEarth) {
+  const Orbit orbit = orbit_of(24400.0, 0.73, 0.5);
+  for (const double inertia_ratio : {0.2, 0.9, 1.7}) {
+    SCOPED_TRACE(inertia_ratio);
+    SpinTruth truth = truth_of(place(100.0, -55.0), 60.0, HorizonModel::Sphere);
+    truth.motion.rate_drift_rad_s2 = 1e-4;
+    truth.motion.nutation = {
+        .half_angle_rad = 2.0 * kDegree, .inertia_ratio = inertia_ratio, .first_azimuth_rad = 1.0};
+    truth.motion.coning = {.tilt_rad = 1.0 * kDegree, .azimuth_rad = 0.5};
+    const auto edges = edges_of(truth, orbit, 60.0);
+    std::array<int, kPulseChannels> count{};
+    for (const TrueEdge& edge : edges) {
+      ++count.at(index_of(edge.channel));
+      const OrbitState state = orbit.at(shifted(truth.start, edge.t_s)).value();
+      // A nanosecond's turn.
+      EXPECT_LT(std::abs(missed_rad(truth, state, edge)), 7e-9) << name_of(edge.channel);
+    }
+    for (const int edges_of_channel : count) {
+      EXPECT_NEAR(edges_of_channel, 60, 1);
+    }
+  }
 }
 
 TEST(SpinEdges, WidenAChordByItsExcessHalfAtEachEnd) {

@@ -13,6 +13,7 @@
 #include "services/scenario/pass_files.h"
 #include "services/scenario/scenario_schema.h"
 #include "services/scenario/simulated_pass.h"
+#include "services/scenario/truth_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift {
@@ -99,7 +100,7 @@ TEST(Scenario, LoadsThoseThatComeWithTheProgram) {
       ++count;
     }
   }
-  EXPECT_EQ(count, 3);
+  EXPECT_EQ(count, 4);
 }
 
 TEST(Scenario, TakesWhatIsLeftOutAsTheMissionFileHasIt) {
@@ -150,6 +151,43 @@ co2_altitude_km = 30
   EXPECT_DOUBLE_EQ(truth.horizon.equatorial_km, 6408.137);
   EXPECT_DOUBLE_EQ(truth.horizon.polar_km, 6386.752314245);
   EXPECT_THAT(scenario->mission_toml, AllOf(HasSubstr("'sphere'"), Not(HasSubstr("truth"))));
+}
+
+TEST(Scenario, NutatesAndConesWhereItSaysSo) {
+  const auto steady = loaded(kWhole);
+  ASSERT_TRUE(steady) << steady.error().message;
+  EXPECT_EQ(steady->truth.motion.nutation.half_angle_rad, 0.0);
+  EXPECT_EQ(steady->truth.motion.coning.tilt_rad, 0.0);
+  const auto pass = simulated_pass(*steady);
+  ASSERT_TRUE(pass);
+  EXPECT_THAT(truth_text(*steady, *pass).value(),
+              AllOf(Not(HasSubstr("nutation")), Not(HasSubstr("coning"))));
+
+  const auto wobbling = loaded(replaced(kWhole, "rate_rpm = 60.0\n", R"(rate_rpm = 60.0
+[attitude.nutation]
+half_angle_deg = 0.2
+inertia_ratio = 0.4
+phase_deg = 30.0
+[attitude.coning]
+tilt_deg = 0.5
+)"));
+  ASSERT_TRUE(wobbling) << wobbling.error().message;
+  const SpinMotion& motion = wobbling->truth.motion;
+  EXPECT_DOUBLE_EQ(motion.nutation.half_angle_rad, 0.2 * kDegree);
+  EXPECT_EQ(motion.nutation.inertia_ratio, 0.4);
+  EXPECT_DOUBLE_EQ(motion.nutation.first_azimuth_rad, 30.0 * kDegree);
+  EXPECT_DOUBLE_EQ(motion.coning.tilt_rad, 0.5 * kDegree);
+  EXPECT_EQ(motion.coning.azimuth_rad, 0.0);
+  const auto wobbling_pass = simulated_pass(*wobbling);
+  ASSERT_TRUE(wobbling_pass);
+  // At 60 rpm, 1/0.4 s, and by the second order of the half-angle less.
+  EXPECT_THAT(truth_text(*wobbling, *wobbling_pass).value(),
+              AllOf(HasSubstr("\"period_s\": 2.49999"), HasSubstr("\"tilt_deg\": 0.5")));
+
+  const std::string error = error_of(replaced(
+      kWhole, "rate_rpm = 60.0\n", "rate_rpm = 60.0\n[attitude.nutation]\nhalf_angle_deg = 11\n"));
+  EXPECT_THAT(error, AllOf(HasSubstr("attitude.nutation.half_angle_deg = 11: must lie in [0, 10]"),
+                           HasSubstr("inertia_ratio")));
 }
 
 TEST(Scenario, ReadsTheFaultsOfEachChannelAndTheSilences) {

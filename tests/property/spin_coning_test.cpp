@@ -1,0 +1,100 @@
+/// Coning of a simulated body against what phase_per_coning makes of it in a least-squares fit, and
+/// how far it is told from misplaced sensors.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/coning.h"
+#include "tests/support/steady_residuals.h"
+
+namespace spindrift {
+namespace {
+
+using testing::FittedConing;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kDuration_s = 300.0;
+constexpr double kAligned_rad = 1e-7;
+constexpr PulseNoise kNoise = {.sun_s = 1e-4, .infrared_s = 5e-4};
+constexpr int kTrials = 60;
+// 99.9 % of the mean of chi-squares of two degrees of freedom: 3.29 sqrt(4 / 60).
+constexpr double kMeanOff = 0.85;
+
+FittedConing fitted(const SpinTruth& truth, double alignment_sigma_rad, std::mt19937_64& rng) {
+  return testing::fitted_coning(testing::turning(truth, kDuration_s), kNoise, alignment_sigma_rad,
+                                rng);
+}
+
+/// The rotation that leans the axis so.
+Eigen::Vector2d rotation_of(const Coning& coning) {
+  return coning.tilt_rad *
+         Eigen::Vector2d{std::sin(coning.azimuth_rad), std::cos(coning.azimuth_rad)};
+}
+
+double chi_square(const FittedConing& fit, const Eigen::Vector2d& coning_rad) {
+  const Eigen::Vector2d off = fit.coning_rad - coning_rad;
+  return off.dot(fit.covariance_rad2.ldlt().solve(off));
+}
+
+ConingVerdict verdict_on(const FittedConing& fit) {
+  return judge_coning(fit.coning_rad, fit.covariance_rad2);
+}
+
+TEST(SpinConing, OfAlignedSensorsIsFoundWhereItLeans) {
+  std::mt19937_64 rng{1};
+  double sum = 0.0;
+  for (int i = 0; i < kTrials; ++i) {
+    SpinTruth truth = testing::steady_truth();
+    const Coning coning = {.tilt_rad = 0.5 * kDegree, .azimuth_rad = 0.1 * i};
+    truth.motion.coning = coning;
+    const FittedConing fit = fitted(truth, kAligned_rad, rng);
+    sum += chi_square(fit, rotation_of(coning));
+    const ConingVerdict verdict = verdict_on(fit);
+    EXPECT_TRUE(verdict.detected);
+    EXPECT_NEAR(verdict.tilt_rad, coning.tilt_rad, 0.25 * kDegree);
+    EXPECT_NEAR(wrapped_rad(verdict.azimuth_rad - coning.azimuth_rad), 0.0, 0.5);
+  }
+  EXPECT_NEAR(sum / kTrials, 2.0, kMeanOff);
+}
+
+TEST(SpinConing, IsNotFoundWhereSensorsAreMisplacedAsMuchAsTheyMayBe) {
+  std::mt19937_64 rng{2};
+  constexpr double kMisplaced_rad = 0.1 * kDegree;
+  std::normal_distribution<double> misplaced{0.0, kMisplaced_rad};
+  double sum = 0.0;
+  for (int i = 0; i < kTrials; ++i) {
+    SpinTruth truth = testing::steady_truth();
+    truth.north->mount_angle_rad += misplaced(rng);
+    truth.south->mount_angle_rad += misplaced(rng);
+    truth.north->azimuth_rad += misplaced(rng);
+    truth.south->azimuth_rad += misplaced(rng);
+    truth.sun_sensor.slit_separation_rad += misplaced(rng);
+    const FittedConing fit = fitted(truth, kMisplaced_rad, rng);
+    sum += chi_square(fit, Eigen::Vector2d::Zero());
+    const ConingVerdict verdict = verdict_on(fit);
+    EXPECT_FALSE(verdict.detected);
+    // Of aligned sensors it would be 0.4 deg.
+    EXPECT_GT(verdict.detectable_rad, 2.0 * kDegree);
+  }
+  // Mounting angles do less here than the limb does, which the fit allows for: 2 at most.
+  EXPECT_LT(sum / kTrials, 2.0 + kMeanOff);
+  EXPECT_GT(sum / kTrials, 0.5);
+}
+
+TEST(SpinConing, BelowWhatCouldBeDetectedIsSaidToBe) {
+  std::mt19937_64 rng{3};
+  SpinTruth truth = testing::steady_truth();
+  truth.motion.coning = {.tilt_rad = 0.02 * kDegree, .azimuth_rad = 0.5};
+  const ConingVerdict verdict = verdict_on(fitted(truth, kAligned_rad, rng));
+  EXPECT_FALSE(verdict.detected);
+  EXPECT_GT(verdict.detectable_rad, 0.1 * kDegree);
+  EXPECT_LT(verdict.detectable_rad, 0.5 * kDegree);
+}
+
+}  // namespace
+}  // namespace spindrift
