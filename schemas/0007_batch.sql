@@ -14,6 +14,25 @@ CREATE TABLE spin_batch (
   PRIMARY KEY (run_id, t_tai_ns)
 ) STRICT, WITHOUT ROWID;
 
+-- The search for free nutation in what an even spin left of the edges; t_tai_ns as in spin_estimate.
+-- NULL from half_angle_deg on: none was detected.
+CREATE TABLE spin_nutation (
+  run_id               TEXT NOT NULL REFERENCES run,
+  t_tai_ns             INTEGER NOT NULL,
+  detected             INTEGER NOT NULL CHECK (detected IN (0, 1)),
+  false_alarm          REAL NOT NULL,  -- chance that noise alone shows as much
+  detectable_deg       REAL NOT NULL,  -- half-angle that is found in 95 of 100 such passes
+  half_angle_deg       REAL,
+  half_angle_sigma_deg REAL,
+  period_s             REAL,  -- of the axis round the angular momentum, as seen from outside
+  period_sigma_s       REAL,
+  growth_per_h         REAL,  -- of the half-angle, as a share of it
+  growth_sigma_per_h   REAL,
+  lean_azimuth_deg     REAL,  -- where the axis leans in the middle of the pass
+  lean_azimuth_sigma_deg REAL,
+  PRIMARY KEY (run_id, t_tai_ns)
+) STRICT, WITHOUT ROWID;
+
 -- Angle between two axes in degrees and, of the two sigmas together, in standard deviations.
 CREATE VIEW spin_comparison AS
 WITH pair AS (

@@ -3,6 +3,7 @@
 #include <SQLiteCpp/Transaction.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -138,7 +139,12 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                   " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
       spin_bias_{database,
                  "INSERT OR REPLACE INTO spin_bias (run_id, estimator, name, value, unit, sigma,"
-                 " observable) VALUES (?, ?, ?, ?, ?, ?, ?)"} {}
+                 " observable) VALUES (?, ?, ?, ?, ?, ?, ?)"},
+      spin_nutation_{database,
+                     "INSERT OR REPLACE INTO spin_nutation (run_id, t_tai_ns, detected,"
+                     " false_alarm, detectable_deg, half_angle_deg, half_angle_sigma_deg, period_s,"
+                     " period_sigma_s, growth_per_h, growth_sigma_per_h, lean_azimuth_deg,"
+                     " lean_azimuth_sigma_deg) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"} {}
 
 Expected<void> BatchWriter::write(std::span<const ArchiveBatch> batches) {
   try {
@@ -214,6 +220,7 @@ void BatchWriter::withdraw(const ArchiveBatch& batch, TaiTime from) {
   execute_for_run("DELETE FROM revolution WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run("DELETE FROM spin_fix WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run("DELETE FROM spin_estimate WHERE run_id = ?1 AND t_tai_ns >= ?2");
+  execute_for_run("DELETE FROM spin_nutation WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run("DELETE FROM spin_batch WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run(
       "DELETE FROM pulse_use WHERE run_id = ?1 AND t_tai_ns >= ?2 AND spacecraft_id ="
@@ -325,6 +332,31 @@ void BatchWriter::insert(const std::string& run_id, const BatchSolution& solutio
             bias.value * to_unit, std::string_view{prior.is_angle ? "deg" : "km"},
             bias.sigma * to_unit, as_flag(bias.observable));
   }
+  if (solution.nutation) {
+    insert(run_id, solution.estimate.t, *solution.nutation);
+  }
+}
+
+void BatchWriter::insert(const std::string& run_id, TaiTime t, const NutationSearch& search) {
+  constexpr double kPerHour = 3600.0;
+  using Value = std::optional<double>;
+  std::array<Value, 8> found{};
+  if (search.found) {
+    const auto& [t_s, half_angle, growth, period, lean, per_turn, others] = *search.found;
+    found = {half_angle.value * kDegPerRad,
+             half_angle.sigma * kDegPerRad,
+             period.value,
+             period.sigma,
+             growth.value * kPerHour,
+             growth.sigma * kPerHour,
+             lean.value * kDegPerRad,
+             lean.sigma * kDegPerRad};
+  }
+  const auto& [half_angle, half_angle_sigma, period, period_sigma, growth, growth_sigma, lean,
+               lean_sigma] = found;
+  execute(spin_nutation_, run_id, tai_ns(t), as_flag(search.found.has_value()), search.false_alarm,
+          search.detectable_rad * kDegPerRad, half_angle, half_angle_sigma, period, period_sigma,
+          growth, growth_sigma, lean, lean_sigma);
 }
 
 }  // namespace spindrift

@@ -40,6 +40,7 @@ class BatchWriter {
   void insert_candidates(const ArchiveBatch& batch, const SpinFix& fix);
   void insert(const ArchiveBatch& batch, const SpinEstimate& estimate);
   void insert(const std::string& run_id, const BatchSolution& solution);
+  void insert(const std::string& run_id, TaiTime t, const NutationSearch& search);
 
   SQLite::Database& database_;
   SQLite::Statement spacecraft_;
@@ -59,6 +60,7 @@ class BatchWriter {
   SQLite::Statement spin_estimate_;
   SQLite::Statement spin_batch_;
   SQLite::Statement spin_bias_;
+  SQLite::Statement spin_nutation_;
 };
 
 }  // namespace spindrift

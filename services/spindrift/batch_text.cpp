@@ -24,12 +24,43 @@ Readable readable(const BiasEstimate& bias) {
           .unit = is_angle ? "deg" : "km"};
 }
 
+std::string nutation_text(const std::optional<NutationSearch>& search) {
+  if (!search) {
+    return "  nutation     not looked for: too few edges\n";
+  }
+  if (!search->found) {
+    return fmt::format("  nutation     none above {:.3f} deg\n",
+                       search->detectable_rad * kDegPerRad);
+  }
+  const FoundNutation& found = *search->found;
+  return fmt::format("  nutation     {:.4f} +/- {:.4f} deg, period {:.4f} +/- {:.4f} s\n",
+                     found.half_angle_rad.value * kDegPerRad,
+                     found.half_angle_rad.sigma * kDegPerRad, found.period_s.value,
+                     found.period_s.sigma);
+}
+
+nlohmann::json to_json(const std::optional<NutationSearch>& search) {
+  if (!search) {
+    return nullptr;
+  }
+  nlohmann::json json{{"detected", search->found.has_value()},
+                      {"detectable_deg", search->detectable_rad * kDegPerRad}};
+  if (const auto& found = search->found) {
+    json["half_angle_deg"] = found->half_angle_rad.value * kDegPerRad;
+    json["half_angle_sigma_deg"] = found->half_angle_rad.sigma * kDegPerRad;
+    json["period_s"] = found->period_s.value;
+    json["period_sigma_s"] = found->period_s.sigma;
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string to_text(const BatchSolution& solution) {
   std::string text = fmt::format(
       "  bound        {:.4f} deg (Cramer-Rao), {} edges, {} outliers, noise x {:.2f}\n",
       solution.bound_rad * kDegPerRad, solution.edges, solution.outliers, solution.noise);
+  text += nutation_text(solution.nutation);
   std::string_view heading = "biases";
   for (const BiasEstimate& bias : solution.biases) {
     const Readable shown = readable(bias);
@@ -62,6 +93,7 @@ nlohmann::json to_json(const BatchSolution& solution) {
                       {"singular_values", solution.singular_values},
                       {"undetermined", solution.undetermined},
                       {"biases", biases},
+                      {"nutation", to_json(solution.nutation)},
                       {"changed_utc", nullptr}};
   if (solution.changed) {
     json["changed_utc"] = format_utc(*solution.changed);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/spin/nutation.h"
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/sensor_biases.h"
 #include "pipelines/time/tai_time.h"
@@ -37,6 +38,7 @@ struct BatchSolution {
   std::int64_t outliers;
   double noise;  ///< Root of their mean square against the stated noise.
   int iterations;
+  std::optional<NutationSearch> nutation;  ///< Empty where the edges do not suffice to look.
 };
 
 }  // namespace spindrift

@@ -46,7 +46,7 @@ PassInformation information_of(const PassModel& model, std::span<const PassEdge>
     }
     sum.information.selfadjointView<Eigen::Lower>().rankUpdate(residual->slopes.transpose());
     const double part = residual->off / outlier_sigmas;
-    const double weight = (1.0 - part * part) * (1.0 - part * part);
+    const double weight = (1.0 - part * part) * (1.0 - part * part) / kMeanSlope;
     sum.score += residual->slopes.transpose() * (weight * residual->off);
     sum.squares += residual->off * residual->off;
     ++sum.edges;

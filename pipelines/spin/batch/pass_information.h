@@ -13,9 +13,12 @@
 
 namespace spindrift {
 
-/// Farther from where the state has it (sigmas) an edge has no weight: Tukey's biweight, which
-/// loses 1.5 % of the information of normal noise.
-inline constexpr double kOutlierSigmas = 6.0;
+/// Farther from where the state has it (sigmas) an edge has no weight: Tukey's biweight.
+inline constexpr double kOutlierSigmas = 8.0;
+/// Of normal noise so weighted, the share of its information that is left, and the mean slope of
+/// the weighted residual.
+inline constexpr double kEfficiency = 0.99401;
+inline constexpr double kMeanSlope = 0.90991;
 
 struct PassInformation {
   Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns> information =

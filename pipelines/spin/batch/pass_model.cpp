@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/edge_prediction.h"
 #include "pipelines/spin/surroundings.h"
 #include "pipelines/spin/time_span.h"
 
@@ -45,24 +44,36 @@ const Sky& PassModel::sky_at(TaiTime t) const {
   return skies_[std::min(static_cast<std::size_t>(span), skies_.size() - 1)];
 }
 
-std::optional<EdgeResidual> PassModel::residual(const Pulse& edge, const SpinState& state) const {
+std::optional<MetEdge> PassModel::meet(const Pulse& edge, const SpinState& state) const {
   const Eigen::Matrix3d R_spin_icrf = state.q_icrf_spin.conjugate().toRotationMatrix();
-  const auto predicted = predict_edge(config_, sky_at(edge.t), R_spin_icrf, edge, state.biases);
-  if (!predicted) {
+  const auto expected = predict_edge(config_, sky_at(edge.t), R_spin_icrf, edge, state.biases);
+  if (!expected) {
     return std::nullopt;
   }
   const double dt_s = seconds_between(middle_, edge.t);
   const double rate_there_rad_s = state.rate_rad_s + state.drift_rad_s2 * dt_s;
   const double phase_rad = (state.rate_rad_s + 0.5 * state.drift_rad_s2 * dt_s) * dt_s;
-  const double per_sigma = 1.0 / (rate_there_rad_s * edge_sigma_s(config_.noise, edge.channel));
+  return MetEdge{.expected = *expected,
+                 .phase_rad = phase_rad,
+                 .off_rad = wrapped_rad(phase_rad - expected->phase_rad),
+                 .sigma_rad = rate_there_rad_s * edge_sigma_s(config_.noise, edge.channel),
+                 .rate_rad_s = rate_there_rad_s};
+}
+
+std::optional<EdgeResidual> PassModel::residual(const Pulse& edge, const SpinState& state) const {
+  const auto met = meet(edge, state);
+  if (!met) {
+    return std::nullopt;
+  }
+  const double dt_s = seconds_between(middle_, edge.t);
   const double part = dt_s / half_s_;
   EdgeResidual residual;
-  residual.off = wrapped_rad(phase_rad - predicted->phase_rad) * per_sigma;
-  residual.slopes << -predicted->phase_per_rotation.transpose(), part, part * part,
-      -predicted->phase_per_bias;
-  residual.slopes *= per_sigma;
+  residual.off = met->off_rad / met->sigma_rad;
+  residual.slopes << -met->expected.phase_per_rotation.transpose(), part, part * part,
+      -met->expected.phase_per_bias;
+  residual.slopes /= met->sigma_rad;
   // What an angle is worth changes with the rate as well; to first order.
-  const double by_rate = -residual.off / rate_there_rad_s;
+  const double by_rate = -residual.off / met->rate_rad_s;
   residual.slopes[3] += by_rate / half_s_;
   residual.slopes[4] += by_rate * 2.0 * dt_s / (half_s_ * half_s_);
   return residual;

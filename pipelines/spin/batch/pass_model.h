@@ -21,6 +21,7 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/spin/config.h"
+#include "pipelines/spin/edge_prediction.h"
 #include "pipelines/spin/pulse.h"
 #include "pipelines/spin/sensor_biases.h"
 #include "pipelines/spin/sky.h"
@@ -48,6 +49,15 @@ inline constexpr int kMotionUnknowns = 5;
 inline constexpr int kBatchUnknowns = kMotionUnknowns + kSensorBiases;
 using EdgeSlopes = Eigen::Matrix<double, 1, kBatchUnknowns>;
 
+/// Where a state expects an edge, and where it came.
+struct MetEdge {
+  PredictedEdge expected;
+  double phase_rad;  ///< Azimuth of slit 1 when it came, counted on from turn to turn.
+  double off_rad;    ///< More than expected by so much.
+  double sigma_rad;  ///< Of its noise.
+  double rate_rad_s;
+};
+
 /// An edge against a state.
 struct EdgeResidual {
   double off;         ///< In standard deviations of its noise; positive: late.
@@ -61,7 +71,8 @@ class PassModel {
   static Expected<PassModel> make(const SpinConfig& config, const Orbit& orbit,
                                   std::span<const PassEdge> edges);
 
-  /// @return Empty where the state has no such edge.
+  /// @return Empty where the state has no such edge; likewise the following.
+  std::optional<MetEdge> meet(const Pulse& edge, const SpinState& state) const;
   std::optional<EdgeResidual> residual(const Pulse& edge, const SpinState& state) const;
 
   const SpinConfig& config() const { return config_; }

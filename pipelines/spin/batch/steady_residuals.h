@@ -1,0 +1,19 @@
+/// @file
+/// What the best even spin leaves of the edges, as the search for nutation wants it.
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "pipelines/spin/batch/pass_model.h"
+#include "pipelines/spin/steady_residual.h"
+
+namespace spindrift {
+
+/// Of edges within thirty sigmas of where the state has them: nutation puts them off by several.
+std::vector<SteadyResidual> steady_residuals(const PassModel& model,
+                                             std::span<const PassEdge> edges,
+                                             const SpinState& state);
+
+}  // namespace spindrift
