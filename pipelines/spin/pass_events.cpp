@@ -31,42 +31,44 @@ Expected<TaiTime> change_between(PassScene& scene, TaiTime before, TaiTime after
 
 }  // namespace
 
-Expected<std::vector<PassEvent>> pass_events(PassScene& scene, const std::vector<PassStep>& steps) {
-  std::vector<PassEvent> events;
-  std::vector<PassEvent> open;
-  TaiTime before = steps.front().geometry.t;
-  for (const PassStep& step : steps) {
-    const TaiTime t = step.geometry.t;
-    const auto conditions = conditions_of(scene.config(), step.geometry);
-    for (auto event = open.begin(); event != open.end();) {
-      event->to = t;
-      if (contains(conditions, event->what)) {
-        ++event;
-        continue;
-      }
-      const auto end = change_between(scene, before, t, event->what, false);
-      if (!end) {
-        return Unexpected{end.error()};
-      }
-      event->to = *end;
-      events.push_back(std::move(*event));
-      event = open.erase(event);
+Expected<void> PassEvents::add(PassScene& scene, const PassGeometry& geometry) {
+  const auto conditions = conditions_of(scene.config(), geometry);
+  const TaiTime before = open_.empty() ? geometry.t : last_;
+  last_ = geometry.t;
+  for (auto event = open_.begin(); event != open_.end();) {
+    if (contains(conditions, event->what)) {
+      ++event;
+      continue;
     }
-    for (const std::string& what : conditions) {
-      if (std::none_of(open.begin(), open.end(), [&](const auto& e) { return e.what == what; })) {
-        const auto start = change_between(scene, before, t, what, true);
-        if (!start) {
-          return Unexpected{start.error()};
-        }
-        open.push_back({.from = *start, .to = t, .what = what});
-      }
+    const auto end = change_between(scene, before, last_, event->what, false);
+    if (!end) {
+      return Unexpected{end.error()};
     }
-    before = t;
+    event->to = *end;
+    closed_.push_back(std::move(*event));
+    event = open_.erase(event);
   }
-  events.insert(events.end(), open.begin(), open.end());
-  std::stable_sort(events.begin(), events.end(),
+  for (const std::string& what : conditions) {
+    if (std::none_of(open_.begin(), open_.end(), [&](const auto& e) { return e.what == what; })) {
+      const auto start = change_between(scene, before, last_, what, true);
+      if (!start) {
+        return Unexpected{start.error()};
+      }
+      open_.push_back({.from = *start, .to = last_, .what = what});
+    }
+  }
+  return {};
+}
+
+std::vector<PassEvent> PassEvents::finish() {
+  for (PassEvent& event : open_) {
+    event.to = last_;
+    closed_.push_back(std::move(event));
+  }
+  open_.clear();
+  std::stable_sort(closed_.begin(), closed_.end(),
                    [](const PassEvent& a, const PassEvent& b) { return a.from < b.from; });
-  return events;
+  return std::move(closed_);
 }
 
 }  // namespace spindrift

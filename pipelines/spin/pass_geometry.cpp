@@ -55,9 +55,11 @@ DeltaClass class_of(const SpinGeometry& limits, double delta) {
 PassScene::PassScene(SpinConfig config, Orbit orbit, const Eigen::Vector3d& axis_icrf,
                      double rate_rad_s)
     : config_{std::move(config)},
+      on_sphere_{config_},
       around_{std::move(orbit), config_.horizon.co2_altitude_km},
       axis_icrf_{axis_icrf},
       rate_rad_s_{rate_rad_s} {
+  on_sphere_.horizon.model = HorizonModel::Sphere;
   R_spin_icrf_ << tangent_basis(axis_icrf).transpose(), axis_icrf.transpose();
 }
 
@@ -88,16 +90,28 @@ BeamGeometry PassScene::beam(Side side, const PassGeometry& geometry) const {
   return found;
 }
 
+/// The turn on the sphere that fixes are solved on, of the edges that there are on the true
+/// horizon.
+Revolution PassScene::turn_on_sphere(const Sky& sky, const PassGeometry& geometry) const {
+  Revolution turn =
+      expected_revolution(on_sphere_, sky, R_spin_icrf_, rate_rad_s_, geometry.sun_hidden)
+          .revolution;
+  const Revolution& there = geometry.expected.revolution;
+  turn.edge_rejections = there.edge_rejections;
+  for (std::size_t i = 0; i < kPulseChannels; ++i) {
+    if (!there.edges.at(i)) {
+      turn.edges.at(i).reset();
+    }
+  }
+  return turn;
+}
+
 FixGeometry PassScene::fix(const Sky& sky, const PassGeometry& geometry) const {
-  SpinConfig on_sphere = config_;
-  on_sphere.horizon.model = HorizonModel::Sphere;
-  const RevolutionMeasurements measured = measure(
-      on_sphere, expected_revolution(on_sphere, sky, R_spin_icrf_, rate_rad_s_, geometry.sun_hidden)
-                     .revolution);
+  const RevolutionMeasurements measured = measure(on_sphere_, turn_on_sphere(sky, geometry));
   FixGeometry fix{
       .geometry_case = geometry_case_of(measured), .axes = 0, .told_apart = false, .sigma_rad = {}};
   const auto found =
-      axis_candidates(on_sphere, measured, sightlines_of(sky, measured, geometry.disc_rad));
+      axis_candidates(on_sphere_, measured, sightlines_of(sky, measured, geometry.disc_rad));
   if (!found) {
     return fix;
   }

@@ -76,9 +76,11 @@ class PassScene {
 
  private:
   BeamGeometry beam(Side side, const PassGeometry& geometry) const;
+  Revolution turn_on_sphere(const Sky& sky, const PassGeometry& geometry) const;
   FixGeometry fix(const Sky& sky, const PassGeometry& geometry) const;
 
   SpinConfig config_;
+  SpinConfig on_sphere_;
   Surroundings around_;
   Eigen::Vector3d axis_icrf_;
   Eigen::Matrix3d R_spin_icrf_;  ///< East, north, axis.

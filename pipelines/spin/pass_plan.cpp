@@ -5,15 +5,17 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include "pipelines/spin/edge_information.h"
 #include "pipelines/spin/edge_prediction.h"
-#include "pipelines/spin/pass_events.h"
+#include "pipelines/spin/time_span.h"
 
 namespace spindrift {
 namespace {
 
-// The information of many turns is an integral; by Gauss and Legendre over so short stretches.
+// The information of many turns is an integral, by Gauss and Legendre over so short stretches; at
+// the end of each it is looked what holds.
 constexpr double kStretch_s = 60.0;
 
 struct Node {
@@ -24,67 +26,101 @@ const std::array<Node, 3> kNodes = {{{0.5 - 0.5 * std::sqrt(0.6), 5.0 / 18.0},
                                      {0.5, 8.0 / 18.0},
                                      {0.5 + 0.5 * std::sqrt(0.6), 5.0 / 18.0}}};
 
-/// Adds a turn that is one of `turns` alike.
-void add_turn(const PassScene& scene, const ExpectedRevolution& turn, TaiTime start, double turns,
-              EdgeInformation& information) {
-  for (std::size_t i = 0; i < kPulseChannels; ++i) {
-    const auto channel = static_cast<PulseChannel>(i);
-    if (const auto t = turn.revolution.good_edge(channel)) {
-      information.add(*turn.predicted.at(i), seconds_between(start, *t),
-                      scene.rate_rad_s() * edge_sigma_s(scene.config().noise, channel), turns);
-    }
-  }
-}
+/// Goes through the pass.
+class Planner {
+ public:
+  Planner(PassScene scene, TaiTime start) : scene_{std::move(scene)}, start_{start}, t_{start} {}
 
-Expected<void> add_turns(PassScene& scene, TaiTime start, TaiTime from, TaiTime to,
-                         EdgeInformation& information) {
-  const auto stretches =
-      static_cast<std::int64_t>(std::ceil(seconds_between(from, to) / kStretch_s));
-  const double length_s = seconds_between(from, to) / static_cast<double>(stretches);
-  const double turns = length_s * scene.rate_rad_s() / (2.0 * std::numbers::pi);
-  for (std::int64_t i = 0; i < stretches; ++i) {
-    for (const Node& node : kNodes) {
-      const auto geometry =
-          scene.at(shifted(from, (static_cast<double>(i) + node.place) * length_s));
-      if (!geometry) {
-        return Unexpected{geometry.error()};
+  /// On to a later time, or to the start itself.
+  Expected<PassStep> step_to(TaiTime t) {
+    const auto stretches =
+        static_cast<std::int64_t>(std::ceil(seconds_between(t_, t) / kStretch_s));
+    const double length_s = seconds_between(t_, t) / static_cast<double>(stretches);
+    const TaiTime from = t_;
+    for (std::int64_t i = 1; i < stretches; ++i) {
+      const auto passed = stretch_to(shifted(from, static_cast<double>(i) * length_s));
+      if (!passed) {
+        return Unexpected{passed.error()};
       }
-      add_turn(scene, geometry->expected, start, turns * node.weight, information);
+    }
+    return stretch_to(t).map([this](PassGeometry geometry) {
+      return PassStep{.geometry = std::move(geometry), .sigma_rad = sigma_rad()};
+    });
+  }
+
+  std::vector<PassEvent> finish() { return events_.finish(); }
+
+ private:
+  Expected<PassGeometry> stretch_to(TaiTime t) {
+    const double length_s = seconds_between(t_, t);
+    for (const Node& node : kNodes) {
+      const auto geometry = scene_.at(shifted(t_, node.place * length_s));
+      if (!geometry) {
+        return geometry;
+      }
+      add_turns(geometry->expected,
+                node.weight * length_s * scene_.rate_rad_s() / (2.0 * std::numbers::pi));
+    }
+    t_ = t;
+    auto geometry = scene_.at(t);
+    if (geometry) {
+      if (const auto added = events_.add(scene_, *geometry); !added) {
+        return Unexpected{added.error()};
+      }
+    }
+    return geometry;
+  }
+
+  /// So many turns alike.
+  void add_turns(const ExpectedRevolution& turn, double turns) {
+    for (std::size_t i = 0; i < kPulseChannels; ++i) {
+      const auto channel = static_cast<PulseChannel>(i);
+      if (const auto t = turn.revolution.good_edge(channel)) {
+        information_.add(*turn.predicted.at(i), seconds_between(start_, *t),
+                         scene_.rate_rad_s() * edge_sigma_s(scene_.config().noise, channel), turns);
+      }
     }
   }
-  return {};
-}
 
-std::optional<double> sigma_rad(const EdgeInformation& information) {
-  const auto covariance_rad2 = information.axis_covariance_rad2();
-  return covariance_rad2 ? std::optional{std::sqrt(covariance_rad2->trace())} : std::nullopt;
-}
+  std::optional<double> sigma_rad() const {
+    const auto covariance_rad2 = information_.axis_covariance_rad2();
+    return covariance_rad2 ? std::optional{std::sqrt(covariance_rad2->trace())} : std::nullopt;
+  }
+
+  PassScene scene_;
+  TaiTime start_;
+  TaiTime t_;
+  EdgeInformation information_;
+  PassEvents events_;
+};
 
 }  // namespace
 
 Expected<PassPlan> plan_pass(const SpinConfig& config, const Orbit& orbit,
                              const PassRequest& request) {
   PassScene scene{config, orbit, request.axis_icrf, request.rate_rad_s};
-  PassPlan plan;
-  EdgeInformation information;
-  TaiTime before = request.from;
-  for (std::int64_t i = 0; before < request.to || i == 0; ++i) {
-    const TaiTime t =
-        std::min(shifted(request.from, static_cast<double>(i) * request.step_s), request.to);
-    if (const auto added = add_turns(scene, request.from, before, t, information); !added) {
-      return Unexpected{added.error()};
-    }
-    auto geometry = scene.at(t);
-    if (!geometry) {
+  // The error shall say how much of the pass the orbit does not reach.
+  for (const TaiTime end : {request.from, request.to}) {
+    if (const auto geometry = scene.at(end); !geometry) {
       return Unexpected{geometry.error()};
     }
-    plan.steps.push_back({.geometry = std::move(*geometry), .sigma_rad = sigma_rad(information)});
-    before = t;
   }
-  return pass_events(scene, plan.steps).map([&](std::vector<PassEvent> events) {
-    plan.events = std::move(events);
-    return std::move(plan);
-  });
+  Planner planner{std::move(scene), request.from};
+  PassPlan plan;
+  TaiTime t = request.from;
+  for (std::int64_t i = 1;; ++i) {
+    auto step = planner.step_to(t);
+    if (!step) {
+      return Unexpected{step.error()};
+    }
+    plan.steps.push_back(std::move(*step));
+    if (t == request.to) {
+      break;
+    }
+    t = std::min(later_by_s(request.from, static_cast<double>(i) * request.step_s), request.to);
+  }
+  plan.events = planner.finish();
+  return plan;
 }
 
 }  // namespace spindrift

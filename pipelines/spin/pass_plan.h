@@ -6,12 +6,12 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/spin/config.h"
+#include "pipelines/spin/pass_events.h"
 #include "pipelines/spin/pass_geometry.h"
 #include "pipelines/time/tai_time.h"
 
@@ -33,20 +33,14 @@ struct PassStep {
   std::optional<double> sigma_rad;
 };
 
-/// Something that holds for a while.
-struct PassEvent {
-  TaiTime from;
-  TaiTime to;
-  std::string what;  ///< In words (pass_conditions.h).
-};
-
 struct PassPlan {
   std::vector<PassStep> steps;    ///< At `from`, then every step, and at `to`.
-  std::vector<PassEvent> events;  ///< By beginning; good to a second.
+  std::vector<PassEvent> events;  ///< By beginning.
 };
 
 /// Edges are as many and as noisy as the mission file says: none is lost. Where channels interfere
-/// their edges are left out. What comes and goes between two steps is in no event.
+/// their edges are left out. Events and sigma do not depend on the step; what lasts less than a
+/// minute may be in no event.
 /// @return NoCoverage where the orbit does not reach from `from` to `to`; Unobservable where it
 ///         dips below the horizon's height.
 Expected<PassPlan> plan_pass(const SpinConfig& config, const Orbit& orbit,

@@ -38,7 +38,7 @@ std::vector<double> linear_ticks(double low, double high, int most) {
   std::vector<double> ticks;
   // Rounding must not cost the last one.
   for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) {
-    ticks.push_back(i * step);
+    ticks.push_back(i * step + 0.0);  // No minus zero.
   }
   return ticks;
 }

@@ -200,11 +200,10 @@ void TimePage::draw_times() {
               {.colour = kInk, .size = 11.0, .anchor = Anchor::Middle});
     if (utc.substr(0, 10) != day) {
       day = utc.substr(0, 10);
-      svg_.text({x_of(t), bottom_ + 34.0}, day,
+      svg_.text({x_of(t), bottom_ + 34.0}, day + " UTC",
                 {.colour = kFaint, .size = 11.0, .anchor = Anchor::Middle});
     }
   }
-  svg_.text({kRight + 8.0, bottom_ + 19.0}, "UTC", {.colour = kFaint, .size = 11.0});
 }
 
 void TimePage::draw_legend(const std::vector<State>& legend) {

@@ -181,17 +181,17 @@ nlohmann::json to_json(const PassEvent& event) {
 
 std::string title_of(const PlannedPass& pass) {
   const auto [ra_deg, dec_deg] = place_deg(pass.request.axis_icrf);
-  return fmt::format(
-      "{}  {} to {}, axis RA {:.4f} Dec {:+.4f} deg, {:.6g} rpm{}", pass.spacecraft_id,
-      format_utc(pass.request.from, 0), format_utc(pass.request.to, 0), ra_deg, dec_deg,
-      pass.request.rate_rad_s * kRpmPerRad_s, pass.rate_assumed ? " (assumed: --rpm)" : "");
+  return fmt::format("{} to {}, axis RA {:.4f} Dec {:+.4f} deg, {:.6g} rpm{}",
+                     format_utc(pass.request.from, 0), format_utc(pass.request.to, 0), ra_deg,
+                     dec_deg, pass.request.rate_rad_s * kRpmPerRad_s,
+                     pass.rate_assumed ? " (assumed, see --rpm)" : "");
 }
 
 std::string to_text(const PlannedPass& pass) {
-  std::string text = title_of(pass) + '\n';
+  std::string text = fmt::format("{}  {}\n", pass.spacecraft_id, title_of(pass));
   text += fmt::format(
       "{:<20} {:>7} {:>9} {:>7} {:>7} {:>7} {:>6} {:>8} {:>7} {:>7} {:>8} {:>8}  {:<6} {:>4}  "
-      "{:>7} {:>8}\n",
+      "{:>8} {:>8}\n",
       "UTC", "minutes", "range, km", "sun", "earth", "s-e", "rho", "dihedral", "chord N", "chord S",
       "Delta N ", "Delta S ", "edges", "case", "1 turn", "all");
   for (const PassStep& step : pass.plan.steps) {

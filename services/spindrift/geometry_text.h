@@ -10,7 +10,7 @@
 
 namespace spindrift {
 
-/// One line: which pass it is.
+/// One line: from when to when, about which axis, how fast.
 std::string title_of(const PlannedPass& pass);
 
 /// A table of the steps, then what holds from when to when.
