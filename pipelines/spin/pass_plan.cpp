@@ -16,7 +16,7 @@ namespace {
 
 // The information of many turns is an integral, by Gauss and Legendre over so short stretches; at
 // the end of each it is looked what holds.
-constexpr double kStretch_s = 60.0;
+constexpr double kStretch_s = 10.0;
 
 struct Node {
   double place;  ///< Share of the stretch.
@@ -56,7 +56,7 @@ class Planner {
     for (const Node& node : kNodes) {
       const auto geometry = scene_.at(shifted(t_, node.place * length_s));
       if (!geometry) {
-        return geometry;
+        return Unexpected{geometry.error()};
       }
       add_turns(geometry->expected,
                 node.weight * length_s * scene_.rate_rad_s() / (2.0 * std::numbers::pi));

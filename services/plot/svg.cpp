@@ -31,9 +31,9 @@ std::string escaped(std::string_view text) {
 
 std::string attributes(const Stroke& stroke) {
   std::string text =
-      fmt::format("stroke=\"{}\" stroke-width=\"{:.4g}\"", stroke.colour, stroke.width);
+      fmt::format(R"(stroke="{}" stroke-width="{:.4g}")", stroke.colour, stroke.width);
   if (!stroke.dashes.empty()) {
-    text += fmt::format(" stroke-dasharray=\"{}\"", stroke.dashes);
+    text += fmt::format(R"( stroke-dasharray="{}")", stroke.dashes);
   }
   return text;
 }

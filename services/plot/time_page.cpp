@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "pipelines/time/utc.h"
@@ -52,9 +53,9 @@ std::vector<TaiTime> round_times(TaiTime from, TaiTime to, double step_s) {
 /// Names side by side, from above, at least a line apart and all above `lowest`.
 void spread(std::vector<double>& heights, double lowest) {
   double limit = lowest;
-  for (auto height = heights.rbegin(); height != heights.rend(); ++height) {
-    *height = std::min(*height, limit);
-    limit = *height - kLineOfText;
+  for (double& height : heights | std::views::reverse) {
+    height = std::min(height, limit);
+    limit = height - kLineOfText;
   }
 }
 

@@ -30,7 +30,7 @@ constexpr double kSlowest_rpm = 5.0;
 constexpr double kFastest_rpm = 200.0;
 constexpr double kRows = 60.0;
 constexpr double kMostRows = 10'000.0;
-constexpr double kLongest_s = 31.0 * 86'400.0;
+constexpr double kLongest_s = 7.0 * 86'400.0;
 // So many steps make curves smooth.
 constexpr double kPlotSteps = 480.0;
 
@@ -136,7 +136,7 @@ Expected<PassRequest> request_of(const GeometryOptions& options) {
 Expected<Mission> spinner(const std::filesystem::path& path) {
   auto mission = load_mission(path);
   if (mission && mission->kind != SpacecraftKind::Spin) {
-    return refused(fmt::format("{}: spacecraft.kind = \"{}\": passes are planned for kind \"{}\"",
+    return refused(fmt::format(R"({}: spacecraft.kind = "{}": passes are planned for kind "{}")",
                                path.string(), name_of(mission->kind),
                                name_of(SpacecraftKind::Spin)));
   }

@@ -157,7 +157,7 @@ TEST(Geometry, RefusesWhatCannotBe) {
        "--from 2026-11-20T03:10:00Z must lie before --to 2026-11-20T03:10:00Z"},
       {{{"--from", "2026-11-20T03:00:00"}}, "must be UTC and end in Z"},
       {{{"--to", "tomorrow"}}, "--to: time 'tomorrow': must read YYYY-MM-DD"},
-      {{{"--to", "2026-12-31T00:00:00Z"}}, "at most 31"},
+      {{{"--to", "2026-12-31T00:00:00Z"}}, "at most 7"},
       {{{"--rpm", "0"}}, "--rpm 0: must lie in [5, 200]"},
       {{{"--step", "0"}}, "--step 0: must be above 0 s"},
       {{{"--step", "nan"}}, "--step nan: must be above 0 s"},

@@ -108,7 +108,7 @@ TEST(PassGeometry, SeesChordsByTheClosedForm) {
   }
   for (const BeamView view :
        {BeamView::Misses, BeamView::Grazes, BeamView::Crosses, BeamView::Inside}) {
-    EXPECT_GT(views.at(static_cast<std::size_t>(view)), 5) << static_cast<int>(view);
+    EXPECT_GT(views.at(static_cast<std::size_t>(view)), 0) << static_cast<int>(view);
   }
 }
 
