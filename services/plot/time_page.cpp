@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <ranges>
 #include <utility>
 
 #include "pipelines/time/utc.h"
@@ -17,11 +16,13 @@ constexpr double kWidth = 1180.0;
 constexpr double kLeft = 92.0;
 constexpr double kRight = 1010.0;
 constexpr double kFirstPanel = 66.0;
-constexpr double kBetweenPanels = 38.0;
+constexpr double kPanelTitle = 20.0;
+constexpr double kBetweenPanels = 18.0;
 constexpr double kLineOfText = 15.0;
 constexpr double kLetter = 6.6;  // Wide, about.
 constexpr double kBar = 16.0;
 constexpr double kBetweenBars = 5.0;
+constexpr double kSeam = 0.7;  // Between states of the same colour.
 constexpr int kMostTimes = 9;
 
 constexpr std::string_view kInk = "#222222";
@@ -50,12 +51,12 @@ std::vector<TaiTime> round_times(TaiTime from, TaiTime to, double step_s) {
   return times;
 }
 
-/// Names side by side, from above, at least a line apart and all above `lowest`.
+/// Base lines of names, from above: at least a line apart and all above `lowest`.
 void spread(std::vector<double>& heights, double lowest) {
   double limit = lowest;
-  for (double& height : heights | std::views::reverse) {
-    height = std::min(height, limit);
-    limit = height - kLineOfText;
+  for (std::size_t i = heights.size(); i-- > 0;) {
+    heights[i] = std::min(heights[i], limit);
+    limit = heights[i] - kLineOfText;
   }
 }
 
@@ -76,7 +77,7 @@ double TimePage::x_of(TaiTime t) const { return x_.pixel_of(seconds_between(time
 
 void TimePage::frame(std::string_view title, double height) {
   svg_.text({kLeft, top_ + 12.0}, title, {.colour = kInk, .bold = true});
-  top_ += 20.0;
+  top_ += kPanelTitle;
   bottom_ = top_ + height;
   for (const TaiTime t : ticks_) {
     svg_.line({x_of(t), top_}, {x_of(t), bottom_}, {.colour = kGrid});
@@ -106,7 +107,7 @@ void TimePage::panel(double height, const ValueAxis& axis, const std::vector<Cur
   const std::vector<Point> outline = {
       {kLeft, top_}, {kRight, top_}, {kRight, bottom_}, {kLeft, bottom_}, {kLeft, top_}};
   svg_.polyline(outline, {.colour = kFrame});
-  top_ = bottom_ + kBetweenPanels - 20.0;
+  top_ = bottom_ + kBetweenPanels;
 }
 
 void TimePage::draw_curve(const Curve& curve, const Scale& y) {
@@ -167,7 +168,7 @@ void TimePage::bars(std::string_view title, const std::vector<Bar>& bars) {
     draw_bar(bar, top);
     top += kBar + kBetweenBars;
   }
-  top_ = bottom_ + kBetweenPanels - 20.0;
+  top_ = bottom_ + kBetweenPanels;
 }
 
 void TimePage::draw_bar(const Bar& bar, double top) {
@@ -180,7 +181,8 @@ void TimePage::draw_bar(const Bar& bar, double top) {
     const double left = x_of(times_[first]);
     const double right = x_of(times_[next]);
     if (!state.colour.empty()) {
-      svg_.box({.left = left, .top = top, .right = right, .bottom = top + kBar}, state.colour);
+      svg_.box({.left = left, .top = top, .right = right - kSeam, .bottom = top + kBar},
+               state.colour);
     }
     if (!state.label.empty() &&
         static_cast<double>(state.label.size()) * kLetter < right - left - 4.0) {

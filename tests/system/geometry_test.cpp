@@ -21,6 +21,7 @@ using ::testing::StartsWith;
 
 const std::filesystem::path kScenarios =
     std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios";
+const std::filesystem::path kMissions = std::filesystem::path{SPINDRIFT_TEST_DATA} / "mission";
 const std::string kNominal = (kPasses / "nominal" / "mission.toml").string();
 
 /// Of the nominal pass, with arguments put in the place of its own or added.
@@ -44,7 +45,8 @@ std::vector<std::string> arguments_with(
   std::vector<std::string> arguments = {"geometry"};
   for (const auto& [name, value] : options) {
     // In one word: a value may begin with a minus.
-    arguments.push_back(value.empty() ? name : name + "=" + value);
+    arguments.push_back(name);
+    arguments.back().append(value.empty() ? "" : "=").append(value);
   }
   return arguments;
 }
@@ -164,6 +166,8 @@ TEST(Geometry, RefusesWhatCannotBe) {
       {{{"--step", "0.001"}}, "at most 10000"},
       {{{"--to", "2026-11-20T03:20:00Z"}}, "480 s after the ephemeris ends"},
       {{{"--mission", "/nowhere.toml"}}, "/nowhere.toml"},
+      {{{"--mission", (kMissions / "dawn-2015.toml").string()}},
+       R"(spacecraft.kind = "three_axis": passes are planned for kind "spin")"},
       {{{"--plot", "/nowhere/pass.svg"}}, "/nowhere/pass.svg"}};
   for (const Refusal& refusal : refusals) {
     SCOPED_TRACE(refusal.says);

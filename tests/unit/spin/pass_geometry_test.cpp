@@ -226,6 +226,29 @@ TEST(PassGeometry, SaysWhichSlitCannotSeeTheSun) {
   EXPECT_THAT(words_at(3.0), Contains("the Sun stands too near the spin axis for either slit"));
 }
 
+TEST(PassGeometry, SaysWhatSpoilsAFix) {
+  const auto body = testing::body_across_the_earth();
+  SpinConfig config = body.config;
+  const auto words = [&] {
+    return conditions_of(config, at(config, testing::orbit_across_the_earth(), body.axis_icrf,
+                                    testing::kTransferStart, body.rate_rad_s));
+  };
+  const double delta = std::abs(at(config, testing::orbit_across_the_earth(), body.axis_icrf,
+                                   testing::kTransferStart, body.rate_rad_s)
+                                    .beams.at(index_of(Side::North))
+                                    .delta.value());
+  config.geometry = {.determinant_usable = 1.0, .determinant_ambiguous = 0.5 * delta};
+  EXPECT_THAT(words(), Contains("|Delta| < 1 (north): a fix by its chord alone has two roots to "
+                                "tell apart"));
+  config.geometry = {.determinant_usable = 1.0, .determinant_ambiguous = 0.5};
+  EXPECT_THAT(words(), Contains("|Delta| <= 0.5 (north): a fix by its chord alone is ambiguous"));
+  EXPECT_THAT(words(), Contains("fix by case 1: one axis"));
+  // Longer than half a turn: all channels meet.
+  config.screening.interference_s = 1.0;
+  EXPECT_THAT(words(), Contains("interference: sun1 and south_out meet"));
+  EXPECT_THAT(words(), Contains("no fix (case 0): nothing that tells of the axis"));
+}
+
 TEST(PassGeometry, BelowTheHorizonIsAnError) {
   const Orbit orbit = testing::orbit_across_the_earth();
   SpinConfig config = testing::usual_config();
