@@ -11,7 +11,6 @@ namespace spindrift::plot {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 TEST(Svg, IsWellFormedWhateverTheText) {
   Svg svg;

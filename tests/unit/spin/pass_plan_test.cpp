@@ -61,6 +61,7 @@ TEST(PassPlan, ExpectsTheLimitOfTheOraclesEdges) {
 TEST(PassPlan, StepsFromTheBeginningToTheEnd) {
   const auto steps = plan(0.0, 100.0, 30.0).steps;
   std::vector<double> times_s;
+  times_s.reserve(steps.size());
   for (const PassStep& step : steps) {
     times_s.push_back(seconds_between(testing::kTransferStart, step.geometry.t));
   }
@@ -88,14 +89,13 @@ TEST(PassPlan, DoesNotDependOnTheStep) {
   const PassPlan coarse = plan(0.0, 40'000.0, 10'000.0);
   EXPECT_NEAR(*coarse.steps.back().sigma_rad / *fine.steps.back().sigma_rad, 1.0, 0.01);
   ASSERT_EQ(coarse.events.size(), fine.events.size());
-  for (std::size_t i = 0; i < fine.events.size(); ++i) {
+  for (const PassEvent& event : fine.events) {
     // Either searches to a second; events that begin together may change places.
     const auto same = std::find_if(coarse.events.begin(), coarse.events.end(), [&](const auto& e) {
-      return e.what == fine.events[i].what &&
-             std::abs(seconds_between(e.from, fine.events[i].from)) < 2.0;
+      return e.what == event.what && std::abs(seconds_between(e.from, event.from)) < 2.0;
     });
-    ASSERT_NE(same, coarse.events.end()) << fine.events[i].what;
-    EXPECT_LT(std::abs(seconds_between(same->to, fine.events[i].to)), 2.0);
+    ASSERT_NE(same, coarse.events.end()) << event.what;
+    EXPECT_LT(std::abs(seconds_between(same->to, event.to)), 2.0);
   }
 }
 
