@@ -17,9 +17,6 @@
 namespace spindrift {
 namespace {
 
-// Within this angle of one line, Sun and Earth leave the axis free to turn about it.
-constexpr double kInLine_rad = 3.0 * std::numbers::pi / 180.0;
-
 // What measurements may contradict each other by, beside kModelLimit_rad.
 constexpr double kContradictionSigmas = 5.0;
 
@@ -133,8 +130,7 @@ Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
     return unobservable(cone_in_words(result.geometry_case));
   }
   const FixInput input = fix_input(config, measured, sightlines, views_of_sphere(sightlines));
-  if (!(input.sun_earth_rad > kInLine_rad &&
-        input.sun_earth_rad < std::numbers::pi - kInLine_rad)) {
+  if (in_line(input.sun_earth_rad)) {
     return unobservable(
         fmt::format("Sun and Earth stand {:.3f} deg apart: the axis needs between 3 and 177 deg",
                     input.sun_earth_rad * 180.0 / std::numbers::pi));

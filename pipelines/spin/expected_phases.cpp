@@ -30,10 +30,6 @@ constexpr std::size_t kMostLearnt = 32;
 constexpr int kStraysToAgree = 5;
 constexpr std::size_t kMostStrays = 9;
 
-// Edges so far beyond the interference window are biased by an eightieth of their noise: those that
-// came nearer are missing from them.
-constexpr double kInterferenceSigmas = 2.5;
-
 double fraction(double turns) { return turns - std::floor(turns); }
 
 }  // namespace

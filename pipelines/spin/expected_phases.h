@@ -24,6 +24,9 @@ constexpr bool sees_the_sun(PulseChannel channel) {
 constexpr double noise_of(const PulseNoise& noise, PulseChannel channel) {
   return sees_the_sun(channel) ? noise.sun_s : noise.infrared_s;
 }
+/// Edges so far beyond the interference window are biased by an eightieth of their noise: those
+/// that came nearer are missing from them.
+inline constexpr double kInterferenceSigmas = 2.5;
 /// How far from its expectation an edge may lie to be counted with a turn. The Sun stands still, a
 /// chord changes as the beam nears the limb.
 constexpr double gate_turns(PulseChannel channel) {

@@ -11,6 +11,7 @@ namespace spindrift {
 namespace {
 
 constexpr double kAlike = 0.01;
+constexpr double kInLine_rad = 3.0 * std::numbers::pi / 180.0;
 // Beyond it no infrared sensor sees a disc; what is said to be there is in metres.
 constexpr double kFarthest_km = 1.0e6;
 
@@ -30,6 +31,10 @@ Expected<double> earth_disc_half_angle_rad(double range_km, double co2_altitude_
 
 bool mounted_alike(double one_rad, double other_rad) {
   return std::abs(std::cos(one_rad) - std::cos(other_rad)) < kAlike;
+}
+
+bool in_line(double sun_earth_rad) {
+  return !(sun_earth_rad > kInLine_rad && sun_earth_rad < std::numbers::pi - kInLine_rad);
 }
 
 PredictedAngles predict_angles(const Eigen::Vector3d& axis_icrf, const Eigen::Vector3d& sun_icrf,

@@ -153,6 +153,10 @@ Eigen::Matrix<T, 3, 1> axis_icrf(const AxisInput<T>& input) {
   return axis;
 }
 
+/// Sun and Earth within 3 deg of one line: they leave the axis free to turn about it.
+/// @param sun_earth_rad theta_se
+bool in_line(double sun_earth_rad);
+
 /// What a revolution should measure if the axis were `axis_icrf`.
 struct PredictedAngles {
   double sun_angle_rad;

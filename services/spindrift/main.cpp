@@ -28,6 +28,7 @@
 #include "services/progress/progress_bar.h"
 #include "services/spindrift/batch.h"
 #include "services/spindrift/doctor.h"
+#include "services/spindrift/geometry.h"
 #include "services/spindrift/process.h"
 #include "services/spindrift/replay.h"
 #include "services/spindrift/serve.h"
@@ -53,6 +54,7 @@ struct Request {
   spindrift::ReplayOptions replay;
   spindrift::SimulateOptions simulate;
   spindrift::DoctorOptions doctor;
+  spindrift::GeometryOptions geometry;
   std::function<Expected<void>()> run;
   int status = EXIT_SUCCESS;  ///< Of a run that came to its end.
 };
@@ -189,6 +191,22 @@ void add_doctor(CLI::App& app, Request& request) {
   });
 }
 
+void add_geometry(CLI::App& app, Request& request) {
+  spindrift::GeometryOptions& options = request.geometry;
+  CLI::App& command = *app.add_subcommand(
+      "geometry", "Plan a coming pass: what each sensor will see, and the accuracy to expect");
+  command.add_option("--mission", options.mission, "Mission file")->check(check_path)->required();
+  command.add_option("--from", options.from, "Beginning, UTC: 2026-11-20T03:00:00Z")->required();
+  command.add_option("--to", options.to, "End, UTC")->required();
+  command.add_option("--attitude", options.attitude, "Spin axis RA,DEC in deg, ICRF: 100,-55")
+      ->required();
+  command.add_option("--rpm", options.rate_rpm, "Spin rate, 5 to 200; without it 60 is assumed");
+  command.add_option("--step", options.step_s, "Seconds between rows; without it about 60 rows");
+  command.add_option("--plot", options.plot, "SVG file to write")->check(check_path);
+  command.add_flag("--json", options.json, "Print one JSON object");
+  command.callback([&] { request.run = [&] { return geometry(request.geometry); }; });
+}
+
 std::string subcommands_of(const CLI::App& app) {
   std::string names;
   for (const CLI::App* const command : app.get_subcommands({})) {
@@ -235,6 +253,7 @@ int run(int argc, char** argv) {
   add_replay(app, request);
   add_simulate(app, request);
   add_doctor(app, request);
+  add_geometry(app, request);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

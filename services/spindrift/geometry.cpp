@@ -1,0 +1,202 @@
+#include "services/spindrift/geometry.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/time_span.h"
+#include "pipelines/time/utc.h"
+#include "services/mission/mission.h"
+#include "services/plot/scale.h"
+#include "services/scenario/output_file.h"
+#include "services/spindrift/geometry_plot.h"
+#include "services/spindrift/geometry_text.h"
+#include "services/units/degrees.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kUsualRate_rpm = 60.0;
+constexpr double kSlowest_rpm = 5.0;
+constexpr double kFastest_rpm = 200.0;
+constexpr double kRows = 60.0;
+constexpr double kMostRows = 10'000.0;
+constexpr double kLongest_s = 7.0 * 86'400.0;
+// So many steps make curves smooth.
+constexpr double kPlotSteps = 480.0;
+
+Unexpected refused(std::string message) {
+  return Unexpected{{ErrorCode::InvalidConfiguration, std::move(message)}};
+}
+
+/// Collects what is wrong, one a line.
+struct Problems {
+  std::string text;
+  void add(const std::string& problem) { text += (text.empty() ? "" : "\n") + problem; }
+};
+
+std::optional<TaiTime> utc_of(std::string_view option, const std::string& text,
+                              Problems& problems) {
+  const auto t = parse_utc(text);
+  if (!t) {
+    problems.add(fmt::format("{}: {}", option, t.error().message));
+    return std::nullopt;
+  }
+  if (!text.ends_with('Z')) {
+    problems.add(fmt::format("{} {}: must be UTC and end in Z", option, text));
+  }
+  return *t;
+}
+
+/// The whole text as a number.
+std::optional<double> number_of(std::string_view text) {
+  double number = 0.0;
+  const auto* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc{} && rest == end ? std::optional{number} : std::nullopt;
+}
+
+/// Written so that NaN fails.
+Eigen::Vector3d axis_of(const std::string& text, Problems& problems) {
+  const std::size_t comma = std::min(text.find(','), text.size());
+  const auto ra_deg = number_of(std::string_view{text}.substr(0, comma));
+  const auto dec_deg = number_of(std::string_view{text}.substr(std::min(comma + 1, text.size())));
+  if (!ra_deg || !dec_deg) {
+    problems.add(fmt::format("--attitude {}: must read RA,DEC in deg, as 100.5,-55", text));
+    return Eigen::Vector3d::UnitZ();
+  }
+  if (!(std::abs(*ra_deg) <= 360.0)) {
+    problems.add(fmt::format("--attitude {}: RA must lie in [-360, 360] deg", text));
+  }
+  if (!(std::abs(*dec_deg) <= 90.0)) {
+    problems.add(fmt::format("--attitude {}: DEC must lie in [-90, 90] deg", text));
+  }
+  return direction_icrf({.ra_rad = *ra_deg / kDegPerRad, .dec_rad = *dec_deg / kDegPerRad});
+}
+
+void check_span(const GeometryOptions& options, double span_s, Problems& problems) {
+  if (!(span_s > 0.0)) {
+    problems.add(fmt::format("--from {} must lie before --to {}", options.from, options.to));
+  } else if (span_s > kLongest_s) {
+    problems.add(fmt::format("--from {} --to {}: {:.1f} days; at most {:.0f}", options.from,
+                             options.to, span_s / 86'400.0, kLongest_s / 86'400.0));
+  }
+}
+
+void check_step(double step_s, double span_s, Problems& problems) {
+  if (!(step_s > 0.0 && std::isfinite(step_s))) {
+    problems.add(fmt::format("--step {}: must be above 0 s", step_s));
+  } else if (span_s / step_s > kMostRows) {
+    problems.add(fmt::format("--step {}: makes {:.0f} rows; at most {:.0f}", step_s,
+                             span_s / step_s, kMostRows));
+  }
+}
+
+void check_rate(double rate_rpm, Problems& problems) {
+  if (!(rate_rpm >= kSlowest_rpm && rate_rpm <= kFastest_rpm)) {
+    problems.add(
+        fmt::format("--rpm {}: must lie in [{}, {}]", rate_rpm, kSlowest_rpm, kFastest_rpm));
+  }
+}
+
+Expected<PassRequest> request_of(const GeometryOptions& options) {
+  Problems problems;
+  const auto from = utc_of("--from", options.from, problems);
+  const auto to = utc_of("--to", options.to, problems);
+  const double rate_rpm = options.rate_rpm.value_or(kUsualRate_rpm);
+  check_rate(rate_rpm, problems);
+  PassRequest request{.from = {},
+                      .to = {},
+                      .step_s = 0.0,
+                      .axis_icrf = axis_of(options.attitude, problems),
+                      .rate_rad_s = rate_rpm / kRpmPerRad_s};
+  if (from && to) {
+    const double span_s = elapsed_s(*from, *to);
+    request.from = *from;
+    request.to = *to;
+    request.step_s = options.step_s.value_or(plot::time_step_s(span_s / kRows));
+    check_span(options, span_s, problems);
+    check_step(request.step_s, span_s, problems);
+  }
+  if (!problems.text.empty()) {
+    return refused(problems.text);
+  }
+  return request;
+}
+
+Expected<Mission> spinner(const std::filesystem::path& path) {
+  auto mission = load_mission(path);
+  if (mission && mission->kind != SpacecraftKind::Spin) {
+    return refused(fmt::format(R"({}: spacecraft.kind = "{}": passes are planned for kind "{}")",
+                               path.string(), name_of(mission->kind),
+                               name_of(SpacecraftKind::Spin)));
+  }
+  return mission;
+}
+
+Expected<PlannedPass> planned(const GeometryOptions& options, const Mission& mission,
+                              const PassRequest& request) {
+  auto plan = plan_pass(*mission.spin, *mission.orbit, request);
+  if (!plan) {
+    return refused(fmt::format("{}: orbit: {}", options.mission.string(), plan.error().message));
+  }
+  return PlannedPass{.spacecraft_id = mission.spacecraft_id,
+                     .config = *mission.spin,
+                     .request = request,
+                     .rate_assumed = !options.rate_rpm,
+                     .plan = std::move(*plan)};
+}
+
+Expected<void> write_plot(const GeometryOptions& options, const Mission& mission,
+                          PassRequest request) {
+  request.step_s = std::min(request.step_s, seconds_between(request.from, request.to) / kPlotSteps);
+  return planned(options, mission, request).and_then([&](const PlannedPass& pass) {
+    return write_file(options.plot, plot_of(pass));
+  });
+}
+
+}  // namespace
+
+Expected<void> geometry(const GeometryOptions& options) {
+  const auto request = request_of(options);
+  const auto mission = spinner(options.mission);
+  if (!request || !mission) {
+    return refused((request ? "" : request.error().message) + (request || mission ? "" : "\n") +
+                   (mission ? "" : mission.error().message));
+  }
+  if (const std::string doubt = doubt_about_orbit(*mission); !doubt.empty()) {
+    spdlog::warn("{}: {}", options.mission.string(), doubt);
+  }
+  const auto pass = planned(options, *mission, *request);
+  if (!pass) {
+    return Unexpected{pass.error()};
+  }
+  if (!options.plot.empty()) {
+    if (auto written = write_plot(options, *mission, *request); !written) {
+      return written;
+    }
+  }
+  if (options.json) {
+    nlohmann::json json = to_json(*pass);
+    json["plot"] =
+        options.plot.empty() ? nlohmann::json(nullptr) : nlohmann::json(options.plot.string());
+    fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    fmt::print("{}", to_text(*pass));
+    if (!options.plot.empty()) {
+      fmt::print("plot: {}\n", options.plot.string());
+    }
+  }
+  return {};
+}
+
+}  // namespace spindrift

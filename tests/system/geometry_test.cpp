@@ -1,0 +1,234 @@
+// `spindrift geometry`, as a ship operator runs it before a pass.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/program.h"
+#include "tests/support/recorded_files.h"
+#include "tests/support/well_formed.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+const std::filesystem::path kScenarios =
+    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios";
+const std::filesystem::path kMissions = std::filesystem::path{SPINDRIFT_TEST_DATA} / "mission";
+const std::string kNominal = (kPasses / "nominal" / "mission.toml").string();
+
+/// Of the nominal pass, with arguments put in the place of its own or added.
+std::vector<std::string> arguments_with(
+    const std::vector<std::pair<std::string, std::string>>& changes,
+    const std::string& mission = kNominal) {
+  std::vector<std::pair<std::string, std::string>> options = {{"--mission", mission},
+                                                              {"--from", "2026-11-20T03:00:00Z"},
+                                                              {"--to", "2026-11-20T03:10:00Z"},
+                                                              {"--attitude", "100,-55"}};
+  for (const auto& change : changes) {
+    const auto known = std::find_if(options.begin(), options.end(), [&](const auto& option) {
+      return option.first == change.first;
+    });
+    if (known != options.end()) {
+      *known = change;
+    } else {
+      options.push_back(change);
+    }
+  }
+  std::vector<std::string> arguments = {"geometry"};
+  for (const auto& [name, value] : options) {
+    // In one word: a value may begin with a minus.
+    arguments.push_back(name);
+    arguments.back().append(value.empty() ? "" : "=").append(value);
+  }
+  return arguments;
+}
+
+nlohmann::json planned(const std::vector<std::string>& arguments) {
+  Program program{arguments};
+  EXPECT_EQ(program.exit_status(), 0) << program.log();
+  EXPECT_EQ(program.log(), "");
+  return nlohmann::json::parse(program.out());
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream{text};
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+TEST(Geometry, PrintsATableAndWhatHolds) {
+  Program program{arguments_with({})};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  EXPECT_EQ(program.log(), "");
+  const auto lines = lines_of(program.out());
+  ASSERT_GT(lines.size(), 63U);
+  EXPECT_EQ(lines[0],
+            "SPINNER  2026-11-20T03:00:00Z to 2026-11-20T03:10:00Z, axis RA 100.0000 Dec -55.0000 "
+            "deg, 60 rpm (assumed, see --rpm)");
+  EXPECT_THAT(lines[1], AllOf(StartsWith("UTC"), HasSubstr("Delta N"), HasSubstr("case")));
+  EXPECT_THAT(lines[2], StartsWith("2026-11-20T03:00:00Z     0.0   13915"));
+  EXPECT_THAT(lines[62], AllOf(StartsWith("2026-11-20T03:10:00Z    10.0"), HasSubstr("12NnSs")));
+  EXPECT_THAT(program.out(), HasSubstr("all the time"));
+  EXPECT_THAT(program.out(), HasSubstr("  fix by case 1: one axis\n"));
+  for (std::size_t i = 3; i <= 62; ++i) {
+    EXPECT_EQ(lines[i].size(), lines[2].size()) << lines[i];
+  }
+}
+
+TEST(Geometry, GivesOneObject) {
+  const auto plan = planned(arguments_with({{"--rpm", "30"}, {"--step", "120"}, {"--json", ""}}));
+  EXPECT_EQ(plan["spacecraft"], "SPINNER");
+  EXPECT_NEAR(plan["ra_deg"], 100.0, 1e-9);
+  EXPECT_NEAR(plan["dec_deg"], -55.0, 1e-9);
+  EXPECT_NEAR(plan["rate_rpm"], 30.0, 1e-9);
+  EXPECT_EQ(plan["rate_assumed"], false);
+  EXPECT_EQ(plan["from_utc"], "2026-11-20T03:00:00.000Z");
+  EXPECT_EQ(plan["to_utc"], "2026-11-20T03:10:00.000Z");
+  EXPECT_EQ(plan["step_s"], 120.0);
+  EXPECT_TRUE(plan["plot"].is_null());
+  ASSERT_EQ(plan["steps"].size(), 6U);
+  const auto& last = plan["steps"].back();
+  for (const char* const key :
+       {"t_tai_ns", "utc", "minutes", "range_km", "sun_angle_deg", "earth_angle_deg",
+        "dihedral_deg", "sun_earth_deg", "disc_deg", "sun_hidden", "in_line", "north", "south",
+        "edges", "geometry_case", "axes", "told_apart", "fix_sigma_deg", "sigma_deg"}) {
+    EXPECT_TRUE(last.contains(key)) << key;
+  }
+  EXPECT_EQ(last["north"]["view"], "crosses");
+  EXPECT_EQ(last["north"]["delta_class"], "usable");
+  EXPECT_EQ(last["edges"]["south_out"], "seen");
+  EXPECT_TRUE(plan["steps"][0]["sigma_deg"].is_null());
+  ASSERT_FALSE(plan["events"].empty());
+  EXPECT_EQ(plan["events"][0]["from_utc"], plan["from_utc"]);
+}
+
+TEST(Geometry, NoiseInAngleGoesWithTheRate) {
+  const auto fix_sigma_deg = [](const char* rpm) {
+    return planned(arguments_with(
+        {{"--rpm", rpm}, {"--step", "600"}, {"--json", ""}}))["steps"][0]["fix_sigma_deg"]
+        .get<double>();
+  };
+  // The Earth moves on a little less in a shorter turn.
+  EXPECT_NEAR(fix_sigma_deg("100") / fix_sigma_deg("50"), 2.0, 0.01);
+}
+
+TEST(Geometry, DrawsAPlot) {
+  const TemporaryFolder folder;
+  PassCopy copy{"nominal"};
+  std::string mission = text_of(copy.mission());
+  mission.replace(mission.find("SPINNER"), 7, "<A & B>");
+  std::ofstream{copy.mission()} << mission;
+  const auto plot = folder.path() / "pass.svg";
+  Program program{arguments_with({{"--plot", plot.string()}}, copy.mission().string())};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  const std::string svg = text_of(plot);
+  EXPECT_EQ(testing::xml_problem(svg), "");
+  EXPECT_THAT(svg,
+              AllOf(StartsWith("<svg "), HasSubstr("&lt;A &amp; B&gt;: geometry of the pass")));
+  for (const char* const part : {"sun angle", "Chord across the Earth", "|Delta|",
+                                 "all edges so far", "north beam", "case 1", "2026-11-20 UTC"}) {
+    EXPECT_THAT(svg, HasSubstr(part));
+  }
+  EXPECT_THAT(program.out(), HasSubstr("plot: " + plot.string()));
+}
+
+struct Refusal {
+  std::vector<std::pair<std::string, std::string>> changes;
+  std::string says;
+};
+
+TEST(Geometry, RefusesWhatCannotBe) {
+  const std::vector<Refusal> refusals = {
+      {{{"--attitude", "100,-91"}}, "--attitude 100,-91: DEC must lie in [-90, 90] deg"},
+      {{{"--attitude", "400,0"}}, "--attitude 400,0: RA must lie in [-360, 360] deg"},
+      {{{"--attitude", "nan,0"}}, "RA must lie in"},
+      {{{"--attitude", "100 -55"}}, "--attitude 100 -55: must read RA,DEC in deg"},
+      {{{"--attitude", "100,"}}, "must read RA,DEC in deg"},
+      {{{"--from", "2026-11-20T03:10:00Z"}},
+       "--from 2026-11-20T03:10:00Z must lie before --to 2026-11-20T03:10:00Z"},
+      {{{"--from", "2026-11-20T03:00:00"}}, "must be UTC and end in Z"},
+      {{{"--to", "tomorrow"}}, "--to: time 'tomorrow': must read YYYY-MM-DD"},
+      {{{"--to", "2026-12-31T00:00:00Z"}}, "at most 7"},
+      {{{"--rpm", "0"}}, "--rpm 0: must lie in [5, 200]"},
+      {{{"--step", "0"}}, "--step 0: must be above 0 s"},
+      {{{"--step", "nan"}}, "--step nan: must be above 0 s"},
+      {{{"--step", "0.001"}}, "at most 10000"},
+      {{{"--to", "2026-11-20T03:20:00Z"}}, "480 s after the ephemeris ends"},
+      {{{"--mission", "/nowhere.toml"}}, "/nowhere.toml"},
+      {{{"--mission", (kMissions / "dawn-2015.toml").string()}},
+       R"(spacecraft.kind = "three_axis": passes are planned for kind "spin")"},
+      {{{"--plot", "/nowhere/pass.svg"}}, "/nowhere/pass.svg"}};
+  for (const Refusal& refusal : refusals) {
+    SCOPED_TRACE(refusal.says);
+    auto changes = refusal.changes;
+    changes.emplace_back("--json", "");
+    Program program{arguments_with(changes)};
+    EXPECT_EQ(program.exit_status(), 2);
+    EXPECT_THAT(program.log(), HasSubstr(refusal.says));
+    EXPECT_THAT(nlohmann::json::parse(program.out())["error"].get<std::string>(),
+                HasSubstr(refusal.says));
+  }
+}
+
+TEST(Geometry, NamesAllThatIsWrongAtOnce) {
+  Program program{arguments_with({{"--attitude", "0,91"}, {"--rpm", "500"}, {"--to", "x"}})};
+  EXPECT_EQ(program.exit_status(), 2);
+  EXPECT_THAT(program.log(),
+              AllOf(HasSubstr("DEC must"), HasSubstr("--rpm 500"), HasSubstr("--to: time 'x'")));
+  EXPECT_THAT(program.out(), IsEmpty());
+}
+
+double published_sigma_deg(const std::filesystem::path& mission,
+                           const std::filesystem::path& telemetry) {
+  const TemporaryFolder folder;
+  Program process{arguments(mission, telemetry, folder.path() / "pass.db")};
+  EXPECT_EQ(process.exit_status(), 0) << process.log();
+  return nlohmann::json::parse(process.out())["runs"][0]["sequential"]["sigma_deg"];
+}
+
+/// @param folder Of the ten minutes from 03:00 on.
+double planned_sigma_deg(const std::filesystem::path& folder) {
+  const auto truth = nlohmann::json::parse(text_of(folder / "truth.json"));
+  const auto text = [&](const char* key) { return std::to_string(truth[key].get<double>()); };
+  const auto plan = planned(arguments_with({{"--attitude", text("ra_deg") + "," + text("dec_deg")},
+                                            {"--rpm", text("rpm")},
+                                            {"--json", ""}},
+                                           (folder / "mission.toml").string()));
+  return plan["steps"].back()["sigma_deg"];
+}
+
+TEST(Geometry, ForetellsTheSigmaThatASimulatedPassGives) {
+  const TemporaryFolder folder;
+  Program simulate{
+      {"simulate", (kScenarios / "gto-nominal.toml").string(), "--out", folder.path().string()}};
+  ASSERT_EQ(simulate.exit_status(), 0) << simulate.log();
+  const auto mission = folder.path() / "mission.toml";
+  EXPECT_NEAR(published_sigma_deg(mission, folder.path()) / planned_sigma_deg(folder.path()), 1.0,
+              0.2);
+}
+
+TEST(Geometry, ForetellsTheSigmaOfOneBeamWhereTheMissionHasOne) {
+  PassCopy copy{"north-only"};
+  std::string mission = text_of(copy.mission());
+  const auto south = mission.find("[spin.ir.south]");
+  mission.erase(south, mission.find("[spin.noise]") - south);
+  std::ofstream{copy.mission()} << mission;
+  std::filesystem::copy(kPasses / "north-only" / "truth.json", copy.folder.path());
+  EXPECT_NEAR(published_sigma_deg(copy.mission(), copy.folder.path()) /
+                  planned_sigma_deg(copy.folder.path()),
+              1.0, 0.2);
+}
+
+}  // namespace
+}  // namespace spindrift

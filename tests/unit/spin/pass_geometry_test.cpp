@@ -1,0 +1,263 @@
+/// What an instant of a pass holds, against the closed forms of spin.md and its figures.
+
+#include "pipelines/spin/pass_geometry.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "pipelines/ephemeris/sun.h"
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/measurement.h"
+#include "pipelines/spin/pass_conditions.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/recorded_pass.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+PassGeometry at(const SpinConfig& config, const Orbit& orbit, const Eigen::Vector3d& axis_icrf,
+                TaiTime t, double rate_rad_s = 2.0 * std::numbers::pi) {
+  return PassScene{config, orbit, axis_icrf, rate_rad_s}.at(t).value();
+}
+
+TEST(PassGeometry, HasTheFiguresOfTheNominalPass) {
+  const auto pass = testing::recorded_pass("nominal");
+  const PassGeometry first =
+      at(pass.config, pass.orbit, pass.true_axis_icrf, pass.pulses.front().t, pass.true_rate_rad_s);
+  // Its truth.json, which is of the first instant of the pass, up to half a turn before.
+  EXPECT_NEAR(first.angles.sun_angle_rad / kDegree_rad, 96.23210, 1e-3);
+  EXPECT_NEAR(first.angles.earth_angle_rad / kDegree_rad, 90.88075, 0.01);
+  EXPECT_NEAR(first.disc_rad / kDegree_rad, 27.46558, 0.01);
+  EXPECT_NEAR(first.beams.at(index_of(Side::North)).chord_rad.value(),
+              0.1491403704 * pass.true_rate_rad_s, 0.02 * kDegree_rad);
+  EXPECT_EQ(first.fix.geometry_case, 1);
+  EXPECT_EQ(first.fix.axes, 1U);
+  EXPECT_TRUE(first.fix.told_apart);
+}
+
+TEST(PassGeometry, ExpectsOfAFixWhatFixesOfTheNominalPassScatter) {
+  const auto pass = testing::recorded_pass("nominal");
+  PassScene scene{pass.config, pass.orbit, pass.true_axis_icrf, pass.true_rate_rad_s};
+  double sum_rad2 = 0.0;
+  constexpr int kTimes = 60;
+  for (int i = 0; i < kTimes; ++i) {
+    const PassGeometry geometry = scene.at(shifted(pass.pulses.front().t, 10.0 * i)).value();
+    sum_rad2 += geometry.fix.sigma_rad.value() * geometry.fix.sigma_rad.value();
+  }
+  // spin.md: the two-chord fix measures 0.426 deg over its 600 turns: that is known to 3 %.
+  EXPECT_NEAR(std::sqrt(sum_rad2 / kTimes) / kDegree_rad, 0.426, 3.0 * 0.03 * 0.426);
+}
+
+TEST(PassGeometry, SeesChordsByTheClosedForm) {
+  const Orbit orbit = testing::orbit_across_the_earth();
+  std::mt19937_64 rng{17};
+  std::uniform_real_distribution<double> uniform;
+  std::array<int, 5> views{};
+  for (int trial = 0; trial < 3000; ++trial) {
+    SCOPED_TRACE(trial);
+    SpinConfig config = testing::usual_config();
+    config.north->mount_angle_rad = (5.0 + 170.0 * uniform(rng)) * kDegree_rad;
+    const Eigen::Vector3d axis_icrf = direction_icrf(
+        {.ra_rad = 6.28 * uniform(rng), .dec_rad = std::asin(2.0 * uniform(rng) - 1.0)});
+    // Half of them low over the Earth, where it fills the sky. So fast that it hardly moves.
+    const double t_s = trial % 2 == 0 ? 34'400.0 + 800.0 * uniform(rng) : 40'000.0 * uniform(rng);
+    const PassGeometry geometry =
+        at(config, orbit, axis_icrf, shifted(testing::kTransferStart, t_s), 1000.0);
+    const BeamGeometry& beam = geometry.beams.at(index_of(Side::North));
+    ++views.at(static_cast<std::size_t>(beam.view));
+    // The beam turns on a circle about the axis: the nearest and farthest of it to the Earth.
+    const double mount_rad = config.north->mount_angle_rad;
+    const double sum_rad = mount_rad + geometry.angles.earth_angle_rad;
+    const double nearest_rad = std::abs(mount_rad - geometry.angles.earth_angle_rad);
+    const double farthest_rad = std::min(sum_rad, 2.0 * std::numbers::pi - sum_rad);
+    const bool meets = nearest_rad < geometry.disc_rad && farthest_rad > geometry.disc_rad;
+    switch (beam.view) {
+      case BeamView::Misses:
+        EXPECT_GT(nearest_rad, geometry.disc_rad);
+        break;
+      case BeamView::Inside:
+        EXPECT_LT(farthest_rad, geometry.disc_rad);
+        break;
+      case BeamView::Grazes:
+        EXPECT_TRUE(meets);
+        break;
+      case BeamView::Crosses: {
+        // In the 6 ms of a turn it moves by 6e-6 rad, to which a chord near the limb is ten times
+        // as sensitive at either end.
+        const auto chord_rad =
+            predict_chord_rad(mount_rad, geometry.angles.earth_angle_rad, geometry.disc_rad);
+        EXPECT_TRUE(meets);
+        ASSERT_TRUE(chord_rad);
+        EXPECT_NEAR(*chord_rad, beam.chord_rad.value(), 5e-4);
+        break;
+      }
+      case BeamView::NoSensor:
+        FAIL();
+    }
+  }
+  for (const BeamView view :
+       {BeamView::Misses, BeamView::Grazes, BeamView::Crosses, BeamView::Inside}) {
+    EXPECT_GT(views.at(static_cast<std::size_t>(view)), 0) << static_cast<int>(view);
+  }
+}
+
+TEST(PassGeometry, DeltaIsTheDeterminantOfTheTwoEquations) {
+  const auto body = testing::body_across_the_earth();
+  const PassGeometry geometry = at(body.config, testing::orbit_across_the_earth(), body.axis_icrf,
+                                   testing::kTransferStart, body.rate_rad_s);
+  const auto& [sun_rad, earth_rad, dihedral_rad] = geometry.angles;
+  for (const Side side : kSides) {
+    const BeamGeometry& beam = geometry.beams.at(index_of(side));
+    const double mount_rad = sensor_of(body.config, side)->mount_angle_rad;
+    Eigen::Matrix2d equations;
+    equations << std::cos(mount_rad), std::sin(mount_rad) * std::cos(0.5 * *beam.chord_rad),
+        std::cos(sun_rad), std::sin(sun_rad) * std::cos(dihedral_rad);
+    EXPECT_NEAR(beam.delta.value(), equations.determinant(), 1e-12);
+  }
+}
+
+TEST(PassGeometry, DeltaHasTheClassesOfTheMission) {
+  const SpinGeometry limits{.determinant_usable = 0.03, .determinant_ambiguous = 0.01};
+  EXPECT_EQ(class_of(limits, -0.03), DeltaClass::Usable);
+  EXPECT_EQ(class_of(limits, 0.0299), DeltaClass::TwoRoots);
+  EXPECT_EQ(class_of(limits, -0.0101), DeltaClass::TwoRoots);
+  EXPECT_EQ(class_of(limits, 0.01), DeltaClass::Ambiguous);
+  EXPECT_EQ(class_of(limits, 0.0), DeltaClass::Ambiguous);
+}
+
+TEST(PassGeometry, WithOneBeamTheFixIsByItsChord) {
+  const auto pass = testing::recorded_pass("nominal");
+  SpinConfig config = pass.config;
+  config.south.reset();
+  const PassGeometry geometry =
+      at(config, pass.orbit, pass.true_axis_icrf, pass.pulses.front().t, pass.true_rate_rad_s);
+  EXPECT_EQ(geometry.fix.geometry_case, 2);
+  EXPECT_EQ(geometry.beams.at(index_of(Side::South)).view, BeamView::NoSensor);
+  const auto words = conditions_of(config, geometry);
+  EXPECT_THAT(words, Contains("fix by case 2: one axis"));
+  EXPECT_THAT(words, Contains("north beam sees the Earth"));
+  EXPECT_THAT(words, Not(Contains(HasSubstr("south"))));
+}
+
+/// Passes over the Earth's centre on the line to the Sun, `offset_rad` along the orbit from it.
+Orbit orbit_through_the_sun(TaiTime t, double range_km, double offset_rad) {
+  const RaDec sun = ra_dec_of(geometric_sun_icrf_km(t));
+  const double inclination_rad = 40.0 * kDegree_rad;
+  const double argument_rad = std::asin(std::sin(sun.dec_rad) / std::sin(inclination_rad));
+  const double node_to_sun_rad =
+      std::atan2(std::sin(argument_rad) * std::cos(inclination_rad), std::cos(argument_rad));
+  return Orbit{KeplerOrbit::make({.epoch = t,
+                                  .semi_major_axis_km = range_km,
+                                  .eccentricity = 0.0,
+                                  .inclination_rad = inclination_rad,
+                                  .raan_rad = sun.ra_rad - node_to_sun_rad,
+                                  .argument_of_perigee_rad = argument_rad,
+                                  .mean_anomaly_rad = offset_rad})
+                   .value()};
+}
+
+/// Across the Sun and the Earth: both beams see the Earth.
+Eigen::Vector3d axis_across(const Orbit& orbit, TaiTime t) {
+  return geometric_sun_icrf_km(t).cross(orbit.at(t).value().position_icrf_km).normalized();
+}
+
+TEST(PassGeometry, NoAxisIsFoundWhereSunAndEarthAreInLine) {
+  const TaiTime t = testing::kTransferStart;
+  const SpinConfig config = testing::usual_config();
+  const auto geometry_at = [&](double offset_deg) {
+    const Orbit orbit = orbit_through_the_sun(t, 20'000.0, offset_deg * kDegree_rad);
+    return at(config, orbit, axis_across(orbit, t), t);
+  };
+  const PassGeometry in_line = geometry_at(2.9);
+  EXPECT_NEAR(in_line.sun_earth_rad / kDegree_rad, 177.1, 0.05);
+  EXPECT_TRUE(in_line.in_line);
+  EXPECT_FALSE(in_line.sun_hidden);
+  EXPECT_FALSE(in_line.fix.sigma_rad);
+  EXPECT_THAT(conditions_of(config, in_line), Contains("no fix (case 1): Sun and Earth in line"));
+  const PassGeometry beside = geometry_at(3.2);
+  EXPECT_FALSE(beside.in_line);
+  EXPECT_TRUE(beside.fix.sigma_rad);
+}
+
+TEST(PassGeometry, TheEarthHidesTheSun) {
+  const TaiTime t = testing::kTransferStart;
+  const SpinConfig config = testing::usual_config();
+  const double disc_deg = std::asin(6418.137 / 20'000.0) / kDegree_rad;
+  const auto geometry_at = [&](double offset_deg) {
+    const Orbit orbit = orbit_through_the_sun(t, 20'000.0, (180.0 + offset_deg) * kDegree_rad);
+    return at(config, orbit, axis_across(orbit, t), t);
+  };
+  const PassGeometry night = geometry_at(disc_deg - 0.1);
+  EXPECT_TRUE(night.sun_hidden);
+  EXPECT_EQ(night.fix.geometry_case, 8);
+  EXPECT_FALSE(night.beams.front().delta);
+  EXPECT_THAT(conditions_of(config, night), Contains("the Earth hides the Sun: no sun pulses"));
+  const PassGeometry day = geometry_at(disc_deg + 0.1);
+  EXPECT_FALSE(day.sun_hidden);
+  EXPECT_EQ(day.fix.geometry_case, 1);
+}
+
+TEST(PassGeometry, SaysWhichSlitCannotSeeTheSun) {
+  const TaiTime t = testing::kTransferStart;
+  const Orbit orbit = testing::orbit_across_the_earth();
+  const Eigen::Vector3d sun_icrf = geometric_sun_icrf_km(t).normalized();
+  const auto words_at = [&](double sun_angle_deg) {
+    const double angle_rad = sun_angle_deg * kDegree_rad;
+    const SpinConfig config = testing::usual_config();
+    return conditions_of(
+        config,
+        at(config, orbit,
+           std::cos(angle_rad) * sun_icrf + std::sin(angle_rad) * sun_icrf.unitOrthogonal(), t));
+  };
+  // A slit canted by 45 deg ends 45 deg from the axis.
+  EXPECT_THAT(words_at(50.0), Not(Contains(HasSubstr("slit"))));
+  EXPECT_THAT(words_at(40.0), Contains("slit 2 cannot see the Sun"));
+  EXPECT_THAT(words_at(3.0), Contains("the Sun stands too near the spin axis for either slit"));
+}
+
+TEST(PassGeometry, SaysWhatSpoilsAFix) {
+  const auto body = testing::body_across_the_earth();
+  SpinConfig config = body.config;
+  const auto words = [&] {
+    return conditions_of(config, at(config, testing::orbit_across_the_earth(), body.axis_icrf,
+                                    testing::kTransferStart, body.rate_rad_s));
+  };
+  const double delta = std::abs(at(config, testing::orbit_across_the_earth(), body.axis_icrf,
+                                   testing::kTransferStart, body.rate_rad_s)
+                                    .beams.at(index_of(Side::North))
+                                    .delta.value());
+  config.geometry = {.determinant_usable = 1.0, .determinant_ambiguous = 0.5 * delta};
+  EXPECT_THAT(words(), Contains("|Delta| < 1 (north): a fix by its chord alone has two roots to "
+                                "tell apart"));
+  config.geometry = {.determinant_usable = 1.0, .determinant_ambiguous = 0.5};
+  EXPECT_THAT(words(), Contains("|Delta| <= 0.5 (north): a fix by its chord alone is ambiguous"));
+  EXPECT_THAT(words(), Contains("fix by case 1: one axis"));
+  // Longer than half a turn: all channels meet.
+  config.screening.interference_s = 1.0;
+  EXPECT_THAT(words(), Contains("interference: sun1 and south_out meet"));
+  EXPECT_THAT(words(), Contains("no fix (case 0): nothing that tells of the axis"));
+}
+
+TEST(PassGeometry, BelowTheHorizonIsAnError) {
+  const Orbit orbit = testing::orbit_across_the_earth();
+  SpinConfig config = testing::usual_config();
+  config.horizon.co2_altitude_km = 30'000.0;
+  const auto found =
+      PassScene{config, orbit, Eigen::Vector3d::UnitZ(), 1.0}.at(testing::kTransferStart);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::Unobservable);
+}
+
+}  // namespace
+}  // namespace spindrift

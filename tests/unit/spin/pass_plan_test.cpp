@@ -1,0 +1,146 @@
+/// The plan of a pass, against the limits of spin.md and of the oracle, and against closed forms.
+
+#include "pipelines/spin/pass_plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/measurement.h"
+#include "tests/support/information_limit.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/recorded_pass.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+/// Of a body over an orbit that comes to the Earth and leaves it again within twelve hours.
+PassPlan plan(double from_s, double to_s, double step_s,
+              const testing::SpinningBody& body = testing::body_across_the_earth()) {
+  return plan_pass(body.config, testing::orbit_across_the_earth(),
+                   {.from = shifted(testing::kTransferStart, from_s),
+                    .to = shifted(testing::kTransferStart, to_s),
+                    .step_s = step_s,
+                    .axis_icrf = body.axis_icrf,
+                    .rate_rad_s = body.rate_rad_s})
+      .value();
+}
+
+TEST(PassPlan, ExpectsThePublishedLimitAfterAHundredTurns) {
+  const auto pass = testing::recorded_pass("nominal");
+  const PassPlan found = plan_pass(pass.config, pass.orbit,
+                                   {.from = pass.pulses.front().t,
+                                    .to = shifted(pass.pulses.front().t, 100.0),
+                                    .step_s = 50.0,
+                                    .axis_icrf = pass.true_axis_icrf,
+                                    .rate_rad_s = pass.true_rate_rad_s})
+                             .value();
+  // spin.md; the geometry turns meanwhile, which its figure (0.405 deg / 10 and 1 % more) leaves
+  // out.
+  EXPECT_NEAR(found.steps.back().sigma_rad.value() / kDegree_rad, 0.0409, 0.02 * 0.0409);
+}
+
+TEST(PassPlan, ExpectsTheLimitOfTheOraclesEdges) {
+  const Orbit orbit = testing::orbit_across_the_earth();
+  const auto body = testing::body_across_the_earth();
+  constexpr double kDuration_s = 60.0;
+  const Eigen::Matrix2d limit = testing::cramer_rao_rad2(
+      body, testing::seen_from(orbit, testing::spherical_horizon_km(40.0)), kDuration_s);
+  // Whose rate is known not to drift.
+  EXPECT_NEAR(plan(0.0, kDuration_s, kDuration_s, body).steps.back().sigma_rad.value() /
+                  std::sqrt(limit.trace()),
+              1.0, 0.02);
+}
+
+TEST(PassPlan, StepsFromTheBeginningToTheEnd) {
+  const auto steps = plan(0.0, 100.0, 30.0).steps;
+  std::vector<double> times_s;
+  times_s.reserve(steps.size());
+  for (const PassStep& step : steps) {
+    times_s.push_back(seconds_between(testing::kTransferStart, step.geometry.t));
+  }
+  EXPECT_THAT(times_s,
+              ::testing::Pointwise(::testing::DoubleNear(1e-9), {0.0, 30.0, 60.0, 90.0, 100.0}));
+  EXPECT_FALSE(steps.front().sigma_rad);
+  EXPECT_EQ(plan(0.0, 100.0, 1e300).steps.size(), 2U);
+}
+
+TEST(PassPlan, NeverKnowsTheAxisWorseThanBefore) {
+  const auto steps = plan(0.0, 40'000.0, 500.0).steps;
+  double before_rad = 1.0;
+  for (const PassStep& step : steps) {
+    if (step.sigma_rad) {
+      // Within the rounding of sums of 1e12.
+      EXPECT_LE(*step.sigma_rad, before_rad * (1.0 + 1e-6));
+      before_rad = *step.sigma_rad;
+    }
+  }
+  EXPECT_LT(before_rad, 0.01 * kDegree_rad);
+}
+
+TEST(PassPlan, DoesNotDependOnTheStep) {
+  const PassPlan fine = plan(0.0, 40'000.0, 100.0);
+  const PassPlan coarse = plan(0.0, 40'000.0, 10'000.0);
+  EXPECT_NEAR(*coarse.steps.back().sigma_rad / *fine.steps.back().sigma_rad, 1.0, 0.01);
+  ASSERT_EQ(coarse.events.size(), fine.events.size());
+  for (const PassEvent& event : fine.events) {
+    // Either searches to a second; events that begin together may change places.
+    const auto same = std::find_if(coarse.events.begin(), coarse.events.end(), [&](const auto& e) {
+      return e.what == event.what && std::abs(seconds_between(e.from, event.from)) < 2.0;
+    });
+    ASSERT_NE(same, coarse.events.end()) << event.what;
+    EXPECT_LT(std::abs(seconds_between(same->to, event.to)), 2.0);
+  }
+}
+
+TEST(PassPlan, ChordsVanishWhereTheDiscLeavesTheBeam) {
+  const auto body = testing::body_across_the_earth();
+  const PassPlan found = plan(0.0, 40'000.0, 1000.0, body);
+  PassScene scene{body.config, testing::orbit_across_the_earth(), body.axis_icrf, body.rate_rad_s};
+  const auto outside_rad = [&](TaiTime t, double mount_rad) {
+    const PassGeometry geometry = scene.at(t).value();
+    return std::abs(geometry.angles.earth_angle_rad - mount_rad) - geometry.disc_rad;
+  };
+  int changes = 0;
+  for (const PassEvent& event : found.events) {
+    const bool north = event.what == "north beam misses the Earth";
+    if (!north && event.what != "south beam misses the Earth") {
+      continue;
+    }
+    const double mount_rad = (north ? body.config.north : body.config.south)->mount_angle_rad;
+    if (event.from != found.steps.front().geometry.t) {
+      ++changes;
+      EXPECT_GT(outside_rad(event.from, mount_rad), 0.0);
+      EXPECT_LT(outside_rad(shifted(event.from, -1.0), mount_rad), 0.0);
+    }
+    if (event.to != found.steps.back().geometry.t) {
+      ++changes;
+      EXPECT_LT(outside_rad(event.to, mount_rad), 0.0);
+      EXPECT_GT(outside_rad(shifted(event.to, -1.0), mount_rad), 0.0);
+    }
+  }
+  EXPECT_GE(changes, 4);
+}
+
+TEST(PassPlan, AnOrbitThatEndsIsAnError) {
+  const auto pass = testing::recorded_pass("nominal");
+  const auto found = plan_pass(pass.config, pass.orbit,
+                               {.from = pass.pulses.front().t,
+                                .to = shifted(pass.pulses.front().t, 3600.0),
+                                .step_s = 60.0,
+                                .axis_icrf = pass.true_axis_icrf,
+                                .rate_rad_s = pass.true_rate_rad_s});
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::NoCoverage);
+  // It ends two minutes behind the pass of ten.
+  EXPECT_THAT(found.error().message, ::testing::HasSubstr("2880"));
+}
+
+}  // namespace
+}  // namespace spindrift
