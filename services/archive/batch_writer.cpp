@@ -139,7 +139,8 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                   " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
       spin_bias_{database,
                  "INSERT OR REPLACE INTO spin_bias (run_id, estimator, name, value, unit, sigma,"
-                 " observable) VALUES (?, ?, ?, ?, ?, ?, ?)"},
+                 " observable) SELECT ?1, ?2, ?3, ?4, ?5, ?6, ?7 WHERE NOT EXISTS"
+                 " (SELECT 1 FROM spin_batch WHERE run_id = ?1 AND t_tai_ns > ?8)"},
       spin_nutation_{database,
                      "INSERT OR REPLACE INTO spin_nutation (run_id, t_tai_ns, detected,"
                      " false_alarm, detectable_deg, half_angle_deg, half_angle_sigma_deg, period_s,"
@@ -330,7 +331,7 @@ void BatchWriter::insert(const std::string& run_id, const BatchSolution& solutio
     const double to_unit = prior.is_angle ? kDegPerRad : 1.0;
     execute(spin_bias_, run_id, name_of(solution.estimate.estimator), prior.name,
             bias.value * to_unit, std::string_view{prior.is_angle ? "deg" : "km"},
-            bias.sigma * to_unit, as_flag(bias.observable));
+            bias.sigma * to_unit, as_flag(bias.observable), tai_ns(solution.estimate.t));
   }
   if (solution.nutation) {
     insert(run_id, solution.estimate.t, *solution.nutation);

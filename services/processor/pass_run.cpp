@@ -51,7 +51,6 @@ void PassRun::begin(const std::string& run_id) {
   catch_up_.reset();
   edges_ = {};
   next_batch_.reset();
-  due_.reset();
 }
 
 ArchiveBatch PassRun::batch() const {
@@ -119,17 +118,19 @@ void PassRun::note_time(TaiTime t) {
   }
   if (next_batch_ && !catch_up_) {
     edges_.keep_last(kLastRevolutions);
-    due_ = batch_task();
+    due_.push_back(batch_task());
   }
   next_batch_ = t + kBetweenBatches;
 }
 
-std::optional<BatchTask> PassRun::take_batch_task() { return std::exchange(due_, std::nullopt); }
+std::vector<BatchTask> PassRun::take_batch_tasks() { return std::exchange(due_, {}); }
 
 ArchiveBatch PassRun::finish() {
   ArchiveBatch last = batch();
   SpinOutput output = pass_.finish();
+  const std::size_t due = due_.size();
   note(output);
+  due_.erase(due_.begin() + static_cast<std::ptrdiff_t>(due), due_.end());  // The last is below.
   last.products = std::move(output.products);
   last.finished_utc = utc_now();
   if (plan_ == BatchPlan::EveryMinute) {

@@ -57,7 +57,7 @@ class PassRun {
   std::vector<ArchiveBatch> compute(const PassInput& input);
 
   /// What became due while computing; to be solved by whoever has the time.
-  std::optional<BatchTask> take_batch_task();
+  std::vector<BatchTask> take_batch_tasks();
 
   /// The pass has ended: what was still held, its batch solution, and the end of the run.
   ArchiveBatch finish();
@@ -90,7 +90,7 @@ class PassRun {
   BatchPlan plan_;
   PassEdges edges_;
   std::optional<TaiTime> next_batch_;
-  std::optional<BatchTask> due_;
+  std::vector<BatchTask> due_;
 };
 
 }  // namespace spindrift

@@ -166,8 +166,8 @@ std::vector<ArchiveBatch> Processor::compute(const PassInput& work) {
   return passes_.at(work.spacecraft).compute(work);
 }
 
-std::optional<BatchTask> Processor::take_batch_task(const PassInput& work) {
-  return passes_.at(work.spacecraft).take_batch_task();
+std::vector<BatchTask> Processor::take_batch_tasks(const PassInput& work) {
+  return passes_.at(work.spacecraft).take_batch_tasks();
 }
 
 std::vector<ArchiveBatch> Processor::take(SampleBatch samples) {

@@ -32,7 +32,7 @@ namespace {
 constexpr std::size_t kSamplesTaken = 65'536;
 // Samples between the thread that routes and the one that computes: a whole day's pass in a burst.
 constexpr std::size_t kSamplesToCompute = 1'000'000;
-// Batch solutions that wait; of more that become due the next ones, a minute later, take the place.
+// Batch solutions that wait: those of a minute of many spacecraft, or of hours in a replay.
 constexpr std::size_t kBatchTasks = 256;
 constexpr std::chrono::milliseconds kStuckPoll{200};
 // A backlog of what was stored is computed for so long after the signal to stop. What is left then
@@ -90,12 +90,12 @@ Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& ta
   return {};
 }
 
-/// Solves until `tasks` is closed and empty, or the service is told to stop: the end of a run has a
-/// solution of its own.
+/// Solves until `tasks` is closed and empty, or patience ends: the end of a run has a solution of
+/// its own.
 void solve_batches(BoundedQueue<BatchTask>& tasks, Archive& archive, const Patience& patience) {
   std::map<std::string, std::string> said;
   while (const auto task = tasks.take()) {
-    if (patience.stopping) {
+    if (patience.ended) {
       continue;
     }
     auto solution = solve(*task);
@@ -122,8 +122,8 @@ Expected<std::size_t> compute(BoundedQueue<PassInput>& work, BoundedQueue<BatchT
       work.close();  // Nobody empties it any more.
       return Unexpected{stored.error()};
     }
-    if (auto task = processor.take_batch_task(*input); task && tasks.size() < kBatchTasks) {
-      tasks.push(*std::move(task));
+    for (BatchTask& task : processor.take_batch_tasks(*input)) {
+      tasks.push(std::move(task));
     }
   }
   return left;

@@ -55,7 +55,24 @@ inline std::vector<std::string> product_rows(const std::filesystem::path& db) {
            "SELECT revolution, candidate, ra_deg, dec_deg FROM spin_fix_candidate ORDER BY 1, 2",
            "SELECT t_tai_ns, estimator, ra_deg, dec_deg, sigma_deg, spin_rate_rpm, sigma_rpm,"
            " status, cov_east_east_deg2, cov_east_north_deg2, cov_north_north_deg2"
-           " FROM spin_estimate ORDER BY 1, 2"}) {
+           " FROM spin_estimate WHERE estimator <> 'batch' ORDER BY 1, 2"}) {
+    for (std::string& row : rows_of(db, query)) {
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
+/// What `batch` made of a run in the end. A service solves it every minute besides.
+inline std::vector<std::string> last_batch_rows(const std::filesystem::path& db) {
+  std::vector<std::string> rows;
+  for (const std::string& query : std::vector<std::string>{
+           "SELECT t_tai_ns, ra_deg, dec_deg, sigma_deg, spin_rate_rpm, sigma_rpm, status"
+           " FROM spin_estimate WHERE estimator = 'batch' ORDER BY 1 DESC LIMIT 1",
+           "SELECT t_tai_ns, bound_deg, edges, outliers, noise, iterations, singular_values,"
+           " undetermined, changed_tai_ns FROM spin_batch ORDER BY 1 DESC LIMIT 1",
+           "SELECT t_tai_ns, detected, detectable_deg FROM spin_nutation ORDER BY 1 DESC LIMIT 1",
+           "SELECT name, value, sigma, unit, observable FROM spin_bias ORDER BY 1"}) {
     for (std::string& row : rows_of(db, query)) {
       rows.push_back(std::move(row));
     }

@@ -78,6 +78,7 @@ TEST(Coded, GivesTheSameProductsLiveAsOfflineAndFindsTheAxis) {
   const auto rows = product_rows(offline);
   EXPECT_GT(rows.size(), 4000U);
   EXPECT_EQ(product_rows(served), rows);
+  EXPECT_EQ(last_batch_rows(served), last_batch_rows(offline));
   EXPECT_EQ(coded_rows(offline).size(), 299U);
   EXPECT_EQ(coded_rows(served), coded_rows(offline));
 

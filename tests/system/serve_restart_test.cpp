@@ -104,6 +104,7 @@ TEST_P(ServeRestart, IntoARunningPassGivesWhatNoRestartWouldHave) {
   EXPECT_THAT(service.program().log(), HasSubstr("continuing run"));
   EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NOT NULL"), 1);
   EXPECT_EQ(product_rows(service.db()), product_rows(whole.db()));
+  EXPECT_EQ(last_batch_rows(service.db()), last_batch_rows(whole.db()));
   const auto report = nlohmann::json::parse(service.program().out());
   EXPECT_EQ(report["runs"][0]["revolutions"],
             nlohmann::json::parse(whole.program().out())["runs"][0]["revolutions"]);

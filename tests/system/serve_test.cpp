@@ -37,6 +37,10 @@ TEST(Serve, GivesTheRowsOfProcessBitForBit) {
   const auto rows = product_rows(offline);
   EXPECT_GT(rows.size(), 15000U);
   EXPECT_EQ(product_rows(service.db()), rows);
+  EXPECT_EQ(last_batch_rows(service.db()), last_batch_rows(offline));
+  // Ten minutes of telemetry, and the end.
+  EXPECT_GE(number_of(service.db(), "SELECT count(*) FROM spin_batch"), 9);
+  EXPECT_EQ(number_of(offline, "SELECT count(*) FROM spin_batch"), 1);
 }
 
 TEST(Serve, CountsWhatEachSourceSent) {
@@ -62,9 +66,9 @@ TEST(Serve, PublishesItsResultsForThoseWhoComeLater) {
       bus::Reader<spindrift_Health>::create(participant, bus::kHealthTopic, bus::results_qos())
           .value();
 
-  // The latest of either estimator.
-  const auto latest = take_samples(estimates, 2);
-  ASSERT_EQ(latest.size(), 2U);
+  // The latest of each estimator.
+  const auto latest = take_samples(estimates, 3);
+  ASSERT_EQ(latest.size(), 3U);
   std::vector<spindrift_Health> beats;
   ASSERT_TRUE(eventually([&] {
     health.take([&](const spindrift_Health& beat) { beats.push_back(beat); }).value();
@@ -85,7 +89,7 @@ TEST(Serve, PublishesItsResultsForThoseWhoComeLater) {
                                         "' AND t_tai_ns = " + std::to_string(estimate.t_tai_ns)),
               estimate.ra_deg);
   }
-  EXPECT_THAT(estimators, UnorderedElementsAre("mean", "sequential"));
+  EXPECT_THAT(estimators, UnorderedElementsAre("mean", "sequential", "batch"));
 }
 
 TEST(Serve, HasAReplayedSampleAsSoonAsItIsDue) {
@@ -287,7 +291,8 @@ TEST(Serve, GivesEachOfSeveralMissionsTheRowsOfItsOwnService) {
     const std::string query =
         "SELECT t_tai_ns, ra_deg, dec_deg, sigma_deg, spin_rate_rpm FROM spin_estimate"
         " JOIN run USING (run_id) WHERE spacecraft_id = '" +
-        spacecraft.substr(0, spacecraft.size() - 1) + "' ORDER BY 1, estimator";
+        spacecraft.substr(0, spacecraft.size() - 1) +
+        "' AND estimator <> 'batch' ORDER BY 1, estimator";
     EXPECT_GT(rows_of(alone, query).size(), 500U);
     EXPECT_EQ(rows_of(db, query), rows_of(alone, query));
   }

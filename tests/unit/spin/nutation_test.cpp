@@ -55,7 +55,8 @@ std::vector<SteadyResidual> tipped(const std::vector<Channel>& channels, int tur
            .sigma_rad = kSigma_rad,
            .expected = {.phase_rad = 0.0,
                         .phase_per_rotation = {slope.x(), slope.y(), -1.0},
-                        .phase_per_error = Eigen::Matrix<double, 1, kModelErrors>::Zero()}});
+                        .phase_per_error = Eigen::Matrix<double, 1, kModelErrors>::Zero(),
+                        .phase_per_bias = Eigen::Matrix<double, 1, kSensorBiases>::Zero()}});
     }
   }
   return residuals;

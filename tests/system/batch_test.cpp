@@ -1,0 +1,122 @@
+// The estimator `batch`, as an analyst uses it: at the end of `process`, by itself, in the archive.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "pipelines/frames/celestial.h"
+#include "tests/support/archive_rows.h"
+#include "tests/support/program.h"
+#include "tests/support/recorded_files.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+double error_deg(const nlohmann::json& estimate, const nlohmann::json& truth) {
+  const auto place = [](const nlohmann::json& json) {
+    return direction_icrf({.ra_rad = json["ra_deg"].get<double>() * kDegree_rad,
+                           .dec_rad = json["dec_deg"].get<double>() * kDegree_rad});
+  };
+  return angle_between_rad(place(estimate), place(truth)) / kDegree_rad;
+}
+
+nlohmann::json truth_of(const std::string& pass) {
+  return nlohmann::json::parse(text_of(kPasses / pass / "truth.json"));
+}
+
+TEST(Batch, StandsBesideTheOtherEstimatorsWithBoundAndBiases) {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "out.db";
+  auto words = arguments("nominal", db);
+  words.emplace_back("--json");
+  Program program{words};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  const auto batch = nlohmann::json::parse(program.out())["runs"][0]["batch"];
+  EXPECT_THAT(batch["status"].get<std::string>(), StartsWith("OK, 3"));
+  const double sigma_deg = batch["sigma_deg"].get<double>();
+  EXPECT_LT(error_deg(batch, truth_of("nominal")), std::min(0.05, 3.0 * sigma_deg));
+  EXPECT_NEAR(sigma_deg / batch["bound_deg"].get<double>(), 1.0, 0.01);
+  EXPECT_FALSE(batch["nutation"]["detected"]);
+  EXPECT_EQ(batch["biases"].size(), 8U);
+
+  EXPECT_EQ(number_of(db, "SELECT count(*) FROM spin_batch WHERE outliers < 5 AND noise = 1"), 1);
+  EXPECT_EQ(number_of(db, "SELECT count(*) FROM spin_bias WHERE estimator = 'batch'"), 8);
+  // What the edges leave open is held at its prior.
+  EXPECT_GT(number_of(db, "SELECT count(*) FROM spin_bias WHERE observable = 0 AND value = 0"), 0);
+  EXPECT_EQ(number_of(db, "SELECT count(*) FROM spin_comparison WHERE NOT disagree"), 3);
+  EXPECT_LT(real_of(db, "SELECT max(apart_deg) FROM spin_comparison"), 0.01);
+}
+
+TEST(Batch, SolvesAStoredRunAgainAndOnlyItsLastRevolutions) {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "out.db";
+  auto words = arguments("gms5", db);
+  words.emplace_back("--json");
+  Program process{words};
+  ASSERT_EQ(process.exit_status(), 0) << process.log();
+  const auto in_process = nlohmann::json::parse(process.out())["runs"][0];
+
+  const std::string mission = (kPasses / "gms5" / "mission.toml").string();
+  Program again{{"batch", "--mission", mission, "--db", db.string(), "--json"}};
+  ASSERT_EQ(again.exit_status(), 0) << again.log();
+  const auto solved = nlohmann::json::parse(again.out());
+  EXPECT_EQ(solved["run_id"], in_process["run_id"]);
+  EXPECT_EQ(solved["edges"], in_process["batch"]["edges"]);
+  EXPECT_NEAR(solved["ra_deg"].get<double>(), in_process["batch"]["ra_deg"].get<double>(), 1e-6);
+  EXPECT_LT(error_deg(solved, truth_of("gms5")), 0.02);
+
+  Program last{{"batch", "--mission", mission, "--db", db.string(), "--last", "100", "--json"}};
+  ASSERT_EQ(last.exit_status(), 0) << last.log();
+  const auto hundred = nlohmann::json::parse(last.out());
+  EXPECT_LE(hundred["edges"].get<int>(), 600);
+  EXPECT_GT(hundred["bound_deg"].get<double>(), 2.0 * solved["bound_deg"].get<double>());
+
+  Program text{{"batch", "--mission", mission, "--db", db.string()}};
+  ASSERT_EQ(text.exit_status(), 0) << text.log();
+  EXPECT_THAT(text.out(), HasSubstr("bound        0.0016 deg (Cramer-Rao)"));
+}
+
+TEST(Batch, ASpacecraftOrRunThatTheArchiveHasNotIsNamed) {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "out.db";
+  Program process{arguments("nominal", db)};
+  ASSERT_EQ(process.exit_status(), 0) << process.log();
+  Program other{
+      {"batch", "--mission", (kPasses / "gms5" / "mission.toml").string(), "--db", db.string()}};
+  EXPECT_EQ(other.exit_status(), 2);
+  EXPECT_THAT(other.log(), HasSubstr("has no run of spacecraft 'GMS-5' with revolutions"));
+  Program run{{"batch", "--mission", (kPasses / "nominal" / "mission.toml").string(), "--db",
+               db.string(), "--run", "nope"}};
+  EXPECT_EQ(run.exit_status(), 2);
+  EXPECT_THAT(run.log(), HasSubstr("has no run nope of spacecraft 'SPINNER'"));
+}
+
+TEST(Batch, EstimatesTheBiasesThatTheMissionAsksFor) {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "out.db";
+  Program process{arguments("nominal", db)};
+  ASSERT_EQ(process.exit_status(), 0) << process.log();
+  const auto pass = folder.path() / "pass";
+  std::filesystem::copy(kPasses / "nominal", pass);
+  std::ofstream{pass / "mission.toml", std::ios::app}
+      << "\n[spin.batch]\ndihedral = true\nsun_angle = false\n";
+  Program batch{
+      {"batch", "--mission", (pass / "mission.toml").string(), "--db", db.string(), "--json"}};
+  ASSERT_EQ(batch.exit_status(), 0) << batch.log();
+  const auto solved = nlohmann::json::parse(batch.out());
+  EXPECT_THAT(solved["status"].get<std::string>(), HasSubstr("azimuth between sun sensor and"));
+  const auto& dihedral = solved["biases"]["dihedral"];
+  EXPECT_TRUE(dihedral["observable"]);
+  EXPECT_LT(std::abs(dihedral["value"].get<double>()), 3.0 * dihedral["sigma"].get<double>());
+}
+
+}  // namespace
+}  // namespace spindrift
