@@ -102,12 +102,12 @@ void PassRun::compute(const Sample& sample, ArchiveBatch& computed) {
   }
 }
 
-BatchTask PassRun::batch_task() const {
+BatchTask PassRun::batch_task(PassEdges edges) const {
   return {.run_id = summary_.run_id,
           .spacecraft_id = spacecraft_id_,
           .config = &config_,
           .orbit = &orbit_,
-          .pass = edges_};
+          .pass = std::move(edges)};
 }
 
 /// By the time of telemetry, so that the same telemetry gives the same solutions. What is stored
@@ -118,7 +118,7 @@ void PassRun::note_time(TaiTime t) {
   }
   if (next_batch_ && !catch_up_) {
     edges_.keep_last(kLastRevolutions);
-    due_.push_back(batch_task());
+    due_.push_back(batch_task(edges_));
   }
   next_batch_ = t + kBetweenBatches;
 }
@@ -136,7 +136,7 @@ ArchiveBatch PassRun::finish() {
   if (plan_ == BatchPlan::EveryMinute) {
     edges_.keep_last(kLastRevolutions);
   }
-  if (auto solution = solve(batch_task())) {
+  if (auto solution = solve(batch_task(std::exchange(edges_, {})))) {
     summary_.count(solution->estimate);
     summary_.batch = *solution;
     last.products.emplace_back(solution->estimate);

@@ -72,7 +72,7 @@ class PassRun {
   void compute(const Sample& sample, ArchiveBatch& computed);
   void note(const SpinOutput& output);
   void note_time(TaiTime t);
-  BatchTask batch_task() const;
+  BatchTask batch_task(PassEdges edges) const;
 
   /// What is stored already comes by once more.
   struct CatchUp {
