@@ -42,17 +42,17 @@ bool is_bad(Rejection rejection) {
 }  // namespace
 
 void PassEdges::note(const SpinProduct& product) {
-  std::visit([this](const auto& value) { note(value); }, product);
+  std::visit([this](const auto& value) { take(value); }, product);
 }
 
-void PassEdges::note(const PulseUse& use) {
+void PassEdges::take(const PulseUse& use) {
   if (use.revolution && !(use.rejected_by && is_bad(*use.rejected_by))) {
     edges_.push_back({.pulse = use.pulse, .revolution = *use.revolution});
     last_revolution_ = std::max(last_revolution_, *use.revolution);
   }
 }
 
-void PassEdges::note(const SpinEstimate& estimate) {
+void PassEdges::take(const SpinEstimate& estimate) {
   if (estimate.estimator == SpinEstimator::Mean) {
     mean_ = estimate;
   } else if (estimate.estimator == SpinEstimator::Sequential) {

@@ -28,11 +28,11 @@ class PassEdges {
   std::vector<Eigen::Vector3d> starts() const;
 
  private:
-  void note(const PulseUse& use);
-  void note(const SpinFix& fix) { last_fix_ = fix; }
-  void note(const SpinEstimate& estimate);
+  void take(const PulseUse& use);
+  void take(const SpinFix& fix) { last_fix_ = fix; }
+  void take(const SpinEstimate& estimate);
   template <class Other>
-  void note(const Other& /*product*/) {}
+  void take(const Other& /*product*/) {}
 
   std::vector<PassEdge> edges_;
   std::int64_t last_revolution_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/surroundings.h"
@@ -15,8 +16,8 @@ constexpr double kSkySpan_s = 10.0;
 
 }  // namespace
 
-PassModel::PassModel(const SpinConfig& config, TaiTime first, TaiTime last)
-    : config_{config},
+PassModel::PassModel(SpinConfig config, TaiTime first, TaiTime last)
+    : config_{std::move(config)},
       first_{first},
       middle_{first + (last - first) / 2},
       half_s_{std::max(0.5 * seconds_between(first, last), 1.0)} {}

@@ -81,7 +81,7 @@ class PassModel {
   double half_s() const { return half_s_; }  ///< From the middle of the pass to its ends.
 
  private:
-  PassModel(const SpinConfig& config, TaiTime first, TaiTime last);
+  PassModel(SpinConfig config, TaiTime first, TaiTime last);
 
   SpinConfig config_;
   TaiTime first_;

@@ -1,0 +1,85 @@
+/// What edges leave open of the biases, in words and numbers.
+
+#include "pipelines/spin/batch/observability.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace spindrift {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+/// Edges that know the motion well and say so much of the sum and of the difference of the north
+/// chord's and the north mounting angle's biases; in units of the priors.
+PassInformation of_north(double sum, double difference) {
+  PassInformation pass;
+  pass.information.diagonal().head<kMotionUnknowns>().setConstant(1e8);
+  const double chord = prior_of(NorthChordBias).sigma;
+  const double mount = prior_of(NorthMountAngleBias).sigma;
+  const int c = kMotionUnknowns + NorthChordBias;
+  const int m = kMotionUnknowns + NorthMountAngleBias;
+  pass.information(c, c) = 0.5 * (sum + difference) / (chord * chord);
+  pass.information(m, m) = 0.5 * (sum + difference) / (mount * mount);
+  pass.information(c, m) = pass.information(m, c) = 0.5 * (sum - difference) / (chord * mount);
+  return pass;
+}
+
+const BiasSet kNorth = BiasSet{}.set(NorthChordBias).set(NorthMountAngleBias);
+
+TEST(Observability, WhatTheEdgesDetermineIsObservable) {
+  const Observability observed{of_north(1e4, 1e4), kNorth};
+  SensorBiases biases = SensorBiases::Zero();
+  biases[NorthChordBias] = 0.01;
+  const auto estimates = observed.biases(biases);
+  ASSERT_EQ(estimates.size(), 2U);
+  EXPECT_EQ(estimates[0].bias, NorthChordBias);
+  EXPECT_TRUE(estimates[0].observable);
+  EXPECT_EQ(estimates[0].value, 0.01);
+  // A hundredth of the prior's.
+  EXPECT_NEAR(estimates[0].sigma / prior_of(NorthChordBias).sigma, 0.01, 1e-6);
+  EXPECT_THAT(observed.undetermined(), IsEmpty());
+}
+
+TEST(Observability, ADirectionThatIsLeftOpenIsNamedAndHeldAtItsPrior) {
+  const Observability observed{of_north(1e4, 0.01), kNorth};
+  EXPECT_THAT(
+      observed.undetermined(),
+      ElementsAre("north chord and north mounting angle cannot be told apart in this geometry"));
+  SensorBiases biases = SensorBiases::Zero();
+  biases[NorthChordBias] = 0.01;
+  for (const BiasEstimate& estimate : observed.biases(biases)) {
+    EXPECT_FALSE(estimate.observable);
+    EXPECT_EQ(estimate.value, 0.0);
+    EXPECT_EQ(estimate.sigma, prior_of(estimate.bias).sigma);
+  }
+}
+
+TEST(Observability, ABiasThatNoEdgeDependsOnIsNotDetermined) {
+  const PassInformation pass = of_north(1e4, 1e4);
+  EXPECT_EQ(seen_biases(pass), kNorth);
+  const Observability observed{pass, BiasSet{}.set(Co2HeightBias)};
+  EXPECT_THAT(observed.undetermined(),
+              ElementsAre("height of the infrared horizon is not determined in this geometry"));
+}
+
+TEST(Observability, SingularValuesAreOfTheUnknownsOnlyLargestFirst) {
+  const auto values = Observability{of_north(1e4, 4.0), kNorth}.singular_values();
+  ASSERT_EQ(values.size(), 7U);
+  EXPECT_NEAR(values[0], 1e4, 1e-6);
+  EXPECT_NEAR(values[5], 100.0, 1e-9);
+  EXPECT_NEAR(values[6], 2.0, 1e-9);
+}
+
+TEST(Observability, AMotionThatIsLeftOpenHasALargeSigma) {
+  PassInformation nothing;
+  const Observability observed{nothing, {}};
+  EXPECT_NEAR(observed.axis_covariance_rad2().trace(), 2.0, 1e-12);
+  EXPECT_THAT(observed.undetermined(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace spindrift

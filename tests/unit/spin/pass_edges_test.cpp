@@ -1,0 +1,89 @@
+/// What `batch` takes of the products of a pass.
+
+#include "pipelines/spin/batch/pass_edges.h"
+
+#include <gtest/gtest.h>
+
+#include "pipelines/frames/celestial.h"
+
+namespace spindrift {
+namespace {
+
+PulseUse use(std::int64_t t_ns, PulseChannel channel, std::optional<std::int64_t> revolution,
+             std::optional<Rejection> rejected_by = std::nullopt) {
+  return {.pulse = {.t = tai_from_ns(t_ns), .channel = channel},
+          .revolution = revolution,
+          .rejected_by = rejected_by};
+}
+
+SpinEstimate estimate(SpinEstimator estimator, const Eigen::Vector3d& axis_icrf,
+                      std::string status) {
+  return {.t = {},
+          .estimator = estimator,
+          .axis_icrf = axis_icrf,
+          .covariance_rad2 = Eigen::Matrix2d::Identity(),
+          .spin_rate_rad_s = 1.0,
+          .spin_rate_sigma_rad_s = 1.0,
+          .status = std::move(status)};
+}
+
+SpinFix fix(const Eigen::Vector3d& axis_icrf, const Eigen::Vector3d& alternate_icrf) {
+  return {.revolution = 1,
+          .t = {},
+          .geometry_case = 2,
+          .axis_icrf = axis_icrf,
+          .covariance_rad2 = Eigen::Matrix2d::Identity(),
+          .alternate_axes_icrf = {alternate_icrf},
+          .resolution = Resolution::Ambiguous,
+          .norm = 1.0,
+          .accepted = false};
+}
+
+TEST(PassEdges, AreThoseThatARevolutionHasAPlaceForInOrderAndOnce) {
+  PassEdges pass;
+  pass.note(use(30, PulseChannel::NorthIn, 1));
+  pass.note(use(10, PulseChannel::Sun1, 1));
+  pass.note(use(10, PulseChannel::Sun1, 1));  // Told again, decided.
+  pass.note(use(20, PulseChannel::Sun2, 1, Rejection::SunAngle));
+  pass.note(use(25, PulseChannel::Sun2, 1, Rejection::Phase));
+  pass.note(use(40, PulseChannel::SouthIn, std::nullopt, Rejection::Unassociated));
+  const auto edges = pass.edges();
+  ASSERT_EQ(edges.size(), 3U);
+  EXPECT_EQ(edges[0].pulse.channel, PulseChannel::Sun1);
+  // Its angle failed; which of the two edges it was, the fit finds out.
+  EXPECT_EQ(edges[1].pulse.channel, PulseChannel::Sun2);
+  EXPECT_EQ(edges[2].pulse.channel, PulseChannel::NorthIn);
+}
+
+TEST(PassEdges, KeepTheLastRevolutions) {
+  PassEdges pass;
+  for (std::int64_t revolution = 0; revolution < 10; ++revolution) {
+    pass.note(use(revolution, PulseChannel::Sun1, revolution));
+  }
+  pass.keep_last(3);
+  const auto edges = pass.edges();
+  ASSERT_EQ(edges.size(), 3U);
+  EXPECT_EQ(edges.front().revolution, 7);
+}
+
+TEST(PassEdges, BeginAtTheEstimatesAndWhereTheseAreAmbiguousAtAllCandidates) {
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  PassEdges pass;
+  EXPECT_TRUE(pass.starts().empty());
+  pass.note(fix(x, y));
+  EXPECT_EQ(pass.starts().size(), 2U);
+  pass.note(estimate(SpinEstimator::Sequential, x, "AMBIGUOUS, or ra 90 dec 0 deg"));
+  EXPECT_EQ(pass.starts().size(), 2U);
+  pass.note(estimate(SpinEstimator::Mean, z, "OK, 20 fixes"));
+  EXPECT_EQ(pass.starts().size(), 3U);
+  pass.note(estimate(SpinEstimator::Sequential, x, "OK, 20 revolutions"));
+  const auto starts = pass.starts();
+  ASSERT_EQ(starts.size(), 2U);
+  EXPECT_EQ(starts[0], x);
+  EXPECT_EQ(starts[1], z);
+}
+
+}  // namespace
+}  // namespace spindrift
