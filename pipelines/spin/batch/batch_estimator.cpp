@@ -89,9 +89,10 @@ Expected<Best> best_of(const PassModel& model, std::span<const PassEdge> edges,
   std::stable_sort(all.begin(), all.end(),
                    [](const Explained& a, const Explained& b) { return a.misfit() < b.misfit(); });
   const Eigen::Vector3d axis_icrf = all.front().fit.state.axis_icrf();
+  const double settled = kSettled * all.front().information.excess_noise(kMotionUnknowns);
   const auto other = std::find_if(all.begin(), all.end(), [&](const Explained& one) {
     return angle_between_rad(one.fit.state.axis_icrf(), axis_icrf) > kSameAxis_rad &&
-           one.misfit() < all.front().misfit() + kSettled;
+           one.misfit() < all.front().misfit() + settled;
   });
   return Best{.best = all.front(),
               .or_axis_icrf =
@@ -240,7 +241,7 @@ std::string status_of(const Solved& solved, const BatchSolution& solution) {
   const bool dirty = best.information.outlier_share() > kManyOutliers;
   const bool bounded = best.fit.at_bound.any();
   std::string status =
-      noisy || dirty || bounded ? "DOUBTFUL" : (solved.of.or_axis_icrf ? "AMBIGUOUS" : "OK");
+      solved.of.or_axis_icrf ? "AMBIGUOUS" : (noisy || dirty || bounded ? "DOUBTFUL" : "OK");
   if (solved.of.or_axis_icrf) {
     const RaDec other = ra_dec_of(*solved.of.or_axis_icrf);
     status += fmt::format(", or ra {:.2f} dec {:.2f} deg", other.ra_rad / kDegree_rad,
