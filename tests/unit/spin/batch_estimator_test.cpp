@@ -180,6 +180,7 @@ TEST(BatchEstimator, ABiasBeyondWhatASensorMayHaveRunsToItsBound) {
   const auto solution = scene.solved(edges);
   ASSERT_TRUE(solution) << solution.error().message;
   EXPECT_THAT(solution->estimate.status, StartsWith("DOUBTFUL"));
+  EXPECT_THAT(solution->estimate.status, HasSubstr("north chord runs to its bound"));
 }
 
 }  // namespace
