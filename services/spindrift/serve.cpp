@@ -1,6 +1,8 @@
 #include "services/spindrift/serve.h"
 
 #include <fmt/format.h>
+#include <pthread.h>
+#include <sched.h>
 #include <spdlog/spdlog.h>
 
 #include <atomic>
@@ -9,6 +11,7 @@
 #include <memory>
 #include <stop_token>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -90,9 +93,20 @@ Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& ta
   return {};
 }
 
+/// Nobody waits for the solution of a minute, and everybody for fixes: it gets what processor time
+/// they leave.
+void give_way_to_other_threads() {
+  const sched_param none{};
+  if (const int failed = pthread_setschedparam(pthread_self(), SCHED_IDLE, &none); failed != 0) {
+    spdlog::warn("batch solutions compete with fixes for the processor: {}",
+                 std::generic_category().message(failed));
+  }
+}
+
 /// Solves until `tasks` is closed and empty, or patience ends: the end of a run has a solution of
 /// its own.
 void solve_batches(BoundedQueue<BatchTask>& tasks, Archive& archive, const Patience& patience) {
+  give_way_to_other_threads();
   std::map<std::string, std::string> said;
   while (const auto task = tasks.take()) {
     if (patience.ended) {
