@@ -1,38 +1,67 @@
 #include "services/archive/batch_queue.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <utility>
 
 namespace spindrift {
 namespace {
+
+using std::chrono::steady_clock;
 
 // So many rows of samples press: a burst, more than come during a commit at any live rate.
 constexpr std::size_t kPressing = 128;
 // So long do a few samples wait for others, and for products, to share a commit.
 constexpr std::chrono::milliseconds kGathering{5};
 // Rows of products in one transaction: about as long do the next samples wait.
-constexpr std::size_t kProductsAtOnce = 8192;
+constexpr std::int64_t kProductsAtOnce = 8192;
+// So many rows of details no longer wait for a commit that has no results to delay.
+constexpr std::size_t kManyDetails = 8192;
 // Rows of samples for one of products while they press.
-constexpr std::size_t kSamplesAProduct = 8;
+constexpr std::int64_t kSamplesAProduct = 8;
+
+std::int64_t signed_size(std::size_t size) { return static_cast<std::int64_t>(size); }
 
 bool has_products(const ArchiveBatch& batch) {
   return !batch.products.empty() || batch.continuation || batch.finished_utc;
 }
 
+bool has_details(const ArchiveBatch& batch) {
+  return std::any_of(batch.products.begin(), batch.products.end(), is_detail);
+}
+
+bool has_details_only(const ArchiveBatch& batch) {
+  return !batch.products.empty() && row_count(batch) == batch.products.size() &&
+         !batch.continuation &&
+         std::all_of(batch.products.begin(), batch.products.end(), is_detail);
+}
+
 }  // namespace
 
 bool BatchQueue::push(ArchiveBatch batch) {
-  const std::size_t rows = row_count(batch);
+  const bool are_details = has_details_only(batch);
+  const bool are_products = has_products(batch);
   std::unique_lock lock{mutex_};
-  Lane& lane = has_products(batch) ? products_ : samples_;
-  room_.wait(lock, [&] { return closed_ || lane.rows < capacity_rows_; });
+  room_.wait(lock, [&] {
+    return closed_ ||
+           capacity_rows_ > (are_products ? products_.rows + details_.rows() : samples_.rows);
+  });
   if (closed_) {
     return false;
   }
-  const bool was_empty = is_empty();
-  lane.batches.push_back(std::move(batch));
-  lane.rows += rows;
-  const bool is_news = was_empty || is_worth_a_commit();
+  const bool was_empty = is_empty() && details_.rows() == 0;
+  if (are_details) {
+    details_.push(std::move(batch), steady_clock::now());
+  } else {
+    if (batch.continuation || batch.finished_utc || has_details(batch)) {
+      for (ArchiveBatch& earlier : details_.take_all(batch.run_id)) {
+        append(std::move(earlier), products_);
+      }
+    }
+    append(std::move(batch), are_products ? products_ : samples_);
+  }
+  const bool is_news = was_empty || is_worth_a_commit() || (are_details && is_detail_due());
   lock.unlock();
   if (is_news) {
     filled_.notify_one();
@@ -42,35 +71,70 @@ bool BatchQueue::push(ArchiveBatch batch) {
 
 std::vector<ArchiveBatch> BatchQueue::take() {
   std::unique_lock lock{mutex_};
-  filled_.wait(lock, [this] { return closed_ || !is_empty(); });
-  filled_.wait_for(lock, kGathering, [this] { return closed_ || is_worth_a_commit(); });
+  wait_for_work(lock);
   std::vector<ArchiveBatch> taken;
-  const std::size_t sample_rows = samples_.rows;
+  const bool is_pressing = samples_.rows >= kPressing;
+  owed_rows_ =
+      is_pressing ? owed_rows_ + signed_size(samples_.rows) / kSamplesAProduct : kProductsAtOnce;
   while (!samples_.batches.empty()) {
     move_first(samples_, taken);
   }
-  if (sample_rows >= kPressing) {
-    allowance_rows_ += sample_rows / kSamplesAProduct;
-    while (!products_.batches.empty() && row_count(products_.batches.front()) <= allowance_rows_) {
-      allowance_rows_ -= row_count(products_.batches.front());
-      move_first(products_, taken);
-    }
-  } else {
-    allowance_rows_ = 0;
-    const std::size_t left = products_.rows;
-    while (!products_.batches.empty() && left - products_.rows < kProductsAtOnce) {
-      move_first(products_, taken);
-    }
+  const std::size_t without_products = taken.size();
+  while (owed_rows_ > 0 && !products_.batches.empty()) {
+    move_product(taken);
   }
+  const bool has_products = taken.size() > without_products;
+  if (owed_rows_ > 0 && (!has_products || details_.rows() >= kManyDetails)) {
+    move_details(details_.take_due(closed_ ? DetailLane::Instant::max() : steady_clock::now(),
+                                   static_cast<std::size_t>(owed_rows_)),
+                 taken);
+  }
+  owed_rows_ = is_pressing ? owed_rows_ : 0;
   lock.unlock();
   room_.notify_all();
   return taken;
+}
+
+// Samples wait a moment more for others.
+void BatchQueue::wait_for_work(std::unique_lock<std::mutex>& lock) {
+  const auto is_due = [this] { return closed_ || !is_empty() || is_detail_due(); };
+  while (!is_due()) {
+    if (const auto next = details_.next_due()) {
+      filled_.wait_until(lock, *next);
+    } else {
+      filled_.wait(lock);
+    }
+  }
+  filled_.wait_for(lock, kGathering,
+                   [this] { return closed_ || is_worth_a_commit() || is_detail_due(); });
 }
 
 bool BatchQueue::is_empty() const { return samples_.batches.empty() && products_.batches.empty(); }
 
 bool BatchQueue::is_worth_a_commit() const {
   return !products_.batches.empty() || samples_.rows >= kPressing;
+}
+
+bool BatchQueue::is_detail_due() const {
+  const auto next = details_.next_due();
+  return next && *next <= steady_clock::now();
+}
+
+void BatchQueue::move_product(std::vector<ArchiveBatch>& taken) {
+  owed_rows_ -= signed_size(row_count(products_.batches.front()));
+  move_first(products_, taken);
+}
+
+void BatchQueue::move_details(std::vector<ArchiveBatch> details, std::vector<ArchiveBatch>& taken) {
+  for (ArchiveBatch& batch : details) {
+    owed_rows_ -= signed_size(row_count(batch));
+    taken.push_back(std::move(batch));
+  }
+}
+
+void BatchQueue::append(ArchiveBatch batch, Lane& lane) {
+  lane.rows += row_count(batch);
+  lane.batches.push_back(std::move(batch));
 }
 
 void BatchQueue::move_first(Lane& lane, std::vector<ArchiveBatch>& taken) {
@@ -90,7 +154,7 @@ void BatchQueue::close() {
 
 std::size_t BatchQueue::size() const {
   const std::lock_guard lock{mutex_};
-  return samples_.batches.size() + products_.batches.size();
+  return samples_.batches.size() + products_.batches.size() + details_.size();
 }
 
 }  // namespace spindrift

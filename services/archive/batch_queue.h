@@ -1,21 +1,24 @@
 /// @file
-/// Batches on their way to the writer thread: samples first.
+/// Batches on their way to the writer thread: samples first, then results, then details.
 
 #pragma once
 
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <mutex>
 #include <vector>
 
+#include "services/archive/detail_lane.h"
 #include "services/archive/records.h"
 
 namespace spindrift {
 
 /// Many submitters, one writer. Samples cannot be had again, products can be computed again: while
 /// samples press, most products wait, and their submitter with them. A batch with products never
-/// overtakes one that was pushed before it, so a product is never taken before its samples.
+/// overtakes one that was pushed before it, so a product is never taken before its samples; but one
+/// with nothing else than details waits for company (detail_lane.h).
 ///
 /// Bounded in rows, samples and products each for themselves: a full queue blocks `push`. After
 /// `close()` pushes are refused and what is queued can still be taken.
@@ -28,7 +31,8 @@ class BatchQueue {
 
   /// Waits for at least one batch, and with samples only for a moment more: each commit costs a
   /// sync, and products wait behind it. Takes all the samples, and products: many, or in a
-  /// burst of samples a small share; empty only when closed and drained.
+  /// burst of samples a small share; of details those that are due of one run. Empty only when
+  /// closed and drained.
   std::vector<ArchiveBatch> take();
 
   void close();
@@ -42,6 +46,11 @@ class BatchQueue {
   };
   bool is_empty() const;
   bool is_worth_a_commit() const;
+  bool is_detail_due() const;
+  void wait_for_work(std::unique_lock<std::mutex>& lock);
+  void move_product(std::vector<ArchiveBatch>& taken);
+  void move_details(std::vector<ArchiveBatch> details, std::vector<ArchiveBatch>& taken);
+  static void append(ArchiveBatch batch, Lane& lane);
   static void move_first(Lane& lane, std::vector<ArchiveBatch>& taken);
 
   const std::size_t capacity_rows_;
@@ -50,7 +59,8 @@ class BatchQueue {
   std::condition_variable filled_;
   Lane samples_;
   Lane products_;
-  std::size_t allowance_rows_ = 0;  ///< Of products, saved up while samples press.
+  DetailLane details_;          ///< In the bound of products.
+  std::int64_t owed_rows_ = 0;  ///< To products, while samples press.
   bool closed_ = false;
 };
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "pipelines/spin/batch/batch_solution.h"
@@ -64,6 +65,12 @@ struct ArchiveBatch {
   std::vector<SourceCount> source_counts = {};
   std::optional<std::string> finished_utc = {};  ///< ISO 8601, ending in Z.
 };
+
+/// What results rest on: announced to nobody, and not to be waited for.
+inline bool is_detail(const SpinProduct& product) {
+  return !std::holds_alternative<SpinFix>(product) &&
+         !std::holds_alternative<SpinEstimate>(product);
+}
 
 /// Rows that `batch` asks for, those the archive already holds included.
 inline std::size_t row_count(const ArchiveBatch& batch) {

@@ -20,8 +20,14 @@ std::optional<double> real_of(const SQLite::Column& column) {
 
 constexpr const char* kFindRuns =
     "SELECT run_id, first_arrival, first_tai_ns, next_arrival, next_tai_ns,"
-    " (SELECT t_tai_ns FROM revolution WHERE revolution.run_id = same.run_id"
-    "  ORDER BY revolution DESC LIMIT 1),"
+    // Each of these tables is filled in order, and one may be behind the others: detail_lane.h.
+    " min((SELECT t_tai_ns FROM revolution AS last WHERE last.run_id = same.run_id"
+    "   ORDER BY revolution DESC LIMIT 1),"
+    "  (SELECT t_tai_ns FROM revolution AS last WHERE last.run_id = same.run_id AND revolution <="
+    "   (SELECT max(revolution) FROM spin_measurement AS one WHERE one.run_id = same.run_id)"
+    "   ORDER BY revolution DESC LIMIT 1),"
+    "  (SELECT max(t_tai_ns) FROM pulse_use AS one WHERE one.run_id = same.run_id"
+    "   AND one.spacecraft_id = same.spacecraft_id)),"
     " (SELECT count(*) FROM rejected_input WHERE rejected_input.run_id = same.run_id)"
     " FROM (SELECT *, lead(first_arrival) OVER following AS next_arrival,"
     "  lead(first_tai_ns) OVER following AS next_tai_ns"

@@ -35,8 +35,9 @@ struct StoredPass {
   std::string run_id;
   std::int64_t first_arrival;
   std::optional<NextRun> next;
-  std::optional<TaiTime> earliest;         ///< Of its samples; empty: it has none.
-  std::optional<TaiTime> last_revolution;  ///< The last one it has stored began then.
+  std::optional<TaiTime> earliest;  ///< Of its samples; empty: it has none.
+  /// The last one of which it has stored all began then.
+  std::optional<TaiTime> last_revolution;
   std::int64_t rejected_inputs;
   std::vector<SourceCount> source_counts;
   std::vector<StoredPulse> pulses;  ///< In order of arrival; so are the frames.

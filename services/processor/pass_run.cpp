@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
-#include <iterator>
 #include <utility>
 #include <variant>
 
@@ -72,33 +71,38 @@ std::vector<ArchiveBatch> PassRun::compute(const PassInput& input) {
     finished_.push_back(std::move(summary_));
     begin(input.run_id);
   }
-  ArchiveBatch computed = batch();
+  Computed computed;
+  computed.fill(batch());
   for (const Pulse& pulse : input.pulses) {
     compute(pulse, computed);
   }
   for (const CodedFrame& frame : input.frames) {
     compute(frame, computed);
   }
-  if (!computed.products.empty() || computed.continuation) {
-    batches.push_back(std::move(computed));
+  for (ArchiveBatch& batch : computed) {
+    if (!batch.products.empty() || batch.continuation) {
+      batches.push_back(std::move(batch));
+    }
   }
   return batches;
 }
 
 template <class Sample>
-void PassRun::compute(const Sample& sample, ArchiveBatch& computed) {
+void PassRun::compute(const Sample& sample, Computed& computed) {
   SpinOutput output = pass_.push(sample);
   note(output);
   if (catch_up_ && sample.t >= catch_up_->again_from) {
-    computed.continuation = Continuation{.t = catch_up_->again_from};
-    catch_up_->latest.move_to(computed.products);
+    computed.front().continuation = Continuation{.t = catch_up_->again_from};
+    catch_up_->latest.move_to(computed.front().products);
     catch_up_.reset();
   }
   if (catch_up_) {
     catch_up_->latest.note(output.products);
   } else {
-    std::move(output.products.begin(), output.products.end(),
-              std::back_inserter(computed.products));
+    for (SpinProduct& product : output.products) {
+      const std::size_t place = is_detail(product) ? 1 + product.index() : 0;
+      computed.at(place).products.push_back(std::move(product));
+    }
   }
 }
 

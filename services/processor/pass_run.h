@@ -3,11 +3,13 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "pipelines/spin/spin_pass.h"
@@ -68,8 +70,10 @@ class PassRun {
  private:
   void begin(const std::string& run_id);
   ArchiveBatch batch() const;
+  /// First the results, then what may be stored later (detail_lane.h), each kind by itself.
+  using Computed = std::array<ArchiveBatch, 1 + std::variant_size_v<SpinProduct>>;
   template <class Sample>
-  void compute(const Sample& sample, ArchiveBatch& computed);
+  void compute(const Sample& sample, Computed& computed);
   void note(const SpinOutput& output);
   void note_time(TaiTime t);
   BatchTask batch_task(PassEdges edges) const;

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "services/archive/batch_queue.h"
 #include "services/archive/stored_pass.h"
 #include "tests/integration/archive_fixture.h"
 
@@ -131,34 +130,36 @@ TEST_F(ArchiveRestart, OnlyARunThatWasMadeTheSameWayIsContinued) {
   EXPECT_TRUE(find_stored_passes(path(), "OTHER", kRunStart).value().empty());
 }
 
+SpinProduct revolution_at(std::int64_t number) {
+  return RevolutionProduct{
+      .revolution = number, .t_sun1 = tai_from_ns(10 * number), .period_s = 0.6};
+}
+
+SpinProduct period_of(std::int64_t number) {
+  return SpinMeasurement{.revolution = number,
+                         .quantity = SpinQuantity::Period,
+                         .value = 0.6,
+                         .sigma = 0.1,
+                         .rejected_by = {}};
+}
+
+SpinProduct use_at(std::int64_t t_tai_ns) {
+  return PulseUse{
+      .pulse = pulse_at(t_tai_ns).pulse, .revolution = t_tai_ns / 10, .rejected_by = {}};
+}
+
 TEST_F(ArchiveRestart, RunThatGoesOnIsNotFinishedAndItsLastProductsAreWithdrawn) {
   const auto archive = open();
-  const auto revolution = [](std::int64_t number) {
-    return RevolutionProduct{
-        .revolution = number, .t_sun1 = tai_from_ns(number * 10), .period_s = 0.6};
-  };
-  const auto period = [](std::int64_t number) {
-    return SpinMeasurement{.revolution = number,
-                           .quantity = SpinQuantity::Period,
-                           .value = 0.6,
-                           .sigma = 0.1,
-                           .rejected_by = std::nullopt};
-  };
-  const auto use = [](std::int64_t number) {
-    return PulseUse{.pulse = {.t = tai_from_ns(number * 10), .channel = PulseChannel::Sun1},
-                    .revolution = number,
-                    .rejected_by = std::nullopt};
-  };
   ArchiveBatch whole = start_of("run-1");
   for (std::int64_t number = 0; number < 5; ++number) {
     whole.products.insert(whole.products.end(),
-                          {SpinProduct{revolution(number)}, period(number), use(number)});
+                          {revolution_at(number), period_of(number), use_at(10 * number)});
   }
   whole.finished_utc = "2026-11-20T04:00:00Z";
   ASSERT_TRUE(archive->submit(whole));
   ArchiveBatch again = batch_of("run-1");
   again.continuation = Continuation{.t = tai_from_ns(30)};
-  again.products = {revolution(3)};
+  again.products = {revolution_at(3)};
   ASSERT_TRUE(archive->submit(again));
   ASSERT_TRUE(archive->flush());
 
@@ -166,7 +167,23 @@ TEST_F(ArchiveRestart, RunThatGoesOnIsNotFinishedAndItsLastProductsAreWithdrawn)
   EXPECT_EQ(text("SELECT group_concat(revolution, ' ') FROM revolution"), "0 1 2 3");
   EXPECT_EQ(text("SELECT group_concat(revolution, ' ') FROM spin_measurement"), "0 1 2");
   EXPECT_EQ(text("SELECT group_concat(revolution, ' ') FROM pulse_use"), "0 1 2");
-  EXPECT_EQ(stored()->last_revolution, tai_from_ns(30));
+}
+
+TEST_F(ArchiveRestart, LastRevolutionIsTheOneThatNoTableIsBehind) {
+  const auto archive = open();
+  const auto after = [&](std::vector<SpinProduct> products) {
+    ArchiveBatch batch = batch_of("run-1");
+    batch.products = std::move(products);
+    EXPECT_TRUE(archive->submit(std::move(batch)));
+    EXPECT_TRUE(archive->flush());
+    return stored()->last_revolution;
+  };
+  ASSERT_TRUE(archive->submit(start_of("run-1")));
+  EXPECT_EQ(after({revolution_at(1), revolution_at(2), revolution_at(3)}), std::nullopt);
+  EXPECT_EQ(after({use_at(15)}), std::nullopt);
+  EXPECT_EQ(after({period_of(1), period_of(2)}), tai_from_ns(15));
+  EXPECT_EQ(after({use_at(25), use_at(35)}), tai_from_ns(20));
+  EXPECT_EQ(after({period_of(4)}), tai_from_ns(30));
 }
 
 TEST_F(ArchiveRestart, MeasurementsOfRevolutionsWithoutSun1AreWithdrawnToo) {
@@ -248,55 +265,6 @@ TEST_F(ArchiveRestart, WhatBecomesOfAnEdgeLaterStandsButNotThatItIsLate) {
   store(batch);
   EXPECT_EQ(text("SELECT revolution || ' ' || accepted || ifnull(rejected_by, '') FROM pulse_use"),
             "3 1");
-}
-
-ArchiveBatch samples(std::size_t count) {
-  ArchiveBatch batch = batch_of("samples");
-  batch.pulses.assign(count, pulse_at(1));
-  return batch;
-}
-
-ArchiveBatch products(std::size_t count) {
-  ArchiveBatch batch = batch_of("products");
-  batch.products.assign(
-      count, RevolutionProduct{.revolution = 1, .t_sun1 = tai_from_ns(1), .period_s = 1.0});
-  return batch;
-}
-
-std::vector<std::string> names_of(const std::vector<ArchiveBatch>& batches) {
-  std::vector<std::string> names;
-  for (const ArchiveBatch& batch : batches) {
-    names.push_back(batch.run_id);
-  }
-  return names;
-}
-
-TEST(BatchQueue, GivesSamplesFirstAndAllWhenThereAreFew) {
-  BatchQueue queue{1000};
-  ASSERT_TRUE(queue.push(products(10)));
-  ASSERT_TRUE(queue.push(samples(10)));
-  ASSERT_TRUE(queue.push(products(10)));
-  EXPECT_THAT(names_of(queue.take()), ElementsAre("samples", "products", "products"));
-}
-
-TEST(BatchQueue, LetsProductsWaitInABurstOfSamplesButNotForEver) {
-  BatchQueue queue{100'000};
-  ASSERT_TRUE(queue.push(products(500)));
-  ASSERT_TRUE(queue.push(products(500)));
-  ASSERT_TRUE(queue.push(samples(3200)));
-  EXPECT_THAT(names_of(queue.take()), ElementsAre("samples"));
-  ASSERT_TRUE(queue.push(samples(3200)));
-  EXPECT_THAT(names_of(queue.take()), ElementsAre("samples", "products"));
-  EXPECT_THAT(names_of(queue.take()), ElementsAre("products"));
-}
-
-TEST(BatchQueue, GivesWhatIsLeftOnceClosedAndThenNothing) {
-  BatchQueue queue{10};
-  ASSERT_TRUE(queue.push(products(10)));
-  queue.close();
-  EXPECT_FALSE(queue.push(samples(1)));
-  EXPECT_THAT(names_of(queue.take()), ElementsAre("products"));
-  EXPECT_TRUE(queue.take().empty());
 }
 
 }  // namespace

@@ -1,0 +1,80 @@
+#include "services/archive/detail_lane.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace spindrift {
+namespace {
+
+// Some ten revolutions: more share a page no better, and take longer than a commit should.
+constexpr std::size_t kEnough = 64;
+constexpr std::chrono::seconds kLongest{1};
+
+}  // namespace
+
+void DetailLane::push(ArchiveBatch batch, Instant now) {
+  const std::size_t rows = row_count(batch);
+  Waiting& waiting = waiting_
+                         .try_emplace({batch.run_id, batch.products.front().index()},
+                                      Waiting{.batches = {}, .rows = 0, .since = now})
+                         .first->second;
+  waiting.rows += rows;
+  rows_ += rows;
+  waiting.batches.push_back(std::move(batch));
+}
+
+std::vector<ArchiveBatch> DetailLane::take_due(Instant now, std::size_t rows) {
+  const auto next =
+      std::min_element(waiting_.begin(), waiting_.end(),
+                       [](const auto& a, const auto& b) { return due(a.second) < due(b.second); });
+  std::vector<ArchiveBatch> taken;
+  if (next != waiting_.end() && due(next->second) <= now) {
+    move(next, rows, taken);
+  }
+  return taken;
+}
+
+std::vector<ArchiveBatch> DetailLane::take_all(const std::string& run_id) {
+  std::vector<ArchiveBatch> taken;
+  auto group = waiting_.lower_bound({run_id, 0});
+  while (group != waiting_.end() && group->first.first == run_id) {
+    move(group++, std::numeric_limits<std::size_t>::max(), taken);
+  }
+  return taken;
+}
+
+std::optional<DetailLane::Instant> DetailLane::next_due() const {
+  std::optional<Instant> next;
+  for (const auto& [group, waiting] : waiting_) {
+    next = std::min(next.value_or(Instant::max()), due(waiting));
+  }
+  return next;
+}
+
+std::size_t DetailLane::size() const {
+  return std::accumulate(
+      waiting_.begin(), waiting_.end(), std::size_t{0},
+      [](std::size_t sum, const auto& run) { return sum + run.second.batches.size(); });
+}
+
+DetailLane::Instant DetailLane::due(const Waiting& waiting) {
+  return waiting.rows >= kEnough ? waiting.since : waiting.since + kLongest;
+}
+
+void DetailLane::move(Groups::iterator group, std::size_t rows, std::vector<ArchiveBatch>& taken) {
+  Waiting& waiting = group->second;
+  for (const std::size_t before = waiting.rows;
+       !waiting.batches.empty() && before - waiting.rows < rows;) {
+    waiting.rows -= row_count(waiting.batches.front());
+    rows_ -= row_count(waiting.batches.front());
+    taken.push_back(std::move(waiting.batches.front()));
+    waiting.batches.pop_front();
+  }
+  if (waiting.batches.empty()) {
+    waiting_.erase(group);
+  }
+}
+
+}  // namespace spindrift
