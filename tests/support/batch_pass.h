@@ -35,6 +35,17 @@ inline std::vector<PassEdge> noisy_pass(const SpinningBody& body, const std::vec
   return counted(body, pulses_from(edges, kTransferStart, body.config.noise, rng));
 }
 
+/// The body as the model has it: its own frame, seen from the middle of the pass.
+inline SpinState true_state(const SpinningBody& body, const PassModel& model) {
+  const double turn_rad =
+      body.first_turn_rad + body.rate_rad_s * seconds_between(kTransferStart, model.middle());
+  return {
+      .q_icrf_spin = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), body.axis_icrf) *
+                     Eigen::Quaterniond{Eigen::AngleAxisd{turn_rad, Eigen::Vector3d::UnitZ()}},
+      .rate_rad_s = body.rate_rad_s,
+      .drift_rad_s2 = 0.0};
+}
+
 /// Some degrees from the axis, as a fix would be.
 inline Eigen::Vector3d start_near(const SpinningBody& body, double off_rad, std::mt19937_64& rng) {
   const double azimuth_rad = std::uniform_real_distribution{0.0, 2.0 * std::numbers::pi}(rng);
