@@ -55,6 +55,34 @@ TEST(Batch, StandsBesideTheOtherEstimatorsWithBoundAndBiases) {
   EXPECT_LT(real_of(db, "SELECT max(apart_deg) FROM spin_comparison"), 0.01);
 }
 
+TEST(Batch, EstimatorsThatAModelErrorSetsApartAreNamedAsTheViewFlagsThem) {
+  const PassCopy pass{"nominal"};
+  std::string mission = text_of(pass.mission());
+  // `batch` finds the bias, the others have it as an error.
+  mission.replace(mission.find("mount_angle_deg = 85"), 20, "mount_angle_deg = 86");
+  std::ofstream{pass.mission()} << mission;
+  Program json{pass.arguments_here()};
+  ASSERT_EQ(json.exit_status(), 0) << json.log();
+  const auto told = nlohmann::json::parse(json.out())["runs"][0]["disagreements"];
+  ASSERT_EQ(told.size(), 1U) << json.out();
+  EXPECT_EQ(told[0]["one"], "sequential");
+  EXPECT_EQ(told[0]["other"], "batch");
+  const char* const kFlagged = " FROM spin_comparison WHERE disagree";
+  EXPECT_EQ(number_of(pass.db, std::string{"SELECT count(*)"} + kFlagged), 1);
+  EXPECT_EQ(told[0]["apart_deg"], real_of(pass.db, std::string{"SELECT apart_deg"} + kFlagged));
+  EXPECT_EQ(told[0]["apart_sigmas"],
+            real_of(pass.db, std::string{"SELECT apart_sigmas"} + kFlagged));
+  EXPECT_GT(told[0]["apart_sigmas"].get<double>(), 3.0);
+
+  const TemporaryFolder folder;
+  Program text{{"process", "--mission", pass.mission().string(), "--telemetry",
+                pass.folder.path().string(), "--db", (folder.path() / "out.db").string()}};
+  ASSERT_EQ(text.exit_status(), 0) << text.log();
+  EXPECT_THAT(text.out(),
+              HasSubstr("comparison   sequential and batch disagree: their axes are 0."));
+  EXPECT_THAT(text.log(), HasSubstr("SPINNER: sequential and batch disagree: their axes are 0."));
+}
+
 TEST(Batch, SolvesAStoredRunAgainAndOnlyItsLastRevolutions) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "out.db";
