@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "pipelines/spin/pass_plan.h"
+#include "pipelines/spin/time_span.h"
 #include "tests/support/batch_statistics.h"
 #include "tests/support/information_limit.h"
 
@@ -47,7 +49,7 @@ TEST(SpinBatch, AWideNorthChordIsRecoveredAndTheAxisIsAtTheBound) {
   EXPECT_LE(sums.biases_beyond_three_sigmas, 4);
 }
 
-TEST(SpinBatch, TheBoundIsThatOfTheInformationLimit) {
+TEST(SpinBatch, TheBoundIsThatOfTheInformationLimitAndThatOfThePlan) {
   const Orbit orbit = testing::transfer_orbit();
   const testing::Surroundings around =
       testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
@@ -65,6 +67,17 @@ TEST(SpinBatch, TheBoundIsThatOfTheInformationLimit) {
     const double limit_rad = std::sqrt(testing::cramer_rao_rad2(body, around, duration_s).trace());
     // The limit knows that the rate does not drift, which the axis hardly depends on.
     EXPECT_NEAR(solution->bound_rad / limit_rad, 1.0, 0.01) << "pass " << pass;
+    // What `geometry` says beforehand.
+    const TaiTime end = later_by_s(testing::kTransferStart, duration_s);
+    const auto plan = plan_pass(config, orbit,
+                                {.from = testing::kTransferStart,
+                                 .to = end,
+                                 .step_s = duration_s,
+                                 .axis_icrf = body.axis_icrf,
+                                 .rate_rad_s = body.rate_rad_s});
+    ASSERT_TRUE(plan) << plan.error().message;
+    EXPECT_NEAR(solution->bound_rad / plan->steps.back().sigma_rad.value(), 1.0, 0.01)
+        << "pass " << pass;
   }
 }
 

@@ -19,18 +19,9 @@ constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kTurns = 128.0;
 constexpr double kChangeTurn = 80.0;
 
-struct Scene {
-  std::mt19937_64 rng{1829};
-  Orbit orbit = testing::transfer_orbit();
-  testing::Surroundings around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-  testing::SpinningBody body = testing::random_body(around, 3.0 * kDegree_rad, rng);
+struct Scene : testing::BatchScene {
+  Scene() : BatchScene{1829} {}
 
-  std::vector<PassEdge> pass(const testing::SpinningBody& of) {
-    return testing::noisy_pass(of, testing::edges_of_turns(of, around, kTurns), rng);
-  }
-  PassModel model(std::span<const PassEdge> edges) const {
-    return PassModel::make(body.config, orbit, edges).value();
-  }
   /// The state that explains them best.
   SpinState fitted(std::span<const PassEdge> edges) const {
     const PassModel of = model(edges);
@@ -87,14 +78,14 @@ TEST(AttitudeChange, OneAttitudeAtOneRateHasNone) {
   Scene scene;
   for (int pass = 0; pass < 30; ++pass) {
     scene.body = testing::random_body(scene.around, 3.0 * kDegree_rad, scene.rng);
-    const auto edges = scene.pass(scene.body);
+    const auto edges = scene.pass(kTurns);
     EXPECT_FALSE(find_change(scene.model(edges), edges, scene.fitted(edges))) << "pass " << pass;
   }
 }
 
 TEST(AttitudeChange, AStepOfTheRateIsFoundWhereItWas) {
   Scene scene;
-  const auto edges = faster_from(scene.body, kChangeTurn, 3e-5, scene.pass(scene.body));
+  const auto edges = faster_from(scene.body, kChangeTurn, 3e-5, scene.pass(kTurns));
   const auto change = find_change(scene.model(edges), edges, scene.fitted(edges));
   ASSERT_TRUE(change);
   EXPECT_NEAR(turns_apart(scene.body, change->t, kChangeTurn), 0.0, kNear_turns);
@@ -103,7 +94,7 @@ TEST(AttitudeChange, AStepOfTheRateIsFoundWhereItWas) {
 
 TEST(AttitudeChange, TheGainIsWhatTwoFitsExplainMore) {
   Scene scene;
-  const auto edges = faster_from(scene.body, kChangeTurn, 2e-5, scene.pass(scene.body));
+  const auto edges = faster_from(scene.body, kChangeTurn, 2e-5, scene.pass(kTurns));
   const auto change = find_change(scene.model(edges), edges, scene.fitted(edges));
   ASSERT_TRUE(change);
   const std::span<const PassEdge> all{edges};
@@ -116,7 +107,7 @@ TEST(AttitudeChange, TheGainIsWhatTwoFitsExplainMore) {
 TEST(AttitudeChange, ASmallTiltIsFoundWhereItWas) {
   Scene scene;
   const auto edges =
-      joined(scene.pass(scene.body), scene.pass(tilted(scene.body, 0.3 * kDegree_rad)),
+      joined(scene.pass(kTurns), scene.pass_of(tilted(scene.body, 0.3 * kDegree_rad), kTurns),
              static_cast<std::int64_t>(kChangeTurn));
   const auto change = find_change(scene.model(edges), edges, scene.fitted(edges));
   ASSERT_TRUE(change);
@@ -127,15 +118,15 @@ TEST(AttitudeChange, NoiseBeyondWhatIsStatedIsNoChange) {
   Scene scene;
   const auto stated = scene.body.config.noise;
   scene.body.config.noise = {.sun_s = 2.0 * stated.sun_s, .infrared_s = 2.0 * stated.infrared_s};
-  const auto edges = scene.pass(scene.body);
+  const auto edges = scene.pass(kTurns);
   scene.body.config.noise = stated;
   EXPECT_FALSE(find_change(scene.model(edges), edges, scene.fitted(edges)));
 }
 
 TEST(AttitudeChange, OfTwoLargeOnesTheLastIsFound) {
   Scene scene;
-  const auto here = scene.pass(scene.body);
-  const auto there = scene.pass(tilted(scene.body, 10.0 * kDegree_rad));
+  const auto here = scene.pass(kTurns);
+  const auto there = scene.pass_of(tilted(scene.body, 10.0 * kDegree_rad), kTurns);
   const auto edges = joined(joined(here, there, 40), here, 90);
   const PassModel model = scene.model(edges);
   const auto change = find_change(model, edges, testing::true_state(scene.body, model));
@@ -145,7 +136,7 @@ TEST(AttitudeChange, OfTwoLargeOnesTheLastIsFound) {
 
 TEST(AttitudeChange, OneEdgeCannotChange) {
   Scene scene;
-  auto edges = scene.pass(scene.body);
+  auto edges = scene.pass(kTurns);
   const SpinState state = scene.fitted(edges);
   edges.resize(1);
   EXPECT_FALSE(find_change(scene.model(edges), edges, state));
@@ -153,7 +144,7 @@ TEST(AttitudeChange, OneEdgeCannotChange) {
 
 TEST(AttitudeChange, AStateThatHasNoneOfTheEdgesShowsNone) {
   Scene scene;
-  const auto edges = scene.pass(scene.body);
+  const auto edges = scene.pass(kTurns);
   const PassModel model = scene.model(edges);
   SpinState opposite = testing::true_state(scene.body, model);
   opposite.q_icrf_spin = opposite.q_icrf_spin * Eigen::Quaterniond{Eigen::AngleAxisd{

@@ -84,18 +84,8 @@ TEST_P(Horizons, TakingItForTheOtherCostsWhatTheDesignSays) {
 TEST_P(Horizons, ExactEdgesGiveTheTrueAxisWhileTheEarthMoves) {
   const Eigen::Vector3d motion_icrf_s{-5e-4, 1e-4, 2e-4};  // 0.03 deg/s.
   for (const Scene& scene : usual_scenes(GetParam())) {
-    testing::Surroundings around = scene.around();
-    around.earth_icrf_km = [&](double t_s) -> Eigen::Vector3d {
-      return Scene::kRange_km * (scene.earth_icrf + t_s * motion_icrf_s);
-    };
-    const Revolution seen = testing::revolution_seen({.axis_icrf = scene.axis_icrf,
-                                                      .rate_rad_s = scene.rate_rad_s,
-                                                      .first_turn_rad = 0.1,
-                                                      .config = scene.config},
-                                                     around, scene.start);
-    Sightlines sightlines = scene.sightlines();
-    sightlines.t_earth = scene.start;
-    sightlines.earth_motion_icrf_s = motion_icrf_s;
+    const Revolution seen = scene.seen_while_earth_moves(motion_icrf_s);
+    const Sightlines sightlines = scene.sightlines_while_earth_moves(motion_icrf_s);
     for (const auto& left_out : kLeftOut) {
       const SpinFix fix = testing::lone_fix(scene.config, seen, left_out, sightlines).value();
       EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), testing::kExact_rad);
@@ -112,9 +102,7 @@ TEST_P(Horizons, AFixTurnsWithAllThatItWasMadeFrom) {
     const double x = normal(rng);
     const double y = normal(rng);
     const Eigen::Quaterniond turn = Eigen::Quaterniond{w, x, y, normal(rng)}.normalized();
-    Sightlines sightlines = scene.sightlines();
-    sightlines.t_earth = scene.start;
-    sightlines.earth_motion_icrf_s = {1e-4, 2e-4, -3e-4};
+    const Sightlines sightlines = scene.sightlines_while_earth_moves({1e-4, 2e-4, -3e-4});
     Sightlines turned = sightlines;
     for (Eigen::Vector3d Sightlines::*direction :
          {&Sightlines::sun_icrf, &Sightlines::earth_icrf, &Sightlines::earth_pole_icrf,

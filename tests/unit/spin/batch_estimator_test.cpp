@@ -21,15 +21,9 @@ using ::testing::StartsWith;
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
-struct Scene {
-  std::mt19937_64 rng{1809};
-  Orbit orbit = testing::transfer_orbit();
-  testing::Surroundings around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-  SpinningBody body = testing::random_body(around, 3.0 * kDegree_rad, rng);
+struct Scene : testing::BatchScene {
+  explicit Scene(std::uint64_t seed = 1809) : BatchScene{seed} {}
 
-  std::vector<PassEdge> pass(double turns) {
-    return testing::noisy_pass(body, testing::edges_of_turns(body, around, turns), rng);
-  }
   Expected<BatchSolution> solved(const std::vector<PassEdge>& edges, double off_deg = 1.0) {
     const Eigen::Vector3d start = testing::start_near(body, off_deg * kDegree_rad, rng);
     return solve_batch(body.config, orbit, edges, {{start}});
@@ -87,8 +81,7 @@ TEST(BatchEstimator, AManoeuvreIsNamedAndTheAxisIsThatAfterIt) {
   after.axis_icrf =
       (Eigen::AngleAxisd{1.0 * kDegree_rad, after.axis_icrf.unitOrthogonal()} * after.axis_icrf);
   std::vector<PassEdge> edges;
-  const auto moved =
-      testing::noisy_pass(after, testing::edges_of_turns(after, scene.around, 600.0), scene.rng);
+  const auto moved = scene.pass_of(after, 600.0);
   for (const PassEdge& edge : moved) {
     if (edge.revolution >= 300) {
       edges.push_back(edge);
@@ -170,7 +163,7 @@ TEST(BatchEstimator, AStartOnTheOtherSideOfTheSkyDivergesAndIsNoSolution) {
 
 /// And one third so.
 TEST(BatchEstimator, AStartOnTheOtherSideOfTheSkyMayFindItsWay) {
-  Scene scene{std::mt19937_64{1813}};
+  Scene scene{1813};
   const auto solution = scene.solved(scene.pass(100.0), 180.0);
   ASSERT_TRUE(solution) << solution.error().message;
   EXPECT_EQ(solution->estimate.status, "OK, 600 edges");

@@ -20,16 +20,14 @@ using ::testing::HasSubstr;
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kTurns = 100.0;
 
-struct Scene {
-  std::mt19937_64 rng{1815};
-  Orbit orbit = testing::transfer_orbit();
-  testing::Surroundings around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-  testing::SpinningBody body = testing::random_body(around, 3.0 * kDegree_rad, rng);
+struct Scene : testing::BatchScene {
   std::vector<PassEdge> edges = testing::counted(
       body,
       testing::pulses_from(testing::edges_of_turns(body, around, kTurns), testing::kTransferStart));
 
-  PassModel model() const { return PassModel::make(body.config, orbit, edges).value(); }
+  Scene() : BatchScene{1815} {}
+
+  PassModel model() const { return BatchScene::model(edges); }
   SpinState first() const { return first_state(model(), edges, body.axis_icrf).value(); }
 };
 

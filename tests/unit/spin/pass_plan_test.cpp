@@ -32,15 +32,19 @@ PassPlan plan(double from_s, double to_s, double step_s,
       .value();
 }
 
+/// From its first edge on.
+Expected<PassPlan> plan(const testing::RecordedPass& pass, double duration_s, double step_s) {
+  const TaiTime from = pass.pulses.front().t;
+  return plan_pass(pass.config, pass.orbit,
+                   {.from = from,
+                    .to = shifted(from, duration_s),
+                    .step_s = step_s,
+                    .axis_icrf = pass.true_axis_icrf,
+                    .rate_rad_s = pass.true_rate_rad_s});
+}
+
 TEST(PassPlan, ExpectsThePublishedLimitAfterAHundredTurns) {
-  const auto pass = testing::recorded_pass("nominal");
-  const PassPlan found = plan_pass(pass.config, pass.orbit,
-                                   {.from = pass.pulses.front().t,
-                                    .to = shifted(pass.pulses.front().t, 100.0),
-                                    .step_s = 50.0,
-                                    .axis_icrf = pass.true_axis_icrf,
-                                    .rate_rad_s = pass.true_rate_rad_s})
-                             .value();
+  const PassPlan found = plan(testing::recorded_pass("nominal"), 100.0, 50.0).value();
   // spin.md; the geometry turns meanwhile, which its figure (0.405 deg / 10 and 1 % more) leaves
   // out.
   EXPECT_NEAR(found.steps.back().sigma_rad.value() / kDegree_rad, 0.0409, 0.02 * 0.0409);
@@ -156,13 +160,7 @@ TEST(PassPlan, WhatHoldsForSecondsIsFoundWhereverItFalls) {
 }
 
 TEST(PassPlan, AnOrbitThatEndsIsAnError) {
-  const auto pass = testing::recorded_pass("nominal");
-  const auto found = plan_pass(pass.config, pass.orbit,
-                               {.from = pass.pulses.front().t,
-                                .to = shifted(pass.pulses.front().t, 3600.0),
-                                .step_s = 60.0,
-                                .axis_icrf = pass.true_axis_icrf,
-                                .rate_rad_s = pass.true_rate_rad_s});
+  const auto found = plan(testing::recorded_pass("nominal"), 3600.0, 60.0);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::NoCoverage);
   // It ends two minutes behind the pass of ten.
