@@ -26,10 +26,9 @@ class Earth {
     const bool beyond = mount_angle_rad > earth_angle_rad();
     const double limb_rad = nearest_limb_rad(beyond);
     const double lower_rad = 2.0 * (sightlines_.disc_rad - limb_rad);
-    BeamView view = crossed_by(mount_angle_rad + (beyond ? -lower_rad : lower_rad), crossing)
-                        .value_or(BeamView{.disc_rad = limb_rad});
-    view.chord_rad.reset();
-    return view;
+    const BeamView view = crossed_by(mount_angle_rad + (beyond ? -lower_rad : lower_rad), crossing)
+                              .value_or(BeamView{.disc_rad = limb_rad});
+    return {.disc_rad = view.disc_rad, .lead_rad = view.lead_rad};
   }
 
  private:
@@ -56,9 +55,40 @@ class Earth {
     const double before_rad = wrapped_rad(centre_rad - in->azimuth_rad);
     const double behind_rad = wrapped_rad(out->azimuth_rad - centre_rad);
     const Chord chord{.mount_angle_rad = mount_angle_rad, .chord_rad = before_rad + behind_rad};
-    return BeamView{.disc_rad = std::acos(cos_disc_seen(chord, earth_angle_rad())),
-                    .lead_rad = 0.5 * (before_rad - behind_rad),
-                    .chord_rad = chord.chord_rad};
+    const double disc_rad = std::acos(cos_disc_seen(chord, earth_angle_rad()));
+    // Of the azimuths of chord's ends and Earth's centre, by rotations of the frame.
+    const Eigen::Vector3d chord_slope = out->azimuth_per_rotation - in->azimuth_per_rotation;
+    const Eigen::Vector3d middle_slope =
+        0.5 * (in->azimuth_per_rotation + out->azimuth_per_rotation);
+    const Eigen::Vector2d across = centre_spin.head<2>();
+    const Eigen::Vector3d centre_slope{across.x() * centre_spin.z() / across.squaredNorm(),
+                                       across.y() * centre_spin.z() / across.squaredNorm(), -1.0};
+    return BeamView{
+        .disc_rad = disc_rad,
+        .lead_rad = 0.5 * (before_rad - behind_rad),
+        .disc_per_step_icrf = disc_slope_icrf(chord, disc_rad, by_step_icrf(chord_slope)),
+        .lead_per_step_icrf = by_step_icrf(centre_slope - middle_slope),
+        .chord_rad = chord.chord_rad};
+  }
+
+  /// A rotation about the first axis of the frame moves the third against the second, one about the
+  /// second moves it along the first.
+  Eigen::Vector3d by_step_icrf(const Eigen::Vector3d& by_rotation) const {
+    return R_icrf_spin_.col(0) * by_rotation.y() - R_icrf_spin_.col(1) * by_rotation.x();
+  }
+
+  /// Of the half-angle of the sphere that has the chord, where chord and earth angle change.
+  Eigen::Vector3d disc_slope_icrf(const Chord& chord, double disc_rad,
+                                  const Eigen::Vector3d& chord_slope_icrf) const {
+    const double earth_rad = earth_angle_rad();
+    const double along = std::sin(chord.mount_angle_rad) * std::cos(0.5 * chord.chord_rad);
+    const double by_chord = -0.5 * std::sin(chord.mount_angle_rad) *
+                            std::sin(0.5 * chord.chord_rad) * std::sin(earth_rad);
+    const double by_earth =
+        along * std::cos(earth_rad) - std::cos(chord.mount_angle_rad) * std::sin(earth_rad);
+    const Eigen::Vector3d earth_slope_icrf =
+        -(sightlines_.earth_icrf - std::cos(earth_rad) * axis_icrf_) / std::sin(earth_rad);
+    return -(by_chord * chord_slope_icrf + by_earth * earth_slope_icrf) / std::sin(disc_rad);
   }
 
   /// From the Earth's centre, in the plane of axis and Earth, beyond the centre or on this side of

@@ -65,8 +65,8 @@ class Planner {
                 node.weight * length_s * scene_.rate_rad_s() / (2.0 * std::numbers::pi));
     }
     for (double after_s = kLook_s; after_s < length_s; after_s += kLook_s) {
-      if (const auto passed = look_at(shifted(t_, after_s)); !passed) {
-        return passed;
+      if (const auto looked = look_at(shifted(t_, after_s)); !looked) {
+        return Unexpected{looked.error()};
       }
     }
     t_ = t;
