@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/geometry.h"
@@ -23,12 +22,7 @@ class Earth {
     if (const auto view = crossed_by(mount_angle_rad, crossing)) {
       return *view;
     }
-    const bool beyond = mount_angle_rad > earth_angle_rad();
-    const double limb_rad = nearest_limb_rad(beyond);
-    const double lower_rad = 2.0 * (sightlines_.disc_rad - limb_rad);
-    const BeamView view = crossed_by(mount_angle_rad + (beyond ? -lower_rad : lower_rad), crossing)
-                              .value_or(BeamView{.disc_rad = limb_rad});
-    return {.disc_rad = view.disc_rad, .lead_rad = view.lead_rad};
+    return beside(mount_angle_rad, crossing);
   }
 
  private:
@@ -91,18 +85,25 @@ class Earth {
     return -(by_chord * chord_slope_icrf + by_earth * earth_slope_icrf) / std::sin(disc_rad);
   }
 
-  /// From the Earth's centre, in the plane of axis and Earth, beyond the centre or on this side of
-  /// it: where a beam that swept this plane would cross it.
-  double nearest_limb_rad(bool beyond) const {
-    const Eigen::Vector3d& earth_icrf = sightlines_.earth_icrf;
-    const Eigen::Vector3d across = axis_icrf_.cross(earth_icrf).normalized();
-    Eigen::Matrix3d R_icrf_sweep;
-    R_icrf_sweep << earth_icrf, across.cross(earth_icrf), across;
-    const EarthView earth{.spacecraft_spin_km = -range_km() * Eigen::Vector3d::UnitX(),
-                          .pole_spin = R_icrf_sweep.transpose() * sightlines_.earth_pole_icrf};
-    const auto limb =
-        limb_crossing(axes_, earth, 0.5 * std::numbers::pi, beyond ? Crossing::Out : Crossing::In);
-    return limb ? std::abs(limb->azimuth_rad) : sightlines_.disc_rad;
+  /// Of the beam that has the measured chord from here, between one that misses and the Earth's
+  /// centre: an axis that the beam itself is as deep from is found with its sphere.
+  BeamView beside(double mount_angle_rad, const EarthCrossing& crossing) const {
+    constexpr int kHalvings = 40;
+    const double chord_rad = crossing.chord ? crossing.chord->value_rad : 0.0;
+    double narrower_rad = mount_angle_rad;
+    double wider_rad = earth_angle_rad();
+    BeamView view{.disc_rad = sightlines_.disc_rad};
+    for (int i = 0; i < kHalvings; ++i) {
+      const double between_rad = 0.5 * (narrower_rad + wider_rad);
+      const auto found = crossed_by(between_rad, crossing);
+      if (found && found->chord_rad > chord_rad) {
+        wider_rad = between_rad;
+        view = {.disc_rad = found->disc_rad, .lead_rad = found->lead_rad};
+      } else {
+        narrower_rad = between_rad;
+      }
+    }
+    return view;
   }
 
   HorizonAxes axes_;

@@ -25,8 +25,8 @@ struct BeamView {
   /// Zero for the sphere at rest, and left so where the beam has no crossing.
   Eigen::Vector3d disc_per_step_icrf = Eigen::Vector3d::Zero();
   Eigen::Vector3d lead_per_step_icrf = Eigen::Vector3d::Zero();
-  /// Empty: the beam misses the limb, or only grazes it. The others are then of a beam that dips as
-  /// deep into this horizon as this one would into the sphere.
+  /// Empty: the beam misses the limb, or only grazes it. The others are then of a beam nearer to
+  /// the Earth's centre, which has the chord that was measured.
   std::optional<double> chord_rad = {};
 };
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -140,6 +141,45 @@ TEST(AxisCandidatesOnTheEllipsoid, ABeamThatOnTheSphereWouldMissItHasAFixToo) {
       EXPECT_EQ(fix.geometry_case, 2);
       EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 0.0005 * kDegree_rad)
           << tilt_deg << " " << depth_deg;
+    }
+  }
+}
+
+/// The north beam mounted so that its chord is so wide.
+void mount_for_chord(double chord_rad, Scene& scene) {
+  const double earth_angle_rad = angle_between_rad(scene.axis_icrf, scene.earth_icrf);
+  double narrower_rad = earth_angle_rad - 30.0 * kDegree_rad;
+  double wider_rad = earth_angle_rad - 15.0 * kDegree_rad;
+  for (int i = 0; i < 30; ++i) {
+    scene.config.north->mount_angle_rad = 0.5 * (narrower_rad + wider_rad);
+    const auto crossing = measure(scene.config, scene.seen()).crossing(Side::North);
+    const bool wider = crossing && crossing->chord && crossing->chord->value_rad > chord_rad;
+    (wider ? wider_rad : narrower_rad) = scene.config.north->mount_angle_rad;
+  }
+  scene.config.north->mount_angle_rad = wider_rad;
+}
+
+TEST(AxisCandidatesOnTheEllipsoid, ANarrowChordAnywhereOnTheLimbHasAFixToo) {
+  for (const double tilt_deg : {0.0, 30.0, 60.0, 90.0}) {
+    for (const double earth_angle_deg : {80.0, 90.0, 105.0}) {
+      for (const double chord_deg : {1.0, 2.0, 3.0, 4.0}) {
+        Scene scene = tilted_scene(tilt_deg, earth_angle_deg, HorizonModel::Ellipsoid);
+        scene.config.noise = {.sun_s = 2e-6, .infrared_s = 2e-6};
+        mount_for_chord(chord_deg * kDegree_rad, scene);
+        for (const auto& left_out : {std::set{SouthChord, SouthDihedral},
+                                     std::set{SouthChord, SouthDihedral, NorthDihedral}}) {
+          const auto found = axis_candidates(
+              scene.config, testing::measured_without(scene.config, scene.seen(), left_out),
+              scene.sightlines());
+          ASSERT_TRUE(found) << found.error().message;
+          double off_rad = 1.0;
+          for (const AxisCandidate& candidate : found->candidates) {
+            off_rad = std::min(off_rad, angle_between_rad(candidate.axis_icrf, scene.axis_icrf));
+          }
+          EXPECT_LT(off_rad, 0.0002 * kDegree_rad)
+              << tilt_deg << " " << earth_angle_deg << " " << chord_deg;
+        }
+      }
     }
   }
 }
