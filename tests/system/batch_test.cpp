@@ -69,10 +69,8 @@ TEST(Batch, StandsBesideTheOtherEstimatorsWithBoundAndBiases) {
 
 TEST(Batch, EstimatorsThatAModelErrorSetsApartAreNamedAsTheViewFlagsThem) {
   const PassCopy pass{"nominal"};
-  std::string mission = text_of(pass.mission());
   // `batch` finds the bias, the others have it as an error.
-  mission.replace(mission.find("mount_angle_deg = 85"), 20, "mount_angle_deg = 86");
-  std::ofstream{pass.mission()} << mission;
+  pass.replace("mount_angle_deg = 85", "mount_angle_deg = 86");
   const auto told = answer(pass.arguments_here())["runs"][0]["disagreements"];
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0]["one"], "sequential");
