@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +10,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/axis_angles.h"
+#include "pipelines/spin/beam_view.h"
 #include "pipelines/spin/fix_input.h"
 #include "pipelines/spin/geometry.h"
 #include "pipelines/spin/horizon_roots.h"
@@ -39,6 +41,22 @@ bool disc_agrees(const FixInput& input, const AxisAngles& place) {
                 noise_of(disc_rad));
 }
 
+using Tangent = Eigen::Matrix<double, 2, kEdges + kModelErrors>;
+
+/// What the solution moves by when the axis does from which its beams see the horizon, both in the
+/// tangent plane. A beam that sees the limb farther out, or the chord's middle earlier, is as wrong
+/// as one whose limb or azimuth has that error.
+/// @param tangent What the solution moves by with each source of error, the views as they are.
+Eigen::Matrix2d moved_by_views(const BeamViews& beams, const Eigen::Matrix<double, 3, 2>& basis,
+                               const Tangent& tangent) {
+  const auto& [north, south] = beams;
+  const auto by = [&](ModelError error, const Eigen::Vector3d& per_step_icrf) -> Eigen::Matrix2d {
+    return tangent.col(kEdges + error) * (per_step_icrf.transpose() * basis);
+  };
+  return by(NorthLimb, north.disc_per_step_icrf) + by(SouthLimb, south.disc_per_step_icrf) +
+         by(NorthAzimuth, north.lead_per_step_icrf) + by(SouthAzimuth, south.lead_per_step_icrf);
+}
+
 AxisCandidate candidate_at(const FixInput& input, const AxisAngles& place) {
   const Eigen::Matrix<Uncertain, 3, 1> axis =
       axis_icrf(AxisInput<Uncertain>{.sun_icrf = input.sightlines.sun_icrf,
@@ -55,7 +73,12 @@ AxisCandidate candidate_at(const FixInput& input, const AxisAngles& place) {
   const double norm = solved.norm();
   const Eigen::Vector3d unit = solved / norm;
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(unit);
-  const Eigen::Matrix<double, 2, kEdges + kModelErrors> tangent = basis.transpose() * shifts / norm;
+  Tangent tangent = basis.transpose() * shifts / norm;
+  // Another axis sees another limb, and so on: a geometric series.
+  tangent = (Eigen::Matrix2d::Identity() - moved_by_views(place.beams, basis, tangent))
+                .partialPivLu()
+                .solve(tangent)
+                .eval();
   const auto noise = tangent.leftCols<kEdges>();
   const double norm_noise = (unit.transpose() * shifts.leftCols<kEdges>()).norm();
   return {.axis_icrf = unit,

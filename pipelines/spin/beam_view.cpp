@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/geometry.h"
@@ -23,13 +22,7 @@ class Earth {
     if (const auto view = crossed_by(mount_angle_rad, crossing)) {
       return *view;
     }
-    const bool beyond = mount_angle_rad > earth_angle_rad();
-    const double limb_rad = nearest_limb_rad(beyond);
-    const double lower_rad = 2.0 * (sightlines_.disc_rad - limb_rad);
-    BeamView view = crossed_by(mount_angle_rad + (beyond ? -lower_rad : lower_rad), crossing)
-                        .value_or(BeamView{.disc_rad = limb_rad});
-    view.chord_rad.reset();
-    return view;
+    return beside(mount_angle_rad, crossing);
   }
 
  private:
@@ -56,23 +49,61 @@ class Earth {
     const double before_rad = wrapped_rad(centre_rad - in->azimuth_rad);
     const double behind_rad = wrapped_rad(out->azimuth_rad - centre_rad);
     const Chord chord{.mount_angle_rad = mount_angle_rad, .chord_rad = before_rad + behind_rad};
-    return BeamView{.disc_rad = std::acos(cos_disc_seen(chord, earth_angle_rad())),
-                    .lead_rad = 0.5 * (before_rad - behind_rad),
-                    .chord_rad = chord.chord_rad};
+    const double disc_rad = std::acos(cos_disc_seen(chord, earth_angle_rad()));
+    // Of the azimuths of chord's ends and Earth's centre, by rotations of the frame.
+    const Eigen::Vector3d chord_slope = out->azimuth_per_rotation - in->azimuth_per_rotation;
+    const Eigen::Vector3d middle_slope =
+        0.5 * (in->azimuth_per_rotation + out->azimuth_per_rotation);
+    const Eigen::Vector2d across = centre_spin.head<2>();
+    const Eigen::Vector3d centre_slope{across.x() * centre_spin.z() / across.squaredNorm(),
+                                       across.y() * centre_spin.z() / across.squaredNorm(), -1.0};
+    return BeamView{
+        .disc_rad = disc_rad,
+        .lead_rad = 0.5 * (before_rad - behind_rad),
+        .disc_per_step_icrf = disc_slope_icrf(chord, disc_rad, by_step_icrf(chord_slope)),
+        .lead_per_step_icrf = by_step_icrf(centre_slope - middle_slope),
+        .chord_rad = chord.chord_rad};
   }
 
-  /// From the Earth's centre, in the plane of axis and Earth, beyond the centre or on this side of
-  /// it: where a beam that swept this plane would cross it.
-  double nearest_limb_rad(bool beyond) const {
-    const Eigen::Vector3d& earth_icrf = sightlines_.earth_icrf;
-    const Eigen::Vector3d across = axis_icrf_.cross(earth_icrf).normalized();
-    Eigen::Matrix3d R_icrf_sweep;
-    R_icrf_sweep << earth_icrf, across.cross(earth_icrf), across;
-    const EarthView earth{.spacecraft_spin_km = -range_km() * Eigen::Vector3d::UnitX(),
-                          .pole_spin = R_icrf_sweep.transpose() * sightlines_.earth_pole_icrf};
-    const auto limb =
-        limb_crossing(axes_, earth, 0.5 * std::numbers::pi, beyond ? Crossing::Out : Crossing::In);
-    return limb ? std::abs(limb->azimuth_rad) : sightlines_.disc_rad;
+  /// A rotation about the first axis of the frame moves the third against the second, one about the
+  /// second moves it along the first.
+  Eigen::Vector3d by_step_icrf(const Eigen::Vector3d& by_rotation) const {
+    return R_icrf_spin_.col(0) * by_rotation.y() - R_icrf_spin_.col(1) * by_rotation.x();
+  }
+
+  /// Of the half-angle of the sphere that has the chord, where chord and earth angle change.
+  Eigen::Vector3d disc_slope_icrf(const Chord& chord, double disc_rad,
+                                  const Eigen::Vector3d& chord_slope_icrf) const {
+    const double earth_rad = earth_angle_rad();
+    const double along = std::sin(chord.mount_angle_rad) * std::cos(0.5 * chord.chord_rad);
+    const double by_chord = -0.5 * std::sin(chord.mount_angle_rad) *
+                            std::sin(0.5 * chord.chord_rad) * std::sin(earth_rad);
+    const double by_earth =
+        along * std::cos(earth_rad) - std::cos(chord.mount_angle_rad) * std::sin(earth_rad);
+    const Eigen::Vector3d earth_slope_icrf =
+        -(sightlines_.earth_icrf - std::cos(earth_rad) * axis_icrf_) / std::sin(earth_rad);
+    return -(by_chord * chord_slope_icrf + by_earth * earth_slope_icrf) / std::sin(disc_rad);
+  }
+
+  /// Of the beam that has the measured chord from here, between one that misses and the Earth's
+  /// centre: an axis that the beam itself is as deep from is found with its sphere.
+  BeamView beside(double mount_angle_rad, const EarthCrossing& crossing) const {
+    constexpr int kHalvings = 40;
+    const double chord_rad = crossing.chord ? crossing.chord->value_rad : 0.0;
+    double narrower_rad = mount_angle_rad;
+    double wider_rad = earth_angle_rad();
+    BeamView view{.disc_rad = sightlines_.disc_rad};
+    for (int i = 0; i < kHalvings; ++i) {
+      const double between_rad = 0.5 * (narrower_rad + wider_rad);
+      const auto found = crossed_by(between_rad, crossing);
+      if (found && found->chord_rad > chord_rad) {
+        wider_rad = between_rad;
+        view = {.disc_rad = found->disc_rad, .lead_rad = found->lead_rad};
+      } else {
+        narrower_rad = between_rad;
+      }
+    }
+    return view;
   }
 
   HorizonAxes axes_;

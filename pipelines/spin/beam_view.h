@@ -21,8 +21,12 @@ namespace spindrift {
 struct BeamView {
   double disc_rad;        ///< Half-angle of the sphere at rest.
   double lead_rad = 0.0;  ///< Of the chord's middle, before the Earth's centre at `t_earth`.
-  /// Empty: the beam misses the limb, or only grazes it. The others are then of a beam that dips as
-  /// deep into this horizon as this one would into the sphere.
+  /// Slopes by the axis: for a small step of it, ICRF, each changes by its product with the step.
+  /// Zero for the sphere at rest, and left so where the beam has no crossing.
+  Eigen::Vector3d disc_per_step_icrf = Eigen::Vector3d::Zero();
+  Eigen::Vector3d lead_per_step_icrf = Eigen::Vector3d::Zero();
+  /// Empty: the beam misses the limb, or only grazes it. The others are then of a beam nearer to
+  /// the Earth's centre, which has the chord that was measured.
   std::optional<double> chord_rad = {};
 };
 

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/core/expected.h"
-#include "pipelines/spin/pass_geometry.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -21,13 +19,10 @@ struct PassEvent {
 
 class PassEvents {
  public:
-  /// Where something has begun or ceased to hold since the geometry before, the time is searched
-  /// for, to a second.
-  /// @param geometry Of that scene, later than the one before.
-  /// @return As PassScene::at.
-  Expected<void> add(PassScene& scene, const PassGeometry& geometry);
+  /// What holds at a time that is later than the one before.
+  void add(TaiTime t, const std::vector<std::string>& conditions);
 
-  /// All of them, by beginning; what holds still ends with the last geometry.
+  /// All of them, by beginning; what holds still ends with the last time.
   std::vector<PassEvent> finish();
 
  private:

@@ -9,14 +9,17 @@
 
 #include "pipelines/spin/edge_information.h"
 #include "pipelines/spin/edge_prediction.h"
+#include "pipelines/spin/pass_conditions.h"
 #include "pipelines/spin/time_span.h"
 
 namespace spindrift {
 namespace {
 
-// The information of many turns is an integral, by Gauss and Legendre over so short stretches; at
-// the end of each it is looked what holds.
+// The information of many turns is an integral, by Gauss and Legendre over so short stretches.
 constexpr double kStretch_s = 10.0;
+// And so often it is looked what holds: channels that meet may part within seconds, and no function
+// that a search could follow says beforehand when.
+constexpr double kLook_s = 1.0;
 
 struct Node {
   double place;  ///< Share of the stretch.
@@ -61,12 +64,19 @@ class Planner {
       add_turns(geometry->expected,
                 node.weight * length_s * scene_.rate_rad_s() / (2.0 * std::numbers::pi));
     }
+    for (double after_s = kLook_s; after_s < length_s; after_s += kLook_s) {
+      if (const auto looked = look_at(shifted(t_, after_s)); !looked) {
+        return Unexpected{looked.error()};
+      }
+    }
     t_ = t;
+    return look_at(t);
+  }
+
+  Expected<PassGeometry> look_at(TaiTime t) {
     auto geometry = scene_.at(t);
     if (geometry) {
-      if (const auto added = events_.add(scene_, *geometry); !added) {
-        return Unexpected{added.error()};
-      }
+      events_.add(t, conditions_of(scene_.config(), *geometry));
     }
     return geometry;
   }

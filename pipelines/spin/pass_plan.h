@@ -39,8 +39,8 @@ struct PassPlan {
 };
 
 /// Edges are as many and as noisy as the mission file says: none is lost. Where channels interfere
-/// their edges are left out. Events and sigma do not depend on the step; what lasts less than
-/// ten seconds may be in no event.
+/// their edges are left out. Events, which are looked for every second, and sigma do not depend on
+/// the step.
 /// @return NoCoverage where the orbit does not reach from `from` to `to`; Unobservable where it
 ///         dips below the horizon's height.
 Expected<PassPlan> plan_pass(const SpinConfig& config, const Orbit& orbit,

@@ -8,9 +8,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/products.h"
+#include "services/archive/disagreement.h"
 
 namespace spindrift {
 
@@ -30,6 +32,7 @@ struct RunSummary {
   std::map<std::string_view, std::int64_t> fixes_by_resolution;  ///< AMBIGUOUS among them.
   std::map<SpinEstimator, SpinEstimate> estimates;               ///< The last of each.
   std::optional<BatchSolution> batch;
+  std::vector<Disagreement> disagreements = {};  ///< Likewise from the archive.
 
   void count(const SpinProduct& product);
 

@@ -69,24 +69,21 @@ void add_angles(TimePage& page, const PlannedPass& pass) {
              curves);
 }
 
-double largest(const std::vector<Curve>& curves, double at_least) {
-  double found = at_least;
-  for (const Curve& curve : curves) {
-    for (const auto& value : curve.values) {
-      found = std::max(found, value.value_or(at_least));
-    }
-  }
-  return found;
-}
+struct Range {
+  double low;
+  double high;
+};
 
-double smallest(const std::vector<Curve>& curves, double at_most) {
-  double found = at_most;
+/// Of all values, and at least from `low` to `high`.
+Range range_of(const std::vector<Curve>& curves, double low, double high) {
+  Range range{.low = low, .high = high};
   for (const Curve& curve : curves) {
     for (const auto& value : curve.values) {
-      found = std::min(found, value.value_or(at_most));
+      range.low = std::min(range.low, value.value_or(low));
+      range.high = std::max(range.high, value.value_or(high));
     }
   }
-  return found;
+  return range;
 }
 
 std::vector<Curve> of_both_beams(
@@ -106,7 +103,7 @@ std::vector<Curve> of_both_beams(
 void add_chords(TimePage& page, const PlannedPass& pass) {
   const std::vector<Curve> curves =
       of_both_beams(pass, [](const BeamGeometry& beam) { return deg(beam.chord_rad); });
-  const double high = 1.05 * largest(curves, 1.0);
+  const double high = 1.05 * range_of(curves, 0.0, 1.0).high;
   page.panel(130.0,
              {.title = "Chord across the Earth, deg",
               .is_logarithmic = false,
@@ -144,8 +141,9 @@ void add_sigma(TimePage& page, const PlannedPass& pass) {
                [](const PassStep& step) { return deg(step.geometry.fix.sigma_rad); }),
       curve_of(pass, "all edges so far", kNorth,
                [](const PassStep& step) { return deg(step.sigma_rad); })};
-  const double low = std::pow(10.0, std::floor(std::log10(smallest(curves, 0.1))));
-  const double high = std::pow(10.0, std::ceil(std::log10(largest(curves, 1.0))));
+  const auto [least, most] = range_of(curves, 0.1, 1.0);
+  const double low = std::pow(10.0, std::floor(std::log10(least)));
+  const double high = std::pow(10.0, std::ceil(std::log10(most)));
   page.panel(180.0,
              {.title = "Sigma of the axis to expect (both directions together), deg",
               .is_logarithmic = true,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <span>
 #include <string>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
 #include "services/progress/progress_bar.h"
+#include "services/spindrift/comparison_notice.h"
 #include "services/spindrift/outcome.h"
 #include "services/spindrift/submit_all.h"
 #include "services/spindrift/summary_text.h"
@@ -65,7 +67,10 @@ Expected<void> process(const ProcessOptions& options) {
   if (!telemetry) {
     return Unexpected{telemetry.error()};
   }
-  auto archive = Archive::open(options.db, {});
+  auto archive =
+      Archive::open(options.db, {.on_committed = [&](std::span<const ArchiveBatch> stored) {
+                      warn_of_disagreements(options.db, stored);
+                    }});
   if (!archive) {
     return Unexpected{archive.error()};
   }

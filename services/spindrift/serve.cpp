@@ -22,6 +22,7 @@
 #include "services/processor/processor.h"
 #include "services/publisher/result_publisher.h"
 #include "services/spindrift/announcer.h"
+#include "services/spindrift/comparison_notice.h"
 #include "services/spindrift/heartbeat.h"
 #include "services/spindrift/outcome.h"
 #include "services/spindrift/stop_signal.h"
@@ -245,15 +246,18 @@ Expected<Processor> make_processor(const ServeOptions& options) {
 
 Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db,
                                                 Announcer& announcer) {
-  return Archive::open(
-      db,
-      {.on_write_failure = OnWriteFailure::Retry,
-       .on_committed = [&](std::span<const ArchiveBatch> stored) { announcer.committed(stored); },
-       .on_failure =
-           [](const Error& error) {
-             spdlog::critical("the archive does not store, nothing more is accepted: {}",
-                              error.message);
-           }});
+  return Archive::open(db, {.on_write_failure = OnWriteFailure::Retry,
+                            .on_committed =
+                                [&](std::span<const ArchiveBatch> stored) {
+                                  announcer.committed(stored);
+                                  warn_of_disagreements(db, stored);
+                                },
+                            .on_failure =
+                                [](const Error& error) {
+                                  spdlog::critical(
+                                      "the archive does not store, nothing more is accepted: {}",
+                                      error.message);
+                                }});
 }
 
 }  // namespace

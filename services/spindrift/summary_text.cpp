@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "pipelines/time/utc.h"
+#include "services/archive/disagreement.h"
 #include "services/archive/stored_pass.h"
 #include "services/spindrift/batch_text.h"
 #include "services/units/degrees.h"
@@ -78,6 +80,21 @@ std::string axis_text(const RunSummary& summary) {
   return text + origins;
 }
 
+std::string disagreements_text(const RunSummary& summary) {
+  std::string text;
+  for (const Disagreement& disagreement : summary.disagreements) {
+    text += fmt::format("  comparison   {}\n", in_words(disagreement));
+  }
+  return text;
+}
+
+nlohmann::json to_json(const Disagreement& disagreement) {
+  return {{"one", disagreement.one},
+          {"other", disagreement.other},
+          {"apart_deg", disagreement.apart_deg},
+          {"apart_sigmas", disagreement.apart_sigmas}};
+}
+
 }  // namespace
 
 nlohmann::json to_json(const SpinEstimate& estimate) {
@@ -99,7 +116,7 @@ std::string to_text(const RunSummary& summary) {
     text += fmt::format("               {} rejected: {}\n", count, test);
   }
   text += fmt::format("  revolutions  {} with sun1\n", summary.revolutions);
-  return text + fixes_text(summary) + axis_text(summary) +
+  return text + fixes_text(summary) + axis_text(summary) + disagreements_text(summary) +
          (summary.batch ? to_text(*summary.batch) : std::string{});
 }
 
@@ -119,12 +136,16 @@ nlohmann::json to_json(const RunSummary& summary) {
                       {"fixes_by_resolution", to_json(summary.fixes_by_resolution)},
                       {"mean", nullptr},
                       {"sequential", nullptr},
-                      {"batch", nullptr}};
+                      {"batch", nullptr},
+                      {"disagreements", nlohmann::json::array()}};
   for (const auto& [estimator, estimate] : summary.estimates) {
     json[std::string{name_of(estimator)}] = to_json(estimate);
   }
   if (summary.batch) {
     json["batch"].update(to_json(*summary.batch));
+  }
+  for (const Disagreement& disagreement : summary.disagreements) {
+    json["disagreements"].push_back(to_json(disagreement));
   }
   return json;
 }
@@ -146,6 +167,11 @@ Expected<std::string> report(const Processor& processor, const std::filesystem::
       return Unexpected{stored.error()};
     }
     summary.edges_stored = *stored;
+    auto disagreements = find_disagreements(db, summary.run_id);
+    if (!disagreements) {
+      return Unexpected{disagreements.error()};
+    }
+    summary.disagreements = *std::move(disagreements);
   }
   if (json) {
     nlohmann::json object{{"db", db.string()},

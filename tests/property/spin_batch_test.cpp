@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "pipelines/spin/pass_plan.h"
+#include "pipelines/spin/time_span.h"
 #include "tests/support/batch_statistics.h"
 #include "tests/support/information_limit.h"
 
@@ -13,7 +15,8 @@ namespace {
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 TEST(SpinBatch, ErrorsAreThoseThatTheCovariancePromises) {
-  const testing::BatchStatistics sums = testing::many_passes(200, 60.0, {}, 1777);
+  const testing::BatchStatistics sums =
+      testing::many_passes(200, {.turns = 60.0, .estimated = {}}, 1777);
   EXPECT_EQ(sums.failures, 0);
   // 95 % of chi-square, 400 degrees of freedom.
   EXPECT_GT(sums.squares, 346.5);
@@ -23,7 +26,8 @@ TEST(SpinBatch, ErrorsAreThoseThatTheCovariancePromises) {
 TEST(SpinBatch, ErrorsAreThoseThatTheCovariancePromisesWithBiases) {
   const BiasSet estimated =
       BiasSet{}.set(NorthChordBias).set(SouthMountAngleBias).set(DihedralBias);
-  const testing::BatchStatistics sums = testing::many_passes(200, 60.0, estimated, 1801);
+  const testing::BatchStatistics sums =
+      testing::many_passes(200, {.turns = 60.0, .estimated = estimated}, 1801);
   EXPECT_EQ(sums.failures, 0);
   EXPECT_GT(sums.squares, 346.5);
   EXPECT_LT(sums.squares, 457.3);
@@ -32,7 +36,20 @@ TEST(SpinBatch, ErrorsAreThoseThatTheCovariancePromisesWithBiases) {
   EXPECT_NEAR(sums.bias_squares / sums.biases, 1.0, 4.0 * std::sqrt(2.0 / sums.biases));
 }
 
-TEST(SpinBatch, TheBoundIsThatOfTheInformationLimit) {
+TEST(SpinBatch, AWideNorthChordIsRecoveredAndTheAxisIsAtTheBound) {
+  const testing::BatchStatistics sums = testing::many_passes_with_a_wide_north_chord(200, 1803);
+  EXPECT_EQ(sums.failures, 0);
+  EXPECT_GT(sums.squares, 346.5);
+  EXPECT_LT(sums.squares, 457.3);
+  EXPECT_LT(sums.rms_over_bound(), 1.0 + 3.0 * sums.rms_noise());
+  // Where edges do not know the bias twice as well as its prior, none is stated.
+  EXPECT_GT(sums.biases, 180);
+  EXPECT_NEAR(sums.bias_squares / sums.biases, 1.0, 4.0 * std::sqrt(2.0 / sums.biases));
+  // One in 370; more than four of 200 are at odds of 1 in 500.
+  EXPECT_LE(sums.biases_beyond_three_sigmas, 4);
+}
+
+TEST(SpinBatch, TheBoundIsThatOfTheInformationLimitAndThatOfThePlan) {
   const Orbit orbit = testing::transfer_orbit();
   const testing::Surroundings around =
       testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
@@ -50,6 +67,17 @@ TEST(SpinBatch, TheBoundIsThatOfTheInformationLimit) {
     const double limit_rad = std::sqrt(testing::cramer_rao_rad2(body, around, duration_s).trace());
     // The limit knows that the rate does not drift, which the axis hardly depends on.
     EXPECT_NEAR(solution->bound_rad / limit_rad, 1.0, 0.01) << "pass " << pass;
+    // What `geometry` says beforehand.
+    const TaiTime end = later_by_s(testing::kTransferStart, duration_s);
+    const auto plan = plan_pass(config, orbit,
+                                {.from = testing::kTransferStart,
+                                 .to = end,
+                                 .step_s = duration_s,
+                                 .axis_icrf = body.axis_icrf,
+                                 .rate_rad_s = body.rate_rad_s});
+    ASSERT_TRUE(plan) << plan.error().message;
+    EXPECT_NEAR(solution->bound_rad / plan->steps.back().sigma_rad.value(), 1.0, 0.01)
+        << "pass " << pass;
   }
 }
 

@@ -42,10 +42,25 @@ struct AxisScene {
         earth == HorizonModel::Sphere ? spherical_horizon_km(40.0) : ellipsoidal_horizon_km(40.0);
     return around;
   }
-  Revolution seen() const {
+  Revolution seen() const { return seen_among(around()); }
+  Revolution seen_among(const Surroundings& around) const {
     return revolution_seen(
         {.axis_icrf = axis_icrf, .rate_rad_s = rate_rad_s, .first_turn_rad = 0.1, .config = config},
-        around(), start);
+        around, start);
+  }
+  /// The Earth moves from `start` on, across the line of sight.
+  Revolution seen_while_earth_moves(const Eigen::Vector3d& motion_icrf_s) const {
+    Surroundings moving = around();
+    moving.earth_icrf_km = [=, this](double t_s) -> Eigen::Vector3d {
+      return kRange_km * (earth_icrf + t_s * motion_icrf_s);
+    };
+    return seen_among(moving);
+  }
+  Sightlines sightlines_while_earth_moves(const Eigen::Vector3d& motion_icrf_s) const {
+    Sightlines moving = sightlines();
+    moving.t_earth = start;
+    moving.earth_motion_icrf_s = motion_icrf_s;
+    return moving;
   }
   Expected<SpinFix> fix(const std::set<SpinQuantity>& left_out = {}) const {
     return lone_fix(config, seen(), left_out, sightlines());

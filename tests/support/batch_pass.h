@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "pipelines/spin/batch/pass_model.h"
@@ -34,6 +36,35 @@ inline std::vector<PassEdge> noisy_pass(const SpinningBody& body, const std::vec
                                         std::mt19937_64& rng) {
   return counted(body, pulses_from(edges, kTransferStart, body.config.noise, rng));
 }
+
+/// The body as the model has it: its own frame, seen from the middle of the pass.
+inline SpinState true_state(const SpinningBody& body, const PassModel& model) {
+  const double turn_rad =
+      body.first_turn_rad + body.rate_rad_s * seconds_between(kTransferStart, model.middle());
+  return {
+      .q_icrf_spin = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), body.axis_icrf) *
+                     Eigen::Quaterniond{Eigen::AngleAxisd{turn_rad, Eigen::Vector3d::UnitZ()}},
+      .rate_rad_s = body.rate_rad_s,
+      .drift_rad_s2 = 0.0};
+}
+
+/// A body between Sun and Earth over a transfer orbit, from a seed.
+struct BatchScene {
+  std::mt19937_64 rng;
+  Orbit orbit = transfer_orbit();
+  Surroundings around = seen_from(orbit, spherical_horizon_km(40.0));
+  SpinningBody body = random_body(around, 3.0 * std::numbers::pi / 180.0, rng);
+
+  explicit BatchScene(std::uint64_t seed) : rng{seed} {}
+
+  std::vector<PassEdge> pass(double turns) { return pass_of(body, turns); }
+  std::vector<PassEdge> pass_of(const SpinningBody& other, double turns) {
+    return noisy_pass(other, edges_of_turns(other, around, turns), rng);
+  }
+  PassModel model(std::span<const PassEdge> edges) const {
+    return PassModel::make(body.config, orbit, edges).value();
+  }
+};
 
 /// Some degrees from the axis, as a fix would be.
 inline Eigen::Vector3d start_near(const SpinningBody& body, double off_rad, std::mt19937_64& rng) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,12 @@ struct PassCopy {
     }
   }
   std::filesystem::path mission() const { return folder.path() / "mission.toml"; }
+  /// In the mission file, where it first stands.
+  void replace(const std::string& text, const std::string& by) const {
+    std::string mission_text = text_of(mission());
+    mission_text.replace(mission_text.find(text), text.size(), by);
+    std::ofstream{mission()} << mission_text;
+  }
   std::vector<std::string> arguments_here() const {
     return arguments(mission(), folder.path(), db);
   }

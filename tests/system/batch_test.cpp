@@ -32,14 +32,26 @@ nlohmann::json truth_of(const std::string& pass) {
   return nlohmann::json::parse(text_of(kPasses / pass / "truth.json"));
 }
 
+/// Of a command that is told to print one JSON object.
+nlohmann::json answer(const std::vector<std::string>& words) {
+  Program program{words};
+  EXPECT_EQ(program.exit_status(), 0) << program.log();
+  return nlohmann::json::parse(program.out(), nullptr, false);
+}
+
+/// Of `batch` for a recorded pass in an archive, with more words behind.
+std::vector<std::string> batch_of(const std::string& pass, const std::filesystem::path& db,
+                                  const std::vector<std::string>& more) {
+  std::vector<std::string> words{"batch", "--mission", (kPasses / pass / "mission.toml").string(),
+                                 "--db", db.string()};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
 TEST(Batch, StandsBesideTheOtherEstimatorsWithBoundAndBiases) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "out.db";
-  auto words = arguments("nominal", db);
-  words.emplace_back("--json");
-  Program program{words};
-  ASSERT_EQ(program.exit_status(), 0) << program.log();
-  const auto batch = nlohmann::json::parse(program.out())["runs"][0]["batch"];
+  const auto batch = answer(arguments("nominal", db))["runs"][0]["batch"];
   EXPECT_THAT(batch["status"].get<std::string>(), StartsWith("OK, 3"));
   const double sigma_deg = batch["sigma_deg"].get<double>();
   EXPECT_LT(error_deg(batch, truth_of("nominal")), std::min(0.05, 3.0 * sigma_deg));
@@ -55,31 +67,45 @@ TEST(Batch, StandsBesideTheOtherEstimatorsWithBoundAndBiases) {
   EXPECT_LT(real_of(db, "SELECT max(apart_deg) FROM spin_comparison"), 0.01);
 }
 
+TEST(Batch, EstimatorsThatAModelErrorSetsApartAreNamedAsTheViewFlagsThem) {
+  const PassCopy pass{"nominal"};
+  // `batch` finds the bias, the others have it as an error.
+  pass.replace("mount_angle_deg = 85", "mount_angle_deg = 86");
+  const auto told = answer(pass.arguments_here())["runs"][0]["disagreements"];
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0]["one"], "sequential");
+  EXPECT_EQ(told[0]["other"], "batch");
+  const char* const kFlagged = " FROM spin_comparison WHERE disagree";
+  EXPECT_EQ(number_of(pass.db, std::string{"SELECT count(*)"} + kFlagged), 1);
+  EXPECT_EQ(told[0]["apart_deg"], real_of(pass.db, std::string{"SELECT apart_deg"} + kFlagged));
+  EXPECT_EQ(told[0]["apart_sigmas"],
+            real_of(pass.db, std::string{"SELECT apart_sigmas"} + kFlagged));
+  EXPECT_GT(told[0]["apart_sigmas"].get<double>(), 3.0);
+
+  const TemporaryFolder folder;
+  Program text{{"process", "--mission", pass.mission().string(), "--telemetry",
+                pass.folder.path().string(), "--db", (folder.path() / "out.db").string()}};
+  ASSERT_EQ(text.exit_status(), 0) << text.log();
+  EXPECT_THAT(text.out(),
+              HasSubstr("comparison   sequential and batch disagree: their axes are 0."));
+  EXPECT_THAT(text.log(), HasSubstr("SPINNER: sequential and batch disagree: their axes are 0."));
+}
+
 TEST(Batch, SolvesAStoredRunAgainAndOnlyItsLastRevolutions) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "out.db";
-  auto words = arguments("gms5", db);
-  words.emplace_back("--json");
-  Program process{words};
-  ASSERT_EQ(process.exit_status(), 0) << process.log();
-  const auto in_process = nlohmann::json::parse(process.out())["runs"][0];
-
-  const std::string mission = (kPasses / "gms5" / "mission.toml").string();
-  Program again{{"batch", "--mission", mission, "--db", db.string(), "--json"}};
-  ASSERT_EQ(again.exit_status(), 0) << again.log();
-  const auto solved = nlohmann::json::parse(again.out());
+  const auto in_process = answer(arguments("gms5", db))["runs"][0];
+  const auto solved = answer(batch_of("gms5", db, {"--json"}));
   EXPECT_EQ(solved["run_id"], in_process["run_id"]);
   EXPECT_EQ(solved["edges"], in_process["batch"]["edges"]);
   EXPECT_NEAR(solved["ra_deg"].get<double>(), in_process["batch"]["ra_deg"].get<double>(), 1e-6);
   EXPECT_LT(error_deg(solved, truth_of("gms5")), 0.02);
 
-  Program last{{"batch", "--mission", mission, "--db", db.string(), "--last", "100", "--json"}};
-  ASSERT_EQ(last.exit_status(), 0) << last.log();
-  const auto hundred = nlohmann::json::parse(last.out());
+  const auto hundred = answer(batch_of("gms5", db, {"--last", "100", "--json"}));
   EXPECT_LE(hundred["edges"].get<int>(), 600);
   EXPECT_GT(hundred["bound_deg"].get<double>(), 2.0 * solved["bound_deg"].get<double>());
 
-  Program text{{"batch", "--mission", mission, "--db", db.string()}};
+  Program text{batch_of("gms5", db, {})};
   ASSERT_EQ(text.exit_status(), 0) << text.log();
   EXPECT_THAT(text.out(), HasSubstr("bound        0.0016 deg (Cramer-Rao)"));
 }
@@ -87,14 +113,11 @@ TEST(Batch, SolvesAStoredRunAgainAndOnlyItsLastRevolutions) {
 TEST(Batch, ASpacecraftOrRunThatTheArchiveHasNotIsNamed) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "out.db";
-  Program process{arguments("nominal", db)};
-  ASSERT_EQ(process.exit_status(), 0) << process.log();
-  Program other{
-      {"batch", "--mission", (kPasses / "gms5" / "mission.toml").string(), "--db", db.string()}};
+  answer(arguments("nominal", db));
+  Program other{batch_of("gms5", db, {})};
   EXPECT_EQ(other.exit_status(), 2);
   EXPECT_THAT(other.log(), HasSubstr("has no run of spacecraft 'GMS-5' with revolutions"));
-  Program run{{"batch", "--mission", (kPasses / "nominal" / "mission.toml").string(), "--db",
-               db.string(), "--run", "nope"}};
+  Program run{batch_of("nominal", db, {"--run", "nope"})};
   EXPECT_EQ(run.exit_status(), 2);
   EXPECT_THAT(run.log(), HasSubstr("has no run nope of spacecraft 'SPINNER'"));
 }
@@ -102,16 +125,13 @@ TEST(Batch, ASpacecraftOrRunThatTheArchiveHasNotIsNamed) {
 TEST(Batch, EstimatesTheBiasesThatTheMissionAsksFor) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "out.db";
-  Program process{arguments("nominal", db)};
-  ASSERT_EQ(process.exit_status(), 0) << process.log();
+  answer(arguments("nominal", db));
   const auto pass = folder.path() / "pass";
   std::filesystem::copy(kPasses / "nominal", pass);
   std::ofstream{pass / "mission.toml", std::ios::app}
       << "\n[spin.batch]\ndihedral = true\nsun_angle = false\n";
-  Program batch{
-      {"batch", "--mission", (pass / "mission.toml").string(), "--db", db.string(), "--json"}};
-  ASSERT_EQ(batch.exit_status(), 0) << batch.log();
-  const auto solved = nlohmann::json::parse(batch.out());
+  const auto solved = answer(
+      {"batch", "--mission", (pass / "mission.toml").string(), "--db", db.string(), "--json"});
   EXPECT_THAT(solved["status"].get<std::string>(), HasSubstr("azimuth between sun sensor and"));
   const auto& dihedral = solved["biases"]["dihedral"];
   EXPECT_TRUE(dihedral["observable"]);

@@ -19,6 +19,7 @@ namespace spindrift {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
@@ -55,6 +56,8 @@ TEST(Process, FindsTheAxisOfEveryRecordedPassWithinItsFigureAndThreeOfItsSigma) 
     const auto db = folder.path() / "out.db";
     Program program{arguments(pass, db)};
     ASSERT_EQ(program.exit_status(), 0) << program.log();
+    EXPECT_TRUE(nlohmann::json::parse(program.out())["runs"][0]["disagreements"].empty()) << pass;
+    EXPECT_THAT(program.log(), Not(HasSubstr("disagree"))) << pass;
     for (const std::string estimator : {"mean", "sequential"}) {
       SCOPED_TRACE(std::string{pass} + " " + estimator);
       const double error = error_deg(db, truth_of(pass), estimator);

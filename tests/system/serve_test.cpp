@@ -184,6 +184,16 @@ TEST(Serve, FinishesItsRunWhenStopped) {
             1);
 }
 
+TEST(Serve, SaysAtTheEndOfARunWhichEstimatorsDisagree) {
+  const PassCopy pass{"nominal"};
+  pass.replace("mount_angle_deg = 85", "mount_angle_deg = 86");
+  Service service{pass.folder.path().string()};
+  ASSERT_TRUE(service.serves_its_pass()) << service.program().log();
+  EXPECT_THAT(service.program().log(), HasSubstr("SPINNER: sequential and batch disagree"));
+  const auto report = nlohmann::json::parse(service.program().out());
+  EXPECT_EQ(report["runs"][0]["disagreements"][0]["other"], "batch");
+}
+
 TEST(Serve, CallsItsRunAReplayInThatPartition) {
   Service service{"nominal", "replay"};
   ASSERT_TRUE(service.ready()) << service.program().log();

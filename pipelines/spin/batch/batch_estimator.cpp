@@ -24,8 +24,9 @@ namespace {
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 // Fewer turns do not tell rate and drift from noise.
 constexpr std::int64_t kFewestTurns = 3;
-// More outliers are no dirt of a pass but another motion, or none.
-constexpr double kManyOutliers = 0.2;
+// More outliers are no dirt of a pass but another motion, or none: a wrong axis may have all edges
+// of five channels where they came, and none of the sixth.
+constexpr double kManyOutliers = 0.15;
 constexpr double kMostOutliers = 0.5;
 // An axis known no better is not determined: cones about Sun or Earth, more or less.
 constexpr double kLost_rad = 10.0 * kDegree_rad;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -84,18 +85,8 @@ TEST_P(Horizons, TakingItForTheOtherCostsWhatTheDesignSays) {
 TEST_P(Horizons, ExactEdgesGiveTheTrueAxisWhileTheEarthMoves) {
   const Eigen::Vector3d motion_icrf_s{-5e-4, 1e-4, 2e-4};  // 0.03 deg/s.
   for (const Scene& scene : usual_scenes(GetParam())) {
-    testing::Surroundings around = scene.around();
-    around.earth_icrf_km = [&](double t_s) -> Eigen::Vector3d {
-      return Scene::kRange_km * (scene.earth_icrf + t_s * motion_icrf_s);
-    };
-    const Revolution seen = testing::revolution_seen({.axis_icrf = scene.axis_icrf,
-                                                      .rate_rad_s = scene.rate_rad_s,
-                                                      .first_turn_rad = 0.1,
-                                                      .config = scene.config},
-                                                     around, scene.start);
-    Sightlines sightlines = scene.sightlines();
-    sightlines.t_earth = scene.start;
-    sightlines.earth_motion_icrf_s = motion_icrf_s;
+    const Revolution seen = scene.seen_while_earth_moves(motion_icrf_s);
+    const Sightlines sightlines = scene.sightlines_while_earth_moves(motion_icrf_s);
     for (const auto& left_out : kLeftOut) {
       const SpinFix fix = testing::lone_fix(scene.config, seen, left_out, sightlines).value();
       EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), testing::kExact_rad);
@@ -112,9 +103,7 @@ TEST_P(Horizons, AFixTurnsWithAllThatItWasMadeFrom) {
     const double x = normal(rng);
     const double y = normal(rng);
     const Eigen::Quaterniond turn = Eigen::Quaterniond{w, x, y, normal(rng)}.normalized();
-    Sightlines sightlines = scene.sightlines();
-    sightlines.t_earth = scene.start;
-    sightlines.earth_motion_icrf_s = {1e-4, 2e-4, -3e-4};
+    const Sightlines sightlines = scene.sightlines_while_earth_moves({1e-4, 2e-4, -3e-4});
     Sightlines turned = sightlines;
     for (Eigen::Vector3d Sightlines::*direction :
          {&Sightlines::sun_icrf, &Sightlines::earth_icrf, &Sightlines::earth_pole_icrf,
@@ -152,6 +141,45 @@ TEST(AxisCandidatesOnTheEllipsoid, ABeamThatOnTheSphereWouldMissItHasAFixToo) {
       EXPECT_EQ(fix.geometry_case, 2);
       EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 0.0005 * kDegree_rad)
           << tilt_deg << " " << depth_deg;
+    }
+  }
+}
+
+/// The north beam mounted so that its chord is so wide.
+void mount_for_chord(double chord_rad, Scene& scene) {
+  const double earth_angle_rad = angle_between_rad(scene.axis_icrf, scene.earth_icrf);
+  double narrower_rad = earth_angle_rad - 30.0 * kDegree_rad;
+  double wider_rad = earth_angle_rad - 15.0 * kDegree_rad;
+  for (int i = 0; i < 30; ++i) {
+    scene.config.north->mount_angle_rad = 0.5 * (narrower_rad + wider_rad);
+    const auto crossing = measure(scene.config, scene.seen()).crossing(Side::North);
+    const bool wider = crossing && crossing->chord && crossing->chord->value_rad > chord_rad;
+    (wider ? wider_rad : narrower_rad) = scene.config.north->mount_angle_rad;
+  }
+  scene.config.north->mount_angle_rad = wider_rad;
+}
+
+TEST(AxisCandidatesOnTheEllipsoid, ANarrowChordAnywhereOnTheLimbHasAFixToo) {
+  for (const double tilt_deg : {0.0, 30.0, 60.0, 90.0}) {
+    for (const double earth_angle_deg : {80.0, 90.0, 105.0}) {
+      for (const double chord_deg : {1.0, 2.0, 3.0, 4.0}) {
+        Scene scene = tilted_scene(tilt_deg, earth_angle_deg, HorizonModel::Ellipsoid);
+        scene.config.noise = {.sun_s = 2e-6, .infrared_s = 2e-6};
+        mount_for_chord(chord_deg * kDegree_rad, scene);
+        for (const auto& left_out : {std::set{SouthChord, SouthDihedral},
+                                     std::set{SouthChord, SouthDihedral, NorthDihedral}}) {
+          const auto found = axis_candidates(
+              scene.config, testing::measured_without(scene.config, scene.seen(), left_out),
+              scene.sightlines());
+          ASSERT_TRUE(found) << found.error().message;
+          double off_rad = 1.0;
+          for (const AxisCandidate& candidate : found->candidates) {
+            off_rad = std::min(off_rad, angle_between_rad(candidate.axis_icrf, scene.axis_icrf));
+          }
+          EXPECT_LT(off_rad, 0.0002 * kDegree_rad)
+              << tilt_deg << " " << earth_angle_deg << " " << chord_deg;
+        }
+      }
     }
   }
 }

@@ -79,19 +79,8 @@ TEST(AxisCandidates, DihedralsOnEitherSideOfPiAreAveragedThere) {
 TEST(AxisCandidates, AnEarthThatMovesBetweenTheEdgesIsAllowedFor) {
   const Scene scene;  // One turn in six seconds, the Earth moving by 0.03 deg/s.
   const Eigen::Vector3d motion_icrf_s{-5e-4, 1e-4, 2e-4};
-  testing::Surroundings around =
-      testing::at_rest(scene.sun_icrf, Scene::kRange_km * scene.earth_icrf);
-  around.earth_icrf_km = [&](double t_s) -> Eigen::Vector3d {
-    return Scene::kRange_km * (scene.earth_icrf + t_s * motion_icrf_s);
-  };
-  const Revolution seen = testing::revolution_seen({.axis_icrf = scene.axis_icrf,
-                                                    .rate_rad_s = scene.rate_rad_s,
-                                                    .first_turn_rad = 0.1,
-                                                    .config = scene.config},
-                                                   around, scene.start);
-  Sightlines sightlines = scene.sightlines();
-  sightlines.t_earth = scene.start;
-  sightlines.earth_motion_icrf_s = motion_icrf_s;
+  const Revolution seen = scene.seen_while_earth_moves(motion_icrf_s);
+  const Sightlines sightlines = scene.sightlines_while_earth_moves(motion_icrf_s);
   for (const std::set<SpinQuantity>& left_out :
        {std::set<SpinQuantity>{}, std::set{SouthChord}, std::set{NorthChord}}) {
     const auto off_rad = [&](const Sightlines& taken) {

@@ -47,19 +47,9 @@ TEST(BeamView, OfTheSphereAtRestIsItsDisc) {
 TEST(BeamView, OfAnOblateEarthThatMovesHasTheChordsAndMiddlesOfTheOracle) {
   const Scene scene = oblique_scene();
   const Eigen::Vector3d motion_icrf_s{-5e-4, 1e-4, 2e-4};
-  testing::Surroundings around = scene.around();
-  around.earth_icrf_km = [&](double t_s) -> Eigen::Vector3d {
-    return Scene::kRange_km * (scene.earth_icrf + t_s * motion_icrf_s);
-  };
   const RevolutionMeasurements measured =
-      measure(scene.config, testing::revolution_seen({.axis_icrf = scene.axis_icrf,
-                                                      .rate_rad_s = scene.rate_rad_s,
-                                                      .first_turn_rad = 0.1,
-                                                      .config = scene.config},
-                                                     around, scene.start));
-  Sightlines sightlines = scene.sightlines();
-  sightlines.t_earth = scene.start;
-  sightlines.earth_motion_icrf_s = motion_icrf_s;
+      measure(scene.config, scene.seen_while_earth_moves(motion_icrf_s));
+  const Sightlines sightlines = scene.sightlines_while_earth_moves(motion_icrf_s);
   const BeamViews beams = views_of_horizon(scene.config, measured, sightlines, scene.axis_icrf);
   const double dihedral_rad =
       predict_angles(scene.axis_icrf, scene.sun_icrf, scene.earth_icrf).dihedral_rad;
@@ -70,6 +60,43 @@ TEST(BeamView, OfAnOblateEarthThatMovesHasTheChordsAndMiddlesOfTheOracle) {
     EXPECT_NEAR(wrapped_rad(dihedral_rad - beam.lead_rad), crossing.dihedral->value_rad,
                 kNanosecond_rad);
     EXPECT_GT(std::abs(beam.lead_rad), 1e-4);
+  }
+}
+
+TEST(BeamView, SlopesAreThoseOfSmallStepsOfTheAxis) {
+  const Scene scene = oblique_scene();
+  const Eigen::Vector3d motion_icrf_s{-5e-4, 1e-4, 2e-4};
+  const RevolutionMeasurements measured =
+      measure(scene.config, scene.seen_while_earth_moves(motion_icrf_s));
+  const Sightlines sightlines = scene.sightlines_while_earth_moves(motion_icrf_s);
+  const auto views_at = [&](const Eigen::Vector3d& axis_icrf) {
+    return views_of_horizon(scene.config, measured, sightlines, axis_icrf.normalized());
+  };
+  const Eigen::Matrix<double, 3, 2> basis = tangent_basis(scene.axis_icrf);
+  constexpr double kStep_rad = 1e-5;
+  for (const Side side : kSides) {
+    const BeamView here = views_at(scene.axis_icrf).at(index_of(side));
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      const Eigen::Vector3d step_icrf = kStep_rad * basis.col(i);
+      const BeamView after = views_at(scene.axis_icrf + step_icrf).at(index_of(side));
+      const BeamView before = views_at(scene.axis_icrf - step_icrf).at(index_of(side));
+      // Relative to 1: a step of 1e-5 squared, and rounding of 1e-15 over it.
+      EXPECT_NEAR(here.disc_per_step_icrf.dot(basis.col(i)),
+                  (after.disc_rad - before.disc_rad) / (2.0 * kStep_rad), 1e-8);
+      EXPECT_NEAR(here.lead_per_step_icrf.dot(basis.col(i)),
+                  (after.lead_rad - before.lead_rad) / (2.0 * kStep_rad), 1e-8);
+    }
+    EXPECT_GT(here.disc_per_step_icrf.norm(), 1e-4);
+    EXPECT_GT(here.lead_per_step_icrf.norm(), 1e-4);
+  }
+}
+
+TEST(BeamView, OfTheSphereAtRestNothingChangesWithTheAxis) {
+  const Scene scene;
+  for (const BeamView& beam : views_of_horizon(scene.config, measure(scene.config, scene.seen()),
+                                               scene.sightlines(), scene.axis_icrf)) {
+    EXPECT_LT(beam.disc_per_step_icrf.norm(), 1e-13);
+    EXPECT_LT(beam.lead_per_step_icrf.norm(), 1e-13);
   }
 }
 

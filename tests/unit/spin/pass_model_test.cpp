@@ -34,18 +34,6 @@ struct Scene {
   }
 
   PassModel model() const { return PassModel::make(body.config, orbit, edges).value(); }
-
-  /// The body as the model has it: its own frame, seen from the middle of the pass.
-  SpinState truth(const PassModel& model) const {
-    const auto frame = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), body.axis_icrf);
-    const double turn_rad =
-        body.first_turn_rad +
-        body.rate_rad_s * seconds_between(testing::kTransferStart, model.middle());
-    return {.q_icrf_spin =
-                frame * Eigen::Quaterniond{Eigen::AngleAxisd{turn_rad, Eigen::Vector3d::UnitZ()}},
-            .rate_rad_s = body.rate_rad_s,
-            .drift_rad_s2 = 0.0};
-  }
 };
 
 class PassModels : public ::testing::TestWithParam<HorizonModel> {};
@@ -53,7 +41,7 @@ class PassModels : public ::testing::TestWithParam<HorizonModel> {};
 TEST_P(PassModels, TheTrueStateLeavesNothingOver) {
   const Scene scene{GetParam()};
   const PassModel model = scene.model();
-  const SpinState truth = scene.truth(model);
+  const SpinState truth = testing::true_state(scene.body, model);
   for (const PassEdge& edge : scene.edges) {
     const auto residual = model.residual(edge.pulse, truth);
     ASSERT_TRUE(residual);
@@ -81,7 +69,7 @@ TEST_P(PassModels, SlopesAreThoseOfTheResidual) {
   const Scene scene{GetParam()};
   const PassModel model = scene.model();
   // Away from the solution, in every unknown.
-  SpinState state = scene.truth(model);
+  SpinState state = testing::true_state(scene.body, model);
   for (int i = 0; i < kMotionUnknowns; ++i) {
     state = stepped(model, state, i, 0.01);
   }

@@ -32,15 +32,19 @@ PassPlan plan(double from_s, double to_s, double step_s,
       .value();
 }
 
+/// From its first edge on.
+Expected<PassPlan> plan(const testing::RecordedPass& pass, double duration_s, double step_s) {
+  const TaiTime from = pass.pulses.front().t;
+  return plan_pass(pass.config, pass.orbit,
+                   {.from = from,
+                    .to = shifted(from, duration_s),
+                    .step_s = step_s,
+                    .axis_icrf = pass.true_axis_icrf,
+                    .rate_rad_s = pass.true_rate_rad_s});
+}
+
 TEST(PassPlan, ExpectsThePublishedLimitAfterAHundredTurns) {
-  const auto pass = testing::recorded_pass("nominal");
-  const PassPlan found = plan_pass(pass.config, pass.orbit,
-                                   {.from = pass.pulses.front().t,
-                                    .to = shifted(pass.pulses.front().t, 100.0),
-                                    .step_s = 50.0,
-                                    .axis_icrf = pass.true_axis_icrf,
-                                    .rate_rad_s = pass.true_rate_rad_s})
-                             .value();
+  const PassPlan found = plan(testing::recorded_pass("nominal"), 100.0, 50.0).value();
   // spin.md; the geometry turns meanwhile, which its figure (0.405 deg / 10 and 1 % more) leaves
   // out.
   EXPECT_NEAR(found.steps.back().sigma_rad.value() / kDegree_rad, 0.0409, 0.02 * 0.0409);
@@ -128,14 +132,35 @@ TEST(PassPlan, ChordsVanishWhereTheDiscLeavesTheBeam) {
   EXPECT_GE(changes, 4);
 }
 
+TEST(PassPlan, WhatHoldsForSecondsIsFoundWhereverItFalls) {
+  // Slit 1 and the north beam's limb drift past each other at the rate of the Earth's azimuth: with
+  // the window's width chosen so, they meet for four seconds.
+  auto body = testing::body_across_the_earth();
+  PassScene scene{body.config, testing::orbit_across_the_earth(), body.axis_icrf, body.rate_rad_s};
+  const auto apart_rad = [&](double t_s) {
+    const auto& expected = scene.at(shifted(testing::kTransferStart, t_s)).value().expected;
+    return wrapped_rad(expected.predicted.at(index_of(PulseChannel::NorthIn))->phase_rad -
+                       expected.predicted.at(index_of(PulseChannel::Sun1))->phase_rad);
+  };
+  constexpr double kMiddle_s = 1005.0;
+  const double drift_rad_s = 0.1 * (apart_rad(kMiddle_s + 5.0) - apart_rad(kMiddle_s - 5.0));
+  // The beam mounted so that both come at once in the middle.
+  body.config.north->azimuth_rad -= apart_rad(kMiddle_s);
+  body.config.noise = {.sun_s = 1e-9, .infrared_s = 1e-9};
+  body.config.screening.interference_s = 2.0 * std::abs(drift_rad_s) / body.rate_rad_s;
+  for (const double from_s : {0.0, 3.3, 7.7}) {
+    const auto events = plan(from_s, 2000.0, 500.0, body).events;
+    const auto met = std::find_if(events.begin(), events.end(), [](const PassEvent& event) {
+      return event.what == "interference: sun1 and north_in meet";
+    });
+    ASSERT_NE(met, events.end()) << from_s;
+    EXPECT_NEAR(seconds_between(testing::kTransferStart, met->from), kMiddle_s - 2.0, 1.5);
+    EXPECT_NEAR(seconds_between(testing::kTransferStart, met->to), kMiddle_s + 2.0, 1.5);
+  }
+}
+
 TEST(PassPlan, AnOrbitThatEndsIsAnError) {
-  const auto pass = testing::recorded_pass("nominal");
-  const auto found = plan_pass(pass.config, pass.orbit,
-                               {.from = pass.pulses.front().t,
-                                .to = shifted(pass.pulses.front().t, 3600.0),
-                                .step_s = 60.0,
-                                .axis_icrf = pass.true_axis_icrf,
-                                .rate_rad_s = pass.true_rate_rad_s});
+  const auto found = plan(testing::recorded_pass("nominal"), 3600.0, 60.0);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::NoCoverage);
   // It ends two minutes behind the pass of ten.
