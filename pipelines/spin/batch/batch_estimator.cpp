@@ -11,11 +11,13 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/attitude_change.h"
 #include "pipelines/spin/batch/batch_fit.h"
+#include "pipelines/spin/batch/batch_status.h"
 #include "pipelines/spin/batch/bias_choice.h"
 #include "pipelines/spin/batch/first_clock.h"
 #include "pipelines/spin/batch/observability.h"
 #include "pipelines/spin/batch/pass_information.h"
-#include "pipelines/spin/batch/steady_residuals.h"
+#include "pipelines/spin/batch/pass_nutation.h"
+#include "pipelines/spin/time_span.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift {
@@ -24,8 +26,7 @@ namespace {
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 // Fewer turns do not tell rate and drift from noise.
 constexpr std::int64_t kFewestTurns = 3;
-// More outliers are no dirt of a pass but another motion, or none.
-constexpr double kManyOutliers = 0.2;
+// More outliers are no dirt of a pass but another motion.
 constexpr double kMostOutliers = 0.5;
 // An axis known no better is not determined: cones about Sun or Earth, more or less.
 constexpr double kLost_rad = 10.0 * kDegree_rad;
@@ -33,8 +34,6 @@ constexpr double kLost_rad = 10.0 * kDegree_rad;
 constexpr double kSameAxis_rad = 0.1 * kDegree_rad;
 // exp(10) times as likely settles it, as for the filters of `sequential`.
 constexpr double kSettled = 20.0;
-// A quarter of an hour at 100 rpm; the search takes as much memory as 2 KiB an edge.
-constexpr std::size_t kNutationEdges = 10'000;
 constexpr int kMostChanges = 4;
 constexpr int kMostBiases = 3;
 
@@ -47,6 +46,13 @@ struct Explained {
   BatchFit fit;
   BiasSet estimated;
   PassInformation information;
+  std::optional<NutationSearch> nutation;
+
+  double excess_noise() const {
+    return information.excess_noise(kMotionUnknowns + static_cast<int>(estimated.count()) +
+                                    kNutationUnknowns *
+                                        static_cast<int>(fit.state.nutation.size()));
+  }
 
   double misfit() const {
     return information.squares +
@@ -59,8 +65,35 @@ Expected<Explained> explain(const PassModel& model, std::span<const PassEdge> ed
   return fit(model, edges, start, estimated).map([&](const BatchFit& found) {
     return Explained{.fit = found,
                      .estimated = estimated,
-                     .information = information_of(model, edges, found.state)};
+                     .information = less_nutation(information_of(model, edges, found.state), model,
+                                                  edges, found.state),
+                     .nutation = {}};
   });
+}
+
+/// Nutation is taken out before anything else is asked of the residuals: it would hide changes and
+/// biases, which themselves are slow and do not look like it.
+Expected<Explained> with_nutation(const PassModel& model, std::span<const PassEdge> edges,
+                                  Explained steady) {
+  PassNutation nutation = find_pass_nutation(model, edges, steady.fit.state);
+  steady.nutation = nutation.last;
+  if (nutation.stretches.empty()) {
+    return steady;
+  }
+  SpinState start = steady.fit.state;
+  start.nutation = std::move(nutation.stretches);
+  return explain(model, edges, start, steady.estimated).map([&](Explained nutating) {
+    nutating.nutation = nutation.last;
+    return nutating;
+  });
+}
+
+bool same_axis(const Explained& one, const Explained& other) {
+  return angle_between_rad(one.fit.state.axis_icrf(), other.fit.state.axis_icrf()) < kSameAxis_rad;
+}
+
+bool likelier(const Explained& one, const Explained& other) {
+  return one.misfit() < other.misfit();
 }
 
 /// The likeliest, and another that is nearly so.
@@ -69,8 +102,10 @@ struct Best {
   std::optional<Eigen::Vector3d> or_axis_icrf;
 };
 
-Expected<Best> best_of(const PassModel& model, std::span<const PassEdge> edges,
-                       std::span<const Eigen::Vector3d> starts, BiasSet estimated) {
+/// One of each axis that a start leads to, likeliest first.
+Expected<std::vector<Explained>> all_of(const PassModel& model, std::span<const PassEdge> edges,
+                                        std::span<const Eigen::Vector3d> starts,
+                                        BiasSet estimated) {
   std::vector<Explained> all;
   std::optional<Error> reason;
   for (const Eigen::Vector3d& start : starts) {
@@ -86,17 +121,39 @@ Expected<Best> best_of(const PassModel& model, std::span<const PassEdge> edges,
   if (all.empty()) {
     return Unexpected{*reason};
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Explained& a, const Explained& b) { return a.misfit() < b.misfit(); });
-  const Eigen::Vector3d axis_icrf = all.front().fit.state.axis_icrf();
-  const double settled = kSettled * all.front().information.excess_noise(kMotionUnknowns);
-  const auto other = std::find_if(all.begin(), all.end(), [&](const Explained& one) {
-    return angle_between_rad(one.fit.state.axis_icrf(), axis_icrf) > kSameAxis_rad &&
-           one.misfit() < all.front().misfit() + settled;
+  std::stable_sort(all.begin(), all.end(), likelier);
+  std::vector<Explained> apart;
+  for (const Explained& one : all) {
+    const auto same = [&](const Explained& other) { return same_axis(one, other); };
+    if (std::none_of(apart.begin(), apart.end(), same)) {
+      apart.push_back(one);
+    }
+  }
+  return apart;
+}
+
+Expected<Best> best_of(const PassModel& model, std::span<const PassEdge> edges,
+                       std::span<const Eigen::Vector3d> starts, BiasSet estimated) {
+  auto all = all_of(model, edges, starts, estimated);
+  if (!all) {
+    return Unexpected{all.error()};
+  }
+  for (Explained& one : *all) {
+    auto nutating = with_nutation(model, edges, one);
+    if (!nutating) {
+      return Unexpected{nutating.error()};
+    }
+    one = *std::move(nutating);
+  }
+  std::stable_sort(all->begin(), all->end(), likelier);
+  const Explained& best = all->front();
+  const double settled = kSettled * best.excess_noise();
+  const auto other = std::find_if(all->begin() + 1, all->end(), [&](const Explained& one) {
+    return !same_axis(one, best) && one.misfit() < best.misfit() + settled;
   });
-  return Best{.best = all.front(),
+  return Best{.best = best,
               .or_axis_icrf =
-                  other == all.end() ? std::nullopt : std::optional{other->fit.state.axis_icrf()}};
+                  other == all->end() ? std::nullopt : std::optional{other->fit.state.axis_icrf()}};
 }
 
 /// All that is found out of the edges from the last change on.
@@ -165,13 +222,13 @@ Expected<Eigen::Matrix2d> add_wanted_biases(Solved& solved) {
     if (!wanted) {
       break;
     }
-    BiasSet estimated = now.estimated;
-    estimated.set(static_cast<std::size_t>(wanted->bias));
+    const BiasSet estimated = now.estimated | unknowns_of(wanted->bias);
     open_rad2 += other_biases_rad2(now.information, now.estimated, wanted->bias);
     auto with_bias = explain(solved.model, solved.edges, now.fit.state, estimated);
     if (!with_bias) {
       return Unexpected{with_bias.error()};
     }
+    with_bias->nutation = now.nutation;
     solved.of.best = *std::move(with_bias);
   }
   return open_rad2;
@@ -205,13 +262,6 @@ Error why_diverged(const Solved& solved, const Eigen::Vector3d& start_icrf) {
                       found.outliers, found.outliers + found.edges)};
 }
 
-std::string bias_in_words(const BiasEstimate& bias) {
-  const BiasPrior& prior = prior_of(bias.bias);
-  const double unit = prior.is_angle ? kDegree_rad : 1.0;
-  return fmt::format("{} {:+.3f} +/- {:.3f} {}", prior.words, bias.value / unit, bias.sigma / unit,
-                     prior.is_angle ? "deg" : "km");
-}
-
 /// Of the biases not estimated, what one step from the state would make of all together.
 std::vector<BiasEstimate> all_biases(const Explained& found) {
   const SensorBiases& now = found.fit.state.biases;
@@ -224,55 +274,29 @@ std::vector<BiasEstimate> all_biases(const Explained& found) {
       return bias.bias == estimated.bias;
     }) = estimated;
   }
+  std::erase_if(biases, [](const BiasEstimate& bias) {
+    return bias.bias == ConingX || bias.bias == ConingY;
+  });
   return biases;
 }
 
-/// Of the last part of a long pass, where nutation that grows is the largest.
-std::optional<NutationSearch> nutation_in(const Solved& solved) {
-  const std::size_t count = std::min(solved.edges.size(), kNutationEdges);
-  const auto search = find_nutation(
-      steady_residuals(solved.model, solved.edges.last(count), solved.of.best.fit.state));
-  return search ? std::optional{*search} : std::nullopt;
-}
-
-std::string status_of(const Solved& solved, const BatchSolution& solution) {
-  const Explained& best = solved.of.best;
-  const bool noisy = solution.noise > 1.0;
-  const bool dirty = best.information.outlier_share() > kManyOutliers;
-  const bool bounded = best.fit.at_bound.any();
-  std::string status =
-      solved.of.or_axis_icrf ? "AMBIGUOUS" : (noisy || dirty || bounded ? "DOUBTFUL" : "OK");
-  if (solved.of.or_axis_icrf) {
-    const RaDec other = ra_dec_of(*solved.of.or_axis_icrf);
-    status += fmt::format(", or ra {:.2f} dec {:.2f} deg", other.ra_rad / kDegree_rad,
-                          other.dec_rad / kDegree_rad);
+ConingEstimate coning_of(const Explained& found, double excess_noise) {
+  const Observability observed{found.information, found.estimated | unknowns_of(ConingX)};
+  const bool estimated = found.estimated[ConingX];
+  SensorBiases biases = found.fit.state.biases;
+  if (!estimated) {
+    biases += observed.bias_step(found.information, biases);
   }
-  status += fmt::format(", {} edges", solution.edges);
-  if (solution.changed) {
-    status +=
-        fmt::format(" since {}, where attitude or rate changed", format_utc(*solution.changed, 0));
-  }
-  if (solution.outliers > 0) {
-    status += fmt::format(", {} outliers", solution.outliers);
-  }
-  if (solution.nutation && solution.nutation->found) {
-    const FoundNutation& nutation = *solution.nutation->found;
-    status += fmt::format(", nutation {:.3f} deg, period {:.3f} s",
-                          nutation.half_angle_rad.value / kDegree_rad, nutation.period_s.value);
-  }
-  if (noisy) {
-    status += fmt::format(", noise x {:.1f}", solution.noise);
-  }
-  for (const BiasEstimate& bias : solution.biases) {
-    const auto index = static_cast<std::size_t>(bias.bias);
-    if (best.fit.at_bound[index]) {
-      status += fmt::format(", {} runs to its bound", prior_of(bias.bias).words);
-    } else if (best.estimated[index]) {
-      status += bias.observable ? ", " + bias_in_words(bias)
-                                : fmt::format(", {} not determined", prior_of(bias.bias).words);
-    }
-  }
-  return status;
+  const Eigen::Vector2d coning_rad = biases.segment<2>(ConingX);
+  const Eigen::Matrix2d covariance_rad2 = observed.coning_covariance_rad2() * excess_noise;
+  const Eigen::Vector2d along = coning_rad.stableNormalized();
+  const Eigen::Vector2d across{-along.y(), along.x()};
+  ConingEstimate coning{
+      .verdict = judge_coning(coning_rad, covariance_rad2),
+      .tilt_sigma_rad = std::sqrt(along.dot(covariance_rad2 * along)),
+      .azimuth_sigma_rad = std::sqrt(across.dot(covariance_rad2 * across)) / coning_rad.norm()};
+  coning.verdict.detected = coning.verdict.detected && estimated;
+  return coning;
 }
 
 }  // namespace
@@ -306,8 +330,7 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
   if (const auto open = axis_left_open(bound_rad2)) {
     return Unexpected{*open};
   }
-  const int unknowns = kMotionUnknowns + static_cast<int>(best.estimated.count());
-  const double excess_noise = information.excess_noise(unknowns);
+  const double excess_noise = best.excess_noise();
   const Eigen::Matrix2d turned = tangent_from_tilts(best.fit.state.q_icrf_spin);
   const double half_s = solved->model.half_s();
   BatchSolution solution{
@@ -329,10 +352,18 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
       .outliers = information.outliers,
       .noise = std::sqrt(excess_noise),
       .iterations = best.fit.iterations,
-      .nutation = nutation_in(*solved)};
+      .nutation = best.nutation,
+      .nutation_t = solved->edges.back().pulse.t,
+      .coning = coning_of(best, excess_noise)};
+  if (best.nutation && best.nutation->found) {
+    solution.nutation->found = as_fitted(*best.nutation->found, solved->model, best.fit.state);
+    solution.nutation_t = later_by_s(solved->model.middle(), best.nutation->found->t_s);
+  }
   const BiasSet suspected = config.batch.biases.value_or(seen_biases(information));
   solution.undetermined = Observability{information, suspected}.undetermined();
-  solution.estimate.status = status_of(*solved, solution);
+  solution.estimate.status = status_of(solution, {.or_axis_icrf = solved->of.or_axis_icrf,
+                                                  .estimated = best.estimated,
+                                                  .at_bound = best.fit.at_bound});
   return solution;
 }
 

@@ -2,48 +2,69 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <vector>
 
 namespace spindrift {
 namespace {
 
-// Eight biases are looked at, each at a chance of 1.2e-5.
+// Nine are looked at, each at a chance of 1.2e-5: chi-squares of one degree, of coning two.
 constexpr double kWanted = 19.2;
+constexpr double kConingWanted = 22.7;
 
 using Unknowns = Eigen::Matrix<double, kBatchUnknowns, 1>;
 using Information = Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns>;
+
+/// One by one; the second of coning goes with the first.
+std::vector<SensorBias> not_among(BiasSet estimated) {
+  std::vector<SensorBias> biases;
+  for (int i = 0; i < kSensorBiases; ++i) {
+    if (!estimated[static_cast<std::size_t>(i)] && i != ConingY) {
+      biases.push_back(static_cast<SensorBias>(i));
+    }
+  }
+  return biases;
+}
+
+double wanted_from(SensorBias bias) { return bias == ConingX ? kConingWanted : kWanted; }
 
 /// The step that all unknowns take when one more bias is estimated.
 struct Step {
   Unknowns unknowns;
   double gain;
-  double sigma;  ///< Of the bias.
+  double share_of_prior;  ///< Of what was open of the bias before, the share that is.
 };
 
 Step step_with(const PassInformation& pass, BiasSet estimated, SensorBias bias) {
-  estimated.set(static_cast<std::size_t>(bias));
+  const BiasSet added = unknowns_of(bias);
+  estimated |= added;
   Information information = pass.information;
-  Unknowns score = pass.score;
+  // At the best state only what is added has a score left.
+  Unknowns score = Unknowns::Zero();
+  std::vector<int> rows;
+  double prior_volume = 1.0;
   information.diagonal().head<kMotionUnknowns>().array() += 1.0;
   for (int i = 0; i < kSensorBiases; ++i) {
     const int row = kMotionUnknowns + i;
+    const double prior = prior_of(static_cast<SensorBias>(i)).sigma;
     if (estimated[static_cast<std::size_t>(i)]) {
-      const double prior = prior_of(static_cast<SensorBias>(i)).sigma;
       information(row, row) += 1.0 / (prior * prior);
     } else {
       information.row(row).setZero();
       information.col(row).setZero();
       information(row, row) = 1.0;
-      score[row] = 0.0;
+    }
+    if (added[static_cast<std::size_t>(i)]) {
+      rows.push_back(row);
+      score[row] = pass.score[row];
+      prior_volume *= prior;
     }
   }
-  const Eigen::LDLT<Information> solver{information};
-  const Unknowns by_bias = solver.solve(Unknowns::Unit(kMotionUnknowns + bias));
-  const double variance = by_bias[kMotionUnknowns + bias];
-  // At the best state only the bias itself has a score left.
-  const double bias_score = score[kMotionUnknowns + bias];
-  return {.unknowns = -by_bias * bias_score,
-          .gain = bias_score * bias_score * variance,
-          .sigma = std::sqrt(variance)};
+  const Information covariance = information.ldlt().solve(Information::Identity());
+  const Unknowns unknowns = -covariance * score;
+  const Eigen::MatrixXd own = covariance(rows, rows);
+  return {.unknowns = unknowns,
+          .gain = -score.dot(unknowns),
+          .share_of_prior = std::sqrt(own.determinant()) / prior_volume};
 }
 
 }  // namespace
@@ -52,13 +73,12 @@ std::optional<BiasGain> most_wanted_bias(const PassInformation& information, Bia
   const double excess_noise =
       information.excess_noise(kMotionUnknowns + static_cast<int>(estimated.count()));
   std::optional<BiasGain> best;
-  for (int i = 0; i < kSensorBiases; ++i) {
-    const auto bias = static_cast<SensorBias>(i);
-    if (estimated[static_cast<std::size_t>(i)]) {
-      continue;
-    }
+  double best_beyond = 0.0;
+  for (const SensorBias bias : not_among(estimated)) {
     const double gain = step_with(information, estimated, bias).gain / excess_noise;
-    if (gain > kWanted && (!best || gain > best->gain)) {
+    const double beyond = gain - wanted_from(bias);
+    if (beyond > best_beyond) {
+      best_beyond = beyond;
       best = BiasGain{.bias = bias, .gain = gain};
     }
   }
@@ -70,14 +90,9 @@ Eigen::Matrix2d other_biases_rad2(const PassInformation& information, BiasSet es
   const Step with_chosen = step_with(information, estimated, chosen);
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   double weights = 0.0;
-  for (int i = 0; i < kSensorBiases; ++i) {
-    const auto bias = static_cast<SensorBias>(i);
-    if (estimated[static_cast<std::size_t>(i)]) {
-      continue;
-    }
+  for (const SensorBias bias : not_among(estimated)) {
     const Step other = step_with(information, estimated, bias);
-    const double weight =
-        std::exp(0.5 * (other.gain - with_chosen.gain)) * other.sigma / prior_of(bias).sigma;
+    const double weight = std::exp(0.5 * (other.gain - with_chosen.gain)) * other.share_of_prior;
     const Eigen::Vector2d apart_rad = (other.unknowns - with_chosen.unknowns).head<2>();
     squares += weight * apart_rad * apart_rad.transpose();
     weights += weight;

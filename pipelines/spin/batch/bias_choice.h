@@ -12,8 +12,9 @@
 namespace spindrift {
 
 struct BiasGain {
-  SensorBias bias;
-  double gain;  ///< Of log likelihood, times two: of noise alone, a chi-square of one degree.
+  SensorBias bias;  ///< Of coning, both unknowns, ConingX.
+  double gain;      ///< Of log likelihood, times two: of noise alone, a chi-square of one degree,
+                    ///< of coning two.
 };
 
 /// The bias that would explain the residuals best, beside those that are estimated already.
