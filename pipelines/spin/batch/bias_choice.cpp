@@ -1,6 +1,7 @@
 #include "pipelines/spin/batch/bias_choice.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -25,7 +26,11 @@ std::vector<SensorBias> not_among(BiasSet estimated) {
   return biases;
 }
 
+}  // namespace
+
 double wanted_from(SensorBias bias) { return bias == ConingX ? kConingWanted : kWanted; }
+
+namespace {
 
 /// The step that all unknowns take when one more bias is estimated.
 struct Step {
@@ -69,20 +74,26 @@ Step step_with(const PassInformation& pass, BiasSet estimated, SensorBias bias) 
 
 }  // namespace
 
-std::optional<BiasGain> most_wanted_bias(const PassInformation& information, BiasSet estimated) {
+std::vector<BiasGain> wanted_biases(const PassInformation& information, BiasSet estimated) {
   const double excess_noise =
       information.excess_noise(kMotionUnknowns + static_cast<int>(estimated.count()));
-  std::optional<BiasGain> best;
-  double best_beyond = 0.0;
+  std::vector<BiasGain> wanted;
   for (const SensorBias bias : not_among(estimated)) {
     const double gain = step_with(information, estimated, bias).gain / excess_noise;
-    const double beyond = gain - wanted_from(bias);
-    if (beyond > best_beyond) {
-      best_beyond = beyond;
-      best = BiasGain{.bias = bias, .gain = gain};
+    if (gain > wanted_from(bias)) {
+      wanted.push_back({.bias = bias, .gain = gain});
     }
   }
-  return best;
+  const auto beyond = [](const BiasGain& one) { return one.gain - wanted_from(one.bias); };
+  std::stable_sort(wanted.begin(), wanted.end(), [&](const BiasGain& one, const BiasGain& other) {
+    return beyond(one) > beyond(other);
+  });
+  return wanted;
+}
+
+std::optional<BiasGain> most_wanted_bias(const PassInformation& information, BiasSet estimated) {
+  const std::vector<BiasGain> wanted = wanted_biases(information, estimated);
+  return wanted.empty() ? std::nullopt : std::optional{wanted.front()};
 }
 
 Eigen::Matrix2d other_biases_rad2(const PassInformation& information, BiasSet estimated,
