@@ -59,7 +59,7 @@ TEST(SpinBatchConing, ThatIsAskedForIsFoundAndTheAxisIsThatOfTheSpin) {
   EXPECT_LT(coning_squares, 47.0);
 }
 
-TEST(SpinBatchConing, OfADegreeIsFoundUnaskedOrTheCovarianceHasWhatElseItMayBe) {
+TEST(SpinBatchConing, OfADegreeIsFoundUnaskedWhereItCanBe) {
   testing::WobblingPasses passes{2413, 900.0};
   int found = 0;
   for (int pass = 0; pass < 20; ++pass) {
@@ -70,8 +70,8 @@ TEST(SpinBatchConing, OfADegreeIsFoundUnaskedOrTheCovarianceHasWhatElseItMayBe) 
     ASSERT_TRUE(solution) << solution.error().message;
     SCOPED_TRACE(solution->estimate.status);
     EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
-    EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);
     if (!solution->coning.verdict.detected) {
+      EXPECT_GT(solution->coning.verdict.detectable_rad, truth.motion.coning.tilt_rad);
       continue;
     }
     ++found;
@@ -80,6 +80,7 @@ TEST(SpinBatchConing, OfADegreeIsFoundUnaskedOrTheCovarianceHasWhatElseItMayBe) 
                 3.0 * solution->coning.tilt_sigma_rad);
     EXPECT_NEAR(azimuth_off_rad(*solution, truth.motion.coning), 0.0,
                 4.0 * solution->coning.azimuth_sigma_rad);
+    EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);
   }
   EXPECT_GE(found, 18);
 }

@@ -37,8 +37,9 @@ constexpr double kSameAxis_rad = 0.1 * kDegree_rad;
 constexpr double kSettled = 20.0;
 constexpr int kMostChanges = 4;
 constexpr int kMostBiases = 3;
-// What one step says of a gain may be off by so much.
+// What one step says of a gain may be off by so much; each comparison is a fit.
 constexpr double kOneStep = 0.7;
+constexpr std::size_t kMostRivals = 3;
 
 Unexpected unobservable(std::string message) {
   return Unexpected{{ErrorCode::Unobservable, std::move(message)}};
@@ -227,15 +228,25 @@ double cost_of(const Explained& with, SensorBias bias) {
 }
 
 /// Gains come from one step, which is some percent wrong: those near the largest are compared by
-/// what their fits leave.
+/// what their fits leave. So is coning, which has the axis degrees off, where one step is worse.
+std::vector<SensorBias> rivals_of(std::span<const BiasGain> wanted, BiasSet estimated) {
+  std::vector<SensorBias> rivals;
+  for (const auto& [bias, gain] : wanted.first(std::min(wanted.size(), kMostRivals))) {
+    if (gain > kOneStep * wanted.front().gain) {
+      rivals.push_back(bias);
+    }
+  }
+  if (!estimated[ConingX] && std::find(rivals.begin(), rivals.end(), ConingX) == rivals.end()) {
+    rivals.push_back(ConingX);
+  }
+  return rivals;
+}
+
 Expected<std::pair<SensorBias, Explained>> likeliest_of(const Solved& solved,
                                                         std::span<const BiasGain> wanted) {
   const Explained& now = solved.of.best;
   std::optional<std::pair<SensorBias, Explained>> best;
-  for (const auto& [bias, gain] : wanted) {
-    if (gain < kOneStep * wanted.front().gain) {
-      continue;
-    }
+  for (const SensorBias bias : rivals_of(wanted, now.estimated)) {
     auto with =
         explain(solved.model, solved.edges, now.fit.state, now.estimated | unknowns_of(bias));
     if (!with) {

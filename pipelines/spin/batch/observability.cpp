@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 namespace spindrift {
 namespace {
@@ -152,7 +153,11 @@ std::vector<std::string> Observability::undetermined() const {
         names.push_back(name);
       }
     }
-    all.push_back(in_words(names));
+    // Directions that are open alike come mixed, and may read the same.
+    std::string direction = in_words(names);
+    if (std::find(all.begin(), all.end(), direction) == all.end()) {
+      all.push_back(std::move(direction));
+    }
   }
   return all;
 }
