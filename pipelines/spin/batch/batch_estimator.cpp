@@ -7,16 +7,15 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/batch/added_biases.h"
 #include "pipelines/spin/batch/attitude_change.h"
-#include "pipelines/spin/batch/batch_fit.h"
 #include "pipelines/spin/batch/batch_status.h"
+#include "pipelines/spin/batch/best_start.h"
 #include "pipelines/spin/batch/bias_choice.h"
 #include "pipelines/spin/batch/first_clock.h"
 #include "pipelines/spin/batch/observability.h"
-#include "pipelines/spin/batch/pass_information.h"
 #include "pipelines/spin/batch/pass_nutation.h"
 #include "pipelines/spin/time_span.h"
 #include "pipelines/time/utc.h"
@@ -31,133 +30,12 @@ constexpr std::int64_t kFewestTurns = 3;
 constexpr double kMostOutliers = 0.5;
 // An axis known no better is not determined: cones about Sun or Earth, more or less.
 constexpr double kLost_rad = 10.0 * kDegree_rad;
-// Two ends of two starts are one solution within this.
-constexpr double kSameAxis_rad = 0.1 * kDegree_rad;
-// exp(10) times as likely settles it, as for the filters of `sequential`.
+// exp(10) times as likely settles it.
 constexpr double kSettled = 20.0;
 constexpr int kMostChanges = 4;
-constexpr int kMostBiases = 3;
-// What one step says of a gain may be off by so much; each comparison is a fit.
-constexpr double kOneStep = 0.7;
-constexpr std::size_t kMostRivals = 3;
 
 Unexpected unobservable(std::string message) {
   return Unexpected{{ErrorCode::Unobservable, std::move(message)}};
-}
-
-/// A fit, and how well it explains its edges.
-struct Explained {
-  BatchFit fit;
-  BiasSet estimated;
-  PassInformation information;
-  std::optional<NutationSearch> nutation;
-
-  double excess_noise() const {
-    return information.excess_noise(kMotionUnknowns + static_cast<int>(estimated.count()) +
-                                    kNutationUnknowns *
-                                        static_cast<int>(fit.state.nutation.size()));
-  }
-
-  double misfit() const {
-    return information.squares +
-           static_cast<double>(information.outliers) * kOutlierSigmas * kOutlierSigmas;
-  }
-};
-
-Expected<Explained> explain(const PassModel& model, std::span<const PassEdge> edges,
-                            const SpinState& start, BiasSet estimated) {
-  return fit(model, edges, start, estimated).map([&](const BatchFit& found) {
-    return Explained{.fit = found,
-                     .estimated = estimated,
-                     .information = less_nutation(information_of(model, edges, found.state), model,
-                                                  edges, found.state),
-                     .nutation = {}};
-  });
-}
-
-/// Nutation is taken out before anything else is asked of the residuals: it would hide changes and
-/// biases, which themselves are slow and do not look like it.
-Expected<Explained> with_nutation(const PassModel& model, std::span<const PassEdge> edges,
-                                  Explained steady) {
-  PassNutation nutation = find_pass_nutation(model, edges, steady.fit.state);
-  steady.nutation = nutation.last;
-  if (nutation.stretches.empty()) {
-    return steady;
-  }
-  SpinState start = steady.fit.state;
-  start.nutation = std::move(nutation.stretches);
-  return explain(model, edges, start, steady.estimated).map([&](Explained nutating) {
-    nutating.nutation = nutation.last;
-    return nutating;
-  });
-}
-
-bool same_axis(const Explained& one, const Explained& other) {
-  return angle_between_rad(one.fit.state.axis_icrf(), other.fit.state.axis_icrf()) < kSameAxis_rad;
-}
-
-bool likelier(const Explained& one, const Explained& other) {
-  return one.misfit() < other.misfit();
-}
-
-/// The likeliest, and another that is nearly so.
-struct Best {
-  Explained best;
-  std::optional<Eigen::Vector3d> or_axis_icrf;
-};
-
-/// One of each axis that a start leads to, likeliest first.
-Expected<std::vector<Explained>> all_of(const PassModel& model, std::span<const PassEdge> edges,
-                                        std::span<const Eigen::Vector3d> starts,
-                                        BiasSet estimated) {
-  std::vector<Explained> all;
-  std::optional<Error> reason;
-  for (const Eigen::Vector3d& start : starts) {
-    const auto found = first_state(model, edges, start).and_then([&](const SpinState& state) {
-      return explain(model, edges, state, estimated);
-    });
-    if (found) {
-      all.push_back(*found);
-    } else if (!reason) {
-      reason = found.error();
-    }
-  }
-  if (all.empty()) {
-    return Unexpected{*reason};
-  }
-  std::stable_sort(all.begin(), all.end(), likelier);
-  std::vector<Explained> apart;
-  for (const Explained& one : all) {
-    const auto same = [&](const Explained& other) { return same_axis(one, other); };
-    if (std::none_of(apart.begin(), apart.end(), same)) {
-      apart.push_back(one);
-    }
-  }
-  return apart;
-}
-
-Expected<Best> best_of(const PassModel& model, std::span<const PassEdge> edges,
-                       std::span<const Eigen::Vector3d> starts, BiasSet estimated) {
-  auto all = all_of(model, edges, starts, estimated);
-  if (!all) {
-    return Unexpected{all.error()};
-  }
-  for (Explained& one : *all) {
-    auto nutating = with_nutation(model, edges, one);
-    if (!nutating) {
-      return Unexpected{nutating.error()};
-    }
-    one = *std::move(nutating);
-  }
-  std::stable_sort(all->begin(), all->end(), likelier);
-  const Explained& best = all->front();
-  const double settled = kSettled * best.excess_noise();
-  const auto other = std::find_if(all->begin() + 1, all->end(), [&](const Explained& one) {
-    return !same_axis(one, best) && one.misfit() < best.misfit() + settled;
-  });
-  return Best{.best = best,
-              .or_axis_icrf =
-                  other == all->end() ? std::nullopt : std::optional{other->fit.state.axis_icrf()}};
 }
 
 /// All that is found out of the edges from the last change on.
@@ -215,68 +93,6 @@ Expected<Solved> solve_since_change(const SpinConfig& config, const Orbit& orbit
   return unobservable(fmt::format(
       "attitude or rate change all the time, last at {}: no one state explains the edges",
       format_utc(*changed, 0)));
-}
-
-/// What makes a fit with one more bias the less likely: misfit, priors, and how easily such a bias
-/// explains noise.
-double cost_of(const Explained& with, SensorBias bias) {
-  double cost = with.misfit() + wanted_from(bias);
-  for (int i = 0; i < kSensorBiases; ++i) {
-    cost += std::pow(with.fit.state.biases[i] / prior_of(static_cast<SensorBias>(i)).sigma, 2);
-  }
-  return cost;
-}
-
-/// Gains come from one step, which is some percent wrong: those near the largest are compared by
-/// what their fits leave. So is coning, which has the axis degrees off, where one step is worse.
-std::vector<SensorBias> rivals_of(std::span<const BiasGain> wanted, BiasSet estimated) {
-  std::vector<SensorBias> rivals;
-  for (const auto& [bias, gain] : wanted.first(std::min(wanted.size(), kMostRivals))) {
-    if (gain > kOneStep * wanted.front().gain) {
-      rivals.push_back(bias);
-    }
-  }
-  if (!estimated[ConingX] && std::find(rivals.begin(), rivals.end(), ConingX) == rivals.end()) {
-    rivals.push_back(ConingX);
-  }
-  return rivals;
-}
-
-Expected<std::pair<SensorBias, Explained>> likeliest_of(const Solved& solved,
-                                                        std::span<const BiasGain> wanted) {
-  const Explained& now = solved.of.best;
-  std::optional<std::pair<SensorBias, Explained>> best;
-  for (const SensorBias bias : rivals_of(wanted, now.estimated)) {
-    auto with =
-        explain(solved.model, solved.edges, now.fit.state, now.estimated | unknowns_of(bias));
-    if (!with) {
-      return Unexpected{with.error()};
-    }
-    with->nutation = now.nutation;
-    if (!best || cost_of(*with, bias) < cost_of(best->second, best->first)) {
-      best = {bias, *std::move(with)};
-    }
-  }
-  return *std::move(best);
-}
-
-/// @return What the choice among biases leaves open of the axis, tilts, rad^2.
-Expected<Eigen::Matrix2d> add_wanted_biases(Solved& solved) {
-  Eigen::Matrix2d open_rad2 = Eigen::Matrix2d::Zero();
-  for (int i = 0; i < kMostBiases; ++i) {
-    const Explained& now = solved.of.best;
-    const auto wanted = wanted_biases(now.information, now.estimated);
-    if (wanted.empty()) {
-      break;
-    }
-    auto likeliest = likeliest_of(solved, wanted);
-    if (!likeliest) {
-      return Unexpected{likeliest.error()};
-    }
-    open_rad2 += other_biases_rad2(now.information, now.estimated, likeliest->first);
-    solved.of.best = std::move(likeliest->second);
-  }
-  return open_rad2;
 }
 
 /// @param bound_rad2 Of the axis.
@@ -359,11 +175,12 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
   }
   Eigen::Matrix2d open_rad2 = Eigen::Matrix2d::Zero();
   if (!config.batch.biases) {
-    const auto added = add_wanted_biases(*solved);
+    auto added = add_wanted_biases(solved->model, solved->edges, solved->of.best);
     if (!added) {
       return Unexpected{added.error()};
     }
-    open_rad2 = *added;
+    solved->of.best = std::move(added->best);
+    open_rad2 = added->open_rad2;
   }
   const Explained& best = solved->of.best;
   const PassInformation& information = best.information;
