@@ -11,7 +11,7 @@
 /// across it, w_z the spin about the former, H cos theta = I_s w_z the angular momentum. The axis
 /// of symmetry goes round the angular momentum, with the spin, psi'/(psi' + phi') times as fast as
 /// the body turns: to first order I_s/I_t, slower than the spin for a slender body. psi + phi is
-/// the azimuth of slit 1 that an even spin would have, so that
+/// the azimuth of slit 1 that an even spin would have, so that (while theta grows slowly, too)
 ///
 ///     R_axes_body = R(theta about (cos psi, sin psi, 0)) Rz(azimuth)
 ///
@@ -27,9 +27,15 @@ namespace spindrift {
 
 /// Free nutation of an axisymmetric body; where the rate drifts, at the same share of it.
 struct Nutation {
-  double half_angle_rad = 0.0;     ///< Between angular momentum and axis of symmetry, [0, pi/2).
+  double half_angle_rad = 0.0;     ///< Between angular momentum and axis of symmetry, [0, pi/2),
+                                   ///< at the start.
   double inertia_ratio = 1.0;      ///< I_s/I_t, (0, 2].
   double first_azimuth_rad = 0.0;  ///< To which the axis leans at the start, in `axes`.
+  double growth_per_s = 0.0;       ///< Of the half-angle, as a share of it: dissipation drives it.
+
+  double half_angle_at_rad(double t_s) const {
+    return half_angle_rad * std::exp(growth_per_s * t_s);
+  }
 
   /// Turns of the axis round the angular momentum in a turn of the body.
   double per_turn() const {
@@ -62,7 +68,7 @@ struct SpinMotion {
   /// R_axes_sensors = R_axes_tipped Rz(azimuth). Exactly the identity where nothing wobbles.
   Eigen::Matrix3d R_axes_tipped(double t_s) const {
     const double turned_rad = azimuth_rad(t_s) - first_azimuth_rad;
-    return leaning(nutation.half_angle_rad,
+    return leaning(nutation.half_angle_at_rad(t_s),
                    nutation.first_azimuth_rad + nutation.per_turn() * turned_rad) *
            leaning(coning.tilt_rad, azimuth_rad(t_s) - coning.azimuth_rad);
   }

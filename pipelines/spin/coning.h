@@ -6,7 +6,8 @@
 ///
 ///     off = Re(conj(S) (c_x + i c_y) exp(i azimuth)),    S = s_x + i s_y
 ///
-/// with the slopes s of tilt_signal.h: it is nutation that goes round once a turn. While Sun and
+/// to first order, with the slopes s of tilt_signal.h: it is nutation that goes round once a turn.
+/// While Sun and
 /// Earth stand still each channel is off by a constant, and six constants are all there is, of
 /// which two go to the axis and one to the phase. To the beams coning is a change of mounting angle
 /// and azimuth, to slit 2 one of cant and separation, to slit 1 a cant, which shows as far as the
@@ -19,14 +20,25 @@
 
 #include <Eigen/Core>
 
-#include "pipelines/spin/edge_prediction.h"
+#include "pipelines/spin/config.h"
 
 namespace spindrift {
 
-/// Change of an edge's phase, rad/rad, with (c_x, c_y).
-/// @param azimuth_rad Of slit 1 where the edge is expected: taken at its measured time, noise is
-///                    multiplied by itself, and coning that is poorly seen comes out wrong.
-Eigen::Vector2d phase_per_coning(const PredictedEdge& edge, double azimuth_rad);
+/// Where a slit, or a beam, is on a body that cones: to the whole rotation, which may be of a
+/// degree.
+struct LeaningSlit {
+  SunSensor slit;
+  Eigen::RowVector2d cant_per_coning;  ///< rad/rad
+  Eigen::RowVector2d separation_per_coning;
+};
+struct LeaningBeam {
+  InfraredSensor beam;
+  Eigen::RowVector2d mount_angle_per_coning;
+  Eigen::RowVector2d azimuth_per_coning;
+};
+/// @param coning_rad (c_x, c_y); derivatives are good to its third power.
+LeaningSlit leaning(const SunSensor& slit, const Eigen::Vector2d& coning_rad);
+LeaningBeam leaning(const InfraredSensor& beam, const Eigen::Vector2d& coning_rad);
 
 struct ConingVerdict {
   double tilt_rad;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/coning.h"
 #include "pipelines/spin/horizon.h"
 #include "pipelines/spin/measurement.h"
 
@@ -37,25 +38,22 @@ std::optional<SunView> view_of_sun(const Eigen::Vector3d& sun_spin) {
                  .angle_per_rotation = {towards.y(), -towards.x(), 0.0}};
 }
 
-std::optional<PredictedEdge> sun1_edge(const Eigen::Vector3d& sun_spin) {
-  const auto sun = view_of_sun(sun_spin);
-  if (!sun) {
-    return std::nullopt;
-  }
-  return PredictedEdge{.phase_rad = sun->azimuth_rad,
-                       .phase_per_rotation = sun->azimuth_per_rotation,
-                       .phase_per_error = PerError::Zero(),
-                       .phase_per_bias = PerBias::Zero()};
-}
+/// When a slit sees the Sun.
+struct SlitView {
+  double phase_rad;
+  Eigen::Vector3d phase_per_rotation;
+  double phase_per_sun_angle;
+  double phase_per_cant;
+};
 
-std::optional<PredictedEdge> sun2_edge(const SunSensor& sensor, const Eigen::Vector3d& sun_spin,
-                                       const SensorBiases& biases) {
+std::optional<SlitView> view_of_slit(const SunSensor& slit, const Eigen::Vector3d& sun_spin,
+                                     double sun_angle_bias_rad) {
   const auto sun = view_of_sun(sun_spin);
   if (!sun) {
     return std::nullopt;
   }
-  const double measured_rad = sun->angle_rad + biases[SunAngleBias];
-  const double tan_cant = std::tan(sensor.slit_cant_rad);
+  const double measured_rad = sun->angle_rad + sun_angle_bias_rad;
+  const double tan_cant = std::tan(slit.slit_cant_rad);
   const double sin_lag = tan_cant / std::tan(measured_rad);
   const double cos_lag = std::sqrt(1.0 - sin_lag * sin_lag);
   // Also where the slit ends: sin_lag of more than 1 leaves no number.
@@ -64,13 +62,50 @@ std::optional<PredictedEdge> sun2_edge(const SunSensor& sensor, const Eigen::Vec
   }
   const double sine = std::sin(measured_rad);
   const double by_sun_angle = -tan_cant / (sine * sine * cos_lag);
-  return PredictedEdge{
-      .phase_rad = wrapped_rad(sun->azimuth_rad + std::asin(sin_lag) + sensor.slit_separation_rad +
-                               biases[SlitSeparationBias]),
+  return SlitView{
+      .phase_rad = sun->azimuth_rad + std::asin(sin_lag) + slit.slit_separation_rad,
       .phase_per_rotation = sun->azimuth_per_rotation + by_sun_angle * sun->angle_per_rotation,
-      .phase_per_error = by_sun_angle * PerError::Unit(SunAngleError),
-      .phase_per_bias =
-          by_sun_angle * PerBias::Unit(SunAngleBias) + PerBias::Unit(SlitSeparationBias)};
+      .phase_per_sun_angle = by_sun_angle,
+      .phase_per_cant = (1.0 + tan_cant * tan_cant) / (std::tan(measured_rad) * cos_lag)};
+}
+
+Eigen::Vector2d coning_of(const SensorBiases& biases) { return {biases[ConingX], biases[ConingY]}; }
+
+PerBias per_coning(const Eigen::RowVector2d& slopes) {
+  return slopes.x() * PerBias::Unit(ConingX) + slopes.y() * PerBias::Unit(ConingY);
+}
+
+PerBias per_coning(const SlitView& view, const LeaningSlit& leaning) {
+  return per_coning(view.phase_per_cant * leaning.cant_per_coning + leaning.separation_per_coning);
+}
+
+std::optional<PredictedEdge> sun1_edge(const Eigen::Vector3d& sun_spin,
+                                       const SensorBiases& biases) {
+  const LeaningSlit slit =
+      leaning(SunSensor{.slit_cant_rad = 0.0, .slit_separation_rad = 0.0}, coning_of(biases));
+  const auto view = view_of_slit(slit.slit, sun_spin, 0.0);
+  if (!view) {
+    return std::nullopt;
+  }
+  return PredictedEdge{.phase_rad = wrapped_rad(view->phase_rad),
+                       .phase_per_rotation = view->phase_per_rotation,
+                       .phase_per_error = PerError::Zero(),
+                       .phase_per_bias = per_coning(*view, slit)};
+}
+
+std::optional<PredictedEdge> sun2_edge(const SunSensor& sensor, const Eigen::Vector3d& sun_spin,
+                                       const SensorBiases& biases) {
+  const LeaningSlit slit = leaning(sensor, coning_of(biases));
+  const auto view = view_of_slit(slit.slit, sun_spin, biases[SunAngleBias]);
+  if (!view) {
+    return std::nullopt;
+  }
+  return PredictedEdge{.phase_rad = wrapped_rad(view->phase_rad + biases[SlitSeparationBias]),
+                       .phase_per_rotation = view->phase_per_rotation,
+                       .phase_per_error = view->phase_per_sun_angle * PerError::Unit(SunAngleError),
+                       .phase_per_bias = view->phase_per_sun_angle * PerBias::Unit(SunAngleBias) +
+                                         PerBias::Unit(SlitSeparationBias) +
+                                         per_coning(*view, slit)};
 }
 
 struct BeamBiases {
@@ -85,15 +120,16 @@ BeamBiases biases_of(Side side) {
 
 std::optional<PredictedEdge> beam_edge(const SpinConfig& config, Side side, const EarthView& earth,
                                        Crossing crossing, const SensorBiases& biases) {
-  const auto& sensor = sensor_of(config, side);
-  if (!sensor) {
+  if (!sensor_of(config, side)) {
     return std::nullopt;
   }
+  const auto [sensor, mount_angle_per_coning, azimuth_per_coning] =
+      leaning(*sensor_of(config, side), coning_of(biases));
   const auto [mount_angle, chord] = biases_of(side);
   Horizon horizon = config.horizon;
   horizon.co2_altitude_km += biases[Co2HeightBias];
   const auto limb = limb_crossing(horizon_axes(horizon), earth,
-                                  sensor->mount_angle_rad + biases[mount_angle], crossing);
+                                  sensor.mount_angle_rad + biases[mount_angle], crossing);
   if (!limb) {
     return std::nullopt;
   }
@@ -102,14 +138,15 @@ std::optional<PredictedEdge> beam_edge(const SpinConfig& config, Side side, cons
   const ModelError azimuth_error = north ? NorthAzimuth : SouthAzimuth;
   const double half_chord = crossing == Crossing::In ? -0.5 : 0.5;
   return PredictedEdge{
-      .phase_rad = wrapped_rad(limb->azimuth_rad + sensor->azimuth_rad + biases[DihedralBias] +
+      .phase_rad = wrapped_rad(limb->azimuth_rad + sensor.azimuth_rad + biases[DihedralBias] +
                                half_chord * biases[chord]),
       .phase_per_rotation = limb->azimuth_per_rotation,
       .phase_per_error =
           limb->azimuth_per_limb * PerError::Unit(limb_error) + PerError::Unit(azimuth_error),
-      .phase_per_bias = limb->azimuth_per_mount * PerBias::Unit(mount_angle) +
-                        half_chord * PerBias::Unit(chord) + PerBias::Unit(DihedralBias) +
-                        limb->azimuth_per_height_km * PerBias::Unit(Co2HeightBias)};
+      .phase_per_bias =
+          limb->azimuth_per_mount * PerBias::Unit(mount_angle) + half_chord * PerBias::Unit(chord) +
+          PerBias::Unit(DihedralBias) + limb->azimuth_per_height_km * PerBias::Unit(Co2HeightBias) +
+          per_coning(limb->azimuth_per_mount * mount_angle_per_coning + azimuth_per_coning)};
 }
 
 }  // namespace
@@ -125,7 +162,7 @@ std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& s
   };
   switch (edge.channel) {
     case PulseChannel::Sun1:
-      return sun1_edge(sun_spin());
+      return sun1_edge(sun_spin(), biases);
     case PulseChannel::Sun2:
       return sun2_edge(config.sun_sensor, sun_spin(), biases);
     case PulseChannel::NorthIn:

@@ -21,11 +21,16 @@ enum SensorBias {
   SouthMountAngleBias,  ///< rad, gamma_S.
   DihedralBias,         ///< rad, of the azimuth of both beams behind slit 1.
   Co2HeightBias,        ///< km, of the infrared horizon.
+  ConingX,              ///< rad, of coning.h; with ConingY one thing, known or unknown together.
+  ConingY,              ///< rad
 };
-inline constexpr int kSensorBiases = 8;
+inline constexpr int kSensorBiases = 10;
 using SensorBiases = Eigen::Matrix<double, kSensorBiases, 1>;
 
 using BiasSet = std::bitset<kSensorBiases>;
+
+/// The bias, or of coning both.
+BiasSet unknowns_of(SensorBias bias);
 
 /// What is believed of a bias before the pass.
 struct BiasPrior {

@@ -145,7 +145,12 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                      "INSERT OR REPLACE INTO spin_nutation (run_id, t_tai_ns, detected,"
                      " false_alarm, detectable_deg, half_angle_deg, half_angle_sigma_deg, period_s,"
                      " period_sigma_s, growth_per_h, growth_sigma_per_h, lean_azimuth_deg,"
-                     " lean_azimuth_sigma_deg) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"} {}
+                     " lean_azimuth_sigma_deg, at_tai_ns)"
+                     " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+      spin_coning_{database,
+                   "INSERT OR REPLACE INTO spin_coning (run_id, t_tai_ns, detected, detectable_deg,"
+                   " tilt_deg, tilt_sigma_deg, azimuth_deg, azimuth_sigma_deg)"
+                   " VALUES (?, ?, ?, ?, ?, ?, ?, ?)"} {}
 
 Expected<void> BatchWriter::write(std::span<const ArchiveBatch> batches) {
   try {
@@ -221,6 +226,7 @@ void BatchWriter::withdraw(const ArchiveBatch& batch, TaiTime from) {
   execute_for_run("DELETE FROM revolution WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run("DELETE FROM spin_fix WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run("DELETE FROM spin_estimate WHERE run_id = ?1 AND t_tai_ns >= ?2");
+  execute_for_run("DELETE FROM spin_coning WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run("DELETE FROM spin_nutation WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run("DELETE FROM spin_batch WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run(
@@ -334,15 +340,19 @@ void BatchWriter::insert(const std::string& run_id, const BatchSolution& solutio
             bias.sigma * to_unit, as_flag(bias.observable), tai_ns(solution.estimate.t));
   }
   if (solution.nutation) {
-    insert(run_id, solution.estimate.t, *solution.nutation);
+    insert(run_id, solution, *solution.nutation);
   }
+  insert(run_id, solution.estimate.t, solution.coning);
 }
 
-void BatchWriter::insert(const std::string& run_id, TaiTime t, const NutationSearch& search) {
+void BatchWriter::insert(const std::string& run_id, const BatchSolution& solution,
+                         const NutationSearch& search) {
   constexpr double kPerHour = 3600.0;
   using Value = std::optional<double>;
   std::array<Value, 8> found{};
+  std::optional<std::int64_t> at_tai_ns;
   if (search.found) {
+    at_tai_ns = tai_ns(solution.nutation_t);
     const auto& [t_s, half_angle, growth, period, lean, per_turn, others] = *search.found;
     found = {half_angle.value * kDegPerRad,
              half_angle.sigma * kDegPerRad,
@@ -355,9 +365,21 @@ void BatchWriter::insert(const std::string& run_id, TaiTime t, const NutationSea
   }
   const auto& [half_angle, half_angle_sigma, period, period_sigma, growth, growth_sigma, lean,
                lean_sigma] = found;
-  execute(spin_nutation_, run_id, tai_ns(t), as_flag(search.found.has_value()), search.false_alarm,
-          search.detectable_rad * kDegPerRad, half_angle, half_angle_sigma, period, period_sigma,
-          growth, growth_sigma, lean, lean_sigma);
+  execute(spin_nutation_, run_id, tai_ns(solution.estimate.t), as_flag(search.found.has_value()),
+          search.false_alarm, search.detectable_rad * kDegPerRad, half_angle, half_angle_sigma,
+          period, period_sigma, growth, growth_sigma, lean, lean_sigma, at_tai_ns);
+}
+
+void BatchWriter::insert(const std::string& run_id, TaiTime t, const ConingEstimate& coning) {
+  using Value = std::optional<double>;
+  std::array<Value, 4> found{};
+  if (coning.verdict.detected) {
+    found = {coning.verdict.tilt_rad * kDegPerRad, coning.tilt_sigma_rad * kDegPerRad,
+             coning.verdict.azimuth_rad * kDegPerRad, coning.azimuth_sigma_rad * kDegPerRad};
+  }
+  const auto& [tilt, tilt_sigma, azimuth, azimuth_sigma] = found;
+  execute(spin_coning_, run_id, tai_ns(t), as_flag(coning.verdict.detected),
+          coning.verdict.detectable_rad * kDegPerRad, tilt, tilt_sigma, azimuth, azimuth_sigma);
 }
 
 }  // namespace spindrift

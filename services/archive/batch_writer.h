@@ -40,7 +40,9 @@ class BatchWriter {
   void insert_candidates(const ArchiveBatch& batch, const SpinFix& fix);
   void insert(const ArchiveBatch& batch, const SpinEstimate& estimate);
   void insert(const std::string& run_id, const BatchSolution& solution);
-  void insert(const std::string& run_id, TaiTime t, const NutationSearch& search);
+  void insert(const std::string& run_id, const BatchSolution& solution,
+              const NutationSearch& search);
+  void insert(const std::string& run_id, TaiTime t, const ConingEstimate& coning);
 
   SQLite::Database& database_;
   SQLite::Statement spacecraft_;
@@ -61,6 +63,7 @@ class BatchWriter {
   SQLite::Statement spin_batch_;
   SQLite::Statement spin_bias_;
   SQLite::Statement spin_nutation_;
+  SQLite::Statement spin_coning_;
 };
 
 }  // namespace spindrift

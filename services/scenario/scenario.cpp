@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -108,12 +109,33 @@ void check_rate(TomlDocument& document) {
   }
 }
 
+/// As at the start it may be large, and no larger in the end.
+void check_growth(TomlDocument& document) {
+  const auto half_angle_deg = value_if<double>(document.values, "attitude.nutation.half_angle_deg");
+  const auto growth_per_h = value_if<double>(document.values, "attitude.nutation.growth_per_h");
+  const auto duration_s = value_if<double>(document.values, "pass.duration_s");
+  if (!half_angle_deg || !growth_per_h || !duration_s) {
+    return;
+  }
+  const double last_deg = *half_angle_deg * std::exp(*growth_per_h * *duration_s / kSecondsPerHour);
+  constexpr double kMost_deg = 10.0;
+  if (!(last_deg <= kMost_deg)) {
+    add_problem(
+        document, "attitude.nutation.growth_per_h",
+        fmt::format("attitude.nutation.growth_per_h = {}: the half-angle ends at {:.3f} deg: "
+                    "must be {} deg at most",
+                    *growth_per_h, last_deg, kMost_deg));
+  }
+}
+
 Nutation nutation_of(const TomlValues& values) {
   const auto half_angle_deg = value_if<double>(values, "attitude.nutation.half_angle_deg");
   return half_angle_deg
              ? Nutation{.half_angle_rad = *half_angle_deg / kDegPerRad,
                         .inertia_ratio = number(values, "attitude.nutation.inertia_ratio"),
-                        .first_azimuth_rad = radians(values, "attitude.nutation.phase_deg")}
+                        .first_azimuth_rad = radians(values, "attitude.nutation.phase_deg"),
+                        .growth_per_s =
+                            number(values, "attitude.nutation.growth_per_h") / kSecondsPerHour}
              : Nutation{};
 }
 
@@ -250,6 +272,7 @@ Expected<Scenario> load_scenario(const std::filesystem::path& path) {
   }
   check_sensors(*document);
   check_rate(*document);
+  check_growth(*document);
   if (auto sound = soundness(*document); !sound) {
     return Unexpected{std::move(sound.error())};
   }

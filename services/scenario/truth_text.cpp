@@ -12,6 +12,8 @@
 namespace spindrift {
 namespace {
 
+constexpr double kSecondsPerHour = 3600.0;
+
 nlohmann::json bad_edges(const SimulatedPass& pass) {
   nlohmann::json edges = nlohmann::json::array();
   for (const auto& [pulse, damage] : pass.received.pulses) {
@@ -27,7 +29,8 @@ nlohmann::ordered_json nutation(const SpinMotion& motion) {
   return {{"half_angle_deg", nutation.half_angle_rad * kDegPerRad},
           {"inertia_ratio", nutation.inertia_ratio},
           {"period_s", 2.0 * std::numbers::pi / (motion.rate_rad_s * nutation.per_turn())},
-          {"phase_deg", nutation.first_azimuth_rad * kDegPerRad}};
+          {"phase_deg", nutation.first_azimuth_rad * kDegPerRad},
+          {"growth_per_h", nutation.growth_per_s * kSecondsPerHour}};
 }
 
 nlohmann::ordered_json coning(const Coning& coning) {

@@ -10,6 +10,8 @@
 namespace spindrift {
 namespace {
 
+constexpr double kSecondsPerHour = 3600.0;
+
 struct Readable {
   double value;
   double sigma;
@@ -24,7 +26,8 @@ Readable readable(const BiasEstimate& bias) {
           .unit = is_angle ? "deg" : "km"};
 }
 
-std::string nutation_text(const std::optional<NutationSearch>& search) {
+std::string nutation_text(const BatchSolution& solution) {
+  const auto& search = solution.nutation;
   if (!search) {
     return "  nutation     not looked for: too few edges\n";
   }
@@ -33,13 +36,26 @@ std::string nutation_text(const std::optional<NutationSearch>& search) {
                        search->detectable_rad * kDegPerRad);
   }
   const FoundNutation& found = *search->found;
-  return fmt::format("  nutation     {:.4f} +/- {:.4f} deg, period {:.4f} +/- {:.4f} s\n",
-                     found.half_angle_rad.value * kDegPerRad,
-                     found.half_angle_rad.sigma * kDegPerRad, found.period_s.value,
-                     found.period_s.sigma);
+  return fmt::format(
+      "  nutation     {:.4f} +/- {:.4f} deg at {}, period {:.4f} +/- {:.4f} s\n"
+      "               grows by {:+.2f} +/- {:.2f} of it an hour\n",
+      found.half_angle_rad.value * kDegPerRad, found.half_angle_rad.sigma * kDegPerRad,
+      format_utc(solution.nutation_t, 0), found.period_s.value, found.period_s.sigma,
+      found.growth_per_s.value * kSecondsPerHour, found.growth_per_s.sigma * kSecondsPerHour);
 }
 
-nlohmann::json to_json(const std::optional<NutationSearch>& search) {
+std::string coning_text(const ConingEstimate& coning) {
+  const auto& [tilt_rad, azimuth_rad, detected, detectable_rad] = coning.verdict;
+  return detected
+             ? fmt::format(
+                   "  coning       {:.4f} +/- {:.4f} deg, {:.1f} +/- {:.1f} deg behind slit 1\n",
+                   tilt_rad * kDegPerRad, coning.tilt_sigma_rad * kDegPerRad,
+                   azimuth_rad * kDegPerRad, coning.azimuth_sigma_rad * kDegPerRad)
+             : fmt::format("  coning       none above {:.2f} deg\n", detectable_rad * kDegPerRad);
+}
+
+nlohmann::json nutation_json(const BatchSolution& solution) {
+  const auto& search = solution.nutation;
   if (!search) {
     return nullptr;
   }
@@ -50,6 +66,21 @@ nlohmann::json to_json(const std::optional<NutationSearch>& search) {
     json["half_angle_sigma_deg"] = found->half_angle_rad.sigma * kDegPerRad;
     json["period_s"] = found->period_s.value;
     json["period_sigma_s"] = found->period_s.sigma;
+    json["growth_per_h"] = found->growth_per_s.value * kSecondsPerHour;
+    json["growth_sigma_per_h"] = found->growth_per_s.sigma * kSecondsPerHour;
+    json["at_utc"] = format_utc(solution.nutation_t);
+  }
+  return json;
+}
+
+nlohmann::json to_json(const ConingEstimate& coning) {
+  nlohmann::json json{{"detected", coning.verdict.detected},
+                      {"detectable_deg", coning.verdict.detectable_rad * kDegPerRad}};
+  if (coning.verdict.detected) {
+    json["tilt_deg"] = coning.verdict.tilt_rad * kDegPerRad;
+    json["tilt_sigma_deg"] = coning.tilt_sigma_rad * kDegPerRad;
+    json["azimuth_deg"] = coning.verdict.azimuth_rad * kDegPerRad;
+    json["azimuth_sigma_deg"] = coning.azimuth_sigma_rad * kDegPerRad;
   }
   return json;
 }
@@ -60,7 +91,7 @@ std::string to_text(const BatchSolution& solution) {
   std::string text = fmt::format(
       "  bound        {:.4f} deg (Cramer-Rao), {} edges, {} outliers, noise x {:.2f}\n",
       solution.bound_rad * kDegPerRad, solution.edges, solution.outliers, solution.noise);
-  text += nutation_text(solution.nutation);
+  text += nutation_text(solution) + coning_text(solution.coning);
   std::string_view heading = "biases";
   for (const BiasEstimate& bias : solution.biases) {
     const Readable shown = readable(bias);
@@ -93,7 +124,8 @@ nlohmann::json to_json(const BatchSolution& solution) {
                       {"singular_values", solution.singular_values},
                       {"undetermined", solution.undetermined},
                       {"biases", biases},
-                      {"nutation", to_json(solution.nutation)},
+                      {"nutation", nutation_json(solution)},
+                      {"coning", to_json(solution.coning)},
                       {"changed_utc", nullptr}};
   if (solution.changed) {
     json["changed_utc"] = format_utc(*solution.changed);

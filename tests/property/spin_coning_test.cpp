@@ -1,4 +1,4 @@
-/// Coning of a simulated body against what phase_per_coning makes of it in a least-squares fit, and
+/// Coning of a simulated body in a least-squares fit of its own, what is made of the result, and
 /// how far it is told from misplaced sensors.
 
 #include <gtest/gtest.h>

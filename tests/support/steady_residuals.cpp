@@ -29,6 +29,12 @@ std::vector<TrueEdge> with_noise(std::vector<TrueEdge> edges, const PulseNoise& 
   return edges;
 }
 
+/// Change of an edge's phase, rad/rad, with coning: nutation that goes round once a turn.
+/// @param azimuth_rad Of slit 1 where the edge is expected.
+Eigen::Vector2d phase_per_coning(const PredictedEdge& edge, double azimuth_rad) {
+  return Eigen::Rotation2Dd{-azimuth_rad} * edge.phase_per_rotation.head<2>();
+}
+
 constexpr int kSteady = 5;
 constexpr int kConing = 2;
 constexpr int kUnknowns = kSteady + kConing + kModelErrors;

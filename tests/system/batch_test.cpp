@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -136,6 +137,68 @@ TEST(Batch, EstimatesTheBiasesThatTheMissionAsksFor) {
   const auto& dihedral = solved["biases"]["dihedral"];
   EXPECT_TRUE(dihedral["observable"]);
   EXPECT_LT(std::abs(dihedral["value"].get<double>()), 3.0 * dihedral["sigma"].get<double>());
+}
+
+/// A scenario that comes with the program, with something added to its attitude, processed.
+struct WobblingRun {
+  TemporaryFolder folder;
+  std::filesystem::path db = folder.path() / "out.db";
+  nlohmann::json batch;
+  nlohmann::json truth;
+
+  explicit WobblingRun(const std::string& attitude) {
+    const auto scenarios = std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios";
+    std::string text = text_of(scenarios / "gto-nominal.toml");
+    text.insert(text.find("[spin.sun_sensor]"), attitude);
+    const auto scenario = folder.write("scenario.toml", text).string();
+    const auto pass = folder.path() / "pass";
+    Program simulate{{"simulate", scenario, "--out", pass.string()}};
+    EXPECT_EQ(simulate.exit_status(), 0) << simulate.log();
+    Program process{arguments(pass / "mission.toml", pass / "pulses.csv", db)};
+    EXPECT_EQ(process.exit_status(), 0) << process.log();
+    batch = nlohmann::json::parse(process.out())["runs"][0]["batch"];
+    truth = nlohmann::json::parse(text_of(pass / "truth.json"));
+  }
+  void expect_true_axis() const {
+    EXPECT_THAT(batch["status"].get<std::string>(), StartsWith("OK"));
+    EXPECT_EQ(batch["noise"], 1.0);
+    EXPECT_LT(error_deg(batch, truth), 3.0 * batch["sigma_deg"].get<double>());
+  }
+};
+
+TEST(Batch, NutationThatGrowsIsFoundTakenOutAndStored) {
+  const WobblingRun run{
+      "[attitude.nutation]\nhalf_angle_deg = 0.1\ninertia_ratio = 0.37\n"
+      "phase_deg = 50.0\ngrowth_per_h = 6.0\n"};
+  run.expect_true_axis();
+  const auto& truth = run.truth["nutation"];
+  EXPECT_EQ(number_of(run.db, "SELECT detected FROM spin_nutation"), 1);
+  EXPECT_NEAR(real_of(run.db, "SELECT growth_per_h FROM spin_nutation"),
+              truth["growth_per_h"].get<double>(),
+              3.0 * real_of(run.db, "SELECT growth_sigma_per_h FROM spin_nutation"));
+  EXPECT_LT(real_of(run.db, "SELECT growth_sigma_per_h FROM spin_nutation"), 1.0);
+  EXPECT_NEAR(real_of(run.db, "SELECT period_s FROM spin_nutation"),
+              truth["period_s"].get<double>(), 0.001);
+  const double into_pass_h = real_of(run.db,
+                                     "SELECT (at_tai_ns - first_tai_ns) / 3.6e12 FROM spin_nutation"
+                                     " JOIN run USING (run_id)");
+  EXPECT_NEAR(real_of(run.db, "SELECT half_angle_deg FROM spin_nutation"),
+              0.1 * std::exp(6.0 * into_pass_h),
+              3.0 * real_of(run.db, "SELECT half_angle_sigma_deg FROM spin_nutation"));
+  EXPECT_TRUE(run.batch["nutation"]["detected"]);
+}
+
+TEST(Batch, ConingIsFoundTakenOutAndStored) {
+  const WobblingRun run{"[attitude.coning]\ntilt_deg = 0.3\nazimuth_deg = 40.0\n"};
+  run.expect_true_axis();
+  EXPECT_THAT(run.batch["status"].get<std::string>(), HasSubstr(", coning 0."));
+  EXPECT_EQ(number_of(run.db, "SELECT detected FROM spin_coning"), 1);
+  const auto column = [&](const std::string& name) {
+    return real_of(run.db, "SELECT " + name + " FROM spin_coning");
+  };
+  EXPECT_NEAR(column("tilt_deg"), 0.3, 3.0 * column("tilt_sigma_deg"));
+  EXPECT_NEAR(column("azimuth_deg"), 40.0, 3.0 * column("azimuth_sigma_deg"));
+  EXPECT_EQ(number_of(run.db, "SELECT count(*) FROM spin_bias"), 8);
 }
 
 }  // namespace

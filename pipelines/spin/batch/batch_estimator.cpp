@@ -9,13 +9,15 @@
 #include <numbers>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/batch/added_biases.h"
 #include "pipelines/spin/batch/attitude_change.h"
-#include "pipelines/spin/batch/batch_fit.h"
+#include "pipelines/spin/batch/batch_status.h"
+#include "pipelines/spin/batch/best_start.h"
 #include "pipelines/spin/batch/bias_choice.h"
 #include "pipelines/spin/batch/first_clock.h"
 #include "pipelines/spin/batch/observability.h"
-#include "pipelines/spin/batch/pass_information.h"
-#include "pipelines/spin/batch/steady_residuals.h"
+#include "pipelines/spin/batch/pass_nutation.h"
+#include "pipelines/spin/time_span.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift {
@@ -24,80 +26,16 @@ namespace {
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 // Fewer turns do not tell rate and drift from noise.
 constexpr std::int64_t kFewestTurns = 3;
-// More outliers are no dirt of a pass but another motion, or none: a wrong axis may have all edges
-// of five channels where they came, and none of the sixth.
-constexpr double kManyOutliers = 0.15;
+// More outliers are no dirt of a pass but another motion.
 constexpr double kMostOutliers = 0.5;
 // An axis known no better is not determined: cones about Sun or Earth, more or less.
 constexpr double kLost_rad = 10.0 * kDegree_rad;
-// Two ends of two starts are one solution within this.
-constexpr double kSameAxis_rad = 0.1 * kDegree_rad;
-// exp(10) times as likely settles it, as for the filters of `sequential`.
+// exp(10) times as likely settles it.
 constexpr double kSettled = 20.0;
-// A quarter of an hour at 100 rpm; the search takes as much memory as 2 KiB an edge.
-constexpr std::size_t kNutationEdges = 10'000;
 constexpr int kMostChanges = 4;
-constexpr int kMostBiases = 3;
 
 Unexpected unobservable(std::string message) {
   return Unexpected{{ErrorCode::Unobservable, std::move(message)}};
-}
-
-/// A fit, and how well it explains its edges.
-struct Explained {
-  BatchFit fit;
-  BiasSet estimated;
-  PassInformation information;
-
-  double misfit() const {
-    return information.squares +
-           static_cast<double>(information.outliers) * kOutlierSigmas * kOutlierSigmas;
-  }
-};
-
-Expected<Explained> explain(const PassModel& model, std::span<const PassEdge> edges,
-                            const SpinState& start, BiasSet estimated) {
-  return fit(model, edges, start, estimated).map([&](const BatchFit& found) {
-    return Explained{.fit = found,
-                     .estimated = estimated,
-                     .information = information_of(model, edges, found.state)};
-  });
-}
-
-/// The likeliest, and another that is nearly so.
-struct Best {
-  Explained best;
-  std::optional<Eigen::Vector3d> or_axis_icrf;
-};
-
-Expected<Best> best_of(const PassModel& model, std::span<const PassEdge> edges,
-                       std::span<const Eigen::Vector3d> starts, BiasSet estimated) {
-  std::vector<Explained> all;
-  std::optional<Error> reason;
-  for (const Eigen::Vector3d& start : starts) {
-    const auto found = first_state(model, edges, start).and_then([&](const SpinState& state) {
-      return explain(model, edges, state, estimated);
-    });
-    if (found) {
-      all.push_back(*found);
-    } else if (!reason) {
-      reason = found.error();
-    }
-  }
-  if (all.empty()) {
-    return Unexpected{*reason};
-  }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Explained& a, const Explained& b) { return a.misfit() < b.misfit(); });
-  const Eigen::Vector3d axis_icrf = all.front().fit.state.axis_icrf();
-  const double settled = kSettled * all.front().information.excess_noise(kMotionUnknowns);
-  const auto other = std::find_if(all.begin(), all.end(), [&](const Explained& one) {
-    return angle_between_rad(one.fit.state.axis_icrf(), axis_icrf) > kSameAxis_rad &&
-           one.misfit() < all.front().misfit() + settled;
-  });
-  return Best{.best = all.front(),
-              .or_axis_icrf =
-                  other == all.end() ? std::nullopt : std::optional{other->fit.state.axis_icrf()}};
 }
 
 /// All that is found out of the edges from the last change on.
@@ -157,27 +95,6 @@ Expected<Solved> solve_since_change(const SpinConfig& config, const Orbit& orbit
       format_utc(*changed, 0)));
 }
 
-/// @return What the choice among biases leaves open of the axis, tilts, rad^2.
-Expected<Eigen::Matrix2d> add_wanted_biases(Solved& solved) {
-  Eigen::Matrix2d open_rad2 = Eigen::Matrix2d::Zero();
-  for (int i = 0; i < kMostBiases; ++i) {
-    const Explained& now = solved.of.best;
-    const auto wanted = most_wanted_bias(now.information, now.estimated);
-    if (!wanted) {
-      break;
-    }
-    BiasSet estimated = now.estimated;
-    estimated.set(static_cast<std::size_t>(wanted->bias));
-    open_rad2 += other_biases_rad2(now.information, now.estimated, wanted->bias);
-    auto with_bias = explain(solved.model, solved.edges, now.fit.state, estimated);
-    if (!with_bias) {
-      return Unexpected{with_bias.error()};
-    }
-    solved.of.best = *std::move(with_bias);
-  }
-  return open_rad2;
-}
-
 /// @param bound_rad2 Of the axis.
 std::optional<Error> axis_left_open(const Eigen::Matrix2d& bound_rad2) {
   if (bound_rad2.trace() < kLost_rad * kLost_rad) {
@@ -206,13 +123,6 @@ Error why_diverged(const Solved& solved, const Eigen::Vector3d& start_icrf) {
                       found.outliers, found.outliers + found.edges)};
 }
 
-std::string bias_in_words(const BiasEstimate& bias) {
-  const BiasPrior& prior = prior_of(bias.bias);
-  const double unit = prior.is_angle ? kDegree_rad : 1.0;
-  return fmt::format("{} {:+.3f} +/- {:.3f} {}", prior.words, bias.value / unit, bias.sigma / unit,
-                     prior.is_angle ? "deg" : "km");
-}
-
 /// Of the biases not estimated, what one step from the state would make of all together.
 std::vector<BiasEstimate> all_biases(const Explained& found) {
   const SensorBiases& now = found.fit.state.biases;
@@ -225,55 +135,29 @@ std::vector<BiasEstimate> all_biases(const Explained& found) {
       return bias.bias == estimated.bias;
     }) = estimated;
   }
+  std::erase_if(biases, [](const BiasEstimate& bias) {
+    return bias.bias == ConingX || bias.bias == ConingY;
+  });
   return biases;
 }
 
-/// Of the last part of a long pass, where nutation that grows is the largest.
-std::optional<NutationSearch> nutation_in(const Solved& solved) {
-  const std::size_t count = std::min(solved.edges.size(), kNutationEdges);
-  const auto search = find_nutation(
-      steady_residuals(solved.model, solved.edges.last(count), solved.of.best.fit.state));
-  return search ? std::optional{*search} : std::nullopt;
-}
-
-std::string status_of(const Solved& solved, const BatchSolution& solution) {
-  const Explained& best = solved.of.best;
-  const bool noisy = solution.noise > 1.0;
-  const bool dirty = best.information.outlier_share() > kManyOutliers;
-  const bool bounded = best.fit.at_bound.any();
-  std::string status =
-      solved.of.or_axis_icrf ? "AMBIGUOUS" : (noisy || dirty || bounded ? "DOUBTFUL" : "OK");
-  if (solved.of.or_axis_icrf) {
-    const RaDec other = ra_dec_of(*solved.of.or_axis_icrf);
-    status += fmt::format(", or ra {:.2f} dec {:.2f} deg", other.ra_rad / kDegree_rad,
-                          other.dec_rad / kDegree_rad);
+ConingEstimate coning_of(const Explained& found, double excess_noise) {
+  const Observability observed{found.information, found.estimated | unknowns_of(ConingX)};
+  const bool estimated = found.estimated[ConingX];
+  SensorBiases biases = found.fit.state.biases;
+  if (!estimated) {
+    biases += observed.bias_step(found.information, biases);
   }
-  status += fmt::format(", {} edges", solution.edges);
-  if (solution.changed) {
-    status +=
-        fmt::format(" since {}, where attitude or rate changed", format_utc(*solution.changed, 0));
-  }
-  if (solution.outliers > 0) {
-    status += fmt::format(", {} outliers", solution.outliers);
-  }
-  if (solution.nutation && solution.nutation->found) {
-    const FoundNutation& nutation = *solution.nutation->found;
-    status += fmt::format(", nutation {:.3f} deg, period {:.3f} s",
-                          nutation.half_angle_rad.value / kDegree_rad, nutation.period_s.value);
-  }
-  if (noisy) {
-    status += fmt::format(", noise x {:.1f}", solution.noise);
-  }
-  for (const BiasEstimate& bias : solution.biases) {
-    const auto index = static_cast<std::size_t>(bias.bias);
-    if (best.fit.at_bound[index]) {
-      status += fmt::format(", {} runs to its bound", prior_of(bias.bias).words);
-    } else if (best.estimated[index]) {
-      status += bias.observable ? ", " + bias_in_words(bias)
-                                : fmt::format(", {} not determined", prior_of(bias.bias).words);
-    }
-  }
-  return status;
+  const Eigen::Vector2d coning_rad = biases.segment<2>(ConingX);
+  const Eigen::Matrix2d covariance_rad2 = observed.coning_covariance_rad2() * excess_noise;
+  const Eigen::Vector2d along = coning_rad.stableNormalized();
+  const Eigen::Vector2d across{-along.y(), along.x()};
+  ConingEstimate coning{
+      .verdict = judge_coning(coning_rad, covariance_rad2),
+      .tilt_sigma_rad = std::sqrt(along.dot(covariance_rad2 * along)),
+      .azimuth_sigma_rad = std::sqrt(across.dot(covariance_rad2 * across)) / coning_rad.norm()};
+  coning.verdict.detected = coning.verdict.detected && estimated;
+  return coning;
 }
 
 }  // namespace
@@ -291,11 +175,12 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
   }
   Eigen::Matrix2d open_rad2 = Eigen::Matrix2d::Zero();
   if (!config.batch.biases) {
-    const auto added = add_wanted_biases(*solved);
+    auto added = add_wanted_biases(solved->model, solved->edges, solved->of.best);
     if (!added) {
       return Unexpected{added.error()};
     }
-    open_rad2 = *added;
+    solved->of.best = std::move(added->best);
+    open_rad2 = added->open_rad2;
   }
   const Explained& best = solved->of.best;
   const PassInformation& information = best.information;
@@ -307,8 +192,7 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
   if (const auto open = axis_left_open(bound_rad2)) {
     return Unexpected{*open};
   }
-  const int unknowns = kMotionUnknowns + static_cast<int>(best.estimated.count());
-  const double excess_noise = information.excess_noise(unknowns);
+  const double excess_noise = best.excess_noise();
   const Eigen::Matrix2d turned = tangent_from_tilts(best.fit.state.q_icrf_spin);
   const double half_s = solved->model.half_s();
   BatchSolution solution{
@@ -330,10 +214,18 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
       .outliers = information.outliers,
       .noise = std::sqrt(excess_noise),
       .iterations = best.fit.iterations,
-      .nutation = nutation_in(*solved)};
+      .nutation = best.nutation,
+      .nutation_t = solved->edges.back().pulse.t,
+      .coning = coning_of(best, excess_noise)};
+  if (best.nutation && best.nutation->found) {
+    solution.nutation->found = as_fitted(*best.nutation->found, solved->model, best.fit.state);
+    solution.nutation_t = later_by_s(solved->model.middle(), best.nutation->found->t_s);
+  }
   const BiasSet suspected = config.batch.biases.value_or(seen_biases(information));
   solution.undetermined = Observability{information, suspected}.undetermined();
-  solution.estimate.status = status_of(*solved, solution);
+  solution.estimate.status = status_of(solution, {.or_axis_icrf = solved->of.or_axis_icrf,
+                                                  .estimated = best.estimated,
+                                                  .at_bound = best.fit.at_bound});
   return solution;
 }
 

@@ -13,6 +13,7 @@
 #include <deque>
 #include <vector>
 
+#include "pipelines/spin/batch/nutation_stretch.h"
 #include "pipelines/spin/batch/pass_information.h"
 
 namespace spindrift {
@@ -30,6 +31,9 @@ struct Parameters {
   Eigen::Quaterniond q_icrf_spin;
   Eigen::Vector2d clock = Eigen::Vector2d::Zero();
   SensorBiases biases;
+  std::vector<NutationStretch> nutation;
+  /// Of the edges outside any stretch.
+  Eigen::Vector4d none = Eigen::Vector4d::Zero();
 };
 
 class Fit {
@@ -37,7 +41,8 @@ class Fit {
   Fit(const PassModel& model, const SpinState& start)
       : model_{model},
         start_{start},
-        parameters_{.q_icrf_spin = start.q_icrf_spin, .biases = start.biases} {}
+        parameters_{
+            .q_icrf_spin = start.q_icrf_spin, .biases = start.biases, .nutation = start.nutation} {}
 
   SpinState state_at(const double* q, const double* clock, const double* biases) const {
     const double half_s = model_.half_s();
@@ -47,8 +52,10 @@ class Fit {
             .biases = Eigen::Map<const SensorBiases>{biases}};
   }
   SpinState state() const {
-    return state_at(parameters_.q_icrf_spin.coeffs().data(), parameters_.clock.data(),
-                    parameters_.biases.data());
+    SpinState state = state_at(parameters_.q_icrf_spin.coeffs().data(), parameters_.clock.data(),
+                               parameters_.biases.data());
+    state.nutation = parameters_.nutation;
+    return state;
   }
   const PassModel& model() const { return model_; }
   Parameters& parameters() { return parameters_; }
@@ -69,23 +76,31 @@ Eigen::Matrix<double, 4, 3> quaternion_per_turn(const Eigen::Quaterniond& q) {
   return slopes;
 }
 
-class EdgeCost final : public ceres::SizedCostFunction<1, 4, 2, kSensorBiases> {
+class EdgeCost final : public ceres::SizedCostFunction<1, 4, 2, kSensorBiases, kNutationUnknowns> {
  public:
-  EdgeCost(const Fit& fit, const Pulse& edge) : fit_{&fit}, edge_{edge} {}
+  /// @param stretch That it is in; or none.
+  EdgeCost(const Fit& fit, const Pulse& edge, const NutationStretch* stretch)
+      : fit_{&fit}, edge_{edge}, stretch_{stretch} {}
 
   bool Evaluate(double const* const* at, double* residual, double** jacobians) const override {
-    const SpinState state = fit_->state_at(at[0], at[1], at[2]);
+    SpinState state = fit_->state_at(at[0], at[1], at[2]);
+    if (stretch_ != nullptr) {
+      state.nutation = {*stretch_};
+      state.nutation.front().unknowns = Eigen::Map<const NutationSlopes>{at[3]}.transpose();
+    }
     const auto edge = fit_->model().residual(edge_, state);
     // Where there is no such edge it is an outlier, and nothing moves it.
     residual[0] = edge ? edge->off : kOutlierSigmas;
     if (jacobians != nullptr) {
-      write(edge ? edge->slopes : EdgeSlopes::Zero(), state, jacobians);
+      write(edge.value_or(EdgeResidual{.off = 0.0, .slopes = EdgeSlopes::Zero()}), state,
+            jacobians);
     }
     return std::isfinite(residual[0]);
   }
 
  private:
-  static void write(const EdgeSlopes& slopes, const SpinState& state, double** jacobians) {
+  static void write(const EdgeResidual& edge, const SpinState& state, double** jacobians) {
+    const EdgeSlopes& slopes = edge.slopes;
     if (jacobians[0] != nullptr) {
       const Eigen::RowVector3d by_half_turn =
           2.0 * slopes.head<3>() * state.q_icrf_spin.conjugate().toRotationMatrix();
@@ -99,10 +114,14 @@ class EdgeCost final : public ceres::SizedCostFunction<1, 4, 2, kSensorBiases> {
       Eigen::Map<Eigen::Matrix<double, 1, kSensorBiases>>{jacobians[2]} =
           slopes.tail<kSensorBiases>();
     }
+    if (jacobians[3] != nullptr) {
+      Eigen::Map<NutationSlopes>{jacobians[3]} = edge.nutation_slopes;
+    }
   }
 
   const Fit* fit_;
   Pulse edge_;
+  const NutationStretch* stretch_;
 };
 
 class PriorCost final : public ceres::SizedCostFunction<kSensorBiases, kSensorBiases> {
@@ -137,25 +156,39 @@ void hold_biases(ceres::Problem& problem, double* biases, BiasSet estimated) {
   }
 }
 
+/// Each edge with the unknowns of its stretch.
+void add_edges(Fit& fit, std::span<const PassEdge> edges, std::size_t stride,
+               ceres::LossFunction& loss, std::deque<EdgeCost>& costs, ceres::Problem& problem) {
+  Parameters& at = fit.parameters();
+  auto stretch = at.nutation.begin();
+  for (std::size_t i = 0; i < edges.size(); i += stride) {
+    const Pulse& edge = edges[i].pulse;
+    while (stretch != at.nutation.end() && stretch->end <= edge.t) {
+      ++stretch;
+    }
+    const bool nutates = stretch != at.nutation.end() && stretch->holds(edge.t);
+    EdgeCost& cost = costs.emplace_back(fit, edge, nutates ? &*stretch : nullptr);
+    problem.AddResidualBlock(&cost, &loss, at.q_icrf_spin.coeffs().data(), at.clock.data(),
+                             at.biases.data(), nutates ? stretch->unknowns.data() : at.none.data());
+  }
+  if (problem.HasParameterBlock(at.none.data())) {
+    problem.SetParameterBlockConstant(at.none.data());
+  }
+}
+
 ceres::Solver::Summary solve(Fit& fit, std::span<const PassEdge> edges, std::size_t stride,
                              ceres::LossFunction& loss, BiasSet estimated) {
-  std::deque<EdgeCost> costs;  // Where they are they stay.
-  for (std::size_t i = 0; i < edges.size(); i += stride) {
-    costs.emplace_back(fit, edges[i].pulse);
-  }
   ceres::Problem::Options keeping;
   keeping.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   keeping.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   keeping.disable_all_safety_checks = true;
+  std::deque<EdgeCost> costs;  // Where they are they stay.
   PriorCost prior;
   ceres::Problem problem{keeping};
   Parameters& at = fit.parameters();
-  double* const q = at.q_icrf_spin.coeffs().data();
-  for (EdgeCost& cost : costs) {
-    problem.AddResidualBlock(&cost, &loss, q, at.clock.data(), at.biases.data());
-  }
+  add_edges(fit, edges, stride, loss, costs, problem);
   problem.AddResidualBlock(&prior, nullptr, at.biases.data());
-  problem.SetManifold(q, new ceres::EigenQuaternionManifold);
+  problem.SetManifold(at.q_icrf_spin.coeffs().data(), new ceres::EigenQuaternionManifold);
   hold_biases(problem, at.biases.data(), estimated);
 
   ceres::Solver::Options options;

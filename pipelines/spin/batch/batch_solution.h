@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/spin/coning.h"
 #include "pipelines/spin/nutation.h"
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/sensor_biases.h"
@@ -15,7 +16,7 @@
 
 namespace spindrift {
 
-/// One bias, as edges and prior together have it.
+/// One bias other than coning, as edges and prior together have it.
 struct BiasEstimate {
   SensorBias bias;
   double value;  ///< rad, or km; zero, the prior, where not observable.
@@ -23,12 +24,20 @@ struct BiasEstimate {
   bool observable;
 };
 
+/// The sensors' axis leans away from the principal axis.
+struct ConingEstimate {
+  ConingVerdict verdict;  ///< Detected only where it was estimated with the axis.
+  double tilt_sigma_rad;
+  double azimuth_sigma_rad;
+};
+
 struct BatchSolution {
   SpinEstimate estimate;
   /// Cramer-Rao bound of the axis, both directions together, with the stated noise and the biases
   /// that are estimated.
   double bound_rad;
-  /// Of every bias: as estimated; of the others what the edges would say of all biases together.
+  /// Of every bias but coning: as estimated; of the others what the edges would say of all biases
+  /// together.
   std::vector<BiasEstimate> biases;
   /// Directions that the edges leave open were all biases of the pass unknown, in words.
   std::vector<std::string> undetermined;
@@ -38,7 +47,10 @@ struct BatchSolution {
   std::int64_t outliers;
   double noise;  ///< Root of their mean square against the stated noise.
   int iterations;
-  std::optional<NutationSearch> nutation;  ///< Empty where the edges do not suffice to look.
+  /// Empty where the edges do not suffice to look. What was found is the last stretch's.
+  std::optional<NutationSearch> nutation;
+  TaiTime nutation_t;  ///< Where FoundNutation says t_s; without one, that of the estimate.
+  ConingEstimate coning;
 };
 
 }  // namespace spindrift

@@ -1,68 +1,99 @@
 #include "pipelines/spin/batch/bias_choice.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace spindrift {
 namespace {
 
-// Eight biases are looked at, each at a chance of 1.2e-5.
+// Nine are looked at, each at a chance of 1.2e-5: chi-squares of one degree, of coning two.
 constexpr double kWanted = 19.2;
+constexpr double kConingWanted = 22.7;
 
 using Unknowns = Eigen::Matrix<double, kBatchUnknowns, 1>;
 using Information = Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns>;
+
+/// One by one; the second of coning goes with the first.
+std::vector<SensorBias> not_among(BiasSet estimated) {
+  std::vector<SensorBias> biases;
+  for (int i = 0; i < kSensorBiases; ++i) {
+    if (!estimated[static_cast<std::size_t>(i)] && i != ConingY) {
+      biases.push_back(static_cast<SensorBias>(i));
+    }
+  }
+  return biases;
+}
+
+}  // namespace
+
+double wanted_from(SensorBias bias) { return bias == ConingX ? kConingWanted : kWanted; }
+
+namespace {
 
 /// The step that all unknowns take when one more bias is estimated.
 struct Step {
   Unknowns unknowns;
   double gain;
-  double sigma;  ///< Of the bias.
+  double share_of_prior;  ///< Of what was open of the bias before, the share that is.
 };
 
 Step step_with(const PassInformation& pass, BiasSet estimated, SensorBias bias) {
-  estimated.set(static_cast<std::size_t>(bias));
+  const BiasSet added = unknowns_of(bias);
+  estimated |= added;
   Information information = pass.information;
-  Unknowns score = pass.score;
+  // At the best state only what is added has a score left.
+  Unknowns score = Unknowns::Zero();
+  std::vector<int> rows;
+  double prior_volume = 1.0;
   information.diagonal().head<kMotionUnknowns>().array() += 1.0;
   for (int i = 0; i < kSensorBiases; ++i) {
     const int row = kMotionUnknowns + i;
+    const double prior = prior_of(static_cast<SensorBias>(i)).sigma;
     if (estimated[static_cast<std::size_t>(i)]) {
-      const double prior = prior_of(static_cast<SensorBias>(i)).sigma;
       information(row, row) += 1.0 / (prior * prior);
     } else {
       information.row(row).setZero();
       information.col(row).setZero();
       information(row, row) = 1.0;
-      score[row] = 0.0;
+    }
+    if (added[static_cast<std::size_t>(i)]) {
+      rows.push_back(row);
+      score[row] = pass.score[row];
+      prior_volume *= prior;
     }
   }
-  const Eigen::LDLT<Information> solver{information};
-  const Unknowns by_bias = solver.solve(Unknowns::Unit(kMotionUnknowns + bias));
-  const double variance = by_bias[kMotionUnknowns + bias];
-  // At the best state only the bias itself has a score left.
-  const double bias_score = score[kMotionUnknowns + bias];
-  return {.unknowns = -by_bias * bias_score,
-          .gain = bias_score * bias_score * variance,
-          .sigma = std::sqrt(variance)};
+  const Information covariance = information.ldlt().solve(Information::Identity());
+  const Unknowns unknowns = -covariance * score;
+  const Eigen::MatrixXd own = covariance(rows, rows);
+  return {.unknowns = unknowns,
+          .gain = -score.dot(unknowns),
+          .share_of_prior = std::sqrt(own.determinant()) / prior_volume};
 }
 
 }  // namespace
 
-std::optional<BiasGain> most_wanted_bias(const PassInformation& information, BiasSet estimated) {
+std::vector<BiasGain> wanted_biases(const PassInformation& information, BiasSet estimated) {
   const double excess_noise =
       information.excess_noise(kMotionUnknowns + static_cast<int>(estimated.count()));
-  std::optional<BiasGain> best;
-  for (int i = 0; i < kSensorBiases; ++i) {
-    const auto bias = static_cast<SensorBias>(i);
-    if (estimated[static_cast<std::size_t>(i)]) {
-      continue;
-    }
+  std::vector<BiasGain> wanted;
+  for (const SensorBias bias : not_among(estimated)) {
     const double gain = step_with(information, estimated, bias).gain / excess_noise;
-    if (gain > kWanted && (!best || gain > best->gain)) {
-      best = BiasGain{.bias = bias, .gain = gain};
+    if (gain > wanted_from(bias)) {
+      wanted.push_back({.bias = bias, .gain = gain});
     }
   }
-  return best;
+  const auto beyond = [](const BiasGain& one) { return one.gain - wanted_from(one.bias); };
+  std::stable_sort(wanted.begin(), wanted.end(), [&](const BiasGain& one, const BiasGain& other) {
+    return beyond(one) > beyond(other);
+  });
+  return wanted;
+}
+
+std::optional<BiasGain> most_wanted_bias(const PassInformation& information, BiasSet estimated) {
+  const std::vector<BiasGain> wanted = wanted_biases(information, estimated);
+  return wanted.empty() ? std::nullopt : std::optional{wanted.front()};
 }
 
 Eigen::Matrix2d other_biases_rad2(const PassInformation& information, BiasSet estimated,
@@ -70,14 +101,9 @@ Eigen::Matrix2d other_biases_rad2(const PassInformation& information, BiasSet es
   const Step with_chosen = step_with(information, estimated, chosen);
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   double weights = 0.0;
-  for (int i = 0; i < kSensorBiases; ++i) {
-    const auto bias = static_cast<SensorBias>(i);
-    if (estimated[static_cast<std::size_t>(i)]) {
-      continue;
-    }
+  for (const SensorBias bias : not_among(estimated)) {
     const Step other = step_with(information, estimated, bias);
-    const double weight =
-        std::exp(0.5 * (other.gain - with_chosen.gain)) * other.sigma / prior_of(bias).sigma;
+    const double weight = std::exp(0.5 * (other.gain - with_chosen.gain)) * other.share_of_prior;
     const Eigen::Vector2d apart_rad = (other.unknowns - with_chosen.unknowns).head<2>();
     squares += weight * apart_rad * apart_rad.transpose();
     weights += weight;

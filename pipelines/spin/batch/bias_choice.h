@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "pipelines/spin/batch/batch_fit.h"
 #include "pipelines/spin/batch/pass_information.h"
@@ -12,13 +13,21 @@
 namespace spindrift {
 
 struct BiasGain {
-  SensorBias bias;
-  double gain;  ///< Of log likelihood, times two: of noise alone, a chi-square of one degree.
+  SensorBias bias;  ///< Of coning, both unknowns, ConingX.
+  double gain;      ///< Of log likelihood, times two: of noise alone, a chi-square of one degree,
+                    ///< of coning two.
 };
 
-/// The bias that would explain the residuals best, beside those that are estimated already.
+/// The gain from which on a bias explains what noise does not; for coning, which has two unknowns,
+/// it is higher.
+double wanted_from(SensorBias bias);
+
+/// Those that would explain the residuals, beside those that are estimated already, best first.
 /// @param information At the best state with these.
 /// @return Empty where noise explains them as well: at a chance of 1e-4 a pass there is one.
+std::vector<BiasGain> wanted_biases(const PassInformation& information, BiasSet estimated);
+
+/// The first of them.
 std::optional<BiasGain> most_wanted_bias(const PassInformation& information, BiasSet estimated);
 
 /// Mean square of what the axis would move by, were not `chosen` but another bias the true one,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 namespace spindrift {
 namespace {
@@ -145,11 +146,18 @@ std::vector<std::string> Observability::undetermined() const {
   for (Eigen::Index i = 0; i < count && solver.eigenvalues()[i] < 1.0; ++i) {
     std::vector<std::string_view> names;
     for (Eigen::Index j = 0; j < count; ++j) {
-      if (std::abs(solver.eigenvectors()(j, i)) > kTakesPart) {
-        names.push_back(prior_of(estimated_[static_cast<std::size_t>(j)]).words);
+      const std::string_view name = prior_of(estimated_[static_cast<std::size_t>(j)]).words;
+      // Coning has two unknowns of one name, one after the other.
+      const bool is_new = names.empty() || names.back() != name;
+      if (is_new && std::abs(solver.eigenvectors()(j, i)) > kTakesPart) {
+        names.push_back(name);
       }
     }
-    all.push_back(in_words(names));
+    // Directions that are open alike come mixed, and may read the same.
+    std::string direction = in_words(names);
+    if (std::find(all.begin(), all.end(), direction) == all.end()) {
+      all.push_back(std::move(direction));
+    }
   }
   return all;
 }

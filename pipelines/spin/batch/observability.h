@@ -23,6 +23,9 @@ class Observability {
 
   /// Tilts of the frame `spin`, rad^2; where the edges leave a direction open, large.
   Eigen::Matrix2d axis_covariance_rad2() const { return covariance_.topLeftCorner<2, 2>(); }
+  Eigen::Matrix2d coning_covariance_rad2() const {
+    return covariance_.block<2, 2>(kMotionUnknowns + ConingX, kMotionUnknowns + ConingX);
+  }
   /// Of the rate at the end of the pass. @param half_s Its half length.
   double last_rate_variance(double half_s) const;
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/small_rotation.h"
 #include "pipelines/spin/surroundings.h"
 #include "pipelines/spin/time_span.h"
 
@@ -13,6 +14,23 @@ namespace {
 
 // Within it the Sun moves by 0.0001 deg, and a satellite's fall from its second order by 1 m.
 constexpr double kSkySpan_s = 10.0;
+
+const NutationStretch* stretch_at(const SpinState& state, TaiTime t) {
+  const auto found = std::find_if(state.nutation.begin(), state.nutation.end(),
+                                  [&](const NutationStretch& stretch) { return t < stretch.end; });
+  return found != state.nutation.end() && found->holds(t) ? &*found : nullptr;
+}
+
+/// By axes that are tipped, to axes that are not.
+void untip(const NutationTilt& tilt, MetEdge& met) {
+  const Eigen::Vector3d tipped_rad{tilt.rotation_rad.x(), tilt.rotation_rad.y(), 0.0};
+  const Eigen::Vector3d per_tipped = met.expected.phase_per_rotation;
+  const Eigen::RowVector2d per_tilt =
+      per_tipped.transpose() * rotation_per_vector(-tipped_rad).leftCols<2>();
+  met.expected.phase_per_rotation = rotation_by(tipped_rad) * per_tipped;
+  met.off_per_phase = 1.0 - per_tilt.dot(tilt.per_phase);
+  met.off_per_nutation = -per_tilt * tilt.per_unknown;
+}
 
 }  // namespace
 
@@ -46,19 +64,29 @@ const Sky& PassModel::sky_at(TaiTime t) const {
 }
 
 std::optional<MetEdge> PassModel::meet(const Pulse& edge, const SpinState& state) const {
-  const Eigen::Matrix3d R_spin_icrf = state.q_icrf_spin.conjugate().toRotationMatrix();
-  const auto expected = predict_edge(config_, sky_at(edge.t), R_spin_icrf, edge, state.biases);
-  if (!expected) {
-    return std::nullopt;
-  }
   const double dt_s = seconds_between(middle_, edge.t);
   const double rate_there_rad_s = state.rate_rad_s + state.drift_rad_s2 * dt_s;
   const double phase_rad = (state.rate_rad_s + 0.5 * state.drift_rad_s2 * dt_s) * dt_s;
-  return MetEdge{.expected = *expected,
-                 .phase_rad = phase_rad,
-                 .off_rad = wrapped_rad(phase_rad - expected->phase_rad),
-                 .sigma_rad = rate_there_rad_s * edge_sigma_s(config_.noise, edge.channel),
-                 .rate_rad_s = rate_there_rad_s};
+  Eigen::Matrix3d R_tipped_icrf = state.q_icrf_spin.conjugate().toRotationMatrix();
+  std::optional<NutationTilt> tilt;
+  if (const NutationStretch* const stretch = stretch_at(state, edge.t)) {
+    tilt = tilt_at(*stretch, edge.t, phase_rad);
+    R_tipped_icrf =
+        rotation_by({-tilt->rotation_rad.x(), -tilt->rotation_rad.y(), 0.0}) * R_tipped_icrf;
+  }
+  const auto expected = predict_edge(config_, sky_at(edge.t), R_tipped_icrf, edge, state.biases);
+  if (!expected) {
+    return std::nullopt;
+  }
+  MetEdge met{.expected = *expected,
+              .phase_rad = phase_rad,
+              .off_rad = wrapped_rad(phase_rad - expected->phase_rad),
+              .sigma_rad = rate_there_rad_s * edge_sigma_s(config_.noise, edge.channel),
+              .rate_rad_s = rate_there_rad_s};
+  if (tilt) {
+    untip(*tilt, met);
+  }
+  return met;
 }
 
 std::optional<EdgeResidual> PassModel::residual(const Pulse& edge, const SpinState& state) const {
@@ -70,9 +98,10 @@ std::optional<EdgeResidual> PassModel::residual(const Pulse& edge, const SpinSta
   const double part = dt_s / half_s_;
   EdgeResidual residual;
   residual.off = met->off_rad / met->sigma_rad;
-  residual.slopes << -met->expected.phase_per_rotation.transpose(), part, part * part,
-      -met->expected.phase_per_bias;
+  residual.slopes << -met->expected.phase_per_rotation.transpose(), met->off_per_phase * part,
+      met->off_per_phase * part * part, -met->expected.phase_per_bias;
   residual.slopes /= met->sigma_rad;
+  residual.nutation_slopes = met->off_per_nutation / met->sigma_rad;
   // What an angle is worth changes with the rate as well; to first order.
   const double by_rate = -residual.off / met->rate_rad_s;
   residual.slopes[3] += by_rate / half_s_;

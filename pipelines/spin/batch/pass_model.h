@@ -1,10 +1,11 @@
 /// @file
-/// What a body that spins about an axis at rest, at a rate that drifts evenly, gives of edges, and
-/// how far those that came are from it. In the unknowns
+/// What a body that spins about an axis at rest, at a rate that drifts evenly, and may nutate about
+/// it, gives of edges, and how far those that came are from it. In the unknowns
 ///
 ///     tilt x, tilt y, phase      rotation of the frame `spin` about its own axes, rad
 ///     rate, drift                each as the angle that it makes at the ends of the pass, rad
 ///     biases                     sensor_biases.h
+///     nutation                   of a stretch of the pass that has it, nutation_stretch.h
 ///
 /// an edge is one equation, (rate dt + drift dt^2/2 - phase predicted) / (rate sigma_t) = noise of
 /// one standard deviation, with dt from the middle of the pass: the time of a pulse, whitened.
@@ -20,6 +21,7 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
+#include "pipelines/spin/batch/nutation_stretch.h"
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/edge_prediction.h"
 #include "pipelines/spin/pulse.h"
@@ -41,6 +43,7 @@ struct SpinState {
   double rate_rad_s;  ///< At the middle of the pass.
   double drift_rad_s2;
   SensorBiases biases = SensorBiases::Zero();
+  std::vector<NutationStretch> nutation = {};  ///< In order of time, apart from each other.
 
   Eigen::Vector3d axis_icrf() const { return q_icrf_spin * Eigen::Vector3d::UnitZ(); }
 };
@@ -51,17 +54,21 @@ using EdgeSlopes = Eigen::Matrix<double, 1, kBatchUnknowns>;
 
 /// Where a state expects an edge, and where it came.
 struct MetEdge {
-  PredictedEdge expected;
-  double phase_rad;  ///< Azimuth of slit 1 when it came, counted on from turn to turn.
-  double off_rad;    ///< More than expected by so much.
-  double sigma_rad;  ///< Of its noise.
+  PredictedEdge expected;  ///< Its change by rotation that of the frame `spin`, not of the tipped.
+  double phase_rad;        ///< Azimuth of slit 1 when it came, counted on from turn to turn.
+  double off_rad;          ///< More than expected by so much.
+  double sigma_rad;        ///< Of its noise.
   double rate_rad_s;
+  /// Change of `off_rad` with the phase, and with the unknowns of the stretch that it is in.
+  double off_per_phase = 1.0;
+  NutationSlopes off_per_nutation = NutationSlopes::Zero();
 };
 
 /// An edge against a state.
 struct EdgeResidual {
   double off;         ///< In standard deviations of its noise; positive: late.
   EdgeSlopes slopes;  ///< Of `off`.
+  NutationSlopes nutation_slopes = NutationSlopes::Zero();
 };
 
 class PassModel {

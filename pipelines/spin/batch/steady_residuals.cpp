@@ -1,6 +1,8 @@
 #include "pipelines/spin/batch/steady_residuals.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "pipelines/frames/celestial.h"
@@ -8,7 +10,22 @@
 namespace spindrift {
 namespace {
 
+// Nutation of 0.2 deg puts edges off by ten.
 constexpr double kFarthestSigmas = 30.0;
+// Of a normal variable, of its absolute values.
+constexpr double kMedian = 0.6745;
+
+/// Of all; of degrees it is more, and then far edges are no dirt.
+double scatter_of(const std::vector<SteadyResidual>& residuals) {
+  std::vector<double> sizes(residuals.size());
+  std::transform(residuals.begin(), residuals.end(), sizes.begin(),
+                 [](const SteadyResidual& residual) {
+                   return std::abs(residual.off_rad) / residual.sigma_rad;
+                 });
+  const auto middle = sizes.begin() + std::ssize(sizes) / 2;
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return middle == sizes.end() ? 1.0 : std::max(1.0, *middle / kMedian);
+}
 
 }  // namespace
 
@@ -18,7 +35,7 @@ std::vector<SteadyResidual> steady_residuals(const PassModel& model,
   std::vector<SteadyResidual> residuals;
   for (const PassEdge& edge : edges) {
     const auto met = model.meet(edge.pulse, state);
-    if (met && std::abs(met->off_rad) < kFarthestSigmas * met->sigma_rad) {
+    if (met) {
       const double expected_rad = met->phase_rad - met->off_rad;
       residuals.push_back({.channel = edge.pulse.channel,
                            .t_s = seconds_between(model.middle(), edge.pulse.t),
@@ -28,6 +45,10 @@ std::vector<SteadyResidual> steady_residuals(const PassModel& model,
                            .expected = met->expected});
     }
   }
+  const double farthest = kFarthestSigmas * scatter_of(residuals);
+  std::erase_if(residuals, [&](const SteadyResidual& residual) {
+    return !(std::abs(residual.off_rad) < farthest * residual.sigma_rad);
+  });
   return residuals;
 }
 

@@ -11,7 +11,8 @@
 
 namespace spindrift {
 
-/// Of edges within thirty sigmas of where the state has them: nutation puts them off by several.
+/// Of edges within thirty sigmas, or thirty times what all scatter by, of where the state has them:
+/// nutation puts them off by several.
 std::vector<SteadyResidual> steady_residuals(const PassModel& model,
                                              std::span<const PassEdge> edges,
                                              const SpinState& state);

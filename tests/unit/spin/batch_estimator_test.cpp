@@ -129,7 +129,7 @@ TEST(BatchEstimator, OneTurnAndNoEdgeAreTooFew) {
   for (const double turns : {1.0, 0.0}) {
     const auto solution = scene.solved(scene.pass(turns));
     ASSERT_FALSE(solution);
-    EXPECT_THAT(solution.error().message, HasSubstr("need more than 13 edges of at least 3 turns"));
+    EXPECT_THAT(solution.error().message, HasSubstr("need more than 15 edges of at least 3 turns"));
   }
 }
 

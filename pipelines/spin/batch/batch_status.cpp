@@ -1,0 +1,85 @@
+#include "pipelines/spin/batch/batch_status.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/time/utc.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+// More outliers are no dirt of a pass but another motion, or none: a wrong axis may have all edges
+// of five channels where they came, and none of the sixth.
+constexpr double kManyOutliers = 0.15;
+
+std::string first_word(const BatchSolution& solution, const BatchDoubts& doubts) {
+  const auto outliers = static_cast<double>(solution.outliers);
+  const bool dirty = outliers > kManyOutliers * (outliers + static_cast<double>(solution.edges));
+  if (doubts.or_axis_icrf) {
+    const RaDec other = ra_dec_of(*doubts.or_axis_icrf);
+    return fmt::format("AMBIGUOUS, or ra {:.2f} dec {:.2f} deg", other.ra_rad / kDegree_rad,
+                       other.dec_rad / kDegree_rad);
+  }
+  return solution.noise > 1.0 || dirty || doubts.at_bound.any() ? "DOUBTFUL" : "OK";
+}
+
+/// What the body does that is no even spin.
+std::string motion_in_words(const BatchSolution& solution, BiasSet estimated) {
+  std::string words;
+  if (solution.nutation && solution.nutation->found) {
+    const FoundNutation& nutation = *solution.nutation->found;
+    words += fmt::format(", nutation {:.3f} deg, period {:.3f} s",
+                         nutation.half_angle_rad.value / kDegree_rad, nutation.period_s.value);
+  }
+  if (solution.coning.verdict.detected) {
+    words += fmt::format(", coning {:.3f} +/- {:.3f} deg",
+                         solution.coning.verdict.tilt_rad / kDegree_rad,
+                         solution.coning.tilt_sigma_rad / kDegree_rad);
+  } else if (estimated[ConingX]) {
+    words += fmt::format(", no coning above {:.2f} deg",
+                         solution.coning.verdict.detectable_rad / kDegree_rad);
+  }
+  return words;
+}
+
+std::string bias_in_words(const BiasEstimate& bias) {
+  const BiasPrior& prior = prior_of(bias.bias);
+  const double unit = prior.is_angle ? kDegree_rad : 1.0;
+  return bias.observable ? fmt::format(", {} {:+.3f} +/- {:.3f} {}", prior.words, bias.value / unit,
+                                       bias.sigma / unit, prior.is_angle ? "deg" : "km")
+                         : fmt::format(", {} not determined", prior.words);
+}
+
+}  // namespace
+
+std::string status_of(const BatchSolution& solution, const BatchDoubts& doubts) {
+  std::string status = first_word(solution, doubts) + fmt::format(", {} edges", solution.edges);
+  if (solution.changed) {
+    status +=
+        fmt::format(" since {}, where attitude or rate changed", format_utc(*solution.changed, 0));
+  }
+  if (solution.outliers > 0) {
+    status += fmt::format(", {} outliers", solution.outliers);
+  }
+  status += motion_in_words(solution, doubts.estimated);
+  if (solution.noise > 1.0) {
+    status += fmt::format(", noise x {:.1f}", solution.noise);
+  }
+  if ((doubts.at_bound & unknowns_of(ConingX)).any()) {
+    status += ", coning runs to its bound";
+  }
+  for (const BiasEstimate& bias : solution.biases) {
+    const auto index = static_cast<std::size_t>(bias.bias);
+    if (doubts.at_bound[index]) {
+      status += fmt::format(", {} runs to its bound", prior_of(bias.bias).words);
+    } else if (doubts.estimated[index]) {
+      status += bias_in_words(bias);
+    }
+  }
+  return status;
+}
+
+}  // namespace spindrift

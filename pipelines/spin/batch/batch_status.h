@@ -1,0 +1,24 @@
+/// @file
+/// The words of a status of the estimator `batch`.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "pipelines/spin/batch/batch_solution.h"
+
+namespace spindrift {
+
+/// What a solution does not say of itself.
+struct BatchDoubts {
+  std::optional<Eigen::Vector3d> or_axis_icrf;  ///< Fits as well.
+  BiasSet estimated;
+  BiasSet at_bound;
+};
+
+/// As batch_estimator.h has it.
+std::string status_of(const BatchSolution& solution, const BatchDoubts& doubts);
+
+}  // namespace spindrift

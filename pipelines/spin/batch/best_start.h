@@ -1,0 +1,25 @@
+/// @file
+/// The axis that explains the edges of a pass best, of those that its starts lead to.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+
+#include "pipelines/spin/batch/explained.h"
+
+namespace spindrift {
+
+/// The likeliest, and another that is nearly so.
+struct Best {
+  Explained best;
+  std::optional<Eigen::Vector3d> or_axis_icrf;
+};
+
+/// @param starts Unit, ICRF, at least one.
+/// @return Why the first start leads nowhere, where none does.
+Expected<Best> best_of(const PassModel& model, std::span<const PassEdge> edges,
+                       std::span<const Eigen::Vector3d> starts, BiasSet estimated);
+
+}  // namespace spindrift

@@ -1,0 +1,32 @@
+/// @file
+/// The best state of a pass with some biases unknown, and how well it explains the edges.
+
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/spin/batch/batch_fit.h"
+#include "pipelines/spin/batch/pass_information.h"
+#include "pipelines/spin/batch/pass_model.h"
+#include "pipelines/spin/nutation.h"
+
+namespace spindrift {
+
+struct Explained {
+  BatchFit fit;
+  BiasSet estimated;
+  PassInformation information;  ///< Less what the unknowns of its nutation take of it.
+  std::optional<NutationSearch> nutation;
+
+  double excess_noise() const;
+  double misfit() const;
+};
+
+/// @param start Its nutation is fitted anew, where it has any, and none is looked for.
+/// @return As fit().
+Expected<Explained> explain(const PassModel& model, std::span<const PassEdge> edges,
+                            const SpinState& start, BiasSet estimated);
+
+}  // namespace spindrift

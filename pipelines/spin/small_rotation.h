@@ -1,0 +1,25 @@
+/// @file
+/// Rotations of some degrees, by their vector: what a small change of the vector turns by.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace spindrift {
+
+inline Eigen::Matrix3d rotation_by(const Eigen::Vector3d& vector_rad) {
+  return Eigen::AngleAxisd{vector_rad.norm(), vector_rad.stableNormalized()}.toRotationMatrix();
+}
+
+/// rotation_by(v + dv) = rotation_by(J dv) rotation_by(v), the left Jacobian of SO(3); to the
+/// second power of v, 2e-7 at a degree.
+inline Eigen::Matrix3d rotation_per_vector(const Eigen::Vector3d& vector_rad) {
+  Eigen::Matrix3d cross;
+  cross << 0.0, -vector_rad.z(), vector_rad.y(),  //
+      vector_rad.z(), 0.0, -vector_rad.x(),       //
+      -vector_rad.y(), vector_rad.x(), 0.0;
+  return Eigen::Matrix3d::Identity() + 0.5 * cross + cross * cross / 6.0;
+}
+
+}  // namespace spindrift

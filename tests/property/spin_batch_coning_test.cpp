@@ -1,0 +1,89 @@
+/// Coning is found by `batch` where there is any, does not move the axis, and is not made up.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/wobbling_pass.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+double azimuth_off_rad(const BatchSolution& solution, const Coning& coning) {
+  return wrapped_rad(solution.coning.verdict.azimuth_rad - coning.azimuth_rad);
+}
+
+TEST(SpinBatchConing, IsNotMadeUpInAHundredCleanPasses) {
+  testing::WobblingPasses passes{2411, 150.0};
+  for (int pass = 0; pass < 100; ++pass) {
+    const auto solution = passes.solved(passes.edges(passes.drawn()));
+    ASSERT_TRUE(solution) << solution.error().message;
+    EXPECT_FALSE(solution->coning.verdict.detected) << solution->estimate.status;
+    EXPECT_THAT(solution->estimate.status, Not(HasSubstr("coning")));
+    // It does not widen what is known of the axis.
+    EXPECT_NEAR(std::sqrt(solution->estimate.covariance_rad2.trace()) / solution->bound_rad, 1.003,
+                0.001);
+  }
+}
+
+TEST(SpinBatchConing, ThatIsAskedForIsFoundAndTheAxisIsThatOfTheSpin) {
+  testing::WobblingPasses passes{2412, 600.0};
+  double squares = 0.0;
+  double coning_squares = 0.0;
+  constexpr int kPasses = 30;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    SpinTruth truth = passes.drawn();
+    passes.config().batch.biases = unknowns_of(ConingX);
+    // The prior's.
+    truth.motion.coning = {
+        .tilt_rad = 0.5 * kDegree_rad * std::sqrt(-2.0 * std::log(passes.uniform())),
+        .azimuth_rad = 2.0 * std::numbers::pi * passes.uniform()};
+    const auto solution = passes.solved(passes.edges(truth));
+    ASSERT_TRUE(solution) << solution.error().message;
+    squares += testing::axis_error(*solution, truth).squares;
+    const double tilt_off_rad = solution->coning.verdict.tilt_rad - truth.motion.coning.tilt_rad;
+    coning_squares += std::pow(tilt_off_rad / solution->coning.tilt_sigma_rad, 2);
+  }
+  // 95 % of chi-square, 60 and 30 degrees of freedom.
+  EXPECT_GT(squares, 40.5);
+  EXPECT_LT(squares, 83.3);
+  EXPECT_GT(coning_squares, 16.8);
+  EXPECT_LT(coning_squares, 47.0);
+}
+
+TEST(SpinBatchConing, OfADegreeIsFoundUnaskedWhereItCanBe) {
+  testing::WobblingPasses passes{2413, 900.0};
+  int found = 0;
+  for (int pass = 0; pass < 20; ++pass) {
+    SpinTruth truth = passes.drawn();
+    truth.motion.coning = {.tilt_rad = 1.0 * kDegree_rad,
+                           .azimuth_rad = 2.0 * std::numbers::pi * passes.uniform()};
+    const auto solution = passes.solved(passes.edges(truth));
+    ASSERT_TRUE(solution) << solution.error().message;
+    SCOPED_TRACE(solution->estimate.status);
+    EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
+    if (!solution->coning.verdict.detected) {
+      EXPECT_GT(solution->coning.verdict.detectable_rad, truth.motion.coning.tilt_rad);
+      continue;
+    }
+    ++found;
+    EXPECT_THAT(solution->estimate.status, HasSubstr(", coning "));
+    EXPECT_NEAR(solution->coning.verdict.tilt_rad, truth.motion.coning.tilt_rad,
+                3.0 * solution->coning.tilt_sigma_rad);
+    EXPECT_NEAR(azimuth_off_rad(*solution, truth.motion.coning), 0.0,
+                4.0 * solution->coning.azimuth_sigma_rad);
+    EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);
+  }
+  EXPECT_GE(found, 18);
+}
+
+}  // namespace
+}  // namespace spindrift

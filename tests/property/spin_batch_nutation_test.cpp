@@ -1,0 +1,149 @@
+/// The axis of a nutating pass is as good as that of a steady one, and its covariance as true.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/wobbling_pass.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+TEST(SpinBatchNutation, IsTakenOutAndTheAxisReachesTheBound) {
+  constexpr int kPasses = 120;
+  testing::WobblingPasses passes{2401, 150.0};
+  double squares = 0.0;
+  double error_rad2 = 0.0;
+  double bound_rad2 = 0.0;
+  double steady_rad2 = 0.0;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    SpinTruth truth = passes.drawn();
+    const auto steady = passes.solved(passes.edges(truth));
+    truth.motion.nutation = passes.random_nutation(0.2 * kDegree_rad);
+    const auto solution = passes.solved(passes.edges(truth));
+    ASSERT_TRUE(steady && solution) << pass;
+    SCOPED_TRACE(solution->estimate.status);
+    EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
+    EXPECT_EQ(solution->noise, 1.0);
+    ASSERT_TRUE(solution->nutation && solution->nutation->found);
+    const FoundNutation& found = *solution->nutation->found;
+    EXPECT_NEAR(found.half_angle_rad.value, 0.2 * kDegree_rad, 4.0 * found.half_angle_rad.sigma);
+    const testing::AxisError error = testing::axis_error(*solution, truth);
+    squares += error.squares;
+    error_rad2 += error.rad2;
+    bound_rad2 += solution->bound_rad * solution->bound_rad;
+    steady_rad2 += steady->bound_rad * steady->bound_rad;
+  }
+  // 95 % of chi-square, 240 degrees of freedom.
+  EXPECT_GT(squares, 199.0);
+  EXPECT_LT(squares, 284.8);
+  // The mean of 120 squares of two degrees of freedom: 1.05 and 1.645 standard deviations of it.
+  EXPECT_LT(std::sqrt(error_rad2 / bound_rad2), 1.05 + 0.5 * 1.645 * std::sqrt(2.0 / 240.0));
+  EXPECT_NEAR(std::sqrt(bound_rad2 / steady_rad2), 1.0, 0.03);
+  RecordProperty("squares", std::to_string(squares));
+  RecordProperty("rms over bound", std::to_string(std::sqrt(error_rad2 / bound_rad2)));
+  RecordProperty("bound over steady", std::to_string(std::sqrt(bound_rad2 / steady_rad2)));
+}
+
+TEST(SpinBatchNutation, OfDegreesIsTakenOutToo) {
+  testing::WobblingPasses passes{2402, 200.0};
+  for (const double half_angle_deg : {0.5, 1.0, 2.0, 4.0}) {
+    SpinTruth truth = passes.drawn();
+    truth.motion.nutation = passes.random_nutation(half_angle_deg * kDegree_rad);
+    const auto solution = passes.solved(passes.edges(truth));
+    ASSERT_TRUE(solution) << solution.error().message;
+    SCOPED_TRACE(solution->estimate.status);
+    EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
+    EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);  // One in a thousand.
+    ASSERT_TRUE(solution->nutation->found);
+    const FoundNutation& found = *solution->nutation->found;
+    EXPECT_NEAR(found.half_angle_rad.value, half_angle_deg * kDegree_rad,
+                4.0 * found.half_angle_rad.sigma);
+  }
+}
+
+TEST(SpinBatchNutation, ThatGrowsManyTimesIsFollowedFromStretchToStretch) {
+  testing::WobblingPasses passes{2403, 5400.0};
+  SpinTruth truth = passes.drawn();
+  truth.motion.nutation = passes.random_nutation(0.01 * kDegree_rad);
+  truth.motion.nutation.growth_per_s = 4.0 / 5400.0;
+  const auto solution = passes.solved(passes.edges(truth));
+  ASSERT_TRUE(solution) << solution.error().message;
+  SCOPED_TRACE(solution->estimate.status);
+  EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
+  EXPECT_EQ(solution->noise, 1.0);
+  EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);
+  ASSERT_TRUE(solution->nutation->found);
+  const FoundNutation& found = *solution->nutation->found;
+  EXPECT_NEAR(found.growth_per_s.value, truth.motion.nutation.growth_per_s,
+              4.0 * found.growth_per_s.sigma);
+  const double t_s = seconds_between(truth.start, solution->nutation_t);
+  EXPECT_NEAR(found.half_angle_rad.value, truth.motion.nutation.half_angle_at_rad(t_s),
+              4.0 * found.half_angle_rad.sigma);
+}
+
+TEST(SpinBatchNutation, ThatHasDiedOutIsTakenOutOfWhereItWas) {
+  testing::WobblingPasses passes{2404, 5400.0};
+  SpinTruth truth = passes.drawn();
+  truth.motion.nutation = passes.random_nutation(0.5 * kDegree_rad);
+  truth.motion.nutation.growth_per_s = -6.0 / 5400.0;
+  const auto solution = passes.solved(passes.edges(truth));
+  ASSERT_TRUE(solution) << solution.error().message;
+  EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
+  EXPECT_EQ(solution->noise, 1.0) << solution->estimate.status;
+  EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);
+}
+
+TEST(SpinBatchNutation, IsNotTakenForABiasNorABiasForIt) {
+  testing::WobblingPasses passes{2405, 600.0};
+  for (int pass = 0; pass < 6; ++pass) {
+    SpinTruth truth = passes.drawn();
+    truth.motion.nutation = passes.random_nutation(0.2 * kDegree_rad);
+    truth.north->chord_excess_rad = 0.3 * kDegree_rad;
+    const auto solution = passes.solved(passes.edges(truth));
+    ASSERT_TRUE(solution) << solution.error().message;
+    SCOPED_TRACE(solution->estimate.status);
+    EXPECT_THAT(solution->estimate.status, HasSubstr("north chord +0."));
+    EXPECT_THAT(solution->estimate.status, HasSubstr("nutation 0."));
+    EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);
+    EXPECT_EQ(solution->noise, 1.0);
+  }
+}
+
+TEST(SpinBatchNutation, DoesNotHideAManoeuvreNorIsOneForIt) {
+  for (const double half_angle_deg : {0.0, 0.2}) {
+    testing::WobblingPasses passes{2406, 600.0};
+    SpinTruth before = passes.drawn();
+    before.motion.nutation = passes.random_nutation(half_angle_deg * kDegree_rad);
+    SpinTruth after = before;
+    after.motion.axis_icrf =
+        Eigen::AngleAxisd{0.1 * kDegree_rad, before.motion.axis_icrf.unitOrthogonal()} *
+        before.motion.axis_icrf;
+    const TaiTime moved = shifted(before.start, 300.0);
+    std::vector<PassEdge> edges = passes.edges(before);
+    std::erase_if(edges, [&](const PassEdge& edge) { return edge.pulse.t >= moved; });
+    for (const PassEdge& edge : passes.edges(after)) {
+      if (edge.pulse.t >= moved) {
+        edges.push_back(edge);
+      }
+    }
+    const auto solution = passes.solved(edges);
+    ASSERT_TRUE(solution) << solution.error().message;
+    SCOPED_TRACE(solution->estimate.status);
+    ASSERT_TRUE(solution->changed);
+    EXPECT_NEAR(seconds_between(moved, *solution->changed), 0.0, 20.0);
+    EXPECT_EQ(solution->nutation->found.has_value(), half_angle_deg > 0.0);
+    EXPECT_LT(testing::axis_error(*solution, after).squares, 13.8);
+    EXPECT_EQ(solution->noise, 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace spindrift

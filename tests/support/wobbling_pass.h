@@ -1,0 +1,111 @@
+/// @file
+/// Passes of a body that nutates and cones, by the ground model, as the estimator `batch` is fed.
+
+#pragma once
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "pipelines/ephemeris/earth_pole.h"
+#include "pipelines/frames/celestial.h"
+#include "pipelines/ground_model/spin_edges.h"
+#include "pipelines/spin/batch/batch_estimator.h"
+#include "tests/support/observed_spin.h"
+
+namespace spindrift::testing {
+
+/// On `transfer_orbit`, its sensors where they are said to be; about the axis of `body`.
+inline SpinTruth truth_of(const SpinningBody& body) {
+  const auto beam = [](const InfraredSensor& sensor) {
+    return TrueInfrared{.mount_angle_rad = sensor.mount_angle_rad,
+                        .azimuth_rad = sensor.azimuth_rad};
+  };
+  return {.start = kTransferStart,
+          .motion = {.axis_icrf = body.axis_icrf,
+                     .rate_rad_s = body.rate_rad_s,
+                     .rate_drift_rad_s2 = 0.0,
+                     .first_azimuth_rad = body.first_turn_rad},
+          .sun_sensor = body.config.sun_sensor,
+          .north = beam(*body.config.north),
+          .south = beam(*body.config.south),
+          .horizon = infrared_horizon(body.config.horizon, earth_pole_icrf(kTransferStart))};
+}
+
+/// Edges with the noise that the mission states, their turns counted.
+inline std::vector<PassEdge> edges_of(const SpinTruth& truth, const Orbit& orbit, double duration_s,
+                                      const PulseNoise& noise, std::mt19937_64& rng) {
+  std::normal_distribution<double> normal;
+  std::vector<PassEdge> edges;
+  SpinEdges true_edges{truth, orbit};
+  const auto all = true_edges.until(duration_s).value();
+  for (const TrueEdge& edge : all) {
+    const double late_s = edge_sigma_s(noise, edge.channel) * normal(rng);
+    const double turns = truth.motion.azimuth_rad(edge.t_s) / (2.0 * std::numbers::pi);
+    edges.push_back(
+        {.pulse = {.t = shifted(truth.start, edge.t_s + late_s), .channel = edge.channel},
+         .revolution = static_cast<std::int64_t>(std::floor(turns))});
+  }
+  std::sort(edges.begin(), edges.end(),
+            [](const PassEdge& one, const PassEdge& other) { return one.pulse < other.pulse; });
+  return edges;
+}
+
+/// Chord, dihedral and sun angle well observed; one seed after the other.
+class WobblingPasses {
+ public:
+  WobblingPasses(std::uint64_t seed, double duration_s) : duration_s_{duration_s}, rng_{seed} {}
+
+  /// Another geometry and phase, its sensors perfect and the motion even.
+  SpinTruth drawn() {
+    body_ = random_body(around_, 6.0 * std::numbers::pi / 180.0, rng_);
+    return truth_of(body_);
+  }
+  double uniform() { return std::uniform_real_distribution{}(rng_); }
+
+  /// Of any phase, slender or flat, its frequency not within 0.03 of one that cannot be seen.
+  Nutation random_nutation(double half_angle_rad) {
+    double inertia_ratio = 1.0;
+    while (std::abs(inertia_ratio - 1.0) < 0.03) {
+      inertia_ratio = 0.03 + 1.94 * uniform();
+    }
+    return {.half_angle_rad = half_angle_rad,
+            .inertia_ratio = inertia_ratio,
+            .first_azimuth_rad = 2.0 * std::numbers::pi * uniform()};
+  }
+
+  std::vector<PassEdge> edges(const SpinTruth& truth) {
+    return edges_of(truth, orbit_, duration_s_, body_.config.noise, rng_);
+  }
+  Expected<BatchSolution> solved(const std::vector<PassEdge>& edges) {
+    const double azimuth_rad = 2.0 * std::numbers::pi * uniform();
+    const Eigen::Vector3d start =
+        Eigen::AngleAxisd{azimuth_rad, body_.axis_icrf} *
+        (Eigen::AngleAxisd{0.01, body_.axis_icrf.unitOrthogonal()} * body_.axis_icrf);
+    return solve_batch(body_.config, orbit_, edges, {{start}});
+  }
+  SpinConfig& config() { return body_.config; }
+
+ private:
+  double duration_s_;
+  std::mt19937_64 rng_;
+  Orbit orbit_ = transfer_orbit();
+  Surroundings around_ = seen_from(orbit_, spherical_horizon_km(40.0));
+  SpinningBody body_ = body_across_the_earth();
+};
+
+/// Against the truth.
+struct AxisError {
+  double squares;  ///< Normalised: chi-square, two degrees of freedom.
+  double rad2;
+};
+inline AxisError axis_error(const BatchSolution& solution, const SpinTruth& truth) {
+  const Eigen::Vector2d error = error_rad(solution.estimate.axis_icrf, truth.motion.axis_icrf);
+  return {.squares = error.dot(solution.estimate.covariance_rad2.inverse() * error),
+          .rad2 = error.squaredNorm()};
+}
+
+}  // namespace spindrift::testing

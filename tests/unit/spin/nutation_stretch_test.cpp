@@ -1,0 +1,126 @@
+/// The equations of a nutating and coning body: the ground model's edges leave nothing over, and
+/// the derivatives are those of finite differences away from the solution.
+
+#include "pipelines/spin/batch/nutation_stretch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "pipelines/spin/time_span.h"
+#include "tests/support/wobbling_pass.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+constexpr double kDuration_s = 60.0;
+
+/// Two degrees of nutation, growing, and one of coning.
+struct Scene {
+  testing::WobblingPasses passes{31, kDuration_s};
+  SpinTruth truth = passes.drawn();
+  std::vector<PassEdge> edges;
+
+  Scene() {
+    truth.motion.nutation = {.half_angle_rad = 2.0 * kDegree_rad,
+                             .inertia_ratio = 0.3,
+                             .first_azimuth_rad = 1.0,
+                             .growth_per_s = 0.1 / kDuration_s};
+    truth.motion.coning = {.tilt_rad = 1.0 * kDegree_rad, .azimuth_rad = 2.0};
+    passes.config().noise = {.sun_s = 0.0, .infrared_s = 0.0};
+    edges = passes.edges(truth);
+    passes.config().noise = {.sun_s = 1e-4, .infrared_s = 5e-4};
+  }
+
+  PassModel model() {
+    return PassModel::make(passes.config(), testing::transfer_orbit(), edges).value();
+  }
+
+  SpinState state(const PassModel& model) const {
+    const SpinMotion& motion = truth.motion;
+    const double middle_s = seconds_between(truth.start, model.middle());
+    Eigen::Matrix3d R_icrf_axes;
+    R_icrf_axes << tangent_basis(motion.axis_icrf), motion.axis_icrf;
+    const Eigen::AngleAxisd azimuth{motion.azimuth_rad(middle_s), Eigen::Vector3d::UnitZ()};
+    // The hinge is a quarter of a turn ahead of where the axis leans, and `spin` of `axes`.
+    const double turned_rad = motion.azimuth_rad(middle_s) - motion.first_azimuth_rad;
+    const double hinge_rad = motion.nutation.first_azimuth_rad +
+                             motion.nutation.per_turn() * turned_rad + 0.5 * std::numbers::pi -
+                             motion.azimuth_rad(middle_s);
+    const double half_angle_rad = motion.nutation.half_angle_at_rad(middle_s);
+    NutationStretch stretch{.begin = edges.front().pulse.t,
+                            .end = edges.back().pulse.t + std::chrono::nanoseconds{1},
+                            .per_turn = motion.nutation.per_turn(),
+                            .unknowns = {half_angle_rad * std::cos(hinge_rad),
+                                         half_angle_rad * std::sin(hinge_rad), 0.0, 0.0}};
+    stretch.unknowns[2] = motion.nutation.growth_per_s * stretch.half_s();
+    SensorBiases biases = SensorBiases::Zero();
+    biases[ConingX] = motion.coning.tilt_rad * std::sin(motion.coning.azimuth_rad);
+    biases[ConingY] = motion.coning.tilt_rad * std::cos(motion.coning.azimuth_rad);
+    return {.q_icrf_spin = Eigen::Quaterniond{R_icrf_axes * azimuth.toRotationMatrix()},
+            .rate_rad_s = motion.rate_rad_s,
+            .drift_rad_s2 = 0.0,
+            .biases = biases,
+            .nutation = {stretch}};
+  }
+};
+
+TEST(NutationStretch, TheTrueMotionLeavesNothingOver) {
+  Scene scene;
+  const PassModel model = scene.model();
+  const SpinState state = scene.state(model);
+  ASSERT_GT(scene.edges.size(), 300U);
+  for (const PassEdge& edge : scene.edges) {
+    const auto residual = model.residual(edge.pulse, state);
+    ASSERT_TRUE(residual);
+    // The sky stands still for ten seconds, the orbit's curvature counts.
+    EXPECT_NEAR(residual->off, 0.0, 0.03) << name_of(edge.pulse.channel);
+  }
+}
+
+/// Of the motion first, then of nutation.
+SpinState stepped(const PassModel& model, SpinState state, int unknown, double step) {
+  if (unknown < 3) {
+    const Eigen::AngleAxisd turn{step, Eigen::Vector3d::Unit(unknown)};
+    state.q_icrf_spin = state.q_icrf_spin * turn;
+  } else if (unknown == 3) {
+    state.rate_rad_s += step / model.half_s();
+  } else if (unknown == 4) {
+    state.drift_rad_s2 += 2.0 * step / (model.half_s() * model.half_s());
+  } else if (unknown < kBatchUnknowns) {
+    state.biases[unknown - kMotionUnknowns] += step;
+  } else {
+    state.nutation.front().unknowns[unknown - kBatchUnknowns] += step;
+  }
+  return state;
+}
+
+TEST(NutationStretch, SlopesAreThoseOfTheResidual) {
+  Scene scene;
+  const PassModel model = scene.model();
+  SpinState state = scene.state(model);
+  for (int i = 0; i < kBatchUnknowns + kNutationUnknowns; ++i) {
+    state = stepped(model, state, i, i == kMotionUnknowns + Co2HeightBias ? 3.0 : 0.003);
+  }
+  for (const PassEdge& edge : scene.edges) {
+    const auto here = model.residual(edge.pulse, state);
+    ASSERT_TRUE(here);
+    for (int i = 0; i < kBatchUnknowns + kNutationUnknowns; ++i) {
+      const double step = i == kMotionUnknowns + Co2HeightBias ? 1e-3 : 1e-6;
+      const auto after = model.residual(edge.pulse, stepped(model, state, i, step));
+      const auto before = model.residual(edge.pulse, stepped(model, state, i, -step));
+      ASSERT_TRUE(after && before);
+      const double slope = (after->off - before->off) / (2.0 * step);
+      const double given =
+          i < kBatchUnknowns ? here->slopes[i] : here->nutation_slopes[i - kBatchUnknowns];
+      // The third power of two degrees, which rotation_per_vector leaves out.
+      EXPECT_NEAR(given, slope, 1e-5 * here->slopes.head<3>().norm())
+          << name_of(edge.pulse.channel) << ", unknown " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spindrift
