@@ -20,9 +20,7 @@ struct AttitudeChange {
 };
 
 /// @param state The one that explains them best.
-/// @return The last change that leaves edges as outliers, or else the clearest; empty where there
-/// is
-///         none.
+/// @return The last change that leaves edges as outliers, or else the clearest; empty: none.
 std::optional<AttitudeChange> find_change(const PassModel& model, std::span<const PassEdge> edges,
                                           const SpinState& state);
 
