@@ -192,7 +192,9 @@ ceres::Solver::Summary solve(Fit& fit, std::span<const PassEdge> edges, std::siz
   hold_biases(problem, at.biases.data(), estimated);
 
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  // Each stretch of a day has unknowns that no edge of another depends on.
+  options.linear_solver_type =
+      at.nutation.size() > 1 ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_NORMAL_CHOLESKY;
   options.num_threads = 1;
   options.max_num_iterations = kMostIterations;
   options.function_tolerance = kFunctionTolerance;
