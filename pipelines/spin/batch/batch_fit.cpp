@@ -222,7 +222,10 @@ Expected<BatchFit> fit(const PassModel& model, std::span<const PassEdge> edges,
   ceres::HuberLoss coarse{kCoarseLoss_sigmas};
   ceres::TukeyLoss fine{kOutlierSigmas};
   const std::size_t stride = std::max<std::size_t>(edges.size() / kCoarse, 1);
-  solve(fit, edges, stride, coarse, estimated);
+  // A start that nutates is the end of a fit, and too few edges would lose its frequency.
+  if (start.nutation.empty()) {
+    solve(fit, edges, stride, coarse, estimated);
+  }
   const ceres::Solver::Summary summary = solve(fit, edges, 1, fine, estimated);
   if (!summary.IsSolutionUsable()) {
     return Unexpected{
