@@ -51,7 +51,7 @@ std::string coning_text(const ConingEstimate& coning) {
                    "  coning       {:.4f} +/- {:.4f} deg, {:.1f} +/- {:.1f} deg behind slit 1\n",
                    tilt_rad * kDegPerRad, coning.tilt_sigma_rad * kDegPerRad,
                    azimuth_rad * kDegPerRad, coning.azimuth_sigma_rad * kDegPerRad)
-             : fmt::format("  coning       none above {:.2f} deg\n", detectable_rad * kDegPerRad);
+             : fmt::format("  coning       none above {:.3f} deg\n", detectable_rad * kDegPerRad);
 }
 
 nlohmann::json nutation_json(const BatchSolution& solution) {

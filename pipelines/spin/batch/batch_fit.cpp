@@ -25,6 +25,9 @@ constexpr int kMostIterations = 50;
 // First so many edges, spread over the pass, whose far ones still pull.
 constexpr std::size_t kCoarse = 6000;
 constexpr double kCoarseLoss_sigmas = 3.0;
+// Edges that scatter more are those of a body that nutates, say: most would lie where Tukey's loss
+// is not convex, and the steps to its minimum be many.
+constexpr double kWide = 2.0;
 
 /// Parameters as Ceres has them: rate and drift as changes since the start, in the angle they make.
 struct Parameters {
@@ -192,7 +195,9 @@ ceres::Solver::Summary solve(Fit& fit, std::span<const PassEdge> edges, std::siz
   hold_biases(problem, at.biases.data(), estimated);
 
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  // Each stretch of a day has unknowns that no edge of another depends on.
+  options.linear_solver_type =
+      at.nutation.size() > 1 ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_NORMAL_CHOLESKY;
   options.num_threads = 1;
   options.max_num_iterations = kMostIterations;
   options.function_tolerance = kFunctionTolerance;
@@ -200,6 +205,24 @@ ceres::Solver::Summary solve(Fit& fit, std::span<const PassEdge> edges, std::siz
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   return summary;
+}
+
+/// Of the residuals, in sigmas, whatever their outliers.
+double scatter_of(const PassModel& model, std::span<const PassEdge> edges, std::size_t stride,
+                  const SpinState& state) {
+  constexpr double kMedianOfNormal = 0.6745;
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < edges.size(); i += stride) {
+    if (const auto edge = model.residual(edges[i].pulse, state)) {
+      sizes.push_back(std::abs(edge->off));
+    }
+  }
+  if (sizes.empty()) {
+    return 1.0;
+  }
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle / kMedianOfNormal;
 }
 
 BiasSet biases_at_bound(const SensorBiases& biases, BiasSet estimated) {
@@ -218,9 +241,13 @@ Expected<BatchFit> fit(const PassModel& model, std::span<const PassEdge> edges,
                        const SpinState& start, BiasSet estimated) {
   Fit fit{model, start};
   ceres::HuberLoss coarse{kCoarseLoss_sigmas};
-  ceres::TukeyLoss fine{kOutlierSigmas};
   const std::size_t stride = std::max<std::size_t>(edges.size() / kCoarse, 1);
-  solve(fit, edges, stride, coarse, estimated);
+  // A start that nutates is the end of a fit, and too few edges would lose its frequency.
+  if (start.nutation.empty()) {
+    solve(fit, edges, stride, coarse, estimated);
+  }
+  const double scatter = scatter_of(model, edges, stride, fit.state());
+  ceres::TukeyLoss fine{kOutlierSigmas * (scatter > kWide ? scatter : 1.0)};
   const ceres::Solver::Summary summary = solve(fit, edges, 1, fine, estimated);
   if (!summary.IsSolutionUsable()) {
     return Unexpected{

@@ -39,7 +39,7 @@ std::string motion_in_words(const BatchSolution& solution, BiasSet estimated) {
                          solution.coning.verdict.tilt_rad / kDegree_rad,
                          solution.coning.tilt_sigma_rad / kDegree_rad);
   } else if (estimated[ConingX]) {
-    words += fmt::format(", no coning above {:.2f} deg",
+    words += fmt::format(", no coning above {:.3f} deg",
                          solution.coning.verdict.detectable_rad / kDegree_rad);
   }
   return words;
