@@ -17,24 +17,28 @@ constexpr double kSignificant = 18.42;
 // One-sided, of a normal variable: 95 of 100.
 constexpr double kSurely = 1.645;
 
-/// A direction of the body, by its angle from the axis and its azimuth (counted as slit 1 turns).
+/// A direction of the body, and how its angle from the axis and its azimuth (counted as slit 1
+/// turns) change.
 struct Turned {
-  double polar_rad;
-  double azimuth_rad;
+  Eigen::Vector3d direction;
   Eigen::RowVector2d polar_per_coning;
   Eigen::RowVector2d azimuth_per_coning;
+
+  double polar_rad() const {
+    return std::atan2(std::hypot(direction.x(), direction.y()), direction.z());
+  }
+  double azimuth_rad() const { return std::atan2(direction.y(), direction.x()); }
 };
 
 Turned turned(const Eigen::Vector3d& direction_sensors, const Eigen::Vector2d& coning_rad) {
   const Eigen::Vector3d vector_rad{coning_rad.x(), coning_rad.y(), 0.0};
   const Eigen::Vector3d direction = rotation_by(vector_rad) * direction_sensors;
-  const double across = std::hypot(direction.x(), direction.y());
+  const double across = std::sqrt(direction.head<2>().squaredNorm());
   const Eigen::RowVector3d along{direction.x() / across, direction.y() / across, 0.0};
   const Eigen::RowVector3d hinge{-along.y(), along.x(), 0.0};
-  const auto per_vector = rotation_per_vector(vector_rad).leftCols<2>().eval();
+  const Eigen::Matrix<double, 3, 2> per_vector = rotation_per_vector(vector_rad).leftCols<2>();
   const double cotangent = direction.z() / across;
-  return {.polar_rad = std::atan2(across, direction.z()),
-          .azimuth_rad = std::atan2(direction.y(), direction.x()),
+  return {.direction = direction,
           .polar_per_coning = hinge * per_vector,
           .azimuth_per_coning = (Eigen::RowVector3d::UnitZ() - cotangent * along) * per_vector};
 }
@@ -53,8 +57,8 @@ LeaningSlit leaning(const SunSensor& slit, const Eigen::Vector2d& coning_rad) {
                       .separation_per_coning = -normal.azimuth_per_coning};
   // Exactly as it was where nothing cones.
   if (!coning_rad.isZero(0.0)) {
-    leaning.slit = {.slit_cant_rad = kQuarter_rad - normal.polar_rad,
-                    .slit_separation_rad = wrapped_rad(kQuarter_rad - normal.azimuth_rad)};
+    leaning.slit = {.slit_cant_rad = kQuarter_rad - normal.polar_rad(),
+                    .slit_separation_rad = wrapped_rad(kQuarter_rad - normal.azimuth_rad())};
   }
   return leaning;
 }
@@ -69,8 +73,8 @@ LeaningBeam leaning(const InfraredSensor& beam, const Eigen::Vector2d& coning_ra
                       .mount_angle_per_coning = along.polar_per_coning,
                       .azimuth_per_coning = -along.azimuth_per_coning};
   if (!coning_rad.isZero(0.0)) {
-    leaning.beam.mount_angle_rad = along.polar_rad;
-    leaning.beam.azimuth_rad = -along.azimuth_rad;
+    leaning.beam.mount_angle_rad = along.polar_rad();
+    leaning.beam.azimuth_rad = -along.azimuth_rad();
   }
   return leaning;
 }

@@ -7,14 +7,14 @@
 ///     off = Re(conj(S) (c_x + i c_y) exp(i azimuth)),    S = s_x + i s_y
 ///
 /// to first order, with the slopes s of tilt_signal.h: it is nutation that goes round once a turn.
-/// While Sun and
-/// Earth stand still each channel is off by a constant, and six constants are all there is, of
-/// which two go to the axis and one to the phase. To the beams coning is a change of mounting angle
-/// and azimuth, to slit 2 one of cant and separation, to slit 1 a cant, which shows as far as the
-/// Sun stands from the body's equator. So it is told from misplaced sensors only by how small those
-/// are known to be, or as the geometry turns: an estimator that has both for unknowns, each error
-/// of the model with its prior, has that in its covariance. One step from residuals is not enough,
-/// since an axis that has taken coning for its own is off by several times as much.
+/// While Sun and Earth stand still each channel is off by a constant, and six constants are all
+/// there is, of which two go to the axis and one to the phase. To the beams coning is a change of
+/// mounting angle and azimuth, to slit 2 one of cant and separation, to slit 1 a cant, which shows
+/// as far as the Sun stands from the body's equator. So it is told from misplaced sensors only by
+/// how small those are known to be, or as the geometry turns: an estimator that has both for
+/// unknowns, each error of the model with its prior, has that in its covariance. One step from
+/// residuals is not enough, since an axis that has taken coning for its own is off by several times
+/// as much.
 
 #pragma once
 

@@ -8,7 +8,11 @@
 
 namespace spindrift {
 
+/// Exactly the identity for zero.
 inline Eigen::Matrix3d rotation_by(const Eigen::Vector3d& vector_rad) {
+  if (vector_rad.isZero(0.0)) {
+    return Eigen::Matrix3d::Identity();
+  }
   return Eigen::AngleAxisd{vector_rad.norm(), vector_rad.stableNormalized()}.toRotationMatrix();
 }
 

@@ -20,17 +20,19 @@ extern const char* const schema_0005_fix_candidates;
 extern const char* const schema_0006_time_order;
 extern const char* const schema_0007_batch;
 extern const char* const schema_0008_coning;
+extern const char* const schema_0009_quick_answers;
 }  // namespace embedded
 
 namespace {
 
-constexpr std::size_t kMigrations = 8;
+constexpr std::size_t kMigrations = 9;
 
 std::array<const char*, kMigrations> migrations() {
   return {embedded::schema_0001_tables,         embedded::schema_0002_views,
           embedded::schema_0003_restart,        embedded::schema_0004_quick_checks,
           embedded::schema_0005_fix_candidates, embedded::schema_0006_time_order,
-          embedded::schema_0007_batch,          embedded::schema_0008_coning};
+          embedded::schema_0007_batch,          embedded::schema_0008_coning,
+          embedded::schema_0009_quick_answers};
 }
 
 }  // namespace

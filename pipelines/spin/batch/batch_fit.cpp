@@ -207,12 +207,15 @@ ceres::Solver::Summary solve(Fit& fit, std::span<const PassEdge> edges, std::siz
   return summary;
 }
 
+std::size_t stride_of(std::span<const PassEdge> edges) {
+  return std::max<std::size_t>(edges.size() / kCoarse, 1);
+}
+
 /// Of the residuals, in sigmas, whatever their outliers.
-double scatter_of(const PassModel& model, std::span<const PassEdge> edges, std::size_t stride,
-                  const SpinState& state) {
+double scatter_of(const PassModel& model, std::span<const PassEdge> edges, const SpinState& state) {
   constexpr double kMedianOfNormal = 0.6745;
   std::vector<double> sizes;
-  for (std::size_t i = 0; i < edges.size(); i += stride) {
+  for (std::size_t i = 0; i < edges.size(); i += stride_of(edges)) {
     if (const auto edge = model.residual(edges[i].pulse, state)) {
       sizes.push_back(std::abs(edge->off));
     }
@@ -237,16 +240,19 @@ BiasSet biases_at_bound(const SensorBiases& biases, BiasSet estimated) {
 
 }  // namespace
 
+SpinState coarse_fit(const PassModel& model, std::span<const PassEdge> edges,
+                     const SpinState& start, BiasSet estimated) {
+  Fit fit{model, start};
+  ceres::HuberLoss loss{kCoarseLoss_sigmas};
+  solve(fit, edges, stride_of(edges), loss, estimated);
+  return fit.state();
+}
+
 Expected<BatchFit> fit(const PassModel& model, std::span<const PassEdge> edges,
                        const SpinState& start, BiasSet estimated) {
-  Fit fit{model, start};
-  ceres::HuberLoss coarse{kCoarseLoss_sigmas};
-  const std::size_t stride = std::max<std::size_t>(edges.size() / kCoarse, 1);
   // A start that nutates is the end of a fit, and too few edges would lose its frequency.
-  if (start.nutation.empty()) {
-    solve(fit, edges, stride, coarse, estimated);
-  }
-  const double scatter = scatter_of(model, edges, stride, fit.state());
+  Fit fit{model, start.nutation.empty() ? coarse_fit(model, edges, start, estimated) : start};
+  const double scatter = scatter_of(model, edges, fit.state());
   ceres::TukeyLoss fine{kOutlierSigmas * (scatter > kWide ? scatter : 1.0)};
   const ceres::Solver::Summary summary = solve(fit, edges, 1, fine, estimated);
   if (!summary.IsSolutionUsable()) {

@@ -16,6 +16,10 @@ struct BatchFit {
   int iterations;
 };
 
+/// Where a start leads by some thousands of edges, robustly: which of several starts are one.
+SpinState coarse_fit(const PassModel& model, std::span<const PassEdge> edges,
+                     const SpinState& start, BiasSet estimated);
+
 /// @param start Near enough that edges are told from outliers within a few degrees.
 /// @param estimated The biases that are unknown, each about zero by its prior; the others stay as
 ///        they are at the start.

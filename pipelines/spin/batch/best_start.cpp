@@ -32,64 +32,68 @@ Expected<Explained> with_nutation(const PassModel& model, std::span<const PassEd
   });
 }
 
-bool same_axis(const Explained& one, const Explained& other) {
-  return angle_between_rad(one.fit.state.axis_icrf(), other.fit.state.axis_icrf()) < kSameAxis_rad;
+bool same_axis(const SpinState& one, const SpinState& other) {
+  return angle_between_rad(one.axis_icrf(), other.axis_icrf()) < kSameAxis_rad;
 }
 
 bool likelier(const Explained& one, const Explained& other) {
   return one.misfit() < other.misfit();
 }
 
-/// One of each axis that a start leads to, likeliest first.
-Expected<std::vector<Explained>> all_of(const PassModel& model, std::span<const PassEdge> edges,
-                                        std::span<const Eigen::Vector3d> starts,
-                                        BiasSet estimated) {
-  std::vector<Explained> all;
+/// Near each axis that a start leads to, in the order of the starts.
+Expected<std::vector<SpinState>> ends_of(const PassModel& model, std::span<const PassEdge> edges,
+                                         std::span<const Eigen::Vector3d> starts,
+                                         BiasSet estimated) {
+  std::vector<SpinState> ends;
   std::optional<Error> reason;
   for (const Eigen::Vector3d& start : starts) {
-    const auto found = first_state(model, edges, start).and_then([&](const SpinState& state) {
-      return explain(model, edges, state, estimated);
-    });
-    if (found) {
-      all.push_back(*found);
-    } else if (!reason) {
-      reason = found.error();
+    const auto near = first_state(model, edges, start);
+    if (!near) {
+      reason = reason.value_or(near.error());
+      continue;
+    }
+    const SpinState end = coarse_fit(model, edges, *near, estimated);
+    if (std::none_of(ends.begin(), ends.end(),
+                     [&](const SpinState& other) { return same_axis(end, other); })) {
+      ends.push_back(end);
     }
   }
-  if (all.empty()) {
+  if (ends.empty()) {
     return Unexpected{*reason};
   }
-  std::stable_sort(all.begin(), all.end(), likelier);
-  std::vector<Explained> apart;
-  for (const Explained& one : all) {
-    const auto same = [&](const Explained& other) { return same_axis(one, other); };
-    if (std::none_of(apart.begin(), apart.end(), same)) {
-      apart.push_back(one);
-    }
-  }
-  return apart;
+  return ends;
 }
 
 }  // namespace
 
 Expected<Best> best_of(const PassModel& model, std::span<const PassEdge> edges,
                        std::span<const Eigen::Vector3d> starts, BiasSet estimated) {
-  auto all = all_of(model, edges, starts, estimated);
-  if (!all) {
-    return Unexpected{all.error()};
+  const auto ends = ends_of(model, edges, starts, estimated);
+  if (!ends) {
+    return Unexpected{ends.error()};
   }
-  for (Explained& one : *all) {
-    one = with_nutation(model, edges, one).value_or(one);
+  std::vector<Explained> all;
+  std::optional<Error> reason;
+  for (const SpinState& end : *ends) {
+    const auto one = explain(model, edges, end, estimated);
+    if (one) {
+      all.push_back(with_nutation(model, edges, *one).value_or(*one));
+    } else {
+      reason = reason.value_or(one.error());
+    }
   }
-  std::stable_sort(all->begin(), all->end(), likelier);
-  const Explained& best = all->front();
+  if (all.empty()) {
+    return Unexpected{*reason};
+  }
+  std::stable_sort(all.begin(), all.end(), likelier);
+  const Explained& best = all.front();
   const double settled = kSettled * best.excess_noise();
-  const auto other = std::find_if(all->begin() + 1, all->end(), [&](const Explained& one) {
-    return !same_axis(one, best) && one.misfit() < best.misfit() + settled;
+  const auto other = std::find_if(all.begin() + 1, all.end(), [&](const Explained& one) {
+    return !same_axis(one.fit.state, best.fit.state) && one.misfit() < best.misfit() + settled;
   });
   return Best{.best = best,
               .or_axis_icrf =
-                  other == all->end() ? std::nullopt : std::optional{other->fit.state.axis_icrf()}};
+                  other == all.end() ? std::nullopt : std::optional{other->fit.state.axis_icrf()}};
 }
 
 }  // namespace spindrift
