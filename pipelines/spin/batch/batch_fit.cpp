@@ -25,9 +25,6 @@ constexpr int kMostIterations = 50;
 // First so many edges, spread over the pass, whose far ones still pull.
 constexpr std::size_t kCoarse = 6000;
 constexpr double kCoarseLoss_sigmas = 3.0;
-// Edges that scatter more are those of a body that nutates, say: most would lie where Tukey's loss
-// is not convex, and the steps to its minimum be many.
-constexpr double kWide = 2.0;
 
 /// Parameters as Ceres has them: rate and drift as changes since the start, in the angle they make.
 struct Parameters {
@@ -207,27 +204,6 @@ ceres::Solver::Summary solve(Fit& fit, std::span<const PassEdge> edges, std::siz
   return summary;
 }
 
-std::size_t stride_of(std::span<const PassEdge> edges) {
-  return std::max<std::size_t>(edges.size() / kCoarse, 1);
-}
-
-/// Of the residuals, in sigmas, whatever their outliers.
-double scatter_of(const PassModel& model, std::span<const PassEdge> edges, const SpinState& state) {
-  constexpr double kMedianOfNormal = 0.6745;
-  std::vector<double> sizes;
-  for (std::size_t i = 0; i < edges.size(); i += stride_of(edges)) {
-    if (const auto edge = model.residual(edges[i].pulse, state)) {
-      sizes.push_back(std::abs(edge->off));
-    }
-  }
-  if (sizes.empty()) {
-    return 1.0;
-  }
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle / kMedianOfNormal;
-}
-
 BiasSet biases_at_bound(const SensorBiases& biases, BiasSet estimated) {
   BiasSet at_bound;
   for (int i = 0; i < kSensorBiases; ++i) {
@@ -244,7 +220,8 @@ SpinState coarse_fit(const PassModel& model, std::span<const PassEdge> edges,
                      const SpinState& start, BiasSet estimated) {
   Fit fit{model, start};
   ceres::HuberLoss loss{kCoarseLoss_sigmas};
-  solve(fit, edges, stride_of(edges), loss, estimated);
+  const std::size_t stride = std::max<std::size_t>(edges.size() / kCoarse, 1);
+  solve(fit, edges, stride, loss, estimated);
   return fit.state();
 }
 
@@ -252,8 +229,7 @@ Expected<BatchFit> fit(const PassModel& model, std::span<const PassEdge> edges,
                        const SpinState& start, BiasSet estimated) {
   // A start that nutates is the end of a fit, and too few edges would lose its frequency.
   Fit fit{model, start.nutation.empty() ? coarse_fit(model, edges, start, estimated) : start};
-  const double scatter = scatter_of(model, edges, fit.state());
-  ceres::TukeyLoss fine{kOutlierSigmas * (scatter > kWide ? scatter : 1.0)};
+  ceres::TukeyLoss fine{kOutlierSigmas};
   const ceres::Solver::Summary summary = solve(fit, edges, 1, fine, estimated);
   if (!summary.IsSolutionUsable()) {
     return Unexpected{

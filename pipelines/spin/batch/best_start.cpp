@@ -6,6 +6,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/first_clock.h"
 #include "pipelines/spin/batch/pass_nutation.h"
+#include "pipelines/spin/batch/steady_residuals.h"
 
 namespace spindrift {
 namespace {
@@ -14,9 +15,29 @@ namespace {
 constexpr double kSameAxis_rad = 0.1 * 0.017453292519943295;
 // exp(10) times as likely settles it, as for the filters of `sequential`.
 constexpr double kSettled = 20.0;
+// Stated sigmas: a body that nutates, or noise not as stated.
+constexpr double kScattered = 1.3;
+constexpr std::size_t kFew = 6000;
 
-/// Nutation is taken out before anything else is asked of the residuals: it would hide changes and
-/// biases, which themselves are slow and do not look like it.
+Expected<Explained> with_stretches(const PassModel& model, std::span<const PassEdge> edges,
+                                   SpinState near, BiasSet estimated, PassNutation nutation) {
+  near.nutation = std::move(nutation.stretches);
+  return explain(model, edges, near, estimated).map([&](Explained nutating) {
+    nutating.nutation = nutation.last;
+    return nutating;
+  });
+}
+
+/// Most edges would lie where Tukey's loss is not convex, and the steps to its minimum be many.
+bool is_scattered(const PassModel& model, std::span<const PassEdge> edges, const SpinState& state) {
+  const std::size_t stride = std::max<std::size_t>(edges.size() / kFew, 1);
+  std::vector<PassEdge> few;
+  for (std::size_t i = 0; i < edges.size(); i += stride) {
+    few.push_back(edges[i]);
+  }
+  return scatter_of(steady_residuals(model, few, state)) > kScattered;
+}
+
 Expected<Explained> with_nutation(const PassModel& model, std::span<const PassEdge> edges,
                                   Explained steady) {
   PassNutation nutation = find_pass_nutation(model, edges, steady.fit.state);
@@ -24,11 +45,21 @@ Expected<Explained> with_nutation(const PassModel& model, std::span<const PassEd
   if (nutation.stretches.empty()) {
     return steady;
   }
-  SpinState start = steady.fit.state;
-  start.nutation = std::move(nutation.stretches);
-  return explain(model, edges, start, steady.estimated).map([&](Explained nutating) {
-    nutating.nutation = nutation.last;
-    return nutating;
+  return with_stretches(model, edges, steady.fit.state, steady.estimated, std::move(nutation));
+}
+
+/// Nutation is taken out before anything else is asked of the residuals: it would hide changes and
+/// biases, which themselves are slow and do not look like it.
+Expected<Explained> explain_motion(const PassModel& model, std::span<const PassEdge> edges,
+                                   const SpinState& near, BiasSet estimated) {
+  if (is_scattered(model, edges, near)) {
+    PassNutation nutation = find_pass_nutation(model, edges, near);
+    if (!nutation.stretches.empty()) {
+      return with_stretches(model, edges, near, estimated, std::move(nutation));
+    }
+  }
+  return explain(model, edges, near, estimated).map([&](const Explained& steady) {
+    return with_nutation(model, edges, steady).value_or(steady);
   });
 }
 
@@ -75,9 +106,9 @@ Expected<Best> best_of(const PassModel& model, std::span<const PassEdge> edges,
   std::vector<Explained> all;
   std::optional<Error> reason;
   for (const SpinState& end : *ends) {
-    const auto one = explain(model, edges, end, estimated);
+    auto one = explain_motion(model, edges, end, estimated);
     if (one) {
-      all.push_back(with_nutation(model, edges, *one).value_or(*one));
+      all.push_back(*std::move(one));
     } else {
       reason = reason.value_or(one.error());
     }

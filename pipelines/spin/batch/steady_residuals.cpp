@@ -12,11 +12,10 @@ namespace {
 
 // Nutation of 0.2 deg puts edges off by ten.
 constexpr double kFarthestSigmas = 30.0;
-// Of a normal variable, of its absolute values.
-constexpr double kMedian = 0.6745;
+}  // namespace
 
-/// Of all; of degrees it is more, and then far edges are no dirt.
-double scatter_of(const std::vector<SteadyResidual>& residuals) {
+double scatter_of(std::span<const SteadyResidual> residuals) {
+  constexpr double kMedianOfNormal = 0.6745;
   std::vector<double> sizes(residuals.size());
   std::transform(residuals.begin(), residuals.end(), sizes.begin(),
                  [](const SteadyResidual& residual) {
@@ -24,10 +23,8 @@ double scatter_of(const std::vector<SteadyResidual>& residuals) {
                  });
   const auto middle = sizes.begin() + std::ssize(sizes) / 2;
   std::nth_element(sizes.begin(), middle, sizes.end());
-  return middle == sizes.end() ? 1.0 : std::max(1.0, *middle / kMedian);
+  return middle == sizes.end() ? 1.0 : std::max(1.0, *middle / kMedianOfNormal);
 }
-
-}  // namespace
 
 std::vector<SteadyResidual> steady_residuals(const PassModel& model,
                                              std::span<const PassEdge> edges,

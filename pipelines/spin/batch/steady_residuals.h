@@ -17,4 +17,7 @@ std::vector<SteadyResidual> steady_residuals(const PassModel& model,
                                              std::span<const PassEdge> edges,
                                              const SpinState& state);
 
+/// How many sigmas one standard deviation of them is, whatever their outliers; at least 1.
+double scatter_of(std::span<const SteadyResidual> residuals);
+
 }  // namespace spindrift
