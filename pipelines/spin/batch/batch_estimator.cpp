@@ -14,6 +14,7 @@
 #include "pipelines/spin/batch/batch_status.h"
 #include "pipelines/spin/batch/best_start.h"
 #include "pipelines/spin/batch/bias_choice.h"
+#include "pipelines/spin/batch/clock_break.h"
 #include "pipelines/spin/batch/first_clock.h"
 #include "pipelines/spin/batch/observability.h"
 #include "pipelines/spin/batch/pass_nutation.h"
@@ -55,6 +56,20 @@ bool is_change(const std::optional<AttitudeChange>& change, const Explained& fou
   return !bias || change->gain > bias->gain + kSettled;
 }
 
+/// A step of the rate is dated by the clock alone, as a state lies between both or fits neither.
+std::optional<AttitudeChange> change_in(const PassModel& model, std::span<const PassEdge> edges,
+                                        const Explained& found) {
+  auto change = find_change(model, edges, found.fit.state);
+  if (!is_change(change, found)) {
+    change.reset();
+  }
+  if (change || found.information.outlier_share() > kMostOutliers) {
+    const auto step = find_clock_break(edges);
+    return step ? step : change;
+  }
+  return change;
+}
+
 Expected<void> suffices(std::span<const PassEdge> edges) {
   const auto turns = edges.empty() ? 0 : edges.back().revolution - edges.front().revolution + 1;
   if (turns < kFewestTurns || edges.size() <= static_cast<std::size_t>(kBatchUnknowns)) {
@@ -82,8 +97,8 @@ Expected<Solved> solve_since_change(const SpinConfig& config, const Orbit& orbit
     if (!best) {
       return Unexpected{best.error()};
     }
-    const auto found = find_change(*model, edges, best->best.fit.state);
-    if (!is_change(found, best->best)) {
+    const auto found = change_in(*model, edges, best->best);
+    if (!found) {
       return Solved{
           .model = *std::move(model), .edges = edges, .of = *std::move(best), .changed = changed};
     }
@@ -193,6 +208,9 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
     return Unexpected{*open};
   }
   const double excess_noise = best.excess_noise();
+  if (!open_rad2.allFinite() || !std::isfinite(excess_noise)) {
+    return unobservable("the biases that the edges ask for leave the axis open");
+  }
   const Eigen::Matrix2d turned = tangent_from_tilts(best.fit.state.q_icrf_spin);
   const double half_s = solved->model.half_s();
   BatchSolution solution{
@@ -223,9 +241,13 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
   }
   const BiasSet suspected = config.batch.biases.value_or(seen_biases(information));
   solution.undetermined = Observability{information, suspected}.undetermined();
-  solution.estimate.status = status_of(solution, {.or_axis_icrf = solved->of.or_axis_icrf,
-                                                  .estimated = best.estimated,
-                                                  .at_bound = best.fit.at_bound});
+  const auto wanted = most_wanted_bias(information, best.estimated);
+  solution.estimate.status =
+      status_of(solution, {.or_axis_icrf = solved->of.or_axis_icrf,
+                           .estimated = best.estimated,
+                           .at_bound = best.fit.at_bound,
+                           .coning_by_edges = !config.batch.biases.has_value(),
+                           .wanted = wanted ? std::optional{wanted->bias} : std::nullopt});
   return solution;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "pipelines/frames/celestial.h"
@@ -15,19 +17,35 @@ constexpr double kDegree_rad = std::numbers::pi / 180.0;
 // of five channels where they came, and none of the sixth.
 constexpr double kManyOutliers = 0.15;
 
-std::string first_word(const BatchSolution& solution, const BatchDoubts& doubts) {
+// Of the prior: what is so far off is no misplacement.
+constexpr double kFarOff_sigmas = 4.0;
+
+bool is_far_off(const BatchSolution& solution, BiasSet estimated) {
+  return std::any_of(solution.biases.begin(), solution.biases.end(), [&](const BiasEstimate& one) {
+    return estimated[static_cast<std::size_t>(one.bias)] &&
+           std::abs(one.value) > kFarOff_sigmas * prior_of(one.bias).sigma;
+  });
+}
+
+bool is_doubtful(const BatchSolution& solution, const BatchDoubts& doubts) {
   const auto outliers = static_cast<double>(solution.outliers);
   const bool dirty = outliers > kManyOutliers * (outliers + static_cast<double>(solution.edges));
+  return solution.noise > 1.0 || dirty || doubts.at_bound.any() || doubts.wanted ||
+         (doubts.coning_by_edges && solution.coning.verdict.detected) ||
+         is_far_off(solution, doubts.estimated);
+}
+
+std::string first_word(const BatchSolution& solution, const BatchDoubts& doubts) {
   if (doubts.or_axis_icrf) {
     const RaDec other = ra_dec_of(*doubts.or_axis_icrf);
     return fmt::format("AMBIGUOUS, or ra {:.2f} dec {:.2f} deg", other.ra_rad / kDegree_rad,
                        other.dec_rad / kDegree_rad);
   }
-  return solution.noise > 1.0 || dirty || doubts.at_bound.any() ? "DOUBTFUL" : "OK";
+  return is_doubtful(solution, doubts) ? "DOUBTFUL" : "OK";
 }
 
 /// What the body does that is no even spin.
-std::string motion_in_words(const BatchSolution& solution, BiasSet estimated) {
+std::string motion_in_words(const BatchSolution& solution, const BatchDoubts& doubts) {
   std::string words;
   if (solution.nutation && solution.nutation->found) {
     const FoundNutation& nutation = *solution.nutation->found;
@@ -38,7 +56,9 @@ std::string motion_in_words(const BatchSolution& solution, BiasSet estimated) {
     words += fmt::format(", coning {:.3f} +/- {:.3f} deg",
                          solution.coning.verdict.tilt_rad / kDegree_rad,
                          solution.coning.tilt_sigma_rad / kDegree_rad);
-  } else if (estimated[ConingX]) {
+    words +=
+        doubts.coning_by_edges ? " or a misplaced sensor (coning in [spin.batch] decides)" : "";
+  } else if (doubts.estimated[ConingX]) {
     words += fmt::format(", no coning above {:.3f} deg",
                          solution.coning.verdict.detectable_rad / kDegree_rad);
   }
@@ -64,7 +84,7 @@ std::string status_of(const BatchSolution& solution, const BatchDoubts& doubts) 
   if (solution.outliers > 0) {
     status += fmt::format(", {} outliers", solution.outliers);
   }
-  status += motion_in_words(solution, doubts.estimated);
+  status += motion_in_words(solution, doubts);
   if (solution.noise > 1.0) {
     status += fmt::format(", noise x {:.1f}", solution.noise);
   }
@@ -78,6 +98,9 @@ std::string status_of(const BatchSolution& solution, const BatchDoubts& doubts) 
     } else if (doubts.estimated[index]) {
       status += bias_in_words(bias);
     }
+  }
+  if (doubts.wanted) {
+    status += fmt::format(", residuals ask for {}", prior_of(*doubts.wanted).words);
   }
   return status;
 }

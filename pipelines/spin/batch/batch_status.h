@@ -16,6 +16,8 @@ struct BatchDoubts {
   std::optional<Eigen::Vector3d> or_axis_icrf;  ///< Fits as well.
   BiasSet estimated;
   BiasSet at_bound;
+  bool coning_by_edges;              ///< Nobody has asked for it.
+  std::optional<SensorBias> wanted;  ///< What the residuals still ask for.
 };
 
 /// As batch_estimator.h has it.

@@ -103,7 +103,9 @@ Eigen::Matrix2d other_biases_rad2(const PassInformation& information, BiasSet es
   double weights = 0.0;
   for (const SensorBias bias : not_among(estimated)) {
     const Step other = step_with(information, estimated, bias);
-    const double weight = std::exp(0.5 * (other.gain - with_chosen.gain)) * other.share_of_prior;
+    // The one chosen fits best, whatever one step says.
+    const double behind = std::max(with_chosen.gain - other.gain, 0.0);
+    const double weight = std::exp(-0.5 * behind) * other.share_of_prior;
     const Eigen::Vector2d apart_rad = (other.unknowns - with_chosen.unknowns).head<2>();
     squares += weight * apart_rad * apart_rad.transpose();
     weights += weight;

@@ -1,0 +1,74 @@
+/// A spin rate that changes at once, as spin-up and despin do: said when, and solved from there on.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "pipelines/spin/batch/clock_break.h"
+#include "tests/support/wobbling_pass.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::StartsWith;
+
+constexpr double kRpm_rad_s = std::numbers::pi / 30.0;
+constexpr double kStepAt_s = 240.0;
+
+/// The azimuth goes on; only its rate changes.
+std::vector<PassEdge> stepped(testing::WobblingPasses& passes, const SpinTruth& before,
+                              double step_rpm) {
+  SpinTruth after = before;
+  after.motion.rate_rad_s += step_rpm * kRpm_rad_s;
+  after.motion.first_azimuth_rad -= step_rpm * kRpm_rad_s * kStepAt_s;
+  const TaiTime at = shifted(before.start, kStepAt_s);
+  std::vector<PassEdge> edges = passes.edges(before);
+  std::erase_if(edges, [&](const PassEdge& edge) { return edge.pulse.t >= at; });
+  for (const PassEdge& edge : passes.edges(after)) {
+    if (edge.pulse.t >= at) {
+      edges.push_back(edge);
+    }
+  }
+  return edges;
+}
+
+TEST(SpinBatchRateStep, OfAnySizeIsDatedToATurnOrSoAndSolvedFromThereOn) {
+  testing::WobblingPasses passes{2501, 600.0};
+  for (const double step_rpm : {-5.0, -0.3, 0.02, 0.05, 0.1, 0.5, 1.0, 5.0}) {
+    SCOPED_TRACE(step_rpm);
+    const SpinTruth truth = passes.drawn();
+    const auto solution = passes.solved(stepped(passes, truth, step_rpm));
+    ASSERT_TRUE(solution) << solution.error().message;
+    SCOPED_TRACE(solution->estimate.status);
+    ASSERT_TRUE(solution->changed);
+    // The smaller the step, the later its edges leave the noise.
+    EXPECT_NEAR(seconds_between(truth.start, *solution->changed), kStepAt_s,
+                std::abs(step_rpm) < 0.04 ? 10.0 : 4.0);
+    EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
+    EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);  // One in a thousand.
+    EXPECT_NEAR(solution->estimate.spin_rate_rad_s, truth.motion.rate_rad_s + step_rpm * kRpm_rad_s,
+                4.0 * solution->estimate.spin_rate_sigma_rad_s);
+  }
+}
+
+TEST(SpinBatchRateStep, IsNotSeenWhereTheRateDriftsOrTheBodyNutates) {
+  testing::WobblingPasses passes{2502, 600.0};
+  for (int pass = 0; pass < 20; ++pass) {
+    SpinTruth truth = passes.drawn();
+    truth.motion.rate_drift_rad_s2 = 1e-5 * passes.uniform();
+    truth.motion.nutation = passes.random_nutation(0.2 * std::numbers::pi / 180.0);
+    EXPECT_FALSE(find_clock_break(passes.edges(truth)));
+  }
+}
+
+TEST(SpinBatchRateStep, NeedsSomeEdges) {
+  testing::WobblingPasses passes{2503, 600.0};
+  const auto edges = passes.edges(passes.drawn());
+  EXPECT_FALSE(find_clock_break({}));
+  EXPECT_FALSE(find_clock_break(std::span{edges}.first(40)));
+}
+
+}  // namespace
+}  // namespace spindrift
