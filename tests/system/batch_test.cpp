@@ -146,7 +146,7 @@ struct WobblingRun {
   nlohmann::json batch;
   nlohmann::json truth;
 
-  explicit WobblingRun(const std::string& attitude) {
+  explicit WobblingRun(const std::string& attitude, const std::string& told = {}) {
     const auto scenarios = std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios";
     std::string text = text_of(scenarios / "gto-nominal.toml");
     text.insert(text.find("[spin.sun_sensor]"), attitude);
@@ -154,6 +154,7 @@ struct WobblingRun {
     const auto pass = folder.path() / "pass";
     Program simulate{{"simulate", scenario, "--out", pass.string()}};
     EXPECT_EQ(simulate.exit_status(), 0) << simulate.log();
+    std::ofstream{pass / "mission.toml", std::ios::app} << told;
     Program process{arguments(pass / "mission.toml", pass / "pulses.csv", db)};
     EXPECT_EQ(process.exit_status(), 0) << process.log();
     batch = nlohmann::json::parse(process.out())["runs"][0]["batch"];
@@ -188,8 +189,16 @@ TEST(Batch, NutationThatGrowsIsFoundTakenOutAndStored) {
   EXPECT_TRUE(run.batch["nutation"]["detected"]);
 }
 
-TEST(Batch, ConingIsFoundTakenOutAndStored) {
+TEST(Batch, ConingThatNobodyAskedForIsDoubted) {
   const WobblingRun run{"[attitude.coning]\ntilt_deg = 0.3\nazimuth_deg = 40.0\n"};
+  EXPECT_THAT(run.batch["status"].get<std::string>(), StartsWith("DOUBTFUL"));
+  EXPECT_THAT(run.batch["status"].get<std::string>(), HasSubstr("or a misplaced sensor"));
+  EXPECT_EQ(number_of(run.db, "SELECT detected FROM spin_coning"), 1);
+}
+
+TEST(Batch, ConingIsFoundTakenOutAndStored) {
+  const WobblingRun run{"[attitude.coning]\ntilt_deg = 0.3\nazimuth_deg = 40.0\n",
+                        "[spin.batch]\nconing = true\n"};
   run.expect_true_axis();
   EXPECT_THAT(run.batch["status"].get<std::string>(), HasSubstr(", coning 0."));
   EXPECT_EQ(number_of(run.db, "SELECT detected FROM spin_coning"), 1);

@@ -26,13 +26,6 @@ double cost_of(const Explained& with, SensorBias bias) {
   return cost;
 }
 
-/// What the axis moves by from one fit to the other, squared; tilts of the frame `spin`.
-Eigen::Matrix2d moved_rad2(const SpinState& from, const SpinState& to) {
-  const Eigen::Quaterniond turned = from.q_icrf_spin.conjugate() * to.q_icrf_spin;
-  const Eigen::Vector2d tilts_rad = 2.0 * std::copysign(1.0, turned.w()) * turned.vec().head<2>();
-  return tilts_rad * tilts_rad.transpose();
-}
-
 /// Gains come from one step, which is some percent wrong: those near the largest are compared by
 /// what their fits leave. So is coning, which has the axis degrees off, where one step is worse.
 std::vector<SensorBias> rivals_of(std::span<const BiasGain> wanted, BiasSet estimated) {
@@ -83,8 +76,10 @@ Expected<AddedBiases> add_wanted_biases(const PassModel& model, std::span<const 
     }
     added.open_rad2 += other_biases_rad2(now.information, now.estimated, likeliest->first);
     if (likeliest->first == ConingX) {
-      // A sensor misplaced in a way that is no bias here looks like it, and moves the axis less.
-      added.open_rad2 += moved_rad2(now.fit.state, likeliest->second.fit.state);
+      // A sensor misplaced in a way that is no bias here looks like it, and then the axis is off by
+      // about as much in any direction.
+      added.open_rad2 += likeliest->second.fit.state.biases.segment<2>(ConingX).squaredNorm() *
+                         Eigen::Matrix2d::Identity();
     }
     added.best = std::move(likeliest->second);
   }
