@@ -110,7 +110,7 @@ TEST(BatchEstimator, NoiseBeyondWhatIsStatedIsDoubtedAndCovered) {
   const auto solution = scene.solved(edges);
   ASSERT_TRUE(solution) << solution.error().message;
   EXPECT_THAT(solution->estimate.status, StartsWith("DOUBTFUL"));
-  EXPECT_NEAR(solution->noise, 2.8, 0.3);  // Beyond six sigmas an edge is an outlier.
+  EXPECT_NEAR(solution->noise, 2.8, 0.3);  // Beyond eight sigmas an edge is an outlier.
   EXPECT_LT(scene.error_sigmas(*solution), 3.0);
 }
 
