@@ -166,7 +166,8 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
                                     std::span<const PassEdge> edges,
                                     std::span<const Eigen::Vector3d> starts) {
   if (starts.empty()) {
-    return unobservable("no fix has given an axis to begin at");
+    return unobservable(
+        "no fix has given an axis to begin at, and the mission file has no [spin.prior]");
   }
   auto solved =
       solve_since_change(config, orbit, edges, starts, config.batch.biases.value_or(BiasSet{}));

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/batch/pass_edges.h"
 #include "tests/support/batch_pass.h"
 
 namespace spindrift {
@@ -111,6 +112,30 @@ TEST(BatchEstimator, NoiseBeyondWhatIsStatedIsDoubtedAndCovered) {
   ASSERT_TRUE(solution) << solution.error().message;
   EXPECT_THAT(solution->estimate.status, StartsWith("DOUBTFUL"));
   EXPECT_NEAR(solution->noise, 2.8, 0.3);  // Beyond eight sigmas an edge is an outlier.
+  EXPECT_LT(scene.error_sigmas(*solution), 3.0);
+}
+
+TEST(BatchEstimator, BeginsAtThePriorWhereThePassHasNoFix) {
+  Scene scene;
+  PassEdges pass;
+  for (const PassEdge& edge : scene.pass(600.0)) {
+    if (edge.pulse.channel == PulseChannel::Sun1 || edge.pulse.channel == PulseChannel::Sun2 ||
+        edge.pulse.channel == PulseChannel::NorthIn) {
+      pass.note(SpinProduct{
+          PulseUse{.pulse = edge.pulse, .revolution = edge.revolution, .rejected_by = {}}});
+    }
+  }
+  const auto solved = [&](const std::optional<SpinPrior>& prior) {
+    return solve_batch(scene.body.config, scene.orbit, pass.edges(), pass.starts(prior));
+  };
+  const auto without = solved(std::nullopt);
+  ASSERT_FALSE(without);
+  EXPECT_THAT(without.error().message, HasSubstr("[spin.prior]"));
+  const auto solution =
+      solved(SpinPrior{.axis_icrf = testing::start_near(scene.body, 2.0 * kDegree_rad, scene.rng),
+                       .sigma_rad = 2.0 * kDegree_rad});
+  ASSERT_TRUE(solution) << solution.error().message;
+  EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
   EXPECT_LT(scene.error_sigmas(*solution), 3.0);
 }
 

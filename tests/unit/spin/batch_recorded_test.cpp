@@ -32,7 +32,8 @@ Expected<BatchSolution> solved(const testing::RecordedPass& recorded) {
     note(pass.push(frame));
   }
   note(pass.finish());
-  return solve_batch(recorded.config, recorded.orbit, edges.edges(), edges.starts());
+  return solve_batch(recorded.config, recorded.orbit, edges.edges(),
+                     edges.starts(recorded.config.prior));
 }
 
 struct Recorded {
