@@ -130,6 +130,9 @@ std::vector<BiasEstimate> all_biases(const Explained& found) {
   const Observability alone{found.information, found.estimated};
   const SensorBiases step = together.bias_step(found.information, now);
   std::vector<BiasEstimate> biases = together.biases(now + step);
+  for (BiasEstimate& bias : biases) {
+    bias.estimated = false;
+  }
   for (const BiasEstimate& estimated : alone.biases(now)) {
     *std::find_if(biases.begin(), biases.end(), [&](const BiasEstimate& bias) {
       return bias.bias == estimated.bias;
