@@ -69,6 +69,8 @@ TEST(BatchEstimator, ANorthChordThatIsThreeTenthsOfADegreeWideIsFoundAndNamed) {
   ASSERT_TRUE(solution) << solution.error().message;
   EXPECT_LT(scene.error_sigmas(*solution), 3.0) << solution->estimate.status;
   const BiasEstimate& bias = of(*solution, NorthChordBias);
+  EXPECT_TRUE(bias.estimated);
+  EXPECT_FALSE(of(*solution, DihedralBias).estimated);
   EXPECT_TRUE(bias.observable) << solution->estimate.status;
   EXPECT_NEAR(bias.value, 0.3 * kDegree_rad, 3.0 * bias.sigma);
   EXPECT_GT(bias.value, 5.0 * bias.sigma);
