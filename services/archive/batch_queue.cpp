@@ -50,7 +50,9 @@ bool BatchQueue::push(ArchiveBatch batch) {
   if (closed_) {
     return false;
   }
-  const bool was_empty = is_empty() && details_.rows() == 0;
+  // Details that wait keep the writer asleep until they are due: news for it are samples and
+  // results.
+  const bool was_empty = is_empty() && (!are_details || details_.rows() == 0);
   if (are_details) {
     details_.push(std::move(batch), steady_clock::now());
   } else {

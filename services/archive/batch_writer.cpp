@@ -137,10 +137,14 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                   "INSERT OR REPLACE INTO spin_batch (run_id, t_tai_ns, bound_deg, edges, outliers,"
                   " noise, iterations, singular_values, undetermined, changed_tai_ns)"
                   " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+      // Those of a later solution stay.
+      spin_biases_gone_{database,
+                        "DELETE FROM spin_bias WHERE run_id = ?1 AND estimator = 'batch' AND NOT"
+                        " EXISTS (SELECT 1 FROM spin_batch WHERE run_id = ?1 AND t_tai_ns > ?2)"},
       spin_bias_{database,
                  "INSERT OR REPLACE INTO spin_bias (run_id, estimator, name, value, unit, sigma,"
-                 " observable) SELECT ?1, ?2, ?3, ?4, ?5, ?6, ?7 WHERE NOT EXISTS"
-                 " (SELECT 1 FROM spin_batch WHERE run_id = ?1 AND t_tai_ns > ?8)"},
+                 " observable, estimated) SELECT ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8 WHERE NOT EXISTS"
+                 " (SELECT 1 FROM spin_batch WHERE run_id = ?1 AND t_tai_ns > ?9)"},
       spin_nutation_{database,
                      "INSERT OR REPLACE INTO spin_nutation (run_id, t_tai_ns, detected,"
                      " false_alarm, detectable_deg, half_angle_deg, half_angle_sigma_deg, period_s,"
@@ -228,6 +232,10 @@ void BatchWriter::withdraw(const ArchiveBatch& batch, TaiTime from) {
   execute_for_run("DELETE FROM spin_estimate WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run("DELETE FROM spin_coning WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run("DELETE FROM spin_nutation WHERE run_id = ?1 AND t_tai_ns >= ?2");
+  // They are the last solution's.
+  execute_for_run(
+      "DELETE FROM spin_bias WHERE run_id = ?1 AND estimator = 'batch' AND EXISTS"
+      " (SELECT 1 FROM spin_batch WHERE run_id = ?1 AND t_tai_ns >= ?2)");
   execute_for_run("DELETE FROM spin_batch WHERE run_id = ?1 AND t_tai_ns >= ?2");
   execute_for_run(
       "DELETE FROM pulse_use WHERE run_id = ?1 AND t_tai_ns >= ?2 AND spacecraft_id ="
@@ -332,17 +340,24 @@ void BatchWriter::insert(const std::string& run_id, const BatchSolution& solutio
           solution.edges, solution.outliers, solution.noise, std::int64_t{solution.iterations},
           nlohmann::json(solution.singular_values).dump(),
           fmt::format("{}", fmt::join(solution.undetermined, "\n")), changed_tai_ns);
+  insert_biases(run_id, solution);
+  if (solution.nutation) {
+    insert(run_id, solution, *solution.nutation);
+  }
+  insert(run_id, solution.estimate.t, solution.coning);
+}
+
+void BatchWriter::insert_biases(const std::string& run_id, const BatchSolution& solution) {
+  const std::int64_t t_tai_ns = tai_ns(solution.estimate.t);
+  // A channel that fell silent has no row any more.
+  execute(spin_biases_gone_, run_id, t_tai_ns);
   for (const BiasEstimate& bias : solution.biases) {
     const BiasPrior& prior = prior_of(bias.bias);
     const double to_unit = prior.is_angle ? kDegPerRad : 1.0;
     execute(spin_bias_, run_id, name_of(solution.estimate.estimator), prior.name,
             bias.value * to_unit, std::string_view{prior.is_angle ? "deg" : "km"},
-            bias.sigma * to_unit, as_flag(bias.observable), tai_ns(solution.estimate.t));
+            bias.sigma * to_unit, as_flag(bias.observable), as_flag(bias.estimated), t_tai_ns);
   }
-  if (solution.nutation) {
-    insert(run_id, solution, *solution.nutation);
-  }
-  insert(run_id, solution.estimate.t, solution.coning);
 }
 
 void BatchWriter::insert(const std::string& run_id, const BatchSolution& solution,

@@ -40,6 +40,7 @@ class BatchWriter {
   void insert_candidates(const ArchiveBatch& batch, const SpinFix& fix);
   void insert(const ArchiveBatch& batch, const SpinEstimate& estimate);
   void insert(const std::string& run_id, const BatchSolution& solution);
+  void insert_biases(const std::string& run_id, const BatchSolution& solution);
   void insert(const std::string& run_id, const BatchSolution& solution,
               const NutationSearch& search);
   void insert(const std::string& run_id, TaiTime t, const ConingEstimate& coning);
@@ -61,6 +62,7 @@ class BatchWriter {
   SQLite::Statement spin_fix_candidate_;
   SQLite::Statement spin_estimate_;
   SQLite::Statement spin_batch_;
+  SQLite::Statement spin_biases_gone_;
   SQLite::Statement spin_bias_;
   SQLite::Statement spin_nutation_;
   SQLite::Statement spin_coning_;

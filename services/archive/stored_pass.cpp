@@ -26,8 +26,10 @@ constexpr const char* kFindRuns =
     "  (SELECT t_tai_ns FROM revolution AS last WHERE last.run_id = same.run_id AND revolution <="
     "   (SELECT max(revolution) FROM spin_measurement AS one WHERE one.run_id = same.run_id)"
     "   ORDER BY revolution DESC LIMIT 1),"
-    "  (SELECT max(t_tai_ns) FROM pulse_use AS one WHERE one.run_id = same.run_id"
-    "   AND one.spacecraft_id = same.spacecraft_id)),"
+    // One that no revolution had a place for may have any time.
+    "  (SELECT t_tai_ns FROM pulse_use AS one WHERE one.run_id = same.run_id"
+    "   AND one.spacecraft_id = same.spacecraft_id AND revolution IS NOT NULL"
+    "   ORDER BY t_tai_ns DESC LIMIT 1)),"
     " (SELECT count(*) FROM rejected_input WHERE rejected_input.run_id = same.run_id)"
     " FROM (SELECT *, lead(first_arrival) OVER following AS next_arrival,"
     "  lead(first_tai_ns) OVER following AS next_tai_ns"

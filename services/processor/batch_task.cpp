@@ -7,7 +7,8 @@
 namespace spindrift {
 
 Expected<BatchSolution> solve(const BatchTask& task) {
-  return solve_batch(*task.config, *task.orbit, task.pass.edges(), task.pass.starts());
+  return solve_batch(*task.config, *task.orbit, task.pass.edges(),
+                     task.pass.starts(task.config->prior));
 }
 
 ArchiveBatch archived(const BatchTask& task, BatchSolution solution) {

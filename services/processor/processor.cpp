@@ -20,8 +20,9 @@ constexpr std::chrono::minutes kMadeAgain{10};
 constexpr std::size_t kMaxOthers = 256;
 constexpr const char* kOthers = "(others)";
 
-/// Products from here on are made again; all before are stored, for they are in order. An orderly
-/// stop may have made revolutions of samples from beyond what the pass has `reached`.
+/// Products from here on are made again; all before are stored, for no table is behind the last
+/// stored revolution and each is filled in order. An orderly stop may have made revolutions of
+/// samples from beyond what the pass has `reached`.
 TaiTime made_again_from(const StoredPass& stored, std::optional<TaiTime> reached) {
   const auto last = stored.last_revolution ? stored.last_revolution : stored.earliest;
   return last && reached ? std::min(*last, *reached) - kMadeAgain : TaiTime::min();

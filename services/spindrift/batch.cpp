@@ -29,7 +29,8 @@ Expected<void> batch(const BatchOptions& options) {
   if (options.last_revolutions) {
     stored->pass.keep_last(*options.last_revolutions);
   }
-  return solve_batch(*mission->spin, *mission->orbit, stored->pass.edges(), stored->pass.starts())
+  return solve_batch(*mission->spin, *mission->orbit, stored->pass.edges(),
+                     stored->pass.starts(mission->spin->prior))
       .map([&](const BatchSolution& solution) {
         if (options.json) {
           nlohmann::json object = to_json(solution.estimate);

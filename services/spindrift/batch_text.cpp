@@ -60,14 +60,18 @@ nlohmann::json nutation_json(const BatchSolution& solution) {
     return nullptr;
   }
   nlohmann::json json{{"detected", search->found.has_value()},
+                      {"false_alarm", search->false_alarm},
                       {"detectable_deg", search->detectable_rad * kDegPerRad}};
   if (const auto& found = search->found) {
     json["half_angle_deg"] = found->half_angle_rad.value * kDegPerRad;
     json["half_angle_sigma_deg"] = found->half_angle_rad.sigma * kDegPerRad;
     json["period_s"] = found->period_s.value;
     json["period_sigma_s"] = found->period_s.sigma;
+    json["other_periods_s"] = found->other_periods_s;
     json["growth_per_h"] = found->growth_per_s.value * kSecondsPerHour;
     json["growth_sigma_per_h"] = found->growth_per_s.sigma * kSecondsPerHour;
+    json["lean_azimuth_deg"] = found->lean_azimuth_rad.value * kDegPerRad;
+    json["lean_azimuth_sigma_deg"] = found->lean_azimuth_rad.sigma * kDegPerRad;
     json["at_utc"] = format_utc(solution.nutation_t);
   }
   return json;
@@ -96,8 +100,9 @@ std::string to_text(const BatchSolution& solution) {
   for (const BiasEstimate& bias : solution.biases) {
     const Readable shown = readable(bias);
     text += bias.observable
-                ? fmt::format("  {:<13}{:<18}{:+9.4f} +/- {:.4f} {}\n", heading,
-                              prior_of(bias.bias).name, shown.value, shown.sigma, shown.unit)
+                ? fmt::format("  {:<13}{:<18}{:+9.4f} +/- {:.4f} {}{}\n", heading,
+                              prior_of(bias.bias).name, shown.value, shown.sigma, shown.unit,
+                              bias.estimated ? "" : " (not in the axis)")
                 : fmt::format("  {:<13}{:<18}not observable\n", heading, prior_of(bias.bias).name);
     heading = "";
   }
@@ -114,7 +119,8 @@ nlohmann::json to_json(const BatchSolution& solution) {
     biases[std::string{prior_of(bias.bias).name}] = {{"value", shown.value},
                                                      {"sigma", shown.sigma},
                                                      {"unit", shown.unit},
-                                                     {"observable", bias.observable}};
+                                                     {"observable", bias.observable},
+                                                     {"estimated", bias.estimated}};
   }
   nlohmann::json json{{"bound_deg", solution.bound_rad * kDegPerRad},
                       {"edges", solution.edges},

@@ -7,8 +7,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <future>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <stop_token>
 #include <string>
 #include <system_error>
@@ -98,22 +100,36 @@ Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& ta
 /// they leave.
 void give_way_to_other_threads() {
   const sched_param none{};
-  if (const int failed = pthread_setschedparam(pthread_self(), SCHED_IDLE, &none); failed != 0) {
-    spdlog::warn("batch solutions compete with fixes for the processor: {}",
-                 std::generic_category().message(failed));
+  const int failed = pthread_setschedparam(pthread_self(), SCHED_IDLE, &none);
+  static std::once_flag said;
+  if (failed != 0) {
+    std::call_once(said, [failed] {
+      spdlog::warn("batch solutions compete with fixes for the processor: {}",
+                   std::generic_category().message(failed));
+    });
   }
+}
+
+/// In a thread that does nothing else: one that gives way must not hold the archive's locks, and
+/// without privileges none can cease to give way.
+Expected<BatchSolution> solve_giving_way(const BatchTask& task) {
+  return std::async(std::launch::async,
+                    [&task] {
+                      give_way_to_other_threads();
+                      return solve(task);
+                    })
+      .get();
 }
 
 /// Solves until `tasks` is closed and empty, or patience ends: the end of a run has a solution of
 /// its own.
 void solve_batches(BoundedQueue<BatchTask>& tasks, Archive& archive, const Patience& patience) {
-  give_way_to_other_threads();
   std::map<std::string, std::string> said;
   while (const auto task = tasks.take()) {
     if (patience.ended) {
       continue;
     }
-    auto solution = solve(*task);
+    auto solution = solve_giving_way(*task);
     if (!solution) {
       std::string& reason = said[task->spacecraft_id];
       if (std::exchange(reason, solution.error().message) != solution.error().message) {

@@ -255,5 +255,47 @@ TEST_F(ArchiveProducts, TwoArchivesMergeByNaturalKey) {
   EXPECT_EQ(number("SELECT count(*) FROM spin_fix"), 2);
 }
 
+/// Of a pass that ends then.
+ArchiveBatch solution_with(std::int64_t t_tai_ns, std::vector<BiasEstimate> biases) {
+  ArchiveBatch batch = testing::batch_of("run-1");
+  batch.batch = BatchSolution{.estimate = estimate_at(t_tai_ns, SpinEstimator::Batch, 0.0),
+                              .bound_rad = 1e-4,
+                              .biases = std::move(biases),
+                              .undetermined = {},
+                              .singular_values = {},
+                              .changed = {},
+                              .edges = 100,
+                              .outliers = 0,
+                              .noise = 1.0,
+                              .iterations = 5,
+                              .nutation = {},
+                              .nutation_t = tai_from_ns(t_tai_ns),
+                              .coning = {}};
+  return batch;
+}
+
+TEST_F(ArchiveProducts, BiasesAreThoseOfTheLastSolutionAndSayWhetherTheyAreInTheAxis) {
+  const std::string stored =
+      "SELECT ifnull(group_concat(format('%s %d', name, estimated), '; '), '') FROM spin_bias";
+  const BiasEstimate chord{NorthChordBias, 0.01, 0.001, true, true};
+  const BiasEstimate dihedral{DihedralBias, 0.01, 0.001, true, false};
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(start_of("run-1")));
+  const auto after = [&](ArchiveBatch batch) {
+    EXPECT_TRUE(archive->submit(std::move(batch)));
+    EXPECT_TRUE(archive->flush());
+    return text(stored);
+  };
+  EXPECT_EQ(after(solution_with(100, {chord, dihedral})), "dihedral 0; north_chord 1");
+  EXPECT_EQ(after(solution_with(200, {dihedral})), "dihedral 0");
+  EXPECT_EQ(after(solution_with(150, {chord})), "dihedral 0");
+
+  ArchiveBatch again = testing::batch_of("run-1");
+  again.continuation = Continuation{.t = tai_from_ns(201)};
+  EXPECT_EQ(after(again), "dihedral 0");
+  again.continuation = Continuation{.t = tai_from_ns(200)};
+  EXPECT_EQ(after(again), "");
+}
+
 }  // namespace
 }  // namespace spindrift

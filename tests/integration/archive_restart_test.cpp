@@ -184,6 +184,12 @@ TEST_F(ArchiveRestart, LastRevolutionIsTheOneThatNoTableIsBehind) {
   EXPECT_EQ(after({period_of(1), period_of(2)}), tai_from_ns(15));
   EXPECT_EQ(after({use_at(25), use_at(35)}), tai_from_ns(20));
   EXPECT_EQ(after({period_of(4)}), tai_from_ns(30));
+  EXPECT_EQ(after({revolution_at(4), period_of(5)}), tai_from_ns(35));
+  // An edge whose time cannot be true does not say how far its table is.
+  EXPECT_EQ(after({PulseUse{.pulse = pulse_at(1'000'000).pulse,
+                            .revolution = {},
+                            .rejected_by = Rejection::OutOfTime}}),
+            tai_from_ns(35));
 }
 
 TEST_F(ArchiveRestart, MeasurementsOfRevolutionsWithoutSun1AreWithdrawnToo) {

@@ -28,6 +28,8 @@ TEST(SpinBatchConing, IsNotMadeUpInAHundredCleanPasses) {
     ASSERT_TRUE(solution) << solution.error().message;
     EXPECT_FALSE(solution->coning.verdict.detected) << solution->estimate.status;
     EXPECT_THAT(solution->estimate.status, Not(HasSubstr("coning")));
+    ASSERT_TRUE(solution->nutation);
+    EXPECT_FALSE(solution->nutation->found) << solution->estimate.status;
     // It does not widen what is known of the axis.
     EXPECT_NEAR(std::sqrt(solution->estimate.covariance_rad2.trace()) / solution->bound_rad, 1.003,
                 0.001);

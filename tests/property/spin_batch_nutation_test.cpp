@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -23,6 +24,7 @@ TEST(SpinBatchNutation, IsTakenOutAndTheAxisReachesTheBound) {
   double error_rad2 = 0.0;
   double bound_rad2 = 0.0;
   double steady_rad2 = 0.0;
+  int periods_taken_for_another = 0;
   for (int pass = 0; pass < kPasses; ++pass) {
     SpinTruth truth = passes.drawn();
     const auto steady = passes.solved(passes.edges(truth));
@@ -35,12 +37,23 @@ TEST(SpinBatchNutation, IsTakenOutAndTheAxisReachesTheBound) {
     ASSERT_TRUE(solution->nutation && solution->nutation->found);
     const FoundNutation& found = *solution->nutation->found;
     EXPECT_NEAR(found.half_angle_rad.value, 0.2 * kDegree_rad, 4.0 * found.half_angle_rad.sigma);
+    const double period_s =
+        2.0 * std::numbers::pi / (truth.motion.rate_rad_s * truth.motion.nutation.per_turn());
+    const auto is_true = [&](double found_s) {
+      return std::abs(found_s - period_s) < 0.01 * period_s;
+    };
+    periods_taken_for_another += is_true(found.period_s.value) ? 0 : 1;
+    EXPECT_TRUE(is_true(found.period_s.value) ||
+                std::any_of(found.other_periods_s.begin(), found.other_periods_s.end(), is_true))
+        << period_s;
     const testing::AxisError error = testing::axis_error(*solution, truth);
     squares += error.squares;
     error_rad2 += error.rad2;
     bound_rad2 += solution->bound_rad * solution->bound_rad;
     steady_rad2 += steady->bound_rad * steady->bound_rad;
   }
+  // Which of the frequencies that look alike once a turn it is, noise hides at times.
+  EXPECT_LE(periods_taken_for_another, 2);
   // 95 % of chi-square, 240 degrees of freedom.
   EXPECT_GT(squares, 199.0);
   EXPECT_LT(squares, 284.8);

@@ -72,7 +72,7 @@ inline std::vector<std::string> last_batch_rows(const std::filesystem::path& db)
            "SELECT t_tai_ns, bound_deg, edges, outliers, noise, iterations, singular_values,"
            " undetermined, changed_tai_ns FROM spin_batch ORDER BY 1 DESC LIMIT 1",
            "SELECT t_tai_ns, detected, detectable_deg FROM spin_nutation ORDER BY 1 DESC LIMIT 1",
-           "SELECT name, value, sigma, unit, observable FROM spin_bias ORDER BY 1"}) {
+           "SELECT name, value, sigma, unit, observable, estimated FROM spin_bias ORDER BY 1"}) {
     for (std::string& row : rows_of(db, query)) {
       rows.push_back(std::move(row));
     }

@@ -145,6 +145,9 @@ std::vector<BiasEstimate> all_biases(const Explained& found) {
   const Observability alone{found.information, found.estimated};
   const SensorBiases step = together.bias_step(found.information, now);
   std::vector<BiasEstimate> biases = together.biases(now + step);
+  for (BiasEstimate& bias : biases) {
+    bias.estimated = false;
+  }
   for (const BiasEstimate& estimated : alone.biases(now)) {
     *std::find_if(biases.begin(), biases.end(), [&](const BiasEstimate& bias) {
       return bias.bias == estimated.bias;
@@ -181,7 +184,8 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
                                     std::span<const PassEdge> edges,
                                     std::span<const Eigen::Vector3d> starts) {
   if (starts.empty()) {
-    return unobservable("no fix has given an axis to begin at");
+    return unobservable(
+        "no fix has given an axis to begin at, and the mission file has no [spin.prior]");
   }
   auto solved =
       solve_since_change(config, orbit, edges, starts, config.batch.biases.value_or(BiasSet{}));

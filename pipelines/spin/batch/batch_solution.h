@@ -22,6 +22,7 @@ struct BiasEstimate {
   double value;  ///< rad, or km; zero, the prior, where not observable.
   double sigma;  ///< That of the prior where not observable.
   bool observable;
+  bool estimated;  ///< With the axis. Of others: what one step makes of them, not in the axis.
 };
 
 /// The sensors' axis leans away from the principal axis.

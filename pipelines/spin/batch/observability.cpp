@@ -110,7 +110,8 @@ std::vector<BiasEstimate> Observability::biases(const SensorBiases& biases) cons
     all.push_back({.bias = bias,
                    .value = observable ? biases[bias] : 0.0,
                    .sigma = observable ? sigma : prior,
-                   .observable = observable});
+                   .observable = observable,
+                   .estimated = true});
   }
   return all;
 }

@@ -75,7 +75,7 @@ std::vector<PassEdge> PassEdges::edges() const {
   return sorted;
 }
 
-std::vector<Eigen::Vector3d> PassEdges::starts() const {
+std::vector<Eigen::Vector3d> PassEdges::starts(const std::optional<SpinPrior>& prior) const {
   std::vector<Eigen::Vector3d> all;
   const auto add = [&all](const Eigen::Vector3d& axis_icrf) {
     const bool known = std::any_of(all.begin(), all.end(), [&](const Eigen::Vector3d& other) {
@@ -96,6 +96,9 @@ std::vector<Eigen::Vector3d> PassEdges::starts() const {
     for (const Eigen::Vector3d& alternate : last_fix_->alternate_axes_icrf) {
       add(alternate);
     }
+  }
+  if (all.empty() && prior) {
+    add(prior->axis_icrf);
   }
   return all;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipelines/spin/batch/pass_model.h"
+#include "pipelines/spin/config.h"
 #include "pipelines/spin/products.h"
 
 namespace spindrift {
@@ -25,7 +26,8 @@ class PassEdges {
   std::vector<PassEdge> edges() const;
 
   /// Axes to begin at: of the other estimators, and where these are AMBIGUOUS all that are left.
-  std::vector<Eigen::Vector3d> starts() const;
+  /// Without any, where the mission expects the axis.
+  std::vector<Eigen::Vector3d> starts(const std::optional<SpinPrior>& prior) const;
 
  private:
   void take(const PulseUse& use);

@@ -104,6 +104,16 @@ TEST(BatchQueue, GivesAFewDetailsLate) {
   EXPECT_THAT(names_of(queue.take()), ElementsAre("details", "details"));
 }
 
+TEST(BatchQueue, GivesAFewSamplesAtOnceThoughDetailsWait) {
+  BatchQueue queue{100'000};
+  ASSERT_TRUE(queue.push(details(1)));
+  std::thread writer{[&] { EXPECT_THAT(names_of(queue.take()), ElementsAre("samples")); }};
+  std::this_thread::sleep_for(std::chrono::milliseconds{50});  // Until it waits for the details.
+  ASSERT_TRUE(queue.push(samples(1)));
+  writer.join();
+  EXPECT_EQ(queue.size(), 1U);
+}
+
 TEST(BatchQueue, EndsARunAfterItsDetails) {
   BatchQueue queue{100'000};
   ArchiveBatch end = batch_of("A");

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/batch/pass_edges.h"
 #include "tests/support/batch_pass.h"
 
 namespace spindrift {
@@ -68,6 +69,8 @@ TEST(BatchEstimator, ANorthChordThatIsThreeTenthsOfADegreeWideIsFoundAndNamed) {
   ASSERT_TRUE(solution) << solution.error().message;
   EXPECT_LT(scene.error_sigmas(*solution), 3.0) << solution->estimate.status;
   const BiasEstimate& bias = of(*solution, NorthChordBias);
+  EXPECT_TRUE(bias.estimated);
+  EXPECT_FALSE(of(*solution, DihedralBias).estimated);
   EXPECT_TRUE(bias.observable) << solution->estimate.status;
   EXPECT_NEAR(bias.value, 0.3 * kDegree_rad, 3.0 * bias.sigma);
   EXPECT_GT(bias.value, 5.0 * bias.sigma);
@@ -110,7 +113,31 @@ TEST(BatchEstimator, NoiseBeyondWhatIsStatedIsDoubtedAndCovered) {
   const auto solution = scene.solved(edges);
   ASSERT_TRUE(solution) << solution.error().message;
   EXPECT_THAT(solution->estimate.status, StartsWith("DOUBTFUL"));
-  EXPECT_NEAR(solution->noise, 2.8, 0.3);  // Beyond six sigmas an edge is an outlier.
+  EXPECT_NEAR(solution->noise, 2.8, 0.3);  // Beyond eight sigmas an edge is an outlier.
+  EXPECT_LT(scene.error_sigmas(*solution), 3.0);
+}
+
+TEST(BatchEstimator, BeginsAtThePriorWhereThePassHasNoFix) {
+  Scene scene;
+  PassEdges pass;
+  for (const PassEdge& edge : scene.pass(600.0)) {
+    if (edge.pulse.channel == PulseChannel::Sun1 || edge.pulse.channel == PulseChannel::Sun2 ||
+        edge.pulse.channel == PulseChannel::NorthIn) {
+      pass.note(SpinProduct{
+          PulseUse{.pulse = edge.pulse, .revolution = edge.revolution, .rejected_by = {}}});
+    }
+  }
+  const auto solved = [&](const std::optional<SpinPrior>& prior) {
+    return solve_batch(scene.body.config, scene.orbit, pass.edges(), pass.starts(prior));
+  };
+  const auto without = solved(std::nullopt);
+  ASSERT_FALSE(without);
+  EXPECT_THAT(without.error().message, HasSubstr("[spin.prior]"));
+  const auto solution =
+      solved(SpinPrior{.axis_icrf = testing::start_near(scene.body, 2.0 * kDegree_rad, scene.rng),
+                       .sigma_rad = 2.0 * kDegree_rad});
+  ASSERT_TRUE(solution) << solution.error().message;
+  EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
   EXPECT_LT(scene.error_sigmas(*solution), 3.0);
 }
 
