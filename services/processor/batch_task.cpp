@@ -6,9 +6,9 @@
 
 namespace spindrift {
 
-Expected<BatchSolution> solve(const BatchTask& task) {
-  return solve_batch(*task.config, *task.orbit, task.pass.edges(),
-                     task.pass.starts(task.config->prior));
+Expected<BatchSolution> solve(BatchTask task) {
+  const auto starts = task.pass.starts(task.config->prior);
+  return solve_batch(*task.config, *task.orbit, std::move(task.pass).edges(), starts);
 }
 
 ArchiveBatch archived(const BatchTask& task, BatchSolution solution) {

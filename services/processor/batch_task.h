@@ -21,7 +21,7 @@ struct BatchTask {
   PassEdges pass;
 };
 
-Expected<BatchSolution> solve(const BatchTask& task);
+Expected<BatchSolution> solve(BatchTask task);
 
 /// For the archive.
 ArchiveBatch archived(const BatchTask& task, BatchSolution solution);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "services/archive/stored_edges.h"
@@ -29,8 +30,8 @@ Expected<void> batch(const BatchOptions& options) {
   if (options.last_revolutions) {
     stored->pass.keep_last(*options.last_revolutions);
   }
-  return solve_batch(*mission->spin, *mission->orbit, stored->pass.edges(),
-                     stored->pass.starts(mission->spin->prior))
+  const auto starts = stored->pass.starts(mission->spin->prior);
+  return solve_batch(*mission->spin, *mission->orbit, std::move(stored->pass).edges(), starts)
       .map([&](const BatchSolution& solution) {
         if (options.json) {
           nlohmann::json object = to_json(solution.estimate);

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "tests/integration/archive_fixture.h"
 
@@ -33,10 +34,10 @@ class ArchiveEdges : public testing::ArchiveFixture {
 
 TEST_F(ArchiveEdges, OfARunWithoutSun1AreThere) {
   store_run("run-1", 3);
-  const auto stored = read_edges(path(), "SPINNER", std::nullopt);
+  auto stored = read_edges(path(), "SPINNER", std::nullopt);
   ASSERT_TRUE(stored) << stored.error().message;
   EXPECT_EQ(stored->run_id, "run-1");
-  EXPECT_EQ(stored->pass.edges().size(), 5U);
+  EXPECT_EQ(std::move(stored->pass).edges().size(), 5U);
 }
 
 TEST_F(ArchiveEdges, ThatNoRevolutionHadAPlaceForMakeNoRun) {

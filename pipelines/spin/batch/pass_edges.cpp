@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <variant>
 
 #include "pipelines/frames/celestial.h"
@@ -66,8 +67,8 @@ void PassEdges::keep_last(std::int64_t revolutions) {
   });
 }
 
-std::vector<PassEdge> PassEdges::edges() const {
-  std::vector<PassEdge> sorted = edges_;
+std::vector<PassEdge> PassEdges::edges() && {
+  std::vector<PassEdge> sorted = std::move(edges_);
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const PassEdge& a, const PassEdge& b) { return a.pulse < b.pulse; });
   const auto same = [](const PassEdge& a, const PassEdge& b) { return a.pulse == b.pulse; };

@@ -23,7 +23,7 @@ class PassEdges {
 
   /// All edges that a revolution had a place for, in order of time; those too whose angles failed
   /// their test, as an angle rests on several edges and the fit finds the one.
-  std::vector<PassEdge> edges() const;
+  std::vector<PassEdge> edges() &&;
 
   /// Axes to begin at: of the other estimators, and where these are AMBIGUOUS all that are left.
   /// Without any, where the mission expects the axis.

@@ -128,7 +128,7 @@ TEST(BatchEstimator, BeginsAtThePriorWhereThePassHasNoFix) {
     }
   }
   const auto solved = [&](const std::optional<SpinPrior>& prior) {
-    return solve_batch(scene.body.config, scene.orbit, pass.edges(), pass.starts(prior));
+    return solve_batch(scene.body.config, scene.orbit, PassEdges{pass}.edges(), pass.starts(prior));
   };
   const auto without = solved(std::nullopt);
   ASSERT_FALSE(without);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/batch_estimator.h"
@@ -32,8 +33,8 @@ Expected<BatchSolution> solved(const testing::RecordedPass& recorded) {
     note(pass.push(frame));
   }
   note(pass.finish());
-  return solve_batch(recorded.config, recorded.orbit, edges.edges(),
-                     edges.starts(recorded.config.prior));
+  const auto starts = edges.starts(recorded.config.prior);
+  return solve_batch(recorded.config, recorded.orbit, std::move(edges).edges(), starts);
 }
 
 struct Recorded {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "pipelines/frames/celestial.h"
 
 namespace spindrift {
@@ -47,7 +49,7 @@ TEST(PassEdges, AreThoseThatARevolutionHasAPlaceForInOrderAndOnce) {
   pass.note(use(20, PulseChannel::Sun2, 1, Rejection::SunAngle));
   pass.note(use(25, PulseChannel::Sun2, 1, Rejection::Phase));
   pass.note(use(40, PulseChannel::SouthIn, std::nullopt, Rejection::Unassociated));
-  const auto edges = pass.edges();
+  const auto edges = std::move(pass).edges();
   ASSERT_EQ(edges.size(), 3U);
   EXPECT_EQ(edges[0].pulse.channel, PulseChannel::Sun1);
   // Its angle failed; which of the two edges it was, the fit finds out.
@@ -61,7 +63,7 @@ TEST(PassEdges, KeepTheLastRevolutions) {
     pass.note(use(revolution, PulseChannel::Sun1, revolution));
   }
   pass.keep_last(3);
-  const auto edges = pass.edges();
+  const auto edges = std::move(pass).edges();
   ASSERT_EQ(edges.size(), 3U);
   EXPECT_EQ(edges.front().revolution, 7);
 }
