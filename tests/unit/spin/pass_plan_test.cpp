@@ -138,7 +138,7 @@ TEST(PassPlan, WhatHoldsForSecondsIsFoundWhereverItFalls) {
   auto body = testing::body_across_the_earth();
   PassScene scene{body.config, testing::orbit_across_the_earth(), body.axis_icrf, body.rate_rad_s};
   const auto apart_rad = [&](double t_s) {
-    const auto& expected = scene.at(shifted(testing::kTransferStart, t_s)).value().expected;
+    const auto expected = scene.at(shifted(testing::kTransferStart, t_s)).value().expected;
     return wrapped_rad(expected.predicted.at(index_of(PulseChannel::NorthIn))->phase_rad -
                        expected.predicted.at(index_of(PulseChannel::Sun1))->phase_rad);
   };
