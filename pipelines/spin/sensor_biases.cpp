@@ -1,6 +1,5 @@
 #include "pipelines/spin/sensor_biases.h"
 
-#include <algorithm>
 #include <array>
 
 namespace spindrift {
@@ -52,13 +51,6 @@ BiasSet unknowns_of(SensorBias bias) {
   const bool is_coning = bias == ConingX || bias == ConingY;
   return is_coning ? BiasSet{}.set(ConingX).set(ConingY)
                    : BiasSet{}.set(static_cast<std::size_t>(bias));
-}
-
-std::optional<SensorBias> bias_of(std::string_view name) {
-  const auto* const found = std::find_if(
-      kPriors.begin(), kPriors.end(), [&](const BiasPrior& prior) { return prior.name == name; });
-  return found == kPriors.end() ? std::nullopt
-                                : std::optional{static_cast<SensorBias>(found - kPriors.begin())};
 }
 
 }  // namespace spindrift

@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 #include <bitset>
-#include <optional>
 #include <string_view>
 
 namespace spindrift {
@@ -41,7 +40,5 @@ struct BiasPrior {
   double bound;            ///< What no real sensor exceeds.
 };
 const BiasPrior& prior_of(SensorBias bias);
-
-std::optional<SensorBias> bias_of(std::string_view name);
 
 }  // namespace spindrift

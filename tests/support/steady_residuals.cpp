@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipelines/ephemeris/earth_pole.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/coning.h"
 #include "tests/support/observed_spin.h"
+#include "tests/support/spin_truth.h"
 
 namespace spindrift::testing {
 namespace {
@@ -175,20 +175,9 @@ Unknowns known_beforehand(double coning_sigma_rad, double alignment_sigma_rad) {
 }  // namespace
 
 SpinTruth steady_truth() {
-  const SpinningBody body = body_across_the_earth();
-  const auto beam = [](const InfraredSensor& sensor) {
-    return TrueInfrared{.mount_angle_rad = sensor.mount_angle_rad,
-                        .azimuth_rad = sensor.azimuth_rad};
-  };
-  return {.start = kTransferStart,
-          .motion = {.axis_icrf = body.axis_icrf,
-                     .rate_rad_s = body.rate_rad_s,
-                     .rate_drift_rad_s2 = 0.0,
-                     .first_azimuth_rad = 1.0},
-          .sun_sensor = body.config.sun_sensor,
-          .north = beam(*body.config.north),
-          .south = beam(*body.config.south),
-          .horizon = infrared_horizon(body.config.horizon, earth_pole_icrf(kTransferStart))};
+  SpinTruth truth = truth_of(body_across_the_earth());
+  truth.motion.first_azimuth_rad = 1.0;
+  return truth;
 }
 
 Turning turning(const SpinTruth& truth, double duration_s) {

@@ -10,30 +10,12 @@
 #include <random>
 #include <vector>
 
-#include "pipelines/ephemeris/earth_pole.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/ground_model/spin_edges.h"
 #include "pipelines/spin/batch/batch_estimator.h"
-#include "tests/support/observed_spin.h"
+#include "tests/support/spin_truth.h"
 
 namespace spindrift::testing {
-
-/// On `transfer_orbit`, its sensors where they are said to be; about the axis of `body`.
-inline SpinTruth truth_of(const SpinningBody& body) {
-  const auto beam = [](const InfraredSensor& sensor) {
-    return TrueInfrared{.mount_angle_rad = sensor.mount_angle_rad,
-                        .azimuth_rad = sensor.azimuth_rad};
-  };
-  return {.start = kTransferStart,
-          .motion = {.axis_icrf = body.axis_icrf,
-                     .rate_rad_s = body.rate_rad_s,
-                     .rate_drift_rad_s2 = 0.0,
-                     .first_azimuth_rad = body.first_turn_rad},
-          .sun_sensor = body.config.sun_sensor,
-          .north = beam(*body.config.north),
-          .south = beam(*body.config.south),
-          .horizon = infrared_horizon(body.config.horizon, earth_pole_icrf(kTransferStart))};
-}
 
 /// Edges with the noise that the mission states, their turns counted.
 inline std::vector<PassEdge> edges_of(const SpinTruth& truth, const Orbit& orbit, double duration_s,

@@ -31,8 +31,6 @@ constexpr std::int64_t kFewestTurns = 3;
 constexpr double kMostOutliers = 0.5;
 // An axis known no better is not determined: cones about Sun or Earth, more or less.
 constexpr double kLost_rad = 10.0 * kDegree_rad;
-// exp(10) times as likely settles it.
-constexpr double kSettled = 20.0;
 constexpr int kMostChanges = 4;
 
 Unexpected unobservable(std::string message) {
@@ -178,6 +176,45 @@ ConingEstimate coning_of(const Explained& found, double excess_noise) {
   return coning;
 }
 
+/// All but its status, and what an estimate of all biases would leave open.
+/// @param open_rad2 What the choice among biases does, of the axis: tilts.
+BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2) {
+  const Explained& best = solved.of.best;
+  const PassInformation& information = best.information;
+  const Observability observed{information, best.estimated};
+  const Eigen::Matrix2d bound_rad2 = observed.axis_covariance_rad2();
+  const double excess_noise = best.excess_noise();
+  const Eigen::Matrix2d turned = tangent_from_tilts(best.fit.state.q_icrf_spin);
+  const double half_s = solved.model.half_s();
+  BatchSolution solution{
+      .estimate =
+          {.t = solved.edges.back().pulse.t,
+           .estimator = SpinEstimator::Batch,
+           .axis_icrf = best.fit.state.axis_icrf(),
+           .covariance_rad2 = turned * (bound_rad2 * (excess_noise / kEfficiency) + open_rad2) *
+                              turned.transpose(),
+           .spin_rate_rad_s = best.fit.state.rate_rad_s + best.fit.state.drift_rad_s2 * half_s,
+           .spin_rate_sigma_rad_s = std::sqrt(observed.last_rate_variance(half_s) * excess_noise),
+           .status = {}},
+      .bound_rad = std::sqrt(bound_rad2.trace()),
+      .biases = all_biases(best),
+      .undetermined = {},
+      .singular_values = observed.singular_values(),
+      .changed = solved.changed,
+      .edges = information.edges,
+      .outliers = information.outliers,
+      .noise = std::sqrt(excess_noise),
+      .iterations = best.fit.iterations,
+      .nutation = best.nutation,
+      .nutation_t = solved.edges.back().pulse.t,
+      .coning = coning_of(best, excess_noise)};
+  if (best.nutation && best.nutation->found) {
+    solution.nutation->found = as_fitted(*best.nutation->found, solved.model, best.fit.state);
+    solution.nutation_t = later_by_s(solved.model.middle(), best.nutation->found->t_s);
+  }
+  return solution;
+}
+
 }  // namespace
 
 Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit,
@@ -206,43 +243,14 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
   if (information.outlier_share() > kMostOutliers) {
     return Unexpected{why_diverged(*solved, starts.front())};
   }
-  const Observability observed{information, best.estimated};
-  const Eigen::Matrix2d bound_rad2 = observed.axis_covariance_rad2();
-  if (const auto open = axis_left_open(bound_rad2)) {
+  if (const auto open =
+          axis_left_open(Observability{information, best.estimated}.axis_covariance_rad2())) {
     return Unexpected{*open};
   }
-  const double excess_noise = best.excess_noise();
-  if (!open_rad2.allFinite() || !std::isfinite(excess_noise)) {
+  if (!open_rad2.allFinite() || !std::isfinite(best.excess_noise())) {
     return unobservable("the biases that the edges ask for leave the axis open");
   }
-  const Eigen::Matrix2d turned = tangent_from_tilts(best.fit.state.q_icrf_spin);
-  const double half_s = solved->model.half_s();
-  BatchSolution solution{
-      .estimate =
-          {.t = solved->edges.back().pulse.t,
-           .estimator = SpinEstimator::Batch,
-           .axis_icrf = best.fit.state.axis_icrf(),
-           .covariance_rad2 = turned * (bound_rad2 * (excess_noise / kEfficiency) + open_rad2) *
-                              turned.transpose(),
-           .spin_rate_rad_s = best.fit.state.rate_rad_s + best.fit.state.drift_rad_s2 * half_s,
-           .spin_rate_sigma_rad_s = std::sqrt(observed.last_rate_variance(half_s) * excess_noise),
-           .status = {}},
-      .bound_rad = std::sqrt(bound_rad2.trace()),
-      .biases = all_biases(best),
-      .undetermined = {},
-      .singular_values = observed.singular_values(),
-      .changed = solved->changed,
-      .edges = information.edges,
-      .outliers = information.outliers,
-      .noise = std::sqrt(excess_noise),
-      .iterations = best.fit.iterations,
-      .nutation = best.nutation,
-      .nutation_t = solved->edges.back().pulse.t,
-      .coning = coning_of(best, excess_noise)};
-  if (best.nutation && best.nutation->found) {
-    solution.nutation->found = as_fitted(*best.nutation->found, solved->model, best.fit.state);
-    solution.nutation_t = later_by_s(solved->model.middle(), best.nutation->found->t_s);
-  }
+  BatchSolution solution = solution_of(*solved, open_rad2);
   const BiasSet suspected = config.batch.biases.value_or(seen_biases(information));
   solution.undetermined = Observability{information, suspected}.undetermined();
   const auto wanted = most_wanted_bias(information, best.estimated);

@@ -10,8 +10,8 @@
 /// The status begins with
 ///     OK         all is well
 ///     AMBIGUOUS  another axis, named, fits as well
-///     DOUBTFUL   the edges scatter more than their noise, many are outliers, or a bias runs to
-///                what no sensor exceeds
+///     DOUBTFUL   the edges scatter more than their noise, many are outliers, a bias or coning is
+///                not to be believed, or the residuals still ask for one
 
 #pragma once
 

@@ -20,11 +20,8 @@ constexpr double kManyOutliers = 0.15;
 // Of the prior: what is so far off is no misplacement.
 constexpr double kFarOff_sigmas = 4.0;
 
-bool is_far_off(const BatchSolution& solution, BiasSet estimated) {
-  return std::any_of(solution.biases.begin(), solution.biases.end(), [&](const BiasEstimate& one) {
-    return estimated[static_cast<std::size_t>(one.bias)] &&
-           std::abs(one.value) > kFarOff_sigmas * prior_of(one.bias).sigma;
-  });
+bool is_far_off(const BiasEstimate& bias) {
+  return bias.estimated && std::abs(bias.value) > kFarOff_sigmas * prior_of(bias.bias).sigma;
 }
 
 bool is_doubtful(const BatchSolution& solution, const BatchDoubts& doubts) {
@@ -32,7 +29,7 @@ bool is_doubtful(const BatchSolution& solution, const BatchDoubts& doubts) {
   const bool dirty = outliers > kManyOutliers * (outliers + static_cast<double>(solution.edges));
   return solution.noise > 1.0 || dirty || doubts.at_bound.any() || doubts.wanted ||
          (doubts.coning_by_edges && solution.coning.verdict.detected) ||
-         is_far_off(solution, doubts.estimated);
+         std::any_of(solution.biases.begin(), solution.biases.end(), is_far_off);
 }
 
 std::string first_word(const BatchSolution& solution, const BatchDoubts& doubts) {
@@ -68,9 +65,13 @@ std::string motion_in_words(const BatchSolution& solution, const BatchDoubts& do
 std::string bias_in_words(const BiasEstimate& bias) {
   const BiasPrior& prior = prior_of(bias.bias);
   const double unit = prior.is_angle ? kDegree_rad : 1.0;
-  return bias.observable ? fmt::format(", {} {:+.3f} +/- {:.3f} {}", prior.words, bias.value / unit,
-                                       bias.sigma / unit, prior.is_angle ? "deg" : "km")
-                         : fmt::format(", {} not determined", prior.words);
+  if (!bias.observable) {
+    return fmt::format(", {} not determined", prior.words);
+  }
+  return fmt::format(
+      ", {} {:+.3f} +/- {:.3f} {}{}", prior.words, bias.value / unit, bias.sigma / unit,
+      prior.is_angle ? "deg" : "km",
+      is_far_off(bias) ? fmt::format(" (more than {:.0f} times its prior)", kFarOff_sigmas) : "");
 }
 
 }  // namespace
@@ -95,7 +96,7 @@ std::string status_of(const BatchSolution& solution, const BatchDoubts& doubts) 
     const auto index = static_cast<std::size_t>(bias.bias);
     if (doubts.at_bound[index]) {
       status += fmt::format(", {} runs to its bound", prior_of(bias.bias).words);
-    } else if (doubts.estimated[index]) {
+    } else if (bias.estimated) {
       status += bias_in_words(bias);
     }
   }

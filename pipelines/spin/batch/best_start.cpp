@@ -1,6 +1,7 @@
 #include "pipelines/spin/batch/best_start.h"
 
 #include <algorithm>
+#include <numbers>
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
@@ -11,10 +12,8 @@
 namespace spindrift {
 namespace {
 
-// Two ends of two starts are one solution within this: 0.1 deg.
-constexpr double kSameAxis_rad = 0.1 * 0.017453292519943295;
-// exp(10) times as likely settles it, as for the filters of `sequential`.
-constexpr double kSettled = 20.0;
+// Two ends of two starts are one solution within this.
+constexpr double kSameAxis_rad = 0.1 * std::numbers::pi / 180.0;
 // Stated sigmas: a body that nutates, or noise not as stated.
 constexpr double kScattered = 1.3;
 constexpr std::size_t kFew = 6000;

@@ -11,6 +11,10 @@
 
 namespace spindrift {
 
+/// Of log likelihood, times two: exp(10) times as likely settles it, as for the filters of
+/// `sequential`.
+inline constexpr double kSettled = 20.0;
+
 /// The likeliest, and another that is nearly so.
 struct Best {
   Explained best;

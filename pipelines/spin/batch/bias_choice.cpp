@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "pipelines/spin/batch/observability.h"
+
 namespace spindrift {
 namespace {
 
@@ -13,7 +15,6 @@ constexpr double kWanted = 19.2;
 constexpr double kConingWanted = 22.7;
 
 using Unknowns = Eigen::Matrix<double, kBatchUnknowns, 1>;
-using Information = Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns>;
 
 /// One by one; the second of coning goes with the first.
 std::vector<SensorBias> not_among(BiasSet estimated) {
@@ -26,12 +27,6 @@ std::vector<SensorBias> not_among(BiasSet estimated) {
   return biases;
 }
 
-}  // namespace
-
-double wanted_from(SensorBias bias) { return bias == ConingX ? kConingWanted : kWanted; }
-
-namespace {
-
 /// The step that all unknowns take when one more bias is estimated.
 struct Step {
   Unknowns unknowns;
@@ -41,38 +36,29 @@ struct Step {
 
 Step step_with(const PassInformation& pass, BiasSet estimated, SensorBias bias) {
   const BiasSet added = unknowns_of(bias);
-  estimated |= added;
-  Information information = pass.information;
+  const Observability together{pass, estimated | added};
   // At the best state only what is added has a score left.
   Unknowns score = Unknowns::Zero();
   std::vector<int> rows;
   double prior_volume = 1.0;
-  information.diagonal().head<kMotionUnknowns>().array() += 1.0;
   for (int i = 0; i < kSensorBiases; ++i) {
-    const int row = kMotionUnknowns + i;
-    const double prior = prior_of(static_cast<SensorBias>(i)).sigma;
-    if (estimated[static_cast<std::size_t>(i)]) {
-      information(row, row) += 1.0 / (prior * prior);
-    } else {
-      information.row(row).setZero();
-      information.col(row).setZero();
-      information(row, row) = 1.0;
-    }
     if (added[static_cast<std::size_t>(i)]) {
+      const int row = kMotionUnknowns + i;
       rows.push_back(row);
       score[row] = pass.score[row];
-      prior_volume *= prior;
+      prior_volume *= prior_of(static_cast<SensorBias>(i)).sigma;
     }
   }
-  const Information covariance = information.ldlt().solve(Information::Identity());
-  const Unknowns unknowns = -covariance * score;
-  const Eigen::MatrixXd own = covariance(rows, rows);
+  const Unknowns unknowns = -together.covariance() * score;
+  const Eigen::MatrixXd own = together.covariance()(rows, rows);
   return {.unknowns = unknowns,
           .gain = -score.dot(unknowns),
           .share_of_prior = std::sqrt(own.determinant()) / prior_volume};
 }
 
 }  // namespace
+
+double wanted_from(SensorBias bias) { return bias == ConingX ? kConingWanted : kWanted; }
 
 std::vector<BiasGain> wanted_biases(const PassInformation& information, BiasSet estimated) {
   const double excess_noise =

@@ -116,33 +116,25 @@ std::vector<BiasEstimate> Observability::biases(const SensorBiases& biases) cons
   return all;
 }
 
-/// Eigenvectors of what the edges say of the biases, the motion eliminated. Zero for those that are
-/// not estimated, which no bias of the set mixes with.
+/// What the edges say of those estimated, the motion eliminated; in units of the priors.
+Eigen::MatrixXd Observability::of_biases() const {
+  const Eigen::Matrix<double, kMotionUnknowns, kMotionUnknowns> motion =
+      scaled_.topLeftCorner<kMotionUnknowns, kMotionUnknowns>() +
+      Eigen::Matrix<double, kMotionUnknowns, kMotionUnknowns>::Identity();
+  const Eigen::Matrix<double, kMotionUnknowns, kSensorBiases> mixed =
+      scaled_.topRightCorner<kMotionUnknowns, kSensorBiases>();
+  const Eigen::Matrix<double, kSensorBiases, kSensorBiases> eliminated =
+      scaled_.bottomRightCorner<kSensorBiases, kSensorBiases>() -
+      mixed.transpose() * motion.ldlt().solve(mixed);
+  return eliminated(estimated_, estimated_);
+}
+
 std::vector<std::string> Observability::undetermined() const {
-  const Matrix motion_known = [&] {
-    Matrix information = scaled_;
-    information.diagonal().head<kMotionUnknowns>().array() += 1.0;
-    return information;
-  }();
   const auto count = static_cast<Eigen::Index>(estimated_.size());
   if (count == 0) {
     return {};
   }
-  Eigen::MatrixXd left(count, count);
-  const Eigen::Matrix<double, kMotionUnknowns, kMotionUnknowns> motion =
-      motion_known.topLeftCorner<kMotionUnknowns, kMotionUnknowns>();
-  const Eigen::Matrix<double, kMotionUnknowns, kSensorBiases> mixed =
-      motion_known.topRightCorner<kMotionUnknowns, kSensorBiases>();
-  const Eigen::Matrix<double, kSensorBiases, kSensorBiases> eliminated =
-      motion_known.bottomRightCorner<kSensorBiases, kSensorBiases>() -
-      mixed.transpose() * motion.ldlt().solve(mixed);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    for (Eigen::Index j = 0; j < count; ++j) {
-      left(i, j) = eliminated(estimated_[static_cast<std::size_t>(i)],
-                              estimated_[static_cast<std::size_t>(j)]);
-    }
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{left};
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{of_biases()};
   std::vector<std::string> all;
   for (Eigen::Index i = 0; i < count && solver.eigenvalues()[i] < 1.0; ++i) {
     std::vector<std::string_view> names;

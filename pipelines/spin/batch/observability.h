@@ -21,6 +21,9 @@ class Observability {
   /// @param estimated The others are known to be what they are in the state.
   Observability(const PassInformation& information, BiasSet estimated);
 
+  using Matrix = Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns>;
+  /// Of all unknowns of pass_model.h; zero beside the diagonal for biases that are known.
+  const Matrix& covariance() const { return covariance_; }
   /// Tilts of the frame `spin`, rad^2; where the edges leave a direction open, large.
   Eigen::Matrix2d axis_covariance_rad2() const { return covariance_.topLeftCorner<2, 2>(); }
   Eigen::Matrix2d coning_covariance_rad2() const {
@@ -44,7 +47,7 @@ class Observability {
   std::vector<std::string> undetermined() const;
 
  private:
-  using Matrix = Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns>;
+  Eigen::MatrixXd of_biases() const;
 
   std::vector<SensorBias> estimated_;
   Matrix scaled_ = Matrix::Zero();  ///< Information in units of the priors, without them.
