@@ -7,7 +7,7 @@
 #include <string>
 
 #include "pipelines/spin/products.h"
-#include "tests/support/program.h"
+#include "tests/support/text_of.h"
 
 namespace spindrift {
 namespace {

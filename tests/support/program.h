@@ -11,22 +11,15 @@
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text_of.h"
 
 namespace spindrift {
-
-inline std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream{path, std::ios::binary}.rdbuf();
-  return text.str();
-}
 
 class Program {
  public:
@@ -35,7 +28,7 @@ class Program {
   explicit Program(std::vector<std::string> arguments, int largest_file_kib = 0,
                    const std::string& out = "")
       : out_path_{out.empty() ? (folder_.path() / "out").string() : out} {
-    arguments.insert(arguments.begin(), SPINDRIFT_PROGRAM);
+    arguments.insert(arguments.begin(), {std::string{SPINDRIFT_PROGRAM}});
     if (largest_file_kib > 0) {
       const std::string limit = "ulimit -f " + std::to_string(largest_file_kib);
       arguments.insert(arguments.begin(), {"/bin/bash", "-c", limit + "; exec \"$@\"", "bash"});
