@@ -91,6 +91,7 @@ std::string Svg::document(double width, double height, std::string_view title) c
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
       "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">\n"
       "<title>{2}</title>\n"
+      "<style>text {{ paint-order: stroke; stroke: #ffffff; stroke-width: 3px; }}</style>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{3}</svg>\n",
       width, height, escaped(title), body_);
 }

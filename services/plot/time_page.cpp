@@ -98,10 +98,13 @@ void TimePage::panel(double height, const ValueAxis& axis, const std::vector<Cur
   for (const Limit& limit : limits) {
     const double at = y.pixel_of(limit.value);
     svg_.line({kLeft, at}, {kRight, at}, {.colour = limit.colour, .dashes = "5 4"});
-    svg_.text({kLeft + 6.0, at - 4.0}, limit.name, {.colour = limit.colour, .size = 11.0});
   }
   for (const Curve& curve : curves) {
     draw_curve(curve, y);
+  }
+  for (const Limit& limit : limits) {
+    svg_.text({kLeft + 6.0, y.pixel_of(limit.value) - 4.0}, limit.name,
+              {.colour = limit.colour, .size = 11.0});
   }
   name_curves(curves, y);
   const std::vector<Point> outline = {
