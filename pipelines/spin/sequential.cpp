@@ -249,7 +249,8 @@ std::string SequentialEstimator::status() const {
                        revolutions);
   }
   const std::string counts =
-      fmt::format("OK, {} revolutions, {} edges gated", revolutions, gates_.gated());
+      fmt::format("OK, {} revolutions, {} edges gated{}", revolutions, gates_.gated(),
+                  model_leverage() > kPoorLeverage ? ", poor leverage" : "");
   if (prior_refuted_) {
     return counts + ", prior refuted";
   }

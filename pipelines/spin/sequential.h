@@ -69,6 +69,9 @@ class SequentialEstimator {
   /// What errors of the model, one radian each, move the axis by, all ways together, rad: of the
   /// geometry alone. Estimates include only what the edges show of such errors. There must be one.
   double model_leverage() const;
+  /// Beyond it the status says "poor leverage": alignments that are as good as usual move the axis
+  /// by more than sigma says.
+  static constexpr double kPoorLeverage = 6.0;
 
   /// The axis that the edges settled beyond doubt among several.
   std::optional<KnownAxis> settled_by_edges() const;
