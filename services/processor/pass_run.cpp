@@ -140,12 +140,16 @@ ArchiveBatch PassRun::finish() {
   if (plan_ == BatchPlan::EveryMinute) {
     edges_.keep_last(kLastRevolutions);
   }
+  if (edges_.forgot_some()) {
+    spdlog::warn("{}: more edges than the batch solution can hold: it rests on the last {}",
+                 spacecraft_id_, PassEdges::kMost);
+  }
   if (auto solution = solve(batch_task(std::exchange(edges_, {})))) {
     summary_.count(solution->estimate);
     summary_.batch = *solution;
     last.products.emplace_back(solution->estimate);
     last.batch = *std::move(solution);
-  } else if (summary_.revolutions > 0) {
+  } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {
     spdlog::warn("{}: no batch solution: {}", spacecraft_id_, solution.error().message);
   }
   return last;

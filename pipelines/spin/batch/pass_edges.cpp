@@ -50,6 +50,10 @@ void PassEdges::take(const PulseUse& use) {
   if (use.revolution && !(use.rejected_by && is_bad(*use.rejected_by))) {
     edges_.push_back({.pulse = use.pulse, .revolution = *use.revolution});
     last_revolution_ = std::max(last_revolution_, *use.revolution);
+    if (edges_.size() == kMost + kMost / 8) {
+      edges_.erase(edges_.begin(), edges_.end() - kMost);
+      forgot_some_ = true;
+    }
   }
 }
 
@@ -73,6 +77,7 @@ std::vector<PassEdge> PassEdges::edges() && {
                    [](const PassEdge& a, const PassEdge& b) { return a.pulse < b.pulse; });
   const auto same = [](const PassEdge& a, const PassEdge& b) { return a.pulse == b.pulse; };
   sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
+  sorted.erase(sorted.begin(), sorted.end() - std::min<std::ptrdiff_t>(std::ssize(sorted), kMost));
   return sorted;
 }
 

@@ -18,8 +18,14 @@ class PassEdges {
  public:
   void note(const SpinProduct& product);
 
+  /// A day of six edges a turn at 100 rpm: memory is not for ever. Of more they are the last.
+  static constexpr std::size_t kMost = 900'000;
+
   /// Forgets all but so many of the last revolutions.
   void keep_last(std::int64_t revolutions);
+
+  /// More than `kMost` came.
+  bool forgot_some() const { return forgot_some_; }
 
   /// All edges that a revolution had a place for, in order of time; those too whose angles failed
   /// their test, as an angle rests on several edges and the fit finds the one.
@@ -38,6 +44,7 @@ class PassEdges {
 
   std::vector<PassEdge> edges_;
   std::int64_t last_revolution_ = 0;
+  bool forgot_some_ = false;
   std::optional<SpinEstimate> mean_;
   std::optional<SpinEstimate> sequential_;
   std::optional<SpinFix> last_fix_;

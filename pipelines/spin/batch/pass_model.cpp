@@ -46,21 +46,31 @@ Expected<PassModel> PassModel::make(const SpinConfig& config, const Orbit& orbit
   const TaiTime last = edges.back().pulse.t;
   PassModel model{config, first, last};
   Surroundings surroundings{orbit, config.horizon.co2_altitude_km};
-  const double length_s = seconds_between(first, last);
-  for (double t_s = 0.0; t_s <= length_s; t_s += kSkySpan_s) {
-    const double middle_s = std::min(t_s + 0.5 * kSkySpan_s, length_s);
-    auto sky = surroundings.sky(later_by_s(first, middle_s));
+  for (const PassEdge& edge : edges) {
+    const std::size_t span = model.span_of(edge.pulse.t);
+    if (span < model.skies_.size()) {
+      continue;
+    }
+    const TaiTime middle = later_by_s(first, (static_cast<double>(span) + 0.5) * kSkySpan_s);
+    auto sky = surroundings.sky(std::min(middle, last));
+    if (!sky) {
+      sky = surroundings.sky(edge.pulse.t);  // Beside a gap of the orbit.
+    }
     if (!sky) {
       return Unexpected{sky.error()};
     }
-    model.skies_.push_back(*std::move(sky));
+    // Spans without an edge are never asked for.
+    model.skies_.resize(span + 1, *sky);
   }
   return model;
 }
 
+std::size_t PassModel::span_of(TaiTime t) const {
+  return static_cast<std::size_t>(std::max(seconds_between(first_, t) / kSkySpan_s, 0.0));
+}
+
 const Sky& PassModel::sky_at(TaiTime t) const {
-  const double span = std::max(seconds_between(first_, t) / kSkySpan_s, 0.0);
-  return skies_[std::min(static_cast<std::size_t>(span), skies_.size() - 1)];
+  return skies_[std::min(span_of(t), skies_.size() - 1)];
 }
 
 std::optional<MetEdge> PassModel::meet(const Pulse& edge, const SpinState& state) const {

@@ -89,6 +89,7 @@ class PassModel {
 
  private:
   PassModel(SpinConfig config, TaiTime first, TaiTime last);
+  std::size_t span_of(TaiTime t) const;
 
   SpinConfig config_;
   TaiTime first_;

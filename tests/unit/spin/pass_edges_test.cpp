@@ -57,6 +57,21 @@ TEST(PassEdges, AreThoseThatARevolutionHasAPlaceForInOrderAndOnce) {
   EXPECT_EQ(edges[2].pulse.channel, PulseChannel::NorthIn);
 }
 
+TEST(PassEdges, OfMoreThanADayAreTheLast) {
+  PassEdges pass;
+  constexpr auto kMost = static_cast<std::int64_t>(PassEdges::kMost);
+  constexpr std::int64_t kEdges = 2 * kMost + 17;
+  for (std::int64_t i = 0; i < kEdges; ++i) {
+    EXPECT_TRUE(i > kMost || !pass.forgot_some());
+    pass.note(use(i, PulseChannel::Sun1, i));
+  }
+  EXPECT_TRUE(pass.forgot_some());
+  const auto edges = std::move(pass).edges();
+  ASSERT_EQ(edges.size(), PassEdges::kMost);
+  EXPECT_EQ(edges.front().revolution, kEdges - kMost);
+  EXPECT_EQ(edges.back().revolution, kEdges - 1);
+}
+
 TEST(PassEdges, KeepTheLastRevolutions) {
   PassEdges pass;
   for (std::int64_t revolution = 0; revolution < 10; ++revolution) {
