@@ -135,8 +135,8 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
       spin_batch_{database,
                   "INSERT OR REPLACE INTO spin_batch (run_id, t_tai_ns, bound_deg, edges, outliers,"
-                  " noise, iterations, singular_values, undetermined, changed_tai_ns)"
-                  " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+                  " noise, iterations, singular_values, undetermined, changed_tai_ns,"
+                  " consider_sigma_deg) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
       // Those of a later solution stay.
       spin_biases_gone_{database,
                         "DELETE FROM spin_bias WHERE run_id = ?1 AND estimator = 'batch' AND NOT"
@@ -339,7 +339,8 @@ void BatchWriter::insert(const std::string& run_id, const BatchSolution& solutio
   execute(spin_batch_, run_id, tai_ns(solution.estimate.t), solution.bound_rad * kDegPerRad,
           solution.edges, solution.outliers, solution.noise, std::int64_t{solution.iterations},
           nlohmann::json(solution.singular_values).dump(),
-          fmt::format("{}", fmt::join(solution.undetermined, "\n")), changed_tai_ns);
+          fmt::format("{}", fmt::join(solution.undetermined, "\n")), changed_tai_ns,
+          solution.consider_sigma_rad * kDegPerRad);
   insert_biases(run_id, solution);
   if (solution.nutation) {
     insert(run_id, solution, *solution.nutation);

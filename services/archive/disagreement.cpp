@@ -10,7 +10,7 @@ namespace spindrift {
 
 std::string in_words(const Disagreement& disagreement) {
   return fmt::format(
-      "{} and {} disagree: their axes are {:.3f} deg apart, {:.1f} times the sigma of both",
+      "{} and {} disagree: their axes are {:.3f} deg apart, {:.1f} times the larger sigma",
       disagreement.one, disagreement.other, disagreement.apart_deg, disagreement.apart_sigmas);
 }
 

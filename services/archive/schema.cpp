@@ -22,18 +22,20 @@ extern const char* const schema_0007_batch;
 extern const char* const schema_0008_coning;
 extern const char* const schema_0009_quick_answers;
 extern const char* const schema_0010_estimated_biases;
+extern const char* const schema_0011_consider_sigma;
 }  // namespace embedded
 
 namespace {
 
-constexpr std::size_t kMigrations = 10;
+constexpr std::size_t kMigrations = 11;
 
 std::array<const char*, kMigrations> migrations() {
   return {embedded::schema_0001_tables,         embedded::schema_0002_views,
           embedded::schema_0003_restart,        embedded::schema_0004_quick_checks,
           embedded::schema_0005_fix_candidates, embedded::schema_0006_time_order,
           embedded::schema_0007_batch,          embedded::schema_0008_coning,
-          embedded::schema_0009_quick_answers,  embedded::schema_0010_estimated_biases};
+          embedded::schema_0009_quick_answers,  embedded::schema_0010_estimated_biases,
+          embedded::schema_0011_consider_sigma};
 }
 
 }  // namespace

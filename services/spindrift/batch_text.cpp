@@ -36,11 +36,15 @@ std::string nutation_text(const BatchSolution& solution) {
                        search->detectable_rad * kDegPerRad);
   }
   const FoundNutation& found = *search->found;
+  std::string others;
+  for (const double other_s : found.other_periods_s) {
+    others += fmt::format(" or {:.4f} s", other_s);
+  }
   return fmt::format(
-      "  nutation     {:.4f} +/- {:.4f} deg at {}, period {:.4f} +/- {:.4f} s\n"
+      "  nutation     {:.4f} +/- {:.4f} deg at {}, period {:.4f} +/- {:.4f} s{}\n"
       "               grows by {:+.2f} +/- {:.2f} of it an hour\n",
       found.half_angle_rad.value * kDegPerRad, found.half_angle_rad.sigma * kDegPerRad,
-      format_utc(solution.nutation_t, 0), found.period_s.value, found.period_s.sigma,
+      format_utc(solution.nutation_t, 0), found.period_s.value, found.period_s.sigma, others,
       found.growth_per_s.value * kSecondsPerHour, found.growth_per_s.sigma * kSecondsPerHour);
 }
 
@@ -95,6 +99,9 @@ std::string to_text(const BatchSolution& solution) {
   std::string text = fmt::format(
       "  bound        {:.4f} deg (Cramer-Rao), {} edges, {} outliers, noise x {:.2f}\n",
       solution.bound_rad * kDegPerRad, solution.edges, solution.outliers, solution.noise);
+  text += fmt::format(
+      "  consider     {:.4f} deg (sigma, were no bias known better than by its prior)\n",
+      solution.consider_sigma_rad * kDegPerRad);
   text += nutation_text(solution) + coning_text(solution.coning);
   std::string_view heading = "biases";
   for (const BiasEstimate& bias : solution.biases) {
@@ -123,6 +130,7 @@ nlohmann::json to_json(const BatchSolution& solution) {
                                                      {"estimated", bias.estimated}};
   }
   nlohmann::json json{{"bound_deg", solution.bound_rad * kDegPerRad},
+                      {"consider_sigma_deg", solution.consider_sigma_rad * kDegPerRad},
                       {"edges", solution.edges},
                       {"outliers", solution.outliers},
                       {"noise", solution.noise},

@@ -178,6 +178,23 @@ TEST_F(ArchiveProducts, AnswerOfAPassIsTheLastEstimateOfEachEstimator) {
               ElementsAre("SPINNER batch 15 4.000000", "SPINNER mean 30 3.000000"));
 }
 
+TEST_F(ArchiveProducts, EstimatorsDisagreeBeyondThreeOfTheLargerSigma) {
+  ArchiveBatch batch = start_of("run-1");
+  const double sigma_deg = 3e-4 / kRadPerDeg;
+  SpinEstimate better = estimate_at(10, SpinEstimator::Batch, 1.0);
+  better.covariance_rad2 *= 0.25;
+  batch.products = {estimate_at(10, SpinEstimator::Sequential, 1.0 + 2.9 * sigma_deg), better,
+                    estimate_at(10, SpinEstimator::Mean, 1.0 - 3.1 * sigma_deg)};
+  store(batch);
+
+  SQLite::Database database = reader();
+  EXPECT_THAT(
+      column(database,
+             "SELECT format('%s %s %.4f %d', one, other, apart_sigmas, disagree)"
+             " FROM spin_comparison ORDER BY one, other"),
+      ElementsAre("mean batch 3.1000 1", "mean sequential 6.0000 1", "sequential batch 2.9000 0"));
+}
+
 TEST_F(ArchiveProducts, UtcOfTheViewsIsThatOfFormatUtc) {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   std::vector<std::int64_t> times_ns;
@@ -260,6 +277,7 @@ ArchiveBatch solution_with(std::int64_t t_tai_ns, std::vector<BiasEstimate> bias
   ArchiveBatch batch = testing::batch_of("run-1");
   batch.batch = BatchSolution{.estimate = estimate_at(t_tai_ns, SpinEstimator::Batch, 0.0),
                               .bound_rad = 1e-4,
+                              .consider_sigma_rad = 1e-3,
                               .biases = std::move(biases),
                               .undetermined = {},
                               .singular_values = {},

@@ -57,6 +57,9 @@ TEST(Batch, StandsBesideTheOtherEstimatorsWithBoundAndBiases) {
   const double sigma_deg = batch["sigma_deg"].get<double>();
   EXPECT_LT(error_deg(batch, truth_of("nominal")), std::min(0.05, 3.0 * sigma_deg));
   EXPECT_NEAR(sigma_deg / batch["bound_deg"].get<double>(), 1.0, 0.01);
+  const double consider_deg = batch["consider_sigma_deg"].get<double>();
+  EXPECT_GT(consider_deg, sigma_deg);
+  EXPECT_EQ(consider_deg, real_of(db, "SELECT consider_sigma_deg FROM spin_batch"));
   EXPECT_FALSE(batch["nutation"]["detected"]);
   EXPECT_EQ(batch["biases"].size(), 8U);
 
@@ -90,6 +93,27 @@ TEST(Batch, EstimatorsThatAModelErrorSetsApartAreNamedAsTheViewFlagsThem) {
   EXPECT_THAT(text.out(),
               HasSubstr("comparison   sequential and batch disagree: their axes are 0."));
   EXPECT_THAT(text.log(), HasSubstr("SPINNER: sequential and batch disagree: their axes are 0."));
+}
+
+TEST(Batch, AGapOfTheOrbitCostsTheEdgesThereOnly) {
+  const PassCopy pass{"nominal"};
+  const auto orbit = pass.folder.path() / "orbit.oem";
+  std::string text = text_of(orbit);
+  const std::string head = text.substr(
+      text.find("META_START"), text.find("2026-11-20T02:58:00.000 ") - text.find("META_START"));
+  // Two segments, a minute apart.
+  std::string second = head;
+  second.replace(second.find("02:58:00"), 8, "03:05:00");
+  const auto gap = text.find("2026-11-20T03:04:30.000 ");
+  text.replace(gap, text.find("2026-11-20T03:05:00.000 ") - gap, second);
+  text.replace(text.find("03:12:00"), 8, "03:04:00");
+  std::ofstream{orbit} << text;
+  const auto run = answer(pass.arguments_here())["runs"][0];
+  EXPECT_GT(run["edges_rejected"]["no_orbit"].get<int>(), 300);
+  const auto batch = run["batch"];
+  ASSERT_FALSE(batch.is_null());
+  EXPECT_THAT(batch["status"].get<std::string>(), StartsWith("OK"));
+  EXPECT_LT(error_deg(batch, truth_of("nominal")), 3.0 * batch["sigma_deg"].get<double>());
 }
 
 TEST(Batch, SolvesAStoredRunAgainAndOnlyItsLastRevolutions) {

@@ -157,6 +157,14 @@ std::vector<BiasEstimate> all_biases(const Explained& found) {
   return biases;
 }
 
+double consider_sigma_rad(const Explained& found, double excess_noise) {
+  PassInformation information = found.information;
+  information.information /= excess_noise;
+  information.score /= excess_noise;
+  const Observability unknown{information, seen_biases(information) | found.estimated};
+  return unknown.rms_error_rad(information, found.fit.state.biases);
+}
+
 ConingEstimate coning_of(const Explained& found, double excess_noise) {
   const Observability observed{found.information, found.estimated | unknowns_of(ConingX)};
   const bool estimated = found.estimated[ConingX];
@@ -197,6 +205,7 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
            .spin_rate_sigma_rad_s = std::sqrt(observed.last_rate_variance(half_s) * excess_noise),
            .status = {}},
       .bound_rad = std::sqrt(bound_rad2.trace()),
+      .consider_sigma_rad = consider_sigma_rad(best, excess_noise),
       .biases = all_biases(best),
       .undetermined = {},
       .singular_values = observed.singular_values(),

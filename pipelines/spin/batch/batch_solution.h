@@ -37,6 +37,9 @@ struct BatchSolution {
   /// Cramer-Rao bound of the axis, both directions together, with the stated noise and the biases
   /// that are estimated.
   double bound_rad;
+  /// Root mean square error of the axis were no bias known better than by its prior, those held at
+  /// zero included (consider analysis): what sensors out of place could hide.
+  double consider_sigma_rad;
   /// Of every bias but coning: as estimated; of the others what the edges would say of all biases
   /// together.
   std::vector<BiasEstimate> biases;

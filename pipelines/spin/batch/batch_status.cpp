@@ -48,6 +48,9 @@ std::string motion_in_words(const BatchSolution& solution, const BatchDoubts& do
     const FoundNutation& nutation = *solution.nutation->found;
     words += fmt::format(", nutation {:.3f} deg, period {:.3f} s",
                          nutation.half_angle_rad.value / kDegree_rad, nutation.period_s.value);
+    for (const double other_s : nutation.other_periods_s) {
+      words += fmt::format(" or {:.3f} s", other_s);
+    }
   }
   if (solution.coning.verdict.detected) {
     words += fmt::format(", coning {:.3f} +/- {:.3f} deg",

@@ -76,19 +76,28 @@ double Observability::last_rate_variance(double half_s) const {
   return last.dot(covariance_.block<2, 2>(3, 3) * last);
 }
 
-SensorBiases Observability::bias_step(const PassInformation& information,
-                                      const SensorBiases& biases) const {
+/// Zero for biases that are known.
+Eigen::Matrix<double, kBatchUnknowns, 1> Observability::step(const PassInformation& information,
+                                                             const SensorBiases& biases) const {
   Eigen::Matrix<double, kBatchUnknowns, 1> score = information.score;
-  SensorBiases step = SensorBiases::Zero();
+  score.tail<kSensorBiases>().setZero();
   for (const SensorBias bias : estimated_) {
     const double prior = prior_of(bias).sigma;
-    score[kMotionUnknowns + bias] += biases[bias] / (prior * prior);
+    const int row = kMotionUnknowns + bias;
+    score[row] = information.score[row] + biases[bias] / (prior * prior);
   }
-  const Eigen::Matrix<double, kBatchUnknowns, 1> all = -covariance_ * score;
-  for (const SensorBias bias : estimated_) {
-    step[bias] = all[kMotionUnknowns + bias];
-  }
-  return step;
+  return -covariance_ * score;
+}
+
+SensorBiases Observability::bias_step(const PassInformation& information,
+                                      const SensorBiases& biases) const {
+  return step(information, biases).tail<kSensorBiases>();
+}
+
+double Observability::rms_error_rad(const PassInformation& information,
+                                    const SensorBiases& biases) const {
+  return std::sqrt(step(information, biases).head<2>().squaredNorm() +
+                   axis_covariance_rad2().trace());
 }
 
 std::vector<double> Observability::singular_values() const {

@@ -36,6 +36,10 @@ class Observability {
   /// @param information Of that state; @param biases too.
   SensorBiases bias_step(const PassInformation& information, const SensorBiases& biases) const;
 
+  /// Root mean square error of the axis of such a state, rad: where the axis would move to, and
+  /// what would be left open then.
+  double rms_error_rad(const PassInformation& information, const SensorBiases& biases) const;
+
   /// Singular values of the whitened equations, in units of the priors (motion: 1 rad), largest
   /// first: below 1 the edges say less of a direction than was known before.
   std::vector<double> singular_values() const;
@@ -47,6 +51,8 @@ class Observability {
   std::vector<std::string> undetermined() const;
 
  private:
+  Eigen::Matrix<double, kBatchUnknowns, 1> step(const PassInformation& information,
+                                                const SensorBiases& biases) const;
   Eigen::MatrixXd of_biases() const;
 
   std::vector<SensorBias> estimated_;

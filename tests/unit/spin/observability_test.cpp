@@ -81,5 +81,28 @@ TEST(Observability, AMotionThatIsLeftOpenHasALargeSigma) {
   EXPECT_THAT(observed.undetermined(), IsEmpty());
 }
 
+TEST(Observability, TheErrorOfAnAxisIsWhereItWouldMoveAndWhatIsOpenThen) {
+  // A first tilt and a chord that mix; the second tilt is known.
+  PassInformation pass;
+  pass.information.diagonal().head<kMotionUnknowns>().setConstant(1e8);
+  const double prior = prior_of(NorthChordBias).sigma;
+  const int c = kMotionUnknowns + NorthChordBias;
+  pass.information(c, c) = 1e8;
+  pass.information(0, c) = pass.information(c, 0) = 0.9e8;
+  pass.score[c] = 2e4;
+  const double tilt = 1e8 + 1.0;
+  const double chord = 1e8 + 1.0 / (prior * prior);
+  const double determinant = tilt * chord - 0.81e16;
+  const double moves_rad = 0.9e8 * 2e4 / determinant;
+  const double open_rad2 = chord / determinant + 1.0 / tilt;
+  const Observability observed{pass, BiasSet{}.set(NorthChordBias)};
+  EXPECT_NEAR(observed.rms_error_rad(pass, SensorBiases::Zero()) /
+                  std::sqrt(moves_rad * moves_rad + open_rad2),
+              1.0, 1e-9);
+  // Known to be none, it moves nothing.
+  EXPECT_NEAR(Observability(pass, {}).rms_error_rad(pass, SensorBiases::Zero()),
+              std::sqrt(2.0 / tilt), 1e-12);
+}
+
 }  // namespace
 }  // namespace spindrift
