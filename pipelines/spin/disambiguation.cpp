@@ -50,8 +50,13 @@ ChordRange chords_from(const AxisCandidate& candidate, const Sightlines& sightli
   return range;
 }
 
-std::optional<std::size_t> nearest_to(const KnownAxis& known, const AxisCandidates& found,
-                                      const std::vector<std::size_t>& possible) {
+struct Nearest {
+  std::size_t candidate;
+  PriorVerdict verdict;
+};
+
+Nearest nearest_to(const KnownAxis& known, const AxisCandidates& found,
+                   const std::vector<std::size_t>& possible) {
   const auto distance_rad = [&](std::size_t i) {
     return angle_between_rad(known.axis_icrf, found.candidates[i].axis_icrf);
   };
@@ -60,12 +65,13 @@ std::optional<std::size_t> nearest_to(const KnownAxis& known, const AxisCandidat
       [&](std::size_t a, std::size_t b) { return distance_rad(a) < distance_rad(b); });
   const double sigma_rad = std::hypot(known.sigma_rad, sigma_of(found.candidates[nearest]));
   if (distance_rad(nearest) > kPriorSigmas * sigma_rad) {
-    return std::nullopt;
+    return {.candidate = nearest, .verdict = PriorVerdict::FarFromAll};
   }
   const bool alone = std::all_of(possible.begin(), possible.end(), [&](std::size_t other) {
     return other == nearest || distance_rad(other) - distance_rad(nearest) > sigma_rad;
   });
-  return alone ? std::optional{nearest} : std::nullopt;
+  return {.candidate = nearest,
+          .verdict = alone ? PriorVerdict::Chooses : PriorVerdict::NearSeveral};
 }
 
 /// The candidate that continues a steady axis, when no other may.
@@ -126,6 +132,7 @@ std::vector<SpinFix> Disambiguator::settle(std::int64_t revolution, TaiTime t,
                                            const AxisCandidates& candidates,
                                            const std::optional<KnownAxis>& established) {
   note_silence(measured);
+  newly_steady_.reset();
   if (candidates.told_apart) {
     SpinFix fix = fix_of(revolution, t, candidates, 0, Resolution::Geometry);
     silent_where_seen_ = silent_where_seen(sightlines, candidates.candidates.front());
@@ -140,11 +147,7 @@ std::vector<SpinFix> Disambiguator::settle(std::int64_t revolution, TaiTime t,
   if (possible.size() == 1 && candidates.candidates.size() > 1 && !candidates.grazing) {
     return {fix_of(revolution, t, candidates, possible.front(), Resolution::Constraint)};
   }
-  std::optional<KnownAxis> known = established;
-  if (!known && config_.prior) {
-    known = KnownAxis{.axis_icrf = config_.prior->axis_icrf, .sigma_rad = config_.prior->sigma_rad};
-  }
-  const auto nearest = known ? nearest_to(*known, candidates, possible) : std::nullopt;
+  const auto nearest = nearest_to_known(established, candidates, possible);
   // What the pass itself has established needs no further test.
   if (nearest && (established || candidates.grazing)) {
     return {fix_of(revolution, t, candidates, *nearest, Resolution::Prior)};
@@ -220,18 +223,42 @@ std::vector<std::size_t> Disambiguator::possible_of(const RevolutionMeasurements
   return possible;
 }
 
-std::vector<SpinFix> Disambiguator::settle_by_dispersion(Pending pending) {
+std::optional<std::size_t> Disambiguator::nearest_to_known(
+    const std::optional<KnownAxis>& established, const AxisCandidates& found,
+    const std::vector<std::size_t>& possible) {
+  if (!established && !config_.prior) {
+    return std::nullopt;
+  }
+  const KnownAxis known = established ? *established
+                                      : KnownAxis{.axis_icrf = config_.prior->axis_icrf,
+                                                  .sigma_rad = config_.prior->sigma_rad};
+  const Nearest nearest = nearest_to(known, found, possible);
+  if (!established) {
+    prior_verdict_ = nearest.verdict;
+  }
+  return nearest.verdict == PriorVerdict::Chooses ? std::optional{nearest.candidate} : std::nullopt;
+}
+
+void Disambiguator::ask_dispersion(const Pending& pending) {
   constexpr int kLastOfCones = 3;  // Later cases have roots that are no mirror images.
   if (pending.found.geometry_case > kLastOfCones) {
     dispersion_.note_unlike();
   }
-  if (!steady_) {
-    std::vector<AxisCandidate> possible;
-    for (const std::size_t i : pending.possible) {
-      possible.push_back(pending.found.candidates[i]);
-    }
-    steady_ = dispersion_.add(possible);
+  if (steady_) {
+    return;
   }
+  std::vector<AxisCandidate> possible;
+  for (const std::size_t i : pending.possible) {
+    possible.push_back(pending.found.candidates[i]);
+  }
+  newly_steady_ = dispersion_.add(possible);
+  if (newly_steady_) {
+    steady_ = newly_steady_->axis;
+  }
+}
+
+std::vector<SpinFix> Disambiguator::settle_by_dispersion(Pending pending) {
+  ask_dispersion(pending);
   std::vector<SpinFix> fixes;
   if (steady_) {
     for (const Pending& earlier : std::exchange(pending_, {})) {

@@ -20,6 +20,13 @@
 
 namespace spindrift {
 
+/// What an axis known beforehand says of candidates.
+enum class PriorVerdict {
+  Chooses,      ///< One of them.
+  FarFromAll,   ///< By more than three sigmas.
+  NearSeveral,  ///< It does not tell them apart.
+};
+
 /// Asks in this order, and the first that answers settles it:
 ///   GEOMETRY    the measurements themselves tell the candidates apart; not accepted where a
 ///               healthy beam that should see the Earth has been silent for five revolutions, or
@@ -49,6 +56,12 @@ class Disambiguator {
   /// The beam that contradicts the last fix by its silence, where geometry left but one axis.
   std::optional<Side> silent_where_seen() const { return silent_where_seen_; }
 
+  /// On the last candidates that the mission's prior was asked about; empty: it never was.
+  std::optional<PriorVerdict> prior_verdict() const { return prior_verdict_; }
+
+  /// What the dispersion settled on with the last fix, and by how much; empty: it did not then.
+  const std::optional<SteadyBranch>& newly_steady() const { return newly_steady_; }
+
  private:
   struct Pending {
     std::int64_t revolution;
@@ -67,6 +80,10 @@ class Disambiguator {
   std::vector<std::size_t> possible_of(const RevolutionMeasurements& measured,
                                        const Sightlines& sightlines,
                                        const AxisCandidates& found) const;
+  std::optional<std::size_t> nearest_to_known(const std::optional<KnownAxis>& established,
+                                              const AxisCandidates& found,
+                                              const std::vector<std::size_t>& possible);
+  void ask_dispersion(const Pending& pending);
   std::vector<SpinFix> settle_by_dispersion(Pending pending);
   void follow(const Pending& pending, const std::optional<std::size_t>& chosen);
 
@@ -74,7 +91,9 @@ class Disambiguator {
   std::array<int, 2> silent_revolutions_{};
   std::array<bool, 2> heard_{};  ///< Ever.
   std::optional<Side> silent_where_seen_;
+  std::optional<PriorVerdict> prior_verdict_;
   Dispersion dispersion_;
+  std::optional<SteadyBranch> newly_steady_;
   std::optional<SteadyAxis> steady_;
   int contradictions_ = 0;       ///< Revolutions running that no candidate continued `steady_`.
   std::deque<Pending> pending_;  ///< AMBIGUOUS so far, or settled by the mission's prior alone.

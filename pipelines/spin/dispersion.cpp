@@ -91,7 +91,7 @@ void Dispersion::Block::add(const Block& later) {
 
 Dispersion::Dispersion(std::size_t window) : window_{std::max(window, 2 * kFewestBlocks)} {}
 
-std::optional<SteadyAxis> Dispersion::add(std::span<const AxisCandidate> candidates) {
+std::optional<SteadyBranch> Dispersion::add(std::span<const AxisCandidate> candidates) {
   ++revolutions_;
   const Matching matching = match(candidates);
   if (!branches_.empty() && skips(candidates, matching)) {
@@ -271,7 +271,14 @@ Dispersion::Scatter Dispersion::scatter_of(std::span<const Block> blocks) {
           .half_freedom = static_cast<int>(blocks.size()) - 1};
 }
 
-std::optional<SteadyAxis> Dispersion::steady() const {
+bool Dispersion::nearly_linear() const {
+  return std::all_of(branches_.begin(), branches_.end(), [](const Branch& branch) {
+    const Block& last = branch.blocks.back();
+    return last.covariance_sum_rad2.trace() < last.count * kNearlyLinear_rad * kNearlyLinear_rad;
+  });
+}
+
+std::optional<SteadyBranch> Dispersion::steady() const {
   if (branches_.size() < 2) {
     return std::nullopt;
   }
@@ -292,28 +299,33 @@ std::optional<SteadyAxis> Dispersion::steady() const {
   }
   // A scatter below that of the noise is the model's caution, and nothing to compare with.
   const double noise = std::max(variance(*least), 1.0);
-  const bool linear =
-      !unlike_ && std::all_of(branches_.begin(), branches_.end(), [](const Branch& branch) {
-        const Block& last = branch.blocks.back();
-        return last.covariance_sum_rad2.trace() <
-               last.count * kNearlyLinear_rad * kNearlyLinear_rad;
-      });
-  const auto scatters_more = [&](const Scatter& other) {
-    return variance_ratio_tail(other.half_freedom, least->half_freedom, variance(other) / noise) <
-               kLevel ||
-           (linear && other.squares - least->squares > kDecisive * noise);
-  };
+  const bool by_likelihood = !unlike_ && nearly_linear();
+  double least_ratio = std::numeric_limits<double>::infinity();
+  std::optional<double> log_likelihood_ratio;
   for (const Scatter& other : scatters) {
-    if (&other != &*least && !scatters_more(other)) {
+    if (&other == &*least) {
+      continue;
+    }
+    const double ratio = variance(other) / noise;
+    least_ratio = std::min(least_ratio, ratio);
+    if (variance_ratio_tail(other.half_freedom, least->half_freedom, ratio) < kLevel) {
+      continue;
+    }
+    const double more_squares = other.squares - least->squares;
+    if (!by_likelihood || more_squares <= kDecisive * noise) {
       return std::nullopt;
     }
+    const double log_ratio = 0.5 * more_squares / noise;
+    log_likelihood_ratio = std::min(log_ratio, log_likelihood_ratio.value_or(log_ratio));
   }
   Block whole;
   for (const Block& block : branches_[static_cast<std::size_t>(least - scatters.begin())].blocks) {
     whole.add(block);
   }
-  return SteadyAxis{.axis_icrf = whole.axis_sum.normalized(),
-                    .count = static_cast<double>(whole.count)};
+  return SteadyBranch{
+      .axis = {.axis_icrf = whole.axis_sum.normalized(), .count = static_cast<double>(whole.count)},
+      .scatter_ratio = least_ratio,
+      .log_likelihood_ratio = log_likelihood_ratio};
 }
 
 }  // namespace spindrift

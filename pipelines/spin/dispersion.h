@@ -30,6 +30,16 @@ struct SteadyAxis {
   double count;
 };
 
+/// A branch that stays where it is, and what says so.
+struct SteadyBranch {
+  SteadyAxis axis;
+  /// Of the other branch that comes nearest to it: its variance over that of this one, each in
+  /// units of its noise; this one's is taken to be at least its noise.
+  double scatter_ratio;
+  /// Natural logarithm; likewise. Empty: the F-test of the scatters was enough.
+  std::optional<double> log_likelihood_ratio;
+};
+
 /// Follows the candidates of successive revolutions in branches, and sums each branch up in blocks
 /// of as many revolutions as keep their number below the window: however slowly the geometry
 /// turns, it shows in the end.
@@ -49,7 +59,7 @@ class Dispersion {
   /// to which branch, or off the branches; when five follow each other like that, the branches have
   /// crossed, or moved: what is known of them is given up.
   /// @return The steady branch, when there is one.
-  std::optional<SteadyAxis> add(std::span<const AxisCandidate> candidates);
+  std::optional<SteadyBranch> add(std::span<const AxisCandidate> candidates);
 
   /// The candidates are no mirror images, or some graze and those that do not are a selection:
   /// their noise is unlike, and only the F-test decides from here on.
@@ -90,7 +100,8 @@ class Dispersion {
   void merge_blocks();
   static Scatter scatter_of(std::span<const Block> blocks);
   std::span<const Block> closed_blocks(const Branch& branch) const;
-  std::optional<SteadyAxis> steady() const;
+  bool nearly_linear() const;
+  std::optional<SteadyBranch> steady() const;
 
   std::size_t window_;
   std::vector<Branch> branches_;

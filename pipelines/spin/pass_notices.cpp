@@ -8,6 +8,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/edge_use.h"
 #include "pipelines/spin/model_allowance.h"
+#include "pipelines/spin/period_search.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift {
@@ -19,6 +20,8 @@ constexpr double kPoorLeverage = 6.0;
 constexpr double kPriorSigmas = 5.0;
 // What is said of it, is said once.
 constexpr std::string_view kPrior = "prior";
+
+double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
 
 /// Why the fixes of that case leave several candidates.
 std::string_view what_is_missing(int geometry_case) {
@@ -86,6 +89,31 @@ void PassNotices::without_fix(std::int64_t revolution, const Error& error) {
                                error.message));
 }
 
+void PassNotices::has_fix(const SpinFix& fix, std::optional<PriorVerdict> prior) {
+  last_case_ = fix.geometry_case;
+  prior_verdict_ = prior;
+  if (fix.grazing) {
+    ++grazing_;
+  } else if (fix.resolution == Resolution::Ambiguous) {
+    ++ambiguous_;
+  } else if (!fix.accepted) {
+    ++otherwise_not_accepted_;
+  }
+}
+
+void PassNotices::settled_by_dispersion(TaiTime t, const SteadyBranch& branch) {
+  const RaDec axis = ra_dec_of(branch.axis.axis_icrf);
+  say(fmt::format(
+      "{}: the dispersion settles on the axis near ra {:.2f} dec {:.2f} deg: over {:.0f} "
+      "fixes its candidates stay where they are and the others drift, ratio of the "
+      "scatters {:.1f} ({})",
+      format_utc(t), degrees(axis.ra_rad), degrees(axis.dec_rad), branch.axis.count,
+      branch.scatter_ratio,
+      branch.log_likelihood_ratio
+          ? fmt::format("likelihood ratio e^{:.0f}", *branch.log_likelihood_ratio)
+          : "F-test"));
+}
+
 void PassNotices::most_contradict_themselves() {
   say_once(
       "the measurements of most revolutions contradict each other: no fix is accepted, as others "
@@ -108,6 +136,7 @@ void PassNotices::fix_contradicts_itself() {
 
 /// What the prior chose is not of the axis that the edges show.
 void PassNotices::prior_contradicted(TaiTime t) {
+  prior_contradicted_ = true;
   say_first(kPrior, fmt::format("{}: the edges contradict the prior of the mission: the axis is "
                                 "another one, the mean begins anew",
                                 format_utc(t)));
@@ -123,11 +152,11 @@ void PassNotices::estimated(const SpinEstimate& estimate) {
   const double sigma_rad =
       std::hypot(config_.prior->sigma_rad, std::sqrt(estimate.covariance_rad2.trace()));
   if (apart_rad > std::hypot(kPriorSigmas * sigma_rad, kModelLimit_rad)) {
-    say_first(kPrior, fmt::format("{}: the axis is {:.1f} deg from the prior of the mission "
-                                  "(spin.prior), {:.0f} times the sigma of both: the edges decide "
-                                  "without it",
-                                  format_utc(estimate.t), apart_rad * 180.0 / std::numbers::pi,
-                                  apart_rad / sigma_rad));
+    say_first(kPrior,
+              fmt::format("{}: the axis is {:.1f} deg from the prior of the mission "
+                          "(spin.prior), {:.0f} times the sigma of both: the edges decide "
+                          "without it",
+                          format_utc(estimate.t), degrees(apart_rad), apart_rad / sigma_rad));
   }
 }
 
@@ -135,7 +164,7 @@ void PassNotices::axis_moved(TaiTime t, double apart_rad) {
   say(
       fmt::format("{}: the axis is {:.2f} deg from the mean so far: it has moved, or the mean was "
                   "wrong; the mean begins anew",
-                  format_utc(t), apart_rad * 180.0 / std::numbers::pi));
+                  format_utc(t), degrees(apart_rad)));
 }
 
 /// Of those that the mission has.
@@ -153,7 +182,10 @@ std::string PassNotices::silent_channels() const {
 void PassNotices::pass_ended(std::span<const InterferingChannels> interfering,
                              const SequentialEstimator& sequential) {
   if (!closed_any_ && left_over_any_) {
-    say("no spin period was found in the edges: no revolution, and no axis");
+    say(
+        fmt::format("no spin period was found in the edges, of rates from {} to {} rpm: no "
+                    "revolution, and no axis",
+                    kSlowestSearched_rpm, kFastestSearched_rpm));
   }
   if (const std::string silent = silent_channels(); closed_any_ && !silent.empty()) {
     say(fmt::format("no edge at all came from {}", silent));
@@ -175,6 +207,51 @@ void PassNotices::pass_ended(std::span<const InterferingChannels> interfering,
   say_what_the_axis_lacks(sequential);
 }
 
+/// It takes fixes that are accepted and do not graze.
+void PassNotices::say_why_no_mean() {
+  if (mean_began_ || last_case_ == 0) {
+    return;
+  }
+  std::string why;
+  const auto add = [&](std::int64_t fixes, std::string_view what) {
+    if (fixes > 0) {
+      why += fmt::format("{}{} {}", why.empty() ? "" : ", ", fixes, what);
+    }
+  };
+  add(grazing_, "graze (their candidates come together within the noise)");
+  add(ambiguous_, "are ambiguous");
+  add(otherwise_not_accepted_, "are not accepted");
+  say(fmt::format("the estimator 'mean' never began: of {} fixes, {}",
+                  grazing_ + ambiguous_ + otherwise_not_accepted_, why));
+}
+
+std::string PassNotices::why_ambiguous() const {
+  if (last_status_.ends_with("all fixes graze")) {
+    return fmt::format(
+        "all fixes graze: the true axis may be missing among their candidates, so that {} settle "
+        "it",
+        config_.prior ? "the prior of the mission (spin.prior) does not" : "no prior would");
+  }
+  if (!config_.prior) {
+    return "a prior in the mission file would choose among the candidates";
+  }
+  if (prior_contradicted_) {
+    return "the edges contradict the prior of the mission (spin.prior)";
+  }
+  if (prior_verdict_ == PriorVerdict::FarFromAll) {
+    return "the prior of the mission (spin.prior) does not settle it: no candidate is within three "
+           "sigmas of it";
+  }
+  if (prior_verdict_ == PriorVerdict::NearSeveral) {
+    return fmt::format(
+        "the prior of the mission (spin.prior) does not settle it: within its sigma of {:g} deg, "
+        "several candidates are equally near to it",
+        degrees(config_.prior->sigma_rad));
+  }
+  return "the edges do not bear out the candidate that the prior of the mission (spin.prior) "
+         "chooses";
+}
+
 void PassNotices::say_what_the_axis_lacks(const SequentialEstimator& sequential) {
   if (last_status_.empty() && last_case_ != 0) {
     say("the estimator 'sequential' never began: its fixes leave the axis, or a candidate for it, "
@@ -191,11 +268,10 @@ void PassNotices::say_what_the_axis_lacks(const SequentialEstimator& sequential)
     say(fmt::format("no axis: {} revolutions gave no fix, the last: {}", without_fix_,
                     last_without_fix_));
   }
+  say_why_no_mean();
   if (last_status_.starts_with("AMBIGUOUS")) {
-    say(
-        fmt::format("the axis is ambiguous to the end{}: a prior in the mission file would choose "
-                    "among the candidates",
-                    what_is_missing(last_case_)));
+    say(fmt::format("the axis is ambiguous to the end{}: {}", what_is_missing(last_case_),
+                    why_ambiguous()));
   }
 }
 

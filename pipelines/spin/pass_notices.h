@@ -17,7 +17,10 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/spin/association.h"
 #include "pipelines/spin/config.h"
+#include "pipelines/spin/disambiguation.h"
+#include "pipelines/spin/dispersion.h"
 #include "pipelines/spin/measurement.h"
+#include "pipelines/spin/products.h"
 #include "pipelines/spin/pulse.h"
 #include "pipelines/spin/sequential.h"
 
@@ -35,8 +38,11 @@ class PassNotices {
   void counted_on(const Revolution& revolution);
   void outside_orbit(const Error& error);
   void without_fix(std::int64_t revolution, const Error& error);
-  /// @param geometry_case Of the ten.
-  void has_fix(int geometry_case) { last_case_ = geometry_case; }
+  /// @param fix Of the revolution itself.
+  /// @param prior On its candidates, or on the last that it was asked about.
+  void has_fix(const SpinFix& fix, std::optional<PriorVerdict> prior);
+  void settled_by_dispersion(TaiTime t, const SteadyBranch& branch);
+  void mean_began() { mean_began_ = true; }
   void most_contradict_themselves();
   void silent_where_it_must_see(Side side);
   void fix_contradicts_itself();
@@ -57,16 +63,24 @@ class PassNotices {
   void say_once(const std::string& notice) { say_first(notice, notice); }
   void say_first(std::string_view kind, const std::string& notice);
   std::string silent_channels() const;
+  void say_why_no_mean();
+  std::string why_ambiguous() const;
   void say_what_the_axis_lacks(const SequentialEstimator& sequential);
 
   SpinConfig config_;
   std::vector<std::string> pending_;
   std::set<std::string, std::less<>> said_;
   std::array<bool, kPulseChannels> heard_{};
-  bool closed_any_ = false;         ///< Revolution.
-  bool left_over_any_ = false;      ///< Edge of none.
-  std::string last_status_;         ///< Of `sequential`; empty: it never began.
-  int last_case_ = 0;               ///< Of the last fix.
+  bool closed_any_ = false;     ///< Revolution.
+  bool left_over_any_ = false;  ///< Edge of none.
+  std::string last_status_;     ///< Of `sequential`; empty: it never began.
+  int last_case_ = 0;           ///< Of the last fix.
+  std::optional<PriorVerdict> prior_verdict_;
+  bool prior_contradicted_ = false;
+  bool mean_began_ = false;
+  std::int64_t grazing_ = 0;    ///< Fixes.
+  std::int64_t ambiguous_ = 0;  ///< Of the others; likewise the following.
+  std::int64_t otherwise_not_accepted_ = 0;
   std::int64_t without_fix_ = 0;    ///< Revolutions.
   std::string last_without_fix_;    ///< Why the last of them has none.
   std::int64_t outside_orbit_ = 0;  ///< Revolutions.

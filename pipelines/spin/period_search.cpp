@@ -9,8 +9,8 @@
 namespace spindrift {
 namespace {
 
-constexpr double kShortest_s = 60.0 / 240.0;
-constexpr double kLongest_s = 60.0 / 4.0;
+constexpr double kShortest_s = 60.0 / kFastestSearched_rpm;
+constexpr double kLongest_s = 60.0 / kSlowestSearched_rpm;
 constexpr std::size_t kMostEdges = 32;
 // An interval between edges so many places apart may be one turn: spurious ones lie between.
 constexpr std::size_t kNeighbours = 3;

@@ -22,6 +22,9 @@ struct Comb {
   double turns;         ///< That they span.
 };
 
+inline constexpr double kSlowestSearched_rpm = 4.0;
+inline constexpr double kFastestSearched_rpm = 240.0;
+
 /// Tries the intervals between neighbouring edges as the period, counts for each how many edges
 /// fall on its comb, and takes the longest period that explains nearly as many as any: half of it
 /// explains as many, twice of it half.
@@ -29,8 +32,8 @@ struct Comb {
 /// @param edges In order of time; the last thirty-two are looked at.
 /// @param noise_s Standard deviation of an edge that is stated.
 /// @param fewest Fewer edges on the comb are no evidence.
-/// @return Empty where less than two thirds of the edges, or of the turns, fit any period from 4 to
-/// 240 rpm.
+/// @return Empty where less than two thirds of the edges, or of the turns, fit any period between
+/// those of the slowest and the fastest rate searched.
 std::optional<Comb> find_comb(std::span<const TaiTime> edges, double noise_s, std::size_t fewest);
 
 }  // namespace spindrift

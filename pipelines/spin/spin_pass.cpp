@@ -280,12 +280,15 @@ std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate) {
     notices_.without_fix(revolution.number, found.error());
     return {};
   }
-  notices_.has_fix(found->geometry_case);
   auto fixes = disambiguator_.settle(revolution.number, revolution.t_start, candidate.measured,
                                      *candidate.sightlines, *found, established_axis());
   for (SpinFix& fix : fixes) {
     fix.accepted = fix.accepted && trust_.deserved();
   }
+  if (const auto& steady = disambiguator_.newly_steady()) {
+    notices_.settled_by_dispersion(revolution.t_start, *steady);
+  }
+  notices_.has_fix(fixes.back(), disambiguator_.prior_verdict());
   return fixes;
 }
 
@@ -326,6 +329,7 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   }
   if (mean_moved) {
     out.products.emplace_back(mean_.estimate(revolution));
+    notices_.mean_began();
   }
   if (sequential) {
     notices_.estimated(*sequential);

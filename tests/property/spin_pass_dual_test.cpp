@@ -66,6 +66,12 @@ Orbit random_orbit(std::mt19937_64& rng) {
           .value()};
 }
 
+bool says(const SpinOutput& output, const std::string& words) {
+  return std::any_of(output.notices.begin(), output.notices.end(), [&](const std::string& notice) {
+    return notice.find(words) != std::string::npos;
+  });
+}
+
 struct Outcome {
   bool fix_accepted = false;
   bool sure = false;  ///< `sequential` ends with OK.
@@ -77,6 +83,10 @@ Outcome judged(const SpinOutput& output, const Eigen::Vector3d& true_icrf) {
   for (const SpinFix& fix : all_of<SpinFix>(output)) {
     last.insert_or_assign(fix.revolution, fix);
   }
+  const bool by_dispersion = std::any_of(last.begin(), last.end(), [](const auto& fix) {
+    return fix.second.resolution == Resolution::Dispersion;
+  });
+  EXPECT_EQ(says(output, "ratio of the scatters"), by_dispersion);
   for (const auto& [number, fix] : last) {
     if (fix.accepted) {
       outcome.fix_accepted = true;
@@ -265,12 +275,6 @@ SpinOutput without_north(bool said_to_be_healthy) {
       SpinPass{body.config, orbit},
       without(testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng),
               {NorthIn, NorthOut}));
-}
-
-bool says(const SpinOutput& output, const std::string& words) {
-  return std::any_of(output.notices.begin(), output.notices.end(), [&](const std::string& notice) {
-    return notice.find(words) != std::string::npos;
-  });
 }
 
 SpinOutput without_sun1(const std::optional<SpinPrior>& prior) {

@@ -101,6 +101,27 @@ TEST(Disambiguation, APriorFarFromAllOrTooVagueChoosesNothing) {
   EXPECT_EQ(settled(scene, scene.seen(), kDihedrals).resolution, Resolution::Ambiguous);
 }
 
+TEST(Disambiguation, WhatThePriorSaysOfTheCandidatesIsTold) {
+  Scene scene;
+  const auto verdict = [&](const std::optional<KnownAxis>& established = {}) {
+    Disambiguator disambiguator{scene.config};
+    settle(disambiguator, scene, scene.seen(), kDihedrals, established);
+    return disambiguator.prior_verdict();
+  };
+  EXPECT_EQ(verdict(), std::nullopt);
+  scene.config.prior = SpinPrior{.axis_icrf = scene.axis_icrf, .sigma_rad = 2.0 * kDegree_rad};
+  EXPECT_EQ(verdict(), PriorVerdict::Chooses);
+  EXPECT_EQ(verdict(KnownAxis{.axis_icrf = scene.axis_icrf, .sigma_rad = 0.1 * kDegree_rad}),
+            std::nullopt);
+  scene.config.prior->sigma_rad = 180.0 * kDegree_rad;
+  EXPECT_EQ(verdict(), PriorVerdict::NearSeveral);
+  scene.config.prior =
+      SpinPrior{.axis_icrf = Eigen::AngleAxisd{20.0 * kDegree_rad, Eigen::Vector3d::UnitY()} *
+                             scene.axis_icrf,
+                .sigma_rad = 2.0 * kDegree_rad};
+  EXPECT_EQ(verdict(), PriorVerdict::FarFromAll);
+}
+
 TEST(Disambiguation, WhatThePassHasEstablishedTakesThePlaceOfThePrior) {
   Scene scene;
   scene.config.prior = SpinPrior{.axis_icrf = -scene.axis_icrf, .sigma_rad = 1.0 * kDegree_rad};
@@ -182,12 +203,19 @@ TEST(Disambiguation, DispersionSettlesTheEarlierFixesOfItsWindowToo) {
   Disambiguator disambiguator{scene.config};
   std::set<std::int64_t> ambiguous;
   bool settled_earlier = false;
+  int told = 0;
   for (int number = 0; number < 60; ++number) {
     const double turn_rad = 0.25 * kDegree_rad * number;
     Revolution revolution = scene.seen(turn_rad);
     revolution.number = number;
     const auto fixes = settle(disambiguator, scene, revolution, kDihedrals, {}, turn_rad);
     ASSERT_EQ(fixes.back().revolution, number);
+    if (const auto& steady = disambiguator.newly_steady()) {
+      ++told;
+      EXPECT_GT(fixes.size(), 1U) << "with the fixes that it settles";
+      EXPECT_LT(angle_between_rad(steady->axis.axis_icrf, scene.axis_icrf), 1e-5);
+      EXPECT_GT(steady->scatter_ratio, 1.0);
+    }
     if (fixes.back().resolution == Resolution::Ambiguous) {
       ASSERT_FALSE(settled_earlier) << number;
       ambiguous.insert(number);
@@ -202,6 +230,7 @@ TEST(Disambiguation, DispersionSettlesTheEarlierFixesOfItsWindowToo) {
     settled_earlier = settled_earlier || fixes.size() > 1;
   }
   EXPECT_TRUE(settled_earlier);
+  EXPECT_EQ(told, 1);
   EXPECT_TRUE(ambiguous.empty());
 }
 

@@ -87,7 +87,7 @@ Eigen::Vector3d drifting(double moved_rad) {
 TEST(Dispersion, TheBranchThatStaysIsFound) {
   Sky sky{61};
   Dispersion dispersion{100};
-  std::optional<SteadyAxis> found;
+  std::optional<SteadyBranch> found;
   int revolution = 0;
   for (; revolution < 200 && !found; ++revolution) {
     const std::array candidates{sky.seen(drifting(0.1 * kDegree_rad * revolution)),
@@ -95,14 +95,14 @@ TEST(Dispersion, TheBranchThatStaysIsFound) {
     found = dispersion.add(candidates);
   }
   ASSERT_TRUE(found);
-  EXPECT_LT(angle_between_rad(found->axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
-  EXPECT_EQ(found->count, revolution);
+  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+  EXPECT_EQ(found->axis.count, revolution);
 }
 
 TEST(Dispersion, TheOrderOfTheCandidatesDoesNotMatter) {
   Sky sky{62};
   Dispersion dispersion{100};
-  std::optional<SteadyAxis> found;
+  std::optional<SteadyBranch> found;
   for (int revolution = 0; revolution < 200 && !found; ++revolution) {
     std::vector candidates{sky.seen(drifting(0.1 * kDegree_rad * revolution)),
                            sky.seen(kTrue_icrf)};
@@ -112,22 +112,78 @@ TEST(Dispersion, TheOrderOfTheCandidatesDoesNotMatter) {
     found = dispersion.add(candidates);
   }
   ASSERT_TRUE(found);
-  EXPECT_LT(angle_between_rad(found->axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
 }
 
 TEST(Dispersion, ADriftTooSlowForTheWindowShowsInALongPass) {
   // 0.3 deg in a hundred revolutions: a tenth of what their scatter could hide; 9 deg in all.
   Sky sky{63};
   Dispersion dispersion{100};
-  std::optional<SteadyAxis> found;
+  std::optional<SteadyBranch> found;
   for (int revolution = 0; revolution < 3000 && !found; ++revolution) {
     const std::array candidates{sky.seen(kTrue_icrf),
                                 sky.seen(drifting(0.003 * kDegree_rad * revolution))};
     found = dispersion.add(candidates);
   }
   ASSERT_TRUE(found);
-  EXPECT_GT(found->count, 100.0);
-  EXPECT_LT(angle_between_rad(found->axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+  EXPECT_GT(found->axis.count, 100.0);
+  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+}
+
+constexpr double kStep_rad = 0.1 * kDegree_rad;
+
+/// Ratio for a branch that goes kStep_rad a revolution along a great circle, where it has no noise
+/// and states kSigma_rad: about its middle, squares of kStep_rad^2 n (n^2 - 1) / 12 over 2 (n - 1)
+/// degrees of freedom.
+double ratio_of_drift(double revolutions) {
+  constexpr double kFloor_rad = 0.02 * kDegree_rad;
+  return kStep_rad * kStep_rad * revolutions * (revolutions + 1.0) /
+         (24.0 * (kSigma_rad * kSigma_rad + kFloor_rad * kFloor_rad));
+}
+
+/// X stays; of two that drift, the other is twice as fast. None has any noise.
+SteadyBranch settled_without_noise(bool unlike) {
+  const auto at = [](const Eigen::Vector3d& axis_icrf) -> AxisCandidate {
+    return {.axis_icrf = axis_icrf,
+            .covariance_rad2 = kSigma_rad * kSigma_rad * Eigen::Matrix2d::Identity(),
+            .norm = 1.0,
+            .consistent = true,
+            .model_shift_icrf = Eigen::Matrix<double, 3, kModelErrors>::Zero()};
+  };
+  Dispersion dispersion{100};
+  if (unlike) {
+    dispersion.note_unlike();
+  }
+  std::optional<SteadyBranch> found;
+  for (int revolution = 0; revolution < 99 && !found; ++revolution) {
+    const double slow_rad = kStep_rad * revolution;
+    const double fast_rad = 2.0 * slow_rad;
+    const std::array candidates{at({-std::cos(fast_rad), 0.0, std::sin(fast_rad)}),
+                                at(Eigen::Vector3d::UnitX()),
+                                at({0.0, std::sin(slow_rad), std::cos(slow_rad)})};
+    found = dispersion.add(candidates);
+  }
+  return found.value();
+}
+
+TEST(Dispersion, TheRatioIsThatOfTheScattersOfTheNearestOtherBranch) {
+  const SteadyBranch found = settled_without_noise(true);
+  EXPECT_NEAR(angle_between_rad(found.axis.axis_icrf, Eigen::Vector3d::UnitX()), 0.0, 1e-9);
+  EXPECT_NEAR(found.scatter_ratio / ratio_of_drift(found.axis.count), 1.0, 1e-3);
+  EXPECT_FALSE(found.log_likelihood_ratio);
+  // The F-test settled it, and not a revolution late.
+  const int b = static_cast<int>(found.axis.count) - 1;
+  EXPECT_LT(variance_ratio_tail(b, b, found.scatter_ratio), 1e-8);
+  EXPECT_GT(variance_ratio_tail(b - 1, b - 1, ratio_of_drift(b)), 1e-8);
+}
+
+TEST(Dispersion, WhereTheFTestDoesNotSettleItTheLikelihoodRatioIsStatedToo) {
+  const SteadyBranch found = settled_without_noise(false);
+  EXPECT_NEAR(found.scatter_ratio / ratio_of_drift(found.axis.count), 1.0, 1e-3);
+  ASSERT_TRUE(found.log_likelihood_ratio);
+  // Half the squares, of which the branch that stays has none.
+  EXPECT_NEAR(*found.log_likelihood_ratio, found.scatter_ratio * (found.axis.count - 1.0), 1e-9);
+  EXPECT_GT(*found.log_likelihood_ratio, 30.0);
 }
 
 TEST(Dispersion, NoiseAloneSettlesNothing) {
@@ -158,7 +214,7 @@ TEST(Dispersion, WhereAllBranchesDriftNoneIsSteady) {
 TEST(Dispersion, OutliersAndDropOutsAreSurvived) {
   Sky sky{65};
   Dispersion dispersion{100};
-  std::optional<SteadyAxis> found;
+  std::optional<SteadyBranch> found;
   for (int revolution = 0; revolution < 300 && !found; ++revolution) {
     const double moved_rad = 0.08 * kDegree_rad * revolution;
     std::vector candidates{sky.seen(drifting(moved_rad)), sky.seen(kTrue_icrf)};
@@ -171,20 +227,20 @@ TEST(Dispersion, OutliersAndDropOutsAreSurvived) {
     found = dispersion.add(candidates);
   }
   ASSERT_TRUE(found);
-  EXPECT_LT(angle_between_rad(found->axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
 }
 
 TEST(Dispersion, AfterASilenceTheTrueBranchIsWhereItWas) {
   Sky sky{66};
   Dispersion dispersion{100};
-  std::optional<SteadyAxis> found;
+  std::optional<SteadyBranch> found;
   for (int revolution = 0; revolution < 60 && !found; ++revolution) {
     const double silence_rad = revolution < 20 ? 0.0 : 15.0 * kDegree_rad;
     const std::array candidates{sky.seen(kTrue_icrf), sky.seen(drifting(silence_rad))};
     found = dispersion.add(candidates);
   }
   ASSERT_TRUE(found);
-  EXPECT_LT(angle_between_rad(found->axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
 }
 
 TEST(Dispersion, ABranchThatPassesThroughTheTrueOneIsNotTakenForIt) {
@@ -201,7 +257,7 @@ TEST(Dispersion, ABranchThatPassesThroughTheTrueOneIsNotTakenForIt) {
                                   sky.seen(passing(0.2 * kDegree_rad * revolution))};
       if (const auto found = dispersion.add(candidates)) {
         ++settled;
-        ASSERT_LT(angle_between_rad(found->axis_icrf, kTrue_icrf), 0.5 * kDegree_rad) << seed;
+        ASSERT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.5 * kDegree_rad) << seed;
         break;
       }
     }

@@ -11,9 +11,13 @@
 namespace spindrift {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
 using enum PulseChannel;
 
 const SpinConfig kConfig = testing::usual_config();
@@ -39,6 +43,35 @@ SpinEstimate estimate_of(const char* status) {
           .spin_rate_rad_s = 6.28,
           .spin_rate_sigma_rad_s = 1e-6,
           .status = status};
+}
+
+SpinFix fix_of(int geometry_case, Resolution resolution, bool grazing = false) {
+  return {.revolution = 0,
+          .t = tai_from_ns(1'795'143'637'000'000'000),
+          .geometry_case = geometry_case,
+          .axis_icrf = Eigen::Vector3d::UnitX(),
+          .covariance_rad2 = Eigen::Matrix2d::Identity() * 1e-6,
+          .alternate_axes_icrf = {},
+          .resolution = resolution,
+          .norm = 1.0,
+          .accepted = resolution != Resolution::Ambiguous,
+          .grazing = grazing};
+}
+
+/// What the end says of an axis that is ambiguous, of the mission with its prior or without.
+std::string said_of_ambiguous(const char* status, const std::optional<SpinPrior>& prior,
+                              std::optional<PriorVerdict> verdict, bool contradicted = false) {
+  SpinConfig config = kConfig;
+  config.prior = prior;
+  PassNotices notices{config};
+  notices.mean_began();
+  notices.has_fix(fix_of(4, Resolution::Ambiguous), verdict);
+  notices.estimated(estimate_of(status));
+  if (contradicted) {
+    notices.prior_contradicted(tai_from_ns(1'795'143'637'000'000'000));
+  }
+  const auto said = at_the_end(notices);
+  return said.size() == 1 ? said.front() : "not one notice";
 }
 
 TEST(PassNotices, EachThingIsSaidOnce) {
@@ -72,20 +105,82 @@ TEST(PassNotices, TheEndNamesTheChannelsThatWereNeverHeard) {
 TEST(PassNotices, WithoutAnyRevolutionThePeriodIsWhatIsMissing) {
   PassNotices notices{kConfig};
   notices.associated({.closed = {}, .left_over = {PulseUse{}}});
-  EXPECT_THAT(at_the_end(notices), ElementsAre(HasSubstr("no spin period was found")));
+  EXPECT_THAT(at_the_end(notices), ElementsAre(HasSubstr("of rates from 4 to 240 rpm")));
 }
 
 TEST(PassNotices, TheEndSaysWhyTheAxisIsAmbiguous) {
+  EXPECT_THAT(said_of_ambiguous("AMBIGUOUS: two candidates", {}, {}),
+              StartsWith("the axis is ambiguous to the end, for want of good sun2 edges: a prior "
+                         "in the mission file would choose"));
+}
+
+TEST(PassNotices, WhereTheMissionHasAPriorTheEndSaysWhyItDoesNotSettleTheAxis) {
+  const SpinPrior prior{.axis_icrf = Eigen::Vector3d::UnitX(), .sigma_rad = 0.5};
+  const auto said = [&](std::optional<PriorVerdict> verdict, bool contradicted = false) {
+    return said_of_ambiguous("AMBIGUOUS: two candidates", prior, verdict, contradicted);
+  };
+  EXPECT_THAT(said(PriorVerdict::FarFromAll),
+              EndsWith("no candidate is within three sigmas of it"));
+  EXPECT_THAT(said(PriorVerdict::NearSeveral),
+              EndsWith("within its sigma of 28.6479 deg, several candidates are equally near to "
+                       "it"));
+  EXPECT_THAT(said(PriorVerdict::Chooses), HasSubstr("the edges do not bear out the candidate"));
+  EXPECT_THAT(said({}, true),
+              EndsWith("the edges contradict the prior of the mission (spin.prior)"));
+}
+
+TEST(PassNotices, WhereAllFixesGrazeNoPriorIsSaidToSettleTheAxis) {
+  const char* const status = "AMBIGUOUS, or none: all fixes graze";
+  EXPECT_THAT(said_of_ambiguous(status, {}, {}), EndsWith("no prior would settle it"));
+  const SpinPrior prior{.axis_icrf = Eigen::Vector3d::UnitX(), .sigma_rad = 0.009};
+  EXPECT_THAT(said_of_ambiguous(status, prior, PriorVerdict::Chooses),
+              EndsWith("the prior of the mission (spin.prior) does not settle it"));
+}
+
+TEST(PassNotices, TheEndSaysWhyNoFixIsInTheMean) {
   PassNotices notices{kConfig};
-  notices.has_fix(4);
-  notices.estimated(estimate_of("AMBIGUOUS: two candidates"));
-  EXPECT_THAT(at_the_end(notices), ElementsAre(HasSubstr("for want of good sun2 edges")));
+  notices.has_fix(fix_of(7, Resolution::Prior, true), {});
+  notices.has_fix(fix_of(7, Resolution::Ambiguous, true), {});
+  notices.has_fix(fix_of(4, Resolution::Ambiguous), {});
+  SpinFix contradictory = fix_of(1, Resolution::Geometry);
+  contradictory.accepted = false;
+  notices.has_fix(contradictory, {});
+  notices.estimated(estimate_of("DOUBTFUL"));
+  EXPECT_THAT(at_the_end(notices),
+              ElementsAre("the estimator 'mean' never began: of 4 fixes, 2 graze (their candidates "
+                          "come together within the noise), 1 are ambiguous, 1 are not accepted"));
+}
+
+TEST(PassNotices, AMeanThatBeganIsNotMissed) {
+  PassNotices notices{kConfig};
+  notices.has_fix(fix_of(7, Resolution::Ambiguous, true), {});
+  notices.mean_began();
+  EXPECT_THAT(at_the_end(notices), Not(Contains(HasSubstr("'mean'"))));
+}
+
+TEST(PassNotices, ADispersionThatSettlesIsToldWithItsRatio) {
+  PassNotices notices{kConfig};
+  SteadyBranch branch{.axis = {.axis_icrf = Eigen::Vector3d::UnitY(), .count = 42.0},
+                      .scatter_ratio = 25.34,
+                      .log_likelihood_ratio = {}};
+  const TaiTime t = tai_from_ns(1'795'143'637'000'000'000);
+  notices.settled_by_dispersion(t, branch);
+  branch.scatter_ratio = 1.8;
+  branch.log_likelihood_ratio = 34.4;
+  notices.settled_by_dispersion(t, branch);
+  EXPECT_THAT(
+      notices.take(),
+      ElementsAre("2026-11-20T03:00:00.000Z: the dispersion settles on the axis near ra 90.00 dec "
+                  "0.00 deg: over 42 fixes its candidates stay where they are and the others "
+                  "drift, ratio of the scatters 25.3 (F-test)",
+                  EndsWith("ratio of the scatters 1.8 (likelihood ratio e^34)")));
 }
 
 TEST(PassNotices, FixesWithoutAnEstimateAreSaidToBeTooUncertain) {
   PassNotices notices{kConfig};
   notices.without_fix(0, {ErrorCode::Unobservable, "no chord"});
-  notices.has_fix(1);
+  notices.has_fix(fix_of(1, Resolution::Geometry), {});
+  notices.mean_began();
   EXPECT_THAT(notices.take(), ElementsAre("revolution 0 is the first that gives no fix: no chord"));
   EXPECT_THAT(at_the_end(notices), ElementsAre(HasSubstr("'sequential' never began")));
 }

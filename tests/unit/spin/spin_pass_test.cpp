@@ -20,7 +20,10 @@ namespace spindrift {
 namespace {
 
 using testing::all_of;
+using ::testing::AllOf;
 using ::testing::AnyOf;
+using ::testing::Contains;
+using ::testing::EndsWith;
 using testing::last_estimate;
 using testing::recorded_pass;
 using testing::RecordedPass;
@@ -255,6 +258,29 @@ TEST(SpinPass, SaysInTheEndWhichChannelsWereSilentThroughout) {
   EXPECT_EQ(silent(), "no edge at all came from sun2, north_in");
   pass.config.north.reset();
   EXPECT_EQ(silent(), "no edge at all came from sun2");
+}
+
+TEST(SpinPass, SaysInTheEndWhyThereIsNoMeanAndWhyThePriorDoesNotSettleTheAxis) {
+  RecordedPass pass = recorded_pass("north-only");
+  std::erase_if(pass.pulses,
+                [](const Pulse& pulse) { return pulse.channel == PulseChannel::Sun2; });
+  pass.config.prior = SpinPrior{.axis_icrf = -pass.true_axis_icrf, .sigma_rad = kDegree_rad};
+  const SpinOutput output = run(pass);
+  const auto fixes = all_of<SpinFix>(output);
+  const auto grazing =
+      std::count_if(fixes.begin(), fixes.end(), [](const SpinFix& fix) { return fix.grazing; });
+  const auto open = std::count_if(fixes.begin(), fixes.end(), [](const SpinFix& fix) {
+    return !fix.grazing && fix.resolution == Resolution::Ambiguous;
+  });
+  ASSERT_GT(open, 0);
+  EXPECT_THAT(output.notices,
+              Contains(AllOf(StartsWith("the estimator 'mean' never began: of " +
+                                        std::to_string(fixes.size()) + " fixes, " +
+                                        std::to_string(grazing) + " graze"),
+                             EndsWith(", " + std::to_string(open) + " are ambiguous"))));
+  EXPECT_THAT(output.notices, Contains(AllOf(StartsWith("the axis is ambiguous to the end"),
+                                             EndsWith("no candidate is within three sigmas of "
+                                                      "it"))));
 }
 
 TEST(SpinPass, AnEmptyPassGivesNothing) {
