@@ -43,8 +43,8 @@ std::string doubt_about_jumps(const OrbitEphemeris& ephemeris, std::string_view 
   const OrbitJump& first = jumps.front();
   return fmt::format(
       "orbit.oem = \"{}\", line {}: the orbit jumps by {:.3g} km at {}{}: states of different "
-      "solutions spliced? The nadir direction is off by up to {:.2g} deg there, the axis by some "
-      "times that",
+      "solutions spliced? The nadir direction is off by up to {:.2g} deg there, the axis by "
+      "several times that where the geometry is poor",
       file, first.to.line, first.off_km, format_utc(first.to.t),
       jumps.size() == 1 ? std::string{} : fmt::format(", the first of {} such steps", jumps.size()),
       nadir_off_deg(worst));

@@ -237,6 +237,22 @@ TEST(Mission, DoubtsAnOrbitUnderTheNameOfAnother) {
   EXPECT_THAT(load(kElements).value().orbit_doubts, IsEmpty());
 }
 
+TEST(Mission, DoubtsAnOrbitThatJumps) {
+  const TemporaryFolder folder;
+  const std::string orbit = text_of(kData / "mission" / "orbit.oem");
+  folder.write("orbit.oem", replaced(orbit, "6468\\.015605479", "6453.015605479"));
+  const auto mission =
+      load_mission(folder.write("mission.toml", contract_with("spacecraft.id", "'LEOSAT'")));
+  ASSERT_TRUE(mission) << mission.error().message;
+  // 7037 km from the Earth's centre.
+  EXPECT_THAT(
+      mission->orbit_doubts,
+      ElementsAre(AllOf(
+          HasSubstr("orbit.oem = \"orbit.oem\", line 33: the orbit jumps by 15 km at "
+                    "2026-03-01T04:06:00.000Z, the first of 2 such steps: states of different"),
+          HasSubstr("off by up to 0.12 deg there"))));
+}
+
 TEST(Mission, ReportsTenMistakesAsTenProblems) {
   EXPECT_THAT(
       problems_of(R"([spacecraft]
