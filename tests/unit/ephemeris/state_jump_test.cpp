@@ -189,11 +189,9 @@ OemSegment segment_of(const std::vector<OrbitState>& states, int first_minute, i
         {.t = shifted(kStart, 60.0 * (first_minute + i)), .state = state, .line = line + i});
   }
   const auto outer = static_cast<std::size_t>(margin);
-  return {.usable_from = points[outer].t,
-          .usable_to = points[points.size() - 1 - outer].t,
-          .interpolation = Interpolation::Hermite,
-          .degree = 3,
-          .points = std::move(points)};
+  const TaiTime usable_from = points[outer].t;
+  const TaiTime usable_to = points[points.size() - 1 - outer].t;
+  return {usable_from, usable_to, Interpolation::Hermite, 3, std::move(points)};
 }
 
 std::vector<OrbitState> minutes(const OrbitState& start, int from, int to) {
