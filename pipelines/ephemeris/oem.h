@@ -25,6 +25,7 @@ inline constexpr int kMaxInterpolationDegree = 15;
 struct EphemerisPoint {
   TaiTime t;
   OrbitState state;
+  int line = 0;  ///< Of the message that it was read from.
 };
 
 /// One metadata block with its data lines: states at strictly increasing times.
@@ -72,8 +73,8 @@ class OrbitEphemeris {
 /// arcsec; UTC or TAI. A segment is usable where its USEABLE times, its START and STOP times and
 /// its data lines all reach. Without INTERPOLATION: Hermite of degree 7, less if the points are
 /// few, since every data line has a velocity. Accelerations and covariances are checked for form
-/// only. Each state must follow from the one before (state_jump.h); between segments the velocity
-/// may change.
+/// only. Each state must follow from the one before (`jump_km` of state_jump.h; lesser jumps are
+/// taken, and `orbit_jumps` finds them); between segments the velocity may change.
 /// @return InvalidConfiguration with the line number, the key and what is allowed.
 Expected<OrbitEphemeris> parse_oem(std::string_view text);
 

@@ -428,7 +428,8 @@ class OemReader {
     }
     return EphemerisPoint{.t = *time,
                           .state = {.position_icrf_km = Eigen::Vector3d{numbers->data()},
-                                    .velocity_icrf_km_s = Eigen::Vector3d{numbers->data() + 3}}};
+                                    .velocity_icrf_km_s = Eigen::Vector3d{numbers->data() + 3}},
+                          .line = line.number};
   }
 
   Expected<void> read_covariances(const Meta& meta) {

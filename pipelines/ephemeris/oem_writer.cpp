@@ -54,11 +54,11 @@ std::string oem_text(std::string_view object, TaiTime created,
       "INTERPOLATION_DEGREE = 7\n"
       "META_STOP\n\n",
       epoch(created), object, object, epoch(points.front().t), epoch(points.back().t));
-  for (const auto& [t, state] : points) {
-    const Eigen::Vector3d& r = state.position_icrf_km;
-    const Eigen::Vector3d& v = state.velocity_icrf_km_s;
+  for (const EphemerisPoint& point : points) {
+    const Eigen::Vector3d& r = point.state.position_icrf_km;
+    const Eigen::Vector3d& v = point.state.velocity_icrf_km_s;
     fmt::format_to(std::back_inserter(text), "{} {:.9f} {:.9f} {:.9f} {:.12f} {:.12f} {:.12f}\n",
-                   epoch(t), r.x(), r.y(), r.z(), v.x(), v.y(), v.z());
+                   epoch(point.t), r.x(), r.y(), r.z(), v.x(), v.y(), v.z());
   }
   return text;
 }

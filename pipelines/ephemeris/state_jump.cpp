@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/wgs84.h"
@@ -14,6 +16,10 @@ namespace {
 constexpr double kIntegration_s = 30.0;
 constexpr double kTolerance_km = 10.0;
 constexpr double kToleranceOfWay = 0.05;
+
+// States may be printed to no more than that.
+constexpr double kRounding_km = 1.0;
+constexpr double kRounding_km_s = 1e-3;
 
 struct Slope {
   Eigen::Vector3d velocity_km_s;
@@ -32,11 +38,37 @@ OrbitState moved(const OrbitState& state, const Slope& slope, double dt_s) {
           .velocity_icrf_km_s = state.velocity_icrf_km_s + dt_s * slope.acceleration_km_s2};
 }
 
+/// More than what two-body motion leaves out at that distance from the Earth's centre: J2 over the
+/// poles, 3.2e-5 km/s^2 at the surface; Moon and Sun, 1.4e-8 in the geostationary ring, 4e-6 near
+/// the Moon's orbit.
+double left_out_km_s2(double range_km) {
+  return 3.5e-5 * std::pow(wgs84::kEquatorialRadius_km / range_km, 4) +
+         1.2e-8 * std::pow(range_km / 40'000.0, 3);
+}
+
+/// A state that falls, and how far it may be from where the real one is.
+struct Fall {
+  OrbitState state;
+  double bound_km = kRounding_km;
+  double bound_km_s = kRounding_km_s;
+};
+
+/// What is left out carries it away, and gravity's gradient, 2 mu / r^3 at most, what is away.
+void widen(Fall& fall, double dt_s) {
+  const double range_km = fall.state.position_icrf_km.norm();
+  const double gradient_s2 = 2.0 * kEarthMu_km3_s2 / std::pow(range_km, 3);
+  fall.bound_km_s += dt_s * (left_out_km_s2(range_km) + gradient_s2 * fall.bound_km);
+  fall.bound_km += dt_s * fall.bound_km_s;
+}
+
 /// Two-body motion, by Runge and Kutta's fourth order.
-OrbitState fallen(OrbitState state, double duration_s) {
+Fall fall_from(const OrbitState& from, double duration_s) {
   const int steps = std::max(1, static_cast<int>(std::ceil(duration_s / kIntegration_s)));
   const double dt_s = duration_s / steps;
+  Fall fall{.state = from};
   for (int i = 0; i < steps; ++i) {
+    widen(fall, dt_s);
+    OrbitState& state = fall.state;
     const Slope a = slope_at(state);
     const Slope b = slope_at(moved(state, a, 0.5 * dt_s));
     const Slope c = slope_at(moved(state, b, 0.5 * dt_s));
@@ -44,12 +76,18 @@ OrbitState fallen(OrbitState state, double duration_s) {
     state = moved(moved(moved(moved(state, a, dt_s / 6.0), b, dt_s / 3.0), c, dt_s / 3.0), d,
                   dt_s / 6.0);
   }
-  return state;
+  return fall;
 }
 
-}  // namespace
+/// How a state lies to where the one before it falls to.
+struct Step {
+  double off_km;
+  double manoeuvre_km;  ///< What the change of velocity that shows could have made of it.
+  double bound_km;      ///< Of what else is not in two-body motion.
+};
 
-std::optional<double> jump_km(const EphemerisPoint& from, const EphemerisPoint& to) {
+/// Empty where it is not judged.
+std::optional<Step> step_between(const EphemerisPoint& from, const EphemerisPoint& to) {
   const double least_range_km =
       std::min(from.state.position_icrf_km.norm(), to.state.position_icrf_km.norm());
   if (to.t < from.t || to.t - from.t > std::chrono::hours{6} ||
@@ -57,13 +95,64 @@ std::optional<double> jump_km(const EphemerisPoint& from, const EphemerisPoint& 
     return std::nullopt;
   }
   const double dt_s = seconds_between(from.t, to.t);
-  const OrbitState expected = fallen(from.state, dt_s);
-  const double off_km = (to.state.position_icrf_km - expected.position_icrf_km).norm();
-  const double change_km_s = (to.state.velocity_icrf_km_s - expected.velocity_icrf_km_s).norm();
+  const Fall fall = fall_from(from.state, dt_s);
+  const double change_km_s = (to.state.velocity_icrf_km_s - fall.state.velocity_icrf_km_s).norm();
+  return Step{.off_km = (to.state.position_icrf_km - fall.state.position_icrf_km).norm(),
+              .manoeuvre_km = change_km_s * dt_s,
+              .bound_km = fall.bound_km};
+}
+
+/// By time, the point of `segment` that is the last to be used.
+const EphemerisPoint& last_usable(const OemSegment& segment) {
+  return *std::prev(
+      std::upper_bound(segment.points.begin(), segment.points.end(), segment.usable_to,
+                       [](TaiTime t, const EphemerisPoint& point) { return t < point.t; }));
+}
+
+const EphemerisPoint& first_usable(const OemSegment& segment) {
+  return *std::lower_bound(segment.points.begin(), segment.points.end(), segment.usable_from,
+                           [](const EphemerisPoint& point, TaiTime t) { return point.t < t; });
+}
+
+}  // namespace
+
+std::optional<double> jump_km(const EphemerisPoint& from, const EphemerisPoint& to) {
+  const std::optional<Step> step = step_between(from, to);
+  if (!step) {
+    return std::nullopt;
+  }
   const double speed_km_s =
       std::max(from.state.velocity_icrf_km_s.norm(), to.state.velocity_icrf_km_s.norm());
-  const double tolerance_km = kTolerance_km + (kToleranceOfWay * speed_km_s + change_km_s) * dt_s;
-  return off_km > tolerance_km ? std::optional{off_km} : std::nullopt;
+  const double tolerance_km = kTolerance_km +
+                              kToleranceOfWay * speed_km_s * seconds_between(from.t, to.t) +
+                              step->manoeuvre_km;
+  return step->off_km > tolerance_km ? std::optional{step->off_km} : std::nullopt;
+}
+
+std::optional<double> unexplained_km(const EphemerisPoint& from, const EphemerisPoint& to) {
+  const std::optional<Step> step = step_between(from, to);
+  const bool explained = !step || !(step->off_km > step->bound_km + step->manoeuvre_km);
+  return explained ? std::nullopt : std::optional{step->off_km};
+}
+
+std::vector<OrbitJump> orbit_jumps(const OrbitEphemeris& ephemeris) {
+  std::vector<OrbitJump> jumps;
+  const auto judge = [&](const EphemerisPoint& from, const EphemerisPoint& to) {
+    if (const auto off_km = unexplained_km(from, to)) {
+      jumps.push_back({.to = to, .off_km = *off_km});
+    }
+  };
+  const OemSegment* before = nullptr;
+  for (const OemSegment& segment : ephemeris.segments()) {
+    if (before != nullptr) {
+      judge(last_usable(*before), first_usable(segment));
+    }
+    for (std::size_t i = 1; i < segment.points.size(); ++i) {
+      judge(segment.points[i - 1], segment.points[i]);
+    }
+    before = &segment;
+  }
+  return jumps;
 }
 
 }  // namespace spindrift

@@ -1,9 +1,10 @@
 /// @file
-/// Whether two states of one spacecraft follow from each other.
+/// Whether the states of an orbit follow from each other.
 
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "pipelines/ephemeris/oem.h"
 
@@ -14,5 +15,22 @@ namespace spindrift {
 /// have made of it. Steps of more than six hours, back in time, and states inside the Earth (no
 /// orbit of it, as the printed examples of the format) are not judged.
 std::optional<double> jump_km(const EphemerisPoint& from, const EphemerisPoint& to);
+
+/// The same distance, when it is more than a sound orbit explains, be it two-body or real: states
+/// that are printed to 1 km and 1 m/s, J2, Moon and Sun, as far as gravity's gradient can carry
+/// what they do, and a change of velocity that shows in `to`. About 2 km over 2 minutes near the
+/// Earth and over 10 minutes in the geostationary ring, 100 km over half an hour near the Earth. Of
+/// a manoeuvre that is a quarter of a revolution back, too little shows in `to`.
+std::optional<double> unexplained_km(const EphemerisPoint& from, const EphemerisPoint& to);
+
+/// A step that nothing explains.
+struct OrbitJump {
+  EphemerisPoint to;
+  double off_km;  ///< From where the point before it leads to.
+};
+
+/// In order of time, those between the points of a segment and, from the last point that is usable
+/// to the first, between segments.
+std::vector<OrbitJump> orbit_jumps(const OrbitEphemeris& ephemeris);
 
 }  // namespace spindrift

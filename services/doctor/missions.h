@@ -27,7 +27,7 @@ struct MissionFacts {
   std::string no_orbit_now;           ///< Why there is none at present; empty: there is.
   bool infrared = true;               ///< It has an infrared sensor.
   std::vector<std::string> idle;      ///< Tables of the file that nothing reads.
-  std::string doubt_about_orbit = {};  ///< See mission.h.
+  std::vector<std::string> orbit_doubts = {};  ///< See mission.h.
 };
 
 MissionFacts mission_facts(const Mission& mission, TaiTime now);

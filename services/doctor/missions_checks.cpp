@@ -49,9 +49,9 @@ std::vector<Check> check_settings(const MissionFacts& mission) {
         name, fmt::format("nothing reads [{}]", fmt::join(mission.idle, "], [")),
         fmt::format("take it out, or correct spacecraft.kind = \"{}\"", name_of(mission.kind))));
   }
-  if (!mission.doubt_about_orbit.empty()) {
-    checks.push_back(warning(name, mission.doubt_about_orbit,
-                             "make sure that the orbit is that of this spacecraft"));
+  for (const std::string& doubt : mission.orbit_doubts) {
+    checks.push_back(warning(
+        name, doubt, "make sure that the orbit is that of this spacecraft, and of one solution"));
   }
   if (checks.empty()) {
     checks.push_back(ok(name, "sound"));

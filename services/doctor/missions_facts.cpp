@@ -27,7 +27,7 @@ MissionFacts mission_facts(const Mission& mission, TaiTime now) {
                      .no_orbit_now = {},
                      .infrared = !mission.spin || mission.spin->north || mission.spin->south,
                      .idle = idle_tables(mission),
-                     .doubt_about_orbit = doubt_about_orbit(mission)};
+                     .orbit_doubts = mission.orbit_doubts};
   if (!mission.orbit) {
     return facts;
   }

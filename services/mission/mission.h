@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
@@ -27,11 +28,8 @@ struct Mission {
   std::string toml_text;                    ///< The file as read.
   std::string sha256;                       ///< Of toml_text, hexadecimal.
   std::optional<std::string> orbit_sha256;  ///< Of the orbit file, if one is named.
+  std::vector<std::string> orbit_doubts;    ///< About that file, for people (orbit_doubts.h).
 };
-
-/// That the orbit file is one of another spacecraft, going by its OBJECT_NAME and OBJECT_ID, which
-/// may be no more than another name; empty: one of them is `spacecraft_id`, or there is no file.
-std::string doubt_about_orbit(const Mission& mission);
 
 /// Reads a mission file, and the orbit file that it names, by the rules of
 /// schemas/mission.schema.toml.

@@ -9,6 +9,7 @@
 #include "services/archive/stored_edges.h"
 #include "services/mission/mission.h"
 #include "services/spindrift/batch_text.h"
+#include "services/spindrift/orbit_notice.h"
 #include "services/spindrift/summary_text.h"
 
 namespace spindrift {
@@ -23,6 +24,7 @@ Expected<void> batch(const BatchOptions& options) {
                        fmt::format("{}: spacecraft '{}' is no spinner", options.mission.string(),
                                    mission->spacecraft_id)}};
   }
+  warn_of_orbit(options.mission, *mission);
   auto stored = read_edges(options.db, mission->spacecraft_id, options.run);
   if (!stored) {
     return Unexpected{stored.error()};

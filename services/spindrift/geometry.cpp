@@ -1,7 +1,6 @@
 #include "services/spindrift/geometry.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <charconv>
@@ -20,6 +19,7 @@
 #include "services/scenario/output_file.h"
 #include "services/spindrift/geometry_plot.h"
 #include "services/spindrift/geometry_text.h"
+#include "services/spindrift/orbit_notice.h"
 #include "services/units/degrees.h"
 
 namespace spindrift {
@@ -173,9 +173,7 @@ Expected<void> geometry(const GeometryOptions& options) {
     return refused((request ? "" : request.error().message) + (request || mission ? "" : "\n") +
                    (mission ? "" : mission.error().message));
   }
-  if (const std::string doubt = doubt_about_orbit(*mission); !doubt.empty()) {
-    spdlog::warn("{}: {}", options.mission.string(), doubt);
-  }
+  warn_of_orbit(options.mission, *mission);
   const auto pass = planned(options, *mission, *request);
   if (!pass) {
     return Unexpected{pass.error()};

@@ -12,6 +12,7 @@
 #include "services/processor/processor.h"
 #include "services/progress/progress_bar.h"
 #include "services/spindrift/comparison_notice.h"
+#include "services/spindrift/orbit_notice.h"
 #include "services/spindrift/outcome.h"
 #include "services/spindrift/submit_all.h"
 #include "services/spindrift/summary_text.h"
@@ -55,9 +56,7 @@ Expected<void> process(const ProcessOptions& options) {
   if (!mission) {
     return Unexpected{mission.error()};
   }
-  if (const std::string doubt = doubt_about_orbit(*mission); !doubt.empty()) {
-    spdlog::warn("{}: {}", options.mission.string(), doubt);
-  }
+  warn_of_orbit(options.mission, *mission);
   auto processor =
       Processor::make({*mission}, {.mode = "process", .telemetry = one_a_line(options.telemetry)});
   if (!processor) {

@@ -26,6 +26,7 @@
 #include "services/spindrift/announcer.h"
 #include "services/spindrift/comparison_notice.h"
 #include "services/spindrift/heartbeat.h"
+#include "services/spindrift/orbit_notice.h"
 #include "services/spindrift/outcome.h"
 #include "services/spindrift/stop_signal.h"
 #include "services/spindrift/submit_all.h"
@@ -51,9 +52,7 @@ Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::
   for (const std::filesystem::path& path : paths) {
     auto mission = load_mission(path);
     if (mission) {
-      if (const std::string doubt = doubt_about_orbit(*mission); !doubt.empty()) {
-        spdlog::warn("{}: {}", path.string(), doubt);
-      }
+      warn_of_orbit(path, *mission);
       missions.push_back(std::move(*mission));
     } else {
       problems += (problems.empty() ? "" : "\n") + mission.error().message;

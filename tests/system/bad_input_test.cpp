@@ -1,5 +1,5 @@
 // What no pass should bring: the program says so and makes no number up. Bad rows and files of
-// telemetry are in process_test.cpp, an orbit that jumps is in the tests of the pipelines.
+// telemetry are in process_test.cpp.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,6 +23,7 @@ namespace spindrift {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::filesystem::path kData{SPINDRIFT_TEST_DATA};
 const std::filesystem::path kNominal = kData / "spin" / "nominal";
@@ -248,6 +249,60 @@ TEST(ShortOrbit, GivesTheAxisWhereItReachesAndSaysByHowMuchItDoesNot) {
       number_of(outcome.db, "SELECT count(*) FROM spin_fix WHERE t_tai_ns > 1795143937000000000"),
       0);
   EXPECT_LT(error_deg(outcome.run["mean"]), 0.1);
+}
+
+/// The nominal pass with an orbit that is `off_km` further from 03:05:00, line 31 of its file, on.
+std::filesystem::path spliced_copy(const TemporaryFolder& folder, double off_km) {
+  const auto pass = nominal_copy(folder);
+  std::istringstream lines{text_of(pass / "orbit.oem")};
+  std::ofstream spliced{pass / "orbit.oem"};
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (++number >= 31) {
+      std::istringstream words{line};
+      std::string time;
+      double x_km = 0.0;
+      std::string others;
+      std::getline(words >> time >> x_km, others);
+      line = time + " " + std::to_string(x_km + off_km) + others;
+    }
+    spliced << line << "\n";
+  }
+  return pass;
+}
+
+TEST(SplicedOrbit, IsWarnedOfByEveryCommandThatUsesIt) {
+  const TemporaryFolder folder;
+  const auto pass = spliced_copy(folder, 18.0);
+  const auto outcome = process(folder, pass);
+  EXPECT_EQ(outcome.status, 0) << outcome.log;
+  // 15 124 km from the Earth's centre.
+  const auto warns = HasSubstr(
+      "mission.toml: orbit.oem = \"orbit.oem\", line 31: the orbit jumps by 18 km at "
+      "2026-11-20T03:05:00.000Z: states of different solutions spliced? The nadir direction is off "
+      "by up to 0.068 deg there");
+  EXPECT_THAT(outcome.log, warns);
+  const std::string mission = (pass / "mission.toml").string();
+  Program batch{{"batch", "--mission", mission, "--db", outcome.db.string()}};
+  EXPECT_EQ(batch.exit_status(), 0);
+  EXPECT_THAT(batch.log(), warns);
+  Program geometry{{"geometry", "--mission", mission, "--from", "2026-11-20T03:00:00Z", "--to",
+                    "2026-11-20T03:10:00Z", "--attitude", "100,-55"}};
+  EXPECT_EQ(geometry.exit_status(), 0);
+  EXPECT_THAT(geometry.log(), warns);
+}
+
+TEST(SplicedOrbit, IsRefusedByLineWhereNoOrbitCouldBeSo) {
+  const TemporaryFolder folder;
+  const auto outcome = process(folder, spliced_copy(folder, 50.0));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.log, HasSubstr("line 31: the orbit jumps: 50 km from"));
+  EXPECT_FALSE(std::filesystem::exists(outcome.db));
+}
+
+TEST(NominalOrbit, IsNotWarnedOf) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(process(folder, kNominal).log, Not(HasSubstr("jumps")));
 }
 
 TEST(AbsurdTimes, ThatCouldBeTrueLeaveTheOtherProductsAlone) {

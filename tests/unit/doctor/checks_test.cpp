@@ -176,7 +176,7 @@ TEST(DoctorMissions, WarnsOfWhatHasNoEffect) {
 
 TEST(DoctorMissions, WarnsOfAnOrbitThatMayBeThatOfAnother) {
   MissionFacts facts = spinner(48h);
-  facts.doubt_about_orbit = "the orbit file says OBJECT_NAME = GMS-5";
+  facts.orbit_doubts = {"the orbit file says OBJECT_NAME = GMS-5"};
   const Check check = named(check_one(facts), "mission SPINNER");
   EXPECT_EQ(check.verdict, Verdict::Warning);
   EXPECT_THAT(check.found, HasSubstr("GMS-5"));

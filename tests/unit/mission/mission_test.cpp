@@ -24,6 +24,8 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 const std::filesystem::path kData = SPINDRIFT_TEST_DATA;
@@ -176,7 +178,10 @@ TEST(Mission, IsReadFromEveryFileThatWeHave) {
         (folder == "mission" && entry.path().extension() == ".toml")) {
       SCOPED_TRACE(entry.path());
       const auto mission = load_mission(entry.path());
-      EXPECT_TRUE(mission) << mission.error().message;
+      ASSERT_TRUE(mission) << mission.error().message;
+      for (const std::string& doubt : mission->orbit_doubts) {
+        EXPECT_THAT(doubt, Not(HasSubstr("jumps")));
+      }
       ++count;
     }
   }
@@ -219,17 +224,33 @@ TEST(Mission, FindsItsOrbitBesideIt) {
 }
 
 /// Of the contract's mission under another name. The orbit is that of LEOSAT, 2026-999A.
-std::string doubt_about_orbit_of(const char* spacecraft) {
-  return doubt_about_orbit(load(contract_with("spacecraft.id", spacecraft)).value());
+std::vector<std::string> orbit_doubts_of(const char* spacecraft) {
+  return load(contract_with("spacecraft.id", spacecraft)).value().orbit_doubts;
 }
 
 TEST(Mission, DoubtsAnOrbitUnderTheNameOfAnother) {
-  EXPECT_EQ(doubt_about_orbit_of("'SPINNER'"),
-            "the orbit file says OBJECT_NAME = LEOSAT, OBJECT_ID = 2026-999A, the mission file "
-            "spacecraft.id = \"SPINNER\"");
-  EXPECT_EQ(doubt_about_orbit_of("'LEOSAT'"), "");
-  EXPECT_EQ(doubt_about_orbit_of("'2026-999A'"), "");
-  EXPECT_EQ(doubt_about_orbit(load(kElements).value()), "");
+  EXPECT_THAT(orbit_doubts_of("'SPINNER'"),
+              ElementsAre("the orbit file says OBJECT_NAME = LEOSAT, OBJECT_ID = 2026-999A, the "
+                          "mission file spacecraft.id = \"SPINNER\""));
+  EXPECT_THAT(orbit_doubts_of("'LEOSAT'"), IsEmpty());
+  EXPECT_THAT(orbit_doubts_of("'2026-999A'"), IsEmpty());
+  EXPECT_THAT(load(kElements).value().orbit_doubts, IsEmpty());
+}
+
+TEST(Mission, DoubtsAnOrbitThatJumps) {
+  const TemporaryFolder folder;
+  const std::string orbit = text_of(kData / "mission" / "orbit.oem");
+  folder.write("orbit.oem", replaced(orbit, "6468\\.015605479", "6453.015605479"));
+  const auto mission =
+      load_mission(folder.write("mission.toml", contract_with("spacecraft.id", "'LEOSAT'")));
+  ASSERT_TRUE(mission) << mission.error().message;
+  // 7037 km from the Earth's centre.
+  EXPECT_THAT(
+      mission->orbit_doubts,
+      ElementsAre(AllOf(
+          HasSubstr("orbit.oem = \"orbit.oem\", line 33: the orbit jumps by 15 km at "
+                    "2026-03-01T04:06:00.000Z, the first of 2 such steps: states of different"),
+          HasSubstr("off by up to 0.12 deg there"))));
 }
 
 TEST(Mission, ReportsTenMistakesAsTenProblems) {

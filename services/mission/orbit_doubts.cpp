@@ -1,0 +1,63 @@
+#include "services/mission/orbit_doubts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipelines/ephemeris/state_jump.h"
+#include "pipelines/time/utc.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+
+/// Empty: none.
+std::string doubt_about_name(const OrbitEphemeris& ephemeris, std::string_view spacecraft_id) {
+  const auto& segments = ephemeris.segments();
+  const auto other = std::find_if(segments.begin(), segments.end(), [&](const OemSegment& segment) {
+    return segment.object_name != spacecraft_id && segment.object_id != spacecraft_id;
+  });
+  return other == segments.end()
+             ? std::string{}
+             : fmt::format(
+                   "the orbit file says OBJECT_NAME = {}, OBJECT_ID = {}, the mission "
+                   "file spacecraft.id = \"{}\"",
+                   other->object_name, other->object_id, spacecraft_id);
+}
+
+/// Empty: none.
+std::string doubt_about_jumps(const OrbitEphemeris& ephemeris, std::string_view file) {
+  const std::vector<OrbitJump> jumps = orbit_jumps(ephemeris);
+  if (jumps.empty()) {
+    return {};
+  }
+  const auto nadir_off_deg = [](const OrbitJump& jump) {
+    return std::atan2(jump.off_km, jump.to.state.position_icrf_km.norm()) * kDegPerRad;
+  };
+  const OrbitJump& worst = *std::max_element(
+      jumps.begin(), jumps.end(),
+      [&](const OrbitJump& a, const OrbitJump& b) { return nadir_off_deg(a) < nadir_off_deg(b); });
+  const OrbitJump& first = jumps.front();
+  return fmt::format(
+      "orbit.oem = \"{}\", line {}: the orbit jumps by {:.3g} km at {}{}: states of different "
+      "solutions spliced? The nadir direction is off by up to {:.2g} deg there, the axis by "
+      "several times that where the geometry is poor",
+      file, first.to.line, first.off_km, format_utc(first.to.t),
+      jumps.size() == 1 ? std::string{} : fmt::format(", the first of {} such steps", jumps.size()),
+      nadir_off_deg(worst));
+}
+
+}  // namespace
+
+std::vector<std::string> orbit_doubts(const OrbitEphemeris& ephemeris, std::string_view file,
+                                      std::string_view spacecraft_id) {
+  std::vector<std::string> doubts = {doubt_about_name(ephemeris, spacecraft_id),
+                                     doubt_about_jumps(ephemeris, file)};
+  std::erase(doubts, std::string{});
+  return doubts;
+}
+
+}  // namespace spindrift
