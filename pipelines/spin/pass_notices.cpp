@@ -14,9 +14,6 @@
 namespace spindrift {
 namespace {
 
-// Where beams cross the Earth well apart, an axis moves by three or four times the errors of the
-// model; where both look across the same middle of it, by ten.
-constexpr double kPoorLeverage = 6.0;
 constexpr double kPriorSigmas = 5.0;
 // What is said of it, is said once.
 constexpr std::string_view kPrior = "prior";
@@ -257,7 +254,7 @@ void PassNotices::say_what_the_axis_lacks(const SequentialEstimator& sequential)
     say("the estimator 'sequential' never began: its fixes leave the axis, or a candidate for it, "
         "uncertain by more than 3 deg");
   }
-  if (last_status_.starts_with("OK") && sequential.model_leverage() > kPoorLeverage) {
+  if (last_status_.starts_with("OK") && sequential.model_leverage() > SequentialEstimator::kPoorLeverage) {
     constexpr double kModelError_deg = kModelError_rad * 180.0 / std::numbers::pi;
     say(
         fmt::format("poor leverage: errors of {:.2f} deg in mounting or limb move the axis by "
