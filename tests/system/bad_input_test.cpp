@@ -71,7 +71,7 @@ Outcome process_simulated(const TemporaryFolder& folder, const Replacements& rep
 
 /// A copy of the nominal pass to spoil.
 std::filesystem::path nominal_copy(const TemporaryFolder& folder) {
-  const auto pass = folder.path() / "pass";
+  auto pass = folder.path() / "pass";
   std::filesystem::copy(kNominal, pass);
   return pass;
 }
@@ -253,7 +253,7 @@ TEST(ShortOrbit, GivesTheAxisWhereItReachesAndSaysByHowMuchItDoesNot) {
 
 /// The nominal pass with an orbit that is `off_km` further from 03:05:00, line 31 of its file, on.
 std::filesystem::path spliced_copy(const TemporaryFolder& folder, double off_km) {
-  const auto pass = nominal_copy(folder);
+  auto pass = nominal_copy(folder);
   std::istringstream lines{text_of(pass / "orbit.oem")};
   std::ofstream spliced{pass / "orbit.oem"};
   int number = 0;
@@ -264,7 +264,7 @@ std::filesystem::path spliced_copy(const TemporaryFolder& folder, double off_km)
       double x_km = 0.0;
       std::string others;
       std::getline(words >> time >> x_km, others);
-      line = time + " " + std::to_string(x_km + off_km) + others;
+      line = time.append(" ").append(std::to_string(x_km + off_km)).append(others);
     }
     spliced << line << "\n";
   }
