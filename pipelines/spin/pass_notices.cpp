@@ -254,7 +254,8 @@ void PassNotices::say_what_the_axis_lacks(const SequentialEstimator& sequential)
     say("the estimator 'sequential' never began: its fixes leave the axis, or a candidate for it, "
         "uncertain by more than 3 deg");
   }
-  if (last_status_.starts_with("OK") && sequential.model_leverage() > SequentialEstimator::kPoorLeverage) {
+  if (last_status_.starts_with("OK") &&
+      sequential.model_leverage() > SequentialEstimator::kPoorLeverage) {
     constexpr double kModelError_deg = kModelError_rad * 180.0 / std::numbers::pi;
     say(
         fmt::format("poor leverage: errors of {:.2f} deg in mounting or limb move the axis by "

@@ -69,8 +69,8 @@ class SequentialEstimator {
   /// What errors of the model, one radian each, move the axis by, all ways together, rad: of the
   /// geometry alone. Estimates include only what the edges show of such errors. There must be one.
   double model_leverage() const;
-  /// Beyond it the status says so. Where beams cross the Earth well apart, an axis moves by three or
-  /// four times the errors of the model; where both look across the same middle of it, by ten.
+  /// Beyond it the status says so. Where beams cross the Earth well apart, an axis moves by three
+  /// or four times the errors of the model; where both look across the same middle of it, by ten.
   static constexpr double kPoorLeverage = 6.0;
 
   /// The axis that the edges settled beyond doubt among several.
