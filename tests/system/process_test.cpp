@@ -290,7 +290,7 @@ TEST(Process, GivesTheSameRowsWhateverFilesThePulsesStandIn) {
 }
 
 TEST(Process, ReadsALargeFileInBoundedMemory) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef SPINDRIFT_SANITIZED
   GTEST_SKIP() << "sanitizers need memory of their own";
 #endif
   // 60 MB: another spacecraft's pulses, which are counted only, around those of ours.
