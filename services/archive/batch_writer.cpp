@@ -5,10 +5,12 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 #include "services/archive/connection.h"
@@ -162,6 +164,7 @@ Expected<void> BatchWriter::write(std::span<const ArchiveBatch> batches) {
     for (const ArchiveBatch& batch : batches) {
       insert(batch);
     }
+    insert_latest_counts(batches);
     transaction.commit();
     return {};
   } catch (const SQLite::Exception& exception) {
@@ -195,11 +198,21 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
   if (batch.batch) {
     insert(batch.run_id, *batch.batch);
   }
-  for (const SourceCount& count : batch.source_counts) {
-    insert(batch.run_id, count);
-  }
   if (batch.finished_utc) {
     execute(run_finished_, *batch.finished_utc, batch.run_id);
+  }
+}
+
+// Each batch has the counts as they have come to be: of many only the last are seen.
+void BatchWriter::insert_latest_counts(std::span<const ArchiveBatch> batches) {
+  std::map<std::pair<std::string_view, std::string_view>, const SourceCount*> latest;
+  for (const ArchiveBatch& batch : batches) {
+    for (const SourceCount& count : batch.source_counts) {
+      latest.insert_or_assign({batch.run_id, count.source}, &count);
+    }
+  }
+  for (const auto& [key, count] : latest) {
+    insert(std::string{key.first}, *count);
   }
 }
 

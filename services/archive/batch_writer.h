@@ -33,6 +33,7 @@ class BatchWriter {
   void insert(const ArchiveBatch& batch, const CodedSample& sample, std::int64_t arrival);
   void insert(const std::string& run_id, const RejectedInput& rejected);
   void insert(const std::string& run_id, const SourceCount& count);
+  void insert_latest_counts(std::span<const ArchiveBatch> batches);
   void insert(const ArchiveBatch& batch, const PulseUse& use);
   void insert(const ArchiveBatch& batch, const RevolutionProduct& revolution);
   void insert(const ArchiveBatch& batch, const SpinMeasurement& measurement);

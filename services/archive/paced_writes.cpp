@@ -7,7 +7,7 @@
 namespace spindrift {
 namespace {
 
-constexpr int kPages = 64;
+constexpr int kPages = 16;
 
 struct Pace {
   bool kept = false;
