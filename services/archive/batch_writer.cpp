@@ -138,7 +138,8 @@ BatchWriter::BatchWriter(SQLite::Database& database)
       spin_batch_{database,
                   "INSERT OR REPLACE INTO spin_batch (run_id, t_tai_ns, bound_deg, edges, outliers,"
                   " noise, iterations, singular_values, undetermined, changed_tai_ns,"
-                  " consider_sigma_deg) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+                  " consider_sigma_deg, rate_drift_rpm_h, rate_drift_sigma_rpm_h)"
+                  " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
       // Those of a later solution stay.
       spin_biases_gone_{database,
                         "DELETE FROM spin_bias WHERE run_id = ?1 AND estimator = 'batch' AND NOT"
@@ -353,7 +354,8 @@ void BatchWriter::insert(const std::string& run_id, const BatchSolution& solutio
           solution.edges, solution.outliers, solution.noise, std::int64_t{solution.iterations},
           nlohmann::json(solution.singular_values).dump(),
           fmt::format("{}", fmt::join(solution.undetermined, "\n")), changed_tai_ns,
-          solution.consider_sigma_rad * kDegPerRad);
+          solution.consider_sigma_rad * kDegPerRad, solution.drift_rad_s2 * kRpmPerHourPerRad_s2,
+          solution.drift_sigma_rad_s2 * kRpmPerHourPerRad_s2);
   insert_biases(run_id, solution);
   if (solution.nutation) {
     insert(run_id, solution, *solution.nutation);

@@ -23,11 +23,12 @@ extern const char* const schema_0008_coning;
 extern const char* const schema_0009_quick_answers;
 extern const char* const schema_0010_estimated_biases;
 extern const char* const schema_0011_consider_sigma;
+extern const char* const schema_0012_rate_drift;
 }  // namespace embedded
 
 namespace {
 
-constexpr std::size_t kMigrations = 11;
+constexpr std::size_t kMigrations = 12;
 
 std::array<const char*, kMigrations> migrations() {
   return {embedded::schema_0001_tables,         embedded::schema_0002_views,
@@ -35,7 +36,7 @@ std::array<const char*, kMigrations> migrations() {
           embedded::schema_0005_fix_candidates, embedded::schema_0006_time_order,
           embedded::schema_0007_batch,          embedded::schema_0008_coning,
           embedded::schema_0009_quick_answers,  embedded::schema_0010_estimated_biases,
-          embedded::schema_0011_consider_sigma};
+          embedded::schema_0011_consider_sigma, embedded::schema_0012_rate_drift};
 }
 
 }  // namespace

@@ -102,6 +102,9 @@ std::string to_text(const BatchSolution& solution) {
   text += fmt::format(
       "  consider     {:.4f} deg (sigma, were no bias known better than by its prior)\n",
       solution.consider_sigma_rad * kDegPerRad);
+  text += fmt::format("  rate drift   {:+.6f} +/- {:.6f} rpm/h\n",
+                      solution.drift_rad_s2 * kRpmPerHourPerRad_s2,
+                      solution.drift_sigma_rad_s2 * kRpmPerHourPerRad_s2);
   text += nutation_text(solution) + coning_text(solution.coning);
   std::string_view heading = "biases";
   for (const BiasEstimate& bias : solution.biases) {
@@ -129,18 +132,21 @@ nlohmann::json to_json(const BatchSolution& solution) {
                                                      {"observable", bias.observable},
                                                      {"estimated", bias.estimated}};
   }
-  nlohmann::json json{{"bound_deg", solution.bound_rad * kDegPerRad},
-                      {"consider_sigma_deg", solution.consider_sigma_rad * kDegPerRad},
-                      {"edges", solution.edges},
-                      {"outliers", solution.outliers},
-                      {"noise", solution.noise},
-                      {"iterations", solution.iterations},
-                      {"singular_values", solution.singular_values},
-                      {"undetermined", solution.undetermined},
-                      {"biases", biases},
-                      {"nutation", nutation_json(solution)},
-                      {"coning", to_json(solution.coning)},
-                      {"changed_utc", nullptr}};
+  nlohmann::json json{
+      {"bound_deg", solution.bound_rad * kDegPerRad},
+      {"consider_sigma_deg", solution.consider_sigma_rad * kDegPerRad},
+      {"rate_drift_rpm_h", solution.drift_rad_s2 * kRpmPerHourPerRad_s2},
+      {"rate_drift_sigma_rpm_h", solution.drift_sigma_rad_s2 * kRpmPerHourPerRad_s2},
+      {"edges", solution.edges},
+      {"outliers", solution.outliers},
+      {"noise", solution.noise},
+      {"iterations", solution.iterations},
+      {"singular_values", solution.singular_values},
+      {"undetermined", solution.undetermined},
+      {"biases", biases},
+      {"nutation", nutation_json(solution)},
+      {"coning", to_json(solution.coning)},
+      {"changed_utc", nullptr}};
   if (solution.changed) {
     json["changed_utc"] = format_utc(*solution.changed);
   }

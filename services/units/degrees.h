@@ -13,6 +13,7 @@ namespace spindrift {
 
 inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 inline constexpr double kRpmPerRad_s = 30.0 / std::numbers::pi;
+inline constexpr double kRpmPerHourPerRad_s2 = kRpmPerRad_s * 3600.0;
 
 /// Right ascension in [0, 360), declination in [-90, 90].
 struct PlaceDeg {

@@ -276,6 +276,8 @@ TEST_F(ArchiveProducts, TwoArchivesMergeByNaturalKey) {
 ArchiveBatch solution_with(std::int64_t t_tai_ns, std::vector<BiasEstimate> biases) {
   ArchiveBatch batch = testing::batch_of("run-1");
   batch.batch = BatchSolution{.estimate = estimate_at(t_tai_ns, SpinEstimator::Batch, 0.0),
+                              .drift_rad_s2 = 1e-6,
+                              .drift_sigma_rad_s2 = 1e-8,
                               .bound_rad = 1e-4,
                               .consider_sigma_rad = 1e-3,
                               .biases = std::move(biases),

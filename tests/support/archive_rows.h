@@ -69,7 +69,8 @@ inline std::vector<std::string> last_batch_rows(const std::filesystem::path& db)
   for (const std::string& query : std::vector<std::string>{
            "SELECT t_tai_ns, ra_deg, dec_deg, sigma_deg, spin_rate_rpm, sigma_rpm, status"
            " FROM spin_estimate WHERE estimator = 'batch' ORDER BY 1 DESC LIMIT 1",
-           "SELECT t_tai_ns, bound_deg, consider_sigma_deg, edges, outliers, noise, iterations,"
+           "SELECT t_tai_ns, bound_deg, consider_sigma_deg, rate_drift_rpm_h, "
+           "rate_drift_sigma_rpm_h, edges, outliers, noise, iterations,"
            " singular_values, undetermined, changed_tai_ns FROM spin_batch ORDER BY 1 DESC LIMIT 1",
            "SELECT t_tai_ns, detected, detectable_deg FROM spin_nutation ORDER BY 1 DESC LIMIT 1",
            "SELECT name, value, sigma, unit, observable, estimated FROM spin_bias ORDER BY 1"}) {

@@ -60,6 +60,10 @@ TEST(Batch, StandsBesideTheOtherEstimatorsWithBoundAndBiases) {
   const double consider_deg = batch["consider_sigma_deg"].get<double>();
   EXPECT_GT(consider_deg, sigma_deg);
   EXPECT_EQ(consider_deg, real_of(db, "SELECT consider_sigma_deg FROM spin_batch"));
+  const double drift_sigma_rpm_h = batch["rate_drift_sigma_rpm_h"].get<double>();
+  EXPECT_NEAR(batch["rate_drift_rpm_h"].get<double>(), 0.0, 3.0 * drift_sigma_rpm_h);
+  EXPECT_EQ(batch["rate_drift_rpm_h"], real_of(db, "SELECT rate_drift_rpm_h FROM spin_batch"));
+  EXPECT_EQ(drift_sigma_rpm_h, real_of(db, "SELECT rate_drift_sigma_rpm_h FROM spin_batch"));
   EXPECT_FALSE(batch["nutation"]["detected"]);
   EXPECT_EQ(batch["biases"].size(), 8U);
 

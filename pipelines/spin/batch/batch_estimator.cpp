@@ -204,6 +204,8 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
            .spin_rate_rad_s = best.fit.state.rate_rad_s + best.fit.state.drift_rad_s2 * half_s,
            .spin_rate_sigma_rad_s = std::sqrt(observed.last_rate_variance(half_s) * excess_noise),
            .status = {}},
+      .drift_rad_s2 = best.fit.state.drift_rad_s2,
+      .drift_sigma_rad_s2 = std::sqrt(observed.drift_variance(half_s) * excess_noise),
       .bound_rad = std::sqrt(bound_rad2.trace()),
       .consider_sigma_rad = consider_sigma_rad(best, excess_noise),
       .biases = all_biases(best),

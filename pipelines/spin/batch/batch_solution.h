@@ -34,6 +34,8 @@ struct ConingEstimate {
 
 struct BatchSolution {
   SpinEstimate estimate;
+  double drift_rad_s2;  ///< Of the rate, even over the pass.
+  double drift_sigma_rad_s2;
   /// Cramer-Rao bound of the axis, both directions together, with the stated noise and the biases
   /// that are estimated.
   double bound_rad;

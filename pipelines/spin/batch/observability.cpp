@@ -70,6 +70,10 @@ Observability::Observability(const PassInformation& information, BiasSet estimat
       unit.asDiagonal() * with_priors.ldlt().solve(Matrix::Identity()).eval() * unit.asDiagonal();
 }
 
+double Observability::drift_variance(double half_s) const {
+  return covariance_(4, 4) * std::pow(2.0 / (half_s * half_s), 2);
+}
+
 double Observability::last_rate_variance(double half_s) const {
   // Rate at the middle, and twice what the drift turns the body by in half the pass.
   const Eigen::Vector2d last{1.0 / half_s, 2.0 / half_s};

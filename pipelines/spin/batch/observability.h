@@ -29,6 +29,8 @@ class Observability {
   Eigen::Matrix2d coning_covariance_rad2() const {
     return covariance_.block<2, 2>(kMotionUnknowns + ConingX, kMotionUnknowns + ConingX);
   }
+  /// Of the drift of the rate, (rad/s^2)^2. @param half_s Half length of the pass.
+  double drift_variance(double half_s) const;
   /// Of the rate at the end of the pass. @param half_s Its half length.
   double last_rate_variance(double half_s) const;
 

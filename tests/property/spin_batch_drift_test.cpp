@@ -1,0 +1,40 @@
+/// A spin rate that drifts evenly: by how much is said with an error bar that is a promise.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/wobbling_pass.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::StartsWith;
+
+TEST(SpinBatchDrift, ErrorsAreThoseThatItsSigmaPromises) {
+  constexpr int kPasses = 100;
+  testing::WobblingPasses passes{2601, 120.0};
+  double squares = 0.0;
+  double least_sigmas = 1e9;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    SpinTruth truth = passes.drawn();
+    truth.motion.rate_drift_rad_s2 = 2e-5 * (passes.uniform() - 0.5);
+    const auto solution = passes.solved(passes.edges(truth));
+    ASSERT_TRUE(solution) << solution.error().message;
+    EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
+    const double sigma_rad_s2 = solution->drift_sigma_rad_s2;
+    squares +=
+        std::pow((solution->drift_rad_s2 - truth.motion.rate_drift_rad_s2) / sigma_rad_s2, 2);
+    least_sigmas = std::min(least_sigmas, 1e-5 / sigma_rad_s2);
+  }
+  // 95 % of chi-square, 100 degrees of freedom.
+  EXPECT_GT(squares, 74.2);
+  EXPECT_LT(squares, 129.6);
+  // The drifts are not lost in the noise.
+  EXPECT_GT(least_sigmas, 3.0);
+}
+
+}  // namespace
+}  // namespace spindrift
