@@ -24,8 +24,8 @@ Eigen::Vector3d at_deg(double ra_deg, double dec_deg) {
   return direction_icrf({.ra_rad = ra_deg * kDegree_rad, .dec_rad = dec_deg * kDegree_rad});
 }
 
-// Two cones that meet in two axes; all values worked out in 30 digits by mpmath. The reference prints the
-// false right ascension as ...408178 for ...41808, where its own cones do not meet.
+// Two cones that meet in two axes; all values worked out in 30 digits by mpmath. The reference
+// prints the false right ascension as ...408178 for ...41808, where its own cones do not meet.
 const Eigen::Vector3d kSun_icrf = at_deg(10.0, 4.3);
 const Eigen::Vector3d kEarth_icrf = at_deg(80.0, -20.0);
 const Eigen::Vector3d kAxis_icrf = at_deg(268.625, 68.4485);
