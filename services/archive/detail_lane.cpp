@@ -1,6 +1,5 @@
 #include "services/archive/detail_lane.h"
 
-#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -15,23 +14,22 @@ constexpr std::chrono::seconds kLongest{1};
 }  // namespace
 
 void DetailLane::push(ArchiveBatch batch, Instant now) {
-  const std::size_t rows = row_count(batch);
-  Waiting& waiting = waiting_
+  const auto group = waiting_
                          .try_emplace({batch.run_id, batch.products.front().index()},
                                       Waiting{.batches = {}, .rows = 0, .since = now})
-                         .first->second;
-  waiting.rows += rows;
+                         .first;
+  by_due_.erase({due(group->second), &group->first});
+  const std::size_t rows = row_count(batch);
+  group->second.rows += rows;
   rows_ += rows;
-  waiting.batches.push_back(std::move(batch));
+  group->second.batches.push_back(std::move(batch));
+  by_due_.emplace(due(group->second), &group->first);
 }
 
 std::vector<ArchiveBatch> DetailLane::take_due(Instant now, std::size_t rows) {
-  const auto next =
-      std::min_element(waiting_.begin(), waiting_.end(),
-                       [](const auto& a, const auto& b) { return due(a.second) < due(b.second); });
   std::vector<ArchiveBatch> taken;
-  if (next != waiting_.end() && due(next->second) <= now) {
-    move(next, rows, taken);
+  if (const auto next = next_due(); next && *next <= now) {
+    move(waiting_.find(*by_due_.begin()->second), rows, taken);
   }
   return taken;
 }
@@ -46,11 +44,7 @@ std::vector<ArchiveBatch> DetailLane::take_all(const std::string& run_id) {
 }
 
 std::optional<DetailLane::Instant> DetailLane::next_due() const {
-  std::optional<Instant> next;
-  for (const auto& [group, waiting] : waiting_) {
-    next = std::min(next.value_or(Instant::max()), due(waiting));
-  }
-  return next;
+  return by_due_.empty() ? std::nullopt : std::optional{by_due_.begin()->first};
 }
 
 std::size_t DetailLane::size() const {
@@ -65,6 +59,7 @@ DetailLane::Instant DetailLane::due(const Waiting& waiting) {
 
 void DetailLane::move(Groups::iterator group, std::size_t rows, std::vector<ArchiveBatch>& taken) {
   Waiting& waiting = group->second;
+  by_due_.erase({due(waiting), &group->first});
   for (const std::size_t before = waiting.rows;
        !waiting.batches.empty() && before - waiting.rows < rows;) {
     waiting.rows -= row_count(waiting.batches.front());
@@ -74,6 +69,8 @@ void DetailLane::move(Groups::iterator group, std::size_t rows, std::vector<Arch
   }
   if (waiting.batches.empty()) {
     waiting_.erase(group);
+  } else {
+    by_due_.emplace(due(waiting), &group->first);
   }
 }
 

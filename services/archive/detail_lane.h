@@ -8,6 +8,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,7 +32,7 @@ class DetailLane {
   std::vector<ArchiveBatch> take_due(Instant now, std::size_t rows);
   std::vector<ArchiveBatch> take_all(const std::string& run_id);
 
-  /// When the next are. Empty: there are none.
+  /// When the next are. Empty: there are none. Asked at every push and commit.
   std::optional<Instant> next_due() const;
 
   std::size_t rows() const { return rows_; }
@@ -50,6 +51,7 @@ class DetailLane {
   void move(Groups::iterator group, std::size_t rows, std::vector<ArchiveBatch>& taken);
 
   Groups waiting_;
+  std::set<std::pair<Instant, const Groups::key_type*>> by_due_;  ///< All of `waiting_`.
   std::size_t rows_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "services/publisher/announcements.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -40,13 +42,18 @@ void keep_latest_of_each(std::vector<Announcement>& announcements) {
 }  // namespace
 
 void Announcements::add(const std::string& spacecraft, std::span<const SpinProduct> products) {
+  std::vector<Announcement> more;
+  for (const SpinProduct& product : products) {
+    if (auto announcement = announcement_of(spacecraft, product)) {
+      more.push_back(std::move(*announcement));
+    }
+  }
+  if (more.empty()) {
+    return;  // Most of what is stored is not announced: nobody is woken for it.
+  }
   {
     const std::lock_guard lock{mutex_};
-    for (const SpinProduct& product : products) {
-      if (auto announcement = announcement_of(spacecraft, product)) {
-        waiting_.push_back(std::move(*announcement));
-      }
-    }
+    std::move(more.begin(), more.end(), std::back_inserter(waiting_));
     if (waiting_.size() > kMaxWaiting) {
       keep_latest_of_each(waiting_);
     }
