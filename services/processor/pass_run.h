@@ -28,6 +28,10 @@ struct PassInput {
   std::vector<CodedFrame> frames = {};
 };
 
+inline std::size_t sample_count(const PassInput& input) {
+  return input.pulses.size() + input.frames.size();
+}
+
 /// The fix and the estimates in force, those that are announced, as they pass by.
 class LatestResults {
  public:

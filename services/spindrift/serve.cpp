@@ -1,19 +1,13 @@
 #include "services/spindrift/serve.h"
 
 #include <fmt/format.h>
-#include <pthread.h>
-#include <sched.h>
 #include <spdlog/spdlog.h>
 
 #include <atomic>
 #include <chrono>
-#include <future>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <stop_token>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -24,10 +18,13 @@
 #include "services/processor/processor.h"
 #include "services/publisher/result_publisher.h"
 #include "services/spindrift/announcer.h"
+#include "services/spindrift/batch_solving.h"
 #include "services/spindrift/comparison_notice.h"
+#include "services/spindrift/computing.h"
 #include "services/spindrift/heartbeat.h"
 #include "services/spindrift/orbit_notice.h"
 #include "services/spindrift/outcome.h"
+#include "services/spindrift/patience.h"
 #include "services/spindrift/stop_signal.h"
 #include "services/spindrift/submit_all.h"
 #include "services/spindrift/summary_text.h"
@@ -37,10 +34,8 @@ namespace {
 
 // Samples between the thread that takes and the one that routes.
 constexpr std::size_t kSamplesTaken = 65'536;
-// Samples between the thread that routes and the one that computes: a whole day's pass in a burst.
+// Samples that wait to be computed: a whole day's pass in a burst.
 constexpr std::size_t kSamplesToCompute = 1'000'000;
-// Batch solutions that wait: those of a minute of many spacecraft, or of hours in a replay.
-constexpr std::size_t kBatchTasks = 256;
 constexpr std::chrono::milliseconds kStuckPoll{200};
 // A backlog of what was stored is computed for so long after the signal to stop. What is left then
 // is computed at the next start.
@@ -64,121 +59,51 @@ Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::
   return missions;
 }
 
-std::size_t sample_count(const PassInput& work) { return work.pulses.size() + work.frames.size(); }
 std::size_t sample_count(const SampleBatch& taken) {
   return taken.pulses.size() + taken.coded.size() + taken.rejected.size();
 }
 
-/// Of a service that is told to stop.
-struct Patience {
-  std::atomic<bool> stopping = false;
-  std::atomic<bool> ended = false;  ///< What is stored is no longer computed.
-};
-
-/// First `again`. Then hands what is taken to the archive and on to `work`, until `taken` is closed
-/// and empty, or the archive refuses.
+/// First `again`. Then hands what is taken to the archive and on to be computed, until `taken` is
+/// closed and empty, or the archive refuses.
 Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
-                     Processor& processor, Archive& archive, BoundedQueue<PassInput>& work) {
+                     Processor& processor, Archive& archive, Computing& computing) {
   for (PassInput& input : again) {
-    work.push(std::move(input));
+    computing.leave_to_backlog(std::move(input));
   }
   while (auto batch = taken.take()) {
     Routed routed = processor.route(std::move(*batch));
-    if (auto stored = submit_all(archive, std::move(routed.samples)); !stored) {
+    auto stored = submit_all(archive, std::move(routed.samples));
+    for (auto input = routed.work.begin(); stored && input != routed.work.end(); ++input) {
+      stored = computing.take(std::move(*input), taken.size());
+    }
+    if (!stored) {
       taken.close();  // Nobody empties it any more: the taking thread must not wait for room.
       return stored;
-    }
-    for (PassInput& input : routed.work) {
-      work.push(std::move(input));
     }
   }
   return {};
 }
 
-/// Nobody waits for the solution of a minute, and everybody for fixes: it gets what processor time
-/// they leave.
-void give_way_to_other_threads() {
-  const sched_param none{};
-  const int failed = pthread_setschedparam(pthread_self(), SCHED_IDLE, &none);
-  static std::once_flag said;
-  if (failed != 0) {
-    std::call_once(said, [failed] {
-      spdlog::warn("batch solutions compete with fixes for the processor: {}",
-                   std::generic_category().message(failed));
-    });
-  }
-}
-
-/// In a thread that does nothing else: one that gives way must not hold the archive's locks, and
-/// without privileges none can cease to give way.
-Expected<BatchSolution> solve_giving_way(const BatchTask& task) {
-  return std::async(std::launch::async,
-                    [&task] {
-                      give_way_to_other_threads();
-                      return solve(task);
-                    })
-      .get();
-}
-
-/// Solves until `tasks` is closed and empty, or patience ends: the end of a run has a solution of
-/// its own.
-void solve_batches(BoundedQueue<BatchTask>& tasks, Archive& archive, const Patience& patience) {
-  std::map<std::string, std::string> said;
-  while (const auto task = tasks.take()) {
-    if (patience.ended) {
-      continue;
-    }
-    auto solution = solve_giving_way(*task);
-    if (!solution) {
-      std::string& reason = said[task->spacecraft_id];
-      if (std::exchange(reason, solution.error().message) != solution.error().message) {
-        spdlog::warn("{}: no batch solution: {}", task->spacecraft_id, reason);
-      }
-    } else if (!archive.submit(archived(*task, *std::move(solution)))) {
-      tasks.close();  // Those who compute meet the same archive, and say so.
-    }
-  }
-}
-
-/// Works until `work` is closed and empty, or the archive refuses.
-/// @return samples that were left when patience ended.
-Expected<std::size_t> compute(BoundedQueue<PassInput>& work, BoundedQueue<BatchTask>& tasks,
-                              Processor& processor, Archive& archive, const Patience& patience) {
-  std::size_t left = 0;
-  while (const auto input = work.take()) {
-    if (patience.ended) {
-      left += sample_count(*input);
-    } else if (auto stored = submit_all(archive, processor.compute(*input)); !stored) {
-      work.close();  // Nobody empties it any more.
-      return Unexpected{stored.error()};
-    }
-    for (BatchTask& task : processor.take_batch_tasks(*input)) {
-      tasks.push(std::move(task));
-    }
-  }
-  return left;
-}
-
-/// Both at once: samples reach the archive however long the mathematics takes. In the end runs are
-/// finished of which all samples are computed.
+/// In the end runs are finished of which all samples are computed.
 Expected<void> route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
-                                 BoundedQueue<PassInput>& work, Processor& processor,
+                                 BoundedQueue<PassInput>& backlog, Processor& processor,
                                  Archive& archive, const Patience& patience) {
-  Expected<std::size_t> left;
-  BoundedQueue<BatchTask> tasks{kBatchTasks};
+  BoundedQueue<BatchTask> tasks{kMostBatchTasks};
+  Computing computing{processor, archive, backlog, tasks, patience};
+  Expected<void> worked_off;
   std::thread solving{[&] { solve_batches(tasks, archive, patience); }};
-  std::thread computing{[&] { left = compute(work, tasks, processor, archive, patience); }};
-  const auto routed = route(std::move(again), taken, processor, archive, work);
-  work.close();
-  computing.join();
+  std::thread working_off{[&] { worked_off = computing.work_off(); }};
+  const auto routed = route(std::move(again), taken, processor, archive, computing);
+  backlog.close();
+  working_off.join();
   tasks.close();
   solving.join();
-  if (!routed || !left) {
-    return routed ? Unexpected{left.error()} : routed;
+  if (!routed || !worked_off) {
+    return routed ? worked_off : routed;
   }
-  if (*left > 0) {
+  if (computing.samples_left() > 0) {
     spdlog::warn("{} samples are stored and not computed yet: the next start of the service will",
-                 *left);
+                 computing.samples_left());
     return {};
   }
   return submit_all(archive, processor.finish());

@@ -1,0 +1,72 @@
+#include "services/spindrift/computing.h"
+
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "services/spindrift/batch_solving.h"
+#include "services/spindrift/submit_all.h"
+
+namespace spindrift {
+namespace {
+
+// More than these are a burst.
+constexpr std::size_t kFewSamples = 64;
+constexpr std::size_t kFewBatches = 8;
+
+/// What a burst leaves to be computed can wait, and its samples cannot be had again: where both
+/// want the processor this thread has a tenth of it.
+void let_samples_come_first() {
+  constexpr int kNice = 10;
+  if (setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice) != 0) {
+    spdlog::warn("the backlog competes with samples for the processor: {}",
+                 std::generic_category().message(errno));
+  }
+}
+
+}  // namespace
+
+Expected<void> Computing::take(PassInput input, std::size_t batches_behind) {
+  const bool is_little = sample_count(input) <= kFewSamples && batches_behind <= kFewBatches;
+  // The thread that routes must not wait for batch solutions either.
+  if (is_little && waiting_ == 0 && tasks_.size() < kMostBatchTasks / 2) {
+    return compute(input);
+  }
+  leave_to_backlog(std::move(input));
+  return {};
+}
+
+void Computing::leave_to_backlog(PassInput input) {
+  ++waiting_;
+  backlog_.push(std::move(input));
+}
+
+Expected<void> Computing::work_off() {
+  let_samples_come_first();
+  while (const auto input = backlog_.take()) {
+    if (auto stored = compute(*input); !stored) {
+      backlog_.close();  // Nobody empties it any more.
+      return stored;
+    }
+    --waiting_;
+  }
+  return {};
+}
+
+Expected<void> Computing::compute(const PassInput& input) {
+  if (patience_.ended) {
+    samples_left_ += sample_count(input);
+  } else if (auto stored = submit_all(archive_, processor_.compute(input)); !stored) {
+    return stored;
+  }
+  for (BatchTask& task : processor_.take_batch_tasks(input)) {
+    tasks_.push(std::move(task));
+  }
+  return {};
+}
+
+}  // namespace spindrift
