@@ -8,7 +8,7 @@ CREATE TABLE spin_batch (
   outliers        INTEGER NOT NULL CHECK (outliers >= 0),
   noise           REAL NOT NULL CHECK (noise >= 1),  -- times the stated one
   iterations      INTEGER NOT NULL,
-  singular_values TEXT NOT NULL,  -- of the whitened equations, largest first; JSON
+  singular_values TEXT NOT NULL,  -- of the whitened equations of what is estimated, largest first; JSON
   undetermined    TEXT NOT NULL,  -- directions of the biases that the edges leave open; a line each
   changed_tai_ns  INTEGER,        -- attitude or rate did, and only edges after it count; NULL: did not
   PRIMARY KEY (run_id, t_tai_ns)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
@@ -17,6 +18,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "tests/support/archive_rows.h"
+#include "tests/support/processed_pass.h"
 #include "tests/support/program.h"
 
 namespace spindrift {
@@ -28,36 +30,6 @@ using ::testing::Not;
 const std::filesystem::path kData{SPINDRIFT_TEST_DATA};
 const std::filesystem::path kNominal = kData / "spin" / "nominal";
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-struct Outcome {
-  int status;
-  nlohmann::json run;  ///< Of the summary.
-  std::string log;
-  std::filesystem::path db;
-};
-
-Outcome process(const TemporaryFolder& folder, const std::filesystem::path& pass) {
-  const auto db = folder.path() / "out.db";
-  Program program{{"process", "--mission", (pass / "mission.toml").string(), "--telemetry",
-                   pass.string(), "--db", db.string(), "--json"}};
-  const int status = program.exit_status();
-  const auto answer = nlohmann::json::parse(program.out());
-  return {.status = status,
-          .run = answer.contains("runs") ? answer["runs"][0] : answer,
-          .log = program.log(),
-          .db = db};
-}
-
-using Replacements = std::vector<std::pair<std::string, std::string>>;
-
-std::string replaced(std::string text, const Replacements& replacements) {
-  for (const auto& [from, to] : replacements) {
-    const auto at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    text.replace(at, from.size(), to);
-  }
-  return text;
-}
 
 /// A pass simulated from scenarios/gto-nominal.toml with that changed.
 Outcome process_simulated(const TemporaryFolder& folder, const Replacements& replacements) {
@@ -141,17 +113,6 @@ TEST(BadGeometry, WithAMissionWhoseBeamsCannotMeetTheEarthSaysThatItContradictsT
   EXPECT_THAT(outcome.log, HasSubstr("check the mission's mounting angles"));
 }
 
-std::string without_channel(const std::string& channel, const std::string& csv) {
-  std::istringstream lines{csv};
-  std::string kept;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.find("," + channel) == std::string::npos) {
-      kept += line + "\n";
-    }
-  }
-  return kept;
-}
-
 double error_deg(const nlohmann::json& estimate) {
   const auto place = [](double ra_deg, double dec_deg) {
     return direction_icrf({.ra_rad = ra_deg * kDegree, .dec_rad = dec_deg * kDegree});
@@ -193,6 +154,55 @@ TEST(MissingChannel, LeavesTheCaseThatTheOthersAllow) {
       EXPECT_LT(sigma_deg, is_poor ? 0.2 : 0.1) << estimator;
     }
   }
+}
+
+/// The nominal pass as far as `keep` says of a row's channel and number.
+template <class Keep>
+Outcome process_part(const TemporaryFolder& folder, const Keep& keep) {
+  const auto pass = nominal_copy(folder);
+  std::istringstream rows{text_of(kNominal / "pulses.csv")};
+  std::string part;
+  std::string row;
+  for (int number = 0; std::getline(rows, row); ++number) {
+    if (number == 0 || keep(row.substr(row.find(',') + 1), number)) {
+      part += row + "\n";
+    }
+  }
+  std::filesystem::remove(pass / "pulses.csv");
+  std::ofstream{pass / "pulses.csv"} << part;
+  return process(folder, pass);
+}
+
+TEST(OneSensor, AloneGivesNoAxisAndNoBatchSolutionAndSaysWhy) {
+  const std::array<std::pair<std::string, std::string>, 3> sensors = {
+      {{"sun", "a cone about the Sun"}, {"north", "cone"}, {"south", "cone"}}};
+  for (const auto& [sensor, why] : sensors) {
+    const TemporaryFolder folder;
+    const auto outcome = process_part(
+        folder, [&](const std::string& channel, int) { return channel.starts_with(sensor); });
+    expect_no_axis(outcome);
+    EXPECT_THAT(outcome.log, HasSubstr(why)) << sensor;
+    EXPECT_THAT(outcome.log, HasSubstr("no batch solution: ")) << sensor;
+    EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM spin_batch"), 0);
+  }
+}
+
+TEST(FewEdges, GiveNoBatchSolutionAndSayHowManyItNeeds) {
+  const TemporaryFolder folder;
+  const auto outcome = process_part(folder, [](const std::string&, int row) { return row <= 15; });
+  EXPECT_EQ(outcome.status, 0) << outcome.log;
+  EXPECT_TRUE(outcome.run["batch"].is_null());
+  EXPECT_THAT(outcome.log, HasSubstr("need more than"));
+}
+
+TEST(FewEdges, OnDemandAreRefusedWithTheReason) {
+  const TemporaryFolder folder;
+  const auto outcome = process(folder, kNominal);
+  ASSERT_EQ(outcome.status, 0) << outcome.log;
+  Program program{{"batch", "--mission", (kNominal / "mission.toml").string(), "--db",
+                   outcome.db.string(), "--last", "1"}};
+  EXPECT_NE(program.exit_status(), 0);
+  EXPECT_THAT(program.log(), HasSubstr("need more than"));
 }
 
 TEST(BadMission, IsRefusedWithAllItsTenMistakes) {

@@ -72,9 +72,9 @@ Expected<void> suffices(std::span<const PassEdge> edges) {
   const auto turns = edges.empty() ? 0 : edges.back().revolution - edges.front().revolution + 1;
   if (turns < kFewestTurns || edges.size() <= static_cast<std::size_t>(kBatchUnknowns)) {
     return unobservable(
-        fmt::format("{} edges of {} turns: axis, phase, rate and drift need more than {} edges of "
+        fmt::format("{} edges of {} turn{}: axis, phase, rate and drift need more than {} edges of "
                     "at least {} turns",
-                    edges.size(), turns, kBatchUnknowns, kFewestTurns));
+                    edges.size(), turns, turns == 1 ? "" : "s", kBatchUnknowns, kFewestTurns));
   }
   return {};
 }

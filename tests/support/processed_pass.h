@@ -1,0 +1,61 @@
+/// @file
+/// What `spindrift process` makes of a pass, and passes with something changed.
+
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/program.h"
+
+namespace spindrift {
+
+struct Outcome {
+  int status;
+  nlohmann::json run;  ///< Of the summary.
+  std::string log;
+  std::filesystem::path db;
+};
+
+inline Outcome process(const TemporaryFolder& folder, const std::filesystem::path& pass) {
+  const auto db = folder.path() / "out.db";
+  Program program{{"process", "--mission", (pass / "mission.toml").string(), "--telemetry",
+                   pass.string(), "--db", db.string(), "--json"}};
+  const int status = program.exit_status();
+  const auto answer = nlohmann::json::parse(program.out());
+  return {.status = status,
+          .run = answer.contains("runs") ? answer["runs"][0] : answer,
+          .log = program.log(),
+          .db = db};
+}
+
+using Replacements = std::vector<std::pair<std::string, std::string>>;
+
+inline std::string replaced(std::string text, const Replacements& replacements) {
+  for (const auto& [from, to] : replacements) {
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+/// Of the rows of a pulse file, all but those of channels that begin so.
+inline std::string without_channel(const std::string& channel, const std::string& csv) {
+  std::istringstream lines{csv};
+  std::string kept;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("," + channel) == std::string::npos) {
+      kept += line + "\n";
+    }
+  }
+  return kept;
+}
+
+}  // namespace spindrift
