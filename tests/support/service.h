@@ -3,10 +3,12 @@
 
 #pragma once
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -75,13 +77,15 @@ class FrontEnd {
         publisher_{PulsePublisher::create(participant_, "front-end").value()},
         pulses_{std::move(pulses)} {}
 
-  /// Those from where it is to `share` of all. @return false when nobody takes them.
-  bool send_until(double share) {
+  /// Those from where it is to `share` of all, with a pause before each. @return false when nobody
+  /// takes them.
+  bool send_until(double share, std::chrono::microseconds pause = {}) {
     const auto end = static_cast<std::size_t>(share * static_cast<double>(pulses_.size()));
     if (!publisher_.wait_for_subscriber(std::chrono::seconds{30})) {
       return false;
     }
     for (; next_ < end; ++next_) {
+      std::this_thread::sleep_for(pause);
       if (!publisher_.publish(spacecraft_, pulses_[next_], std::stop_token{})) {
         return false;
       }

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 
 #include "services/bus/qos.h"
 #include "services/bus/reader.h"
@@ -40,6 +41,37 @@ TEST(Serve, GivesTheRowsOfProcessBitForBit) {
   // Ten minutes of telemetry, and the end.
   EXPECT_GE(number_of(service.db(), "SELECT count(*) FROM spin_batch"), 9);
   EXPECT_EQ(number_of(offline, "SELECT count(*) FROM spin_batch"), 1);
+}
+
+std::vector<Pulse> pulses_in(const std::filesystem::path& archive) {
+  const SQLite::Database database{archive.string(), SQLite::OPEN_READONLY};
+  SQLite::Statement rows{database, "SELECT t_tai_ns, channel FROM pulse ORDER BY t_tai_ns"};
+  std::vector<Pulse> pulses;
+  while (rows.executeStep()) {
+    pulses.push_back({.t = tai_from_ns(rows.getColumn(0).getInt64()),
+                      .channel = pulse_channel_from(rows.getColumn(1).getText()).value()});
+  }
+  return pulses;
+}
+
+// Single edges and bursts are computed on different threads, and go to and fro between them.
+TEST(Serve, GivesTheRowsOfProcessWhetherEdgesComeOneByOneOrInBursts) {
+  const TemporaryFolder folder;
+  const auto offline = folder.path() / "processed.db";
+  Program process{{"process", "--mission", (kPasses / "gms5" / "mission.toml").string(),
+                   "--telemetry", (kPasses / "gms5").string(), "--db", offline.string()}};
+  ASSERT_EQ(process.exit_status(), 0) << process.log();
+
+  Service service{"gms5"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  FrontEnd front_end{service.bus(), "GMS-5", pulses_in(offline)};
+  constexpr int kParts = 12;
+  for (int part = 0; part < kParts; ++part) {
+    ASSERT_TRUE(front_end.send_until((part + 0.6) / kParts));
+    ASSERT_TRUE(front_end.send_until((part + 1.0) / kParts, 300us));
+  }
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  EXPECT_EQ(product_rows(service.db()), product_rows(offline));
 }
 
 TEST(Serve, CountsWhatEachSourceSent) {
