@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipelines/spin/geometry.h"
 #include "pipelines/spin/measurement.h"
 #include "services/plot/time_page.h"
 #include "services/spindrift/geometry_text.h"
@@ -176,6 +177,8 @@ State fix_state(const PassGeometry& geometry) {
   State state{.colour = kNothing, .label = fmt::format("case {}", fix.geometry_case)};
   if (fix.axes > 0) {
     state.colour = fix.told_apart ? kSeen : kHalf;
+  } else if (in_line(geometry.sun_earth_rad)) {
+    state.label = "Sun, Earth in line";
   }
   return state;
 }

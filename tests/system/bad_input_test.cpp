@@ -76,6 +76,13 @@ TEST(BadGeometry, WithSunAndEarthInOneLineGivesNoAxisAndSaysWhy) {
   EXPECT_EQ(outcome.run["fixes"], 0);
   EXPECT_GT(outcome.run["edges_accepted"], 700);
   EXPECT_THAT(outcome.log, HasSubstr("Sun and Earth stand 179."));
+
+  const auto plot = folder.path() / "plan.svg";
+  Program plan{{"geometry", "--mission", (folder.path() / "pass" / "mission.toml").string(),
+                "--from", "2026-11-20T03:00:00Z", "--to", "2026-11-20T03:02:00Z", "--attitude",
+                "235.138,70.417", "--plot", plot.string()}};
+  ASSERT_EQ(plan.exit_status(), 0) << plan.log();
+  EXPECT_THAT(text_of(plot), HasSubstr("Sun, Earth in line"));
 }
 
 TEST(BadGeometry, WithChordsWiderThanTheEarthGivesNoAxisAndSaysWhy) {
