@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/spin/pulse.h"
+
 namespace spindrift {
 
 inline std::vector<std::string> rows_of(const std::filesystem::path& db, const std::string& query) {
@@ -79,6 +81,18 @@ inline std::vector<std::string> last_batch_rows(const std::filesystem::path& db)
     }
   }
   return rows;
+}
+
+/// In order of time.
+inline std::vector<Pulse> pulses_in(const std::filesystem::path& archive) {
+  const SQLite::Database database{archive.string(), SQLite::OPEN_READONLY};
+  SQLite::Statement rows{database, "SELECT t_tai_ns, channel FROM pulse ORDER BY t_tai_ns"};
+  std::vector<Pulse> pulses;
+  while (rows.executeStep()) {
+    pulses.push_back({.t = tai_from_ns(rows.getColumn(0).getInt64()),
+                      .channel = pulse_channel_from(rows.getColumn(1).getText()).value()});
+  }
+  return pulses;
 }
 
 }  // namespace spindrift

@@ -61,13 +61,7 @@ std::vector<Pulse> disordered_pulses(const std::string& pass) {
   Program process{{"process", "--mission", (kPasses / pass / "mission.toml").string(),
                    "--telemetry", (kPasses / pass).string(), "--db", db.string()}};
   EXPECT_EQ(process.exit_status(), 0) << process.log();
-  const SQLite::Database database{db.string(), SQLite::OPEN_READONLY};
-  SQLite::Statement rows{database, "SELECT t_tai_ns, channel FROM pulse ORDER BY t_tai_ns"};
-  std::vector<Pulse> pulses;
-  while (rows.executeStep()) {
-    pulses.push_back({.t = tai_from_ns(rows.getColumn(0).getInt64()),
-                      .channel = pulse_channel_from(rows.getColumn(1).getText()).value()});
-  }
+  std::vector<Pulse> pulses = pulses_in(db);
   for (std::size_t i = 0; i + 50 < pulses.size(); i += 97) {
     const auto first = pulses.begin() + static_cast<std::ptrdiff_t>(i);
     std::rotate(first, first + 1, first + 50);

@@ -43,17 +43,6 @@ TEST(Serve, GivesTheRowsOfProcessBitForBit) {
   EXPECT_EQ(number_of(offline, "SELECT count(*) FROM spin_batch"), 1);
 }
 
-std::vector<Pulse> pulses_in(const std::filesystem::path& archive) {
-  const SQLite::Database database{archive.string(), SQLite::OPEN_READONLY};
-  SQLite::Statement rows{database, "SELECT t_tai_ns, channel FROM pulse ORDER BY t_tai_ns"};
-  std::vector<Pulse> pulses;
-  while (rows.executeStep()) {
-    pulses.push_back({.t = tai_from_ns(rows.getColumn(0).getInt64()),
-                      .channel = pulse_channel_from(rows.getColumn(1).getText()).value()});
-  }
-  return pulses;
-}
-
 // Single edges and bursts are computed on different threads, and go to and fro between them.
 TEST(Serve, GivesTheRowsOfProcessWhetherEdgesComeOneByOneOrInBursts) {
   const TemporaryFolder folder;
