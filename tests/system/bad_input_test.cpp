@@ -31,16 +31,6 @@ const std::filesystem::path kData{SPINDRIFT_TEST_DATA};
 const std::filesystem::path kNominal = kData / "spin" / "nominal";
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// A pass simulated from scenarios/gto-nominal.toml with that changed.
-Outcome process_simulated(const TemporaryFolder& folder, const Replacements& replacements) {
-  const auto nominal = kData / ".." / ".." / "scenarios" / "gto-nominal.toml";
-  const auto scenario = folder.write("scenario.toml", replaced(text_of(nominal), replacements));
-  const auto pass = folder.path() / "pass";
-  Program simulate{{"simulate", scenario.string(), "--out", pass.string()}};
-  EXPECT_EQ(simulate.exit_status(), 0) << simulate.log();
-  return process(folder, pass);
-}
-
 /// A copy of the nominal pass to spoil.
 std::filesystem::path nominal_copy(const TemporaryFolder& folder) {
   auto pass = folder.path() / "pass";

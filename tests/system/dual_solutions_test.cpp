@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <numbers>
 #include <string>
 
@@ -17,25 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-const std::filesystem::path kNominalScenario =
-    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios" / "gto-nominal.toml";
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-/// Of the scenario with that changed, and without the edges of some channels.
-Outcome process_without(const TemporaryFolder& folder, const Replacements& replacements,
-                        const std::vector<std::string>& channels) {
-  const auto scenario =
-      folder.write("scenario.toml", replaced(text_of(kNominalScenario), replacements));
-  const auto pass = folder.path() / "pass";
-  Program simulate{{"simulate", scenario.string(), "--out", pass.string()}};
-  EXPECT_EQ(simulate.exit_status(), 0) << simulate.log();
-  std::string csv = text_of(pass / "pulses.csv");
-  for (const std::string& channel : channels) {
-    csv = without_channel(channel, csv);
-  }
-  std::ofstream{pass / "pulses.csv"} << csv;
-  return process(folder, pass);
-}
 
 double error_deg(double ra_deg, double dec_deg, double true_ra_deg, double true_dec_deg) {
   const auto place = [](double ra, double dec) {
@@ -46,11 +27,11 @@ double error_deg(double ra_deg, double dec_deg, double true_ra_deg, double true_
 
 TEST(DualSolutions, AreSettledByTheirDispersionAsTheGeometryTurns) {
   const TemporaryFolder folder;
-  const auto outcome = process_without(folder,
-                                       {{"mean_anomaly_deg = 30.0", "mean_anomaly_deg = 20.0"},
-                                        {"duration_s = 600.0", "duration_s = 1500.0"},
-                                        {"\ndec_deg = -55.0", "\ndec_deg = -20.0"}},
-                                       {"sun2", "south"});
+  const auto outcome = process_simulated(folder,
+                                         {{"mean_anomaly_deg = 30.0", "mean_anomaly_deg = 20.0"},
+                                          {"duration_s = 600.0", "duration_s = 1500.0"},
+                                          {"\ndec_deg = -55.0", "\ndec_deg = -20.0"}},
+                                         {"sun2", "south"});
   ASSERT_EQ(outcome.status, 0) << outcome.log;
   const auto count = [&](const std::string& condition) {
     return number_of(outcome.db, "SELECT count(*) FROM spin_fix WHERE " + condition);
