@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "pipelines/spin/clock_start.h"
 #include "pipelines/spin/time_span.h"
@@ -22,6 +24,10 @@ constexpr double kMostReach_turns = 0.4;
 constexpr double kLost_turns = 0.2;
 // So many revolutions without a good edge of the reference, and another channel takes over.
 constexpr int kSilentReference = 10;
+// From the edges that have waited for the clock a channel is learnt when it has been seen in so
+// many turns, and in one of so many.
+constexpr std::size_t kFewestSeen = 3;
+constexpr std::size_t kMostTurnsAnEdge = 3;
 // From so many good edges in a row on a channel is fit to set the clock.
 constexpr int kFitReference = 3;
 
@@ -97,7 +103,15 @@ Association Associator::finish() {
 }
 
 void Associator::try_to_start(bool at_end, Association& out) {
-  auto start = start_clock(config_, intervals_.notes(), at_end);
+  // The edges have to tell where the other channels are; those of the last turn, and of a chord
+  // that straddles sun1, may be still to come.
+  const auto sun1_edges = std::count_if(waiting_.begin(), waiting_.end(), [](const Pulse& pulse) {
+    return pulse.channel == PulseChannel::Sun1;
+  });
+  std::optional<ClockStart> start;
+  if (at_end || sun1_edges >= static_cast<std::ptrdiff_t>(kFewestSeen) + 2) {
+    start = start_clock(config_, intervals_.notes(), at_end);
+  }
   if (!start) {
     start = start_clock(config_, waiting_, at_end);
   }
@@ -140,16 +154,24 @@ void Associator::give_up_clock(const Pulse& pulse, Association& out) {
   intervals_.forget_notes_before(pulse.t);
 }
 
+/// Those that have an edge in some of the turns; the others once they have.
 void Associator::learn_phases() {
-  for (const PulseChannel channel : kChannels) {
-    std::vector<double> counts;
-    for (const Pulse& pulse : waiting_) {
-      if (pulse.channel == channel && channel != reference_) {
-        counts.push_back(clock_->phase_turns(pulse.t));
-      }
+  std::array<std::vector<double>, kPulseChannels> counts;
+  std::set<double> turns;
+  for (const Pulse& pulse : waiting_) {
+    const double count = clock_->phase_turns(pulse.t);
+    counts.at(index_of(pulse.channel)).push_back(count);
+    if (pulse.channel == reference_) {
+      turns.insert(std::round(count - phases_.at(reference_, count)));
     }
-    if (!counts.empty()) {
-      phases_.learn(channel, counts);
+  }
+  // The last one may still be going on.
+  const std::size_t whole = std::max<std::size_t>(turns.size(), 2) - 1;
+  const std::size_t fewest = std::max(std::min(whole, kFewestSeen), whole / kMostTurnsAnEdge);
+  for (const PulseChannel channel : kChannels) {
+    const std::vector<double>& own = counts.at(index_of(channel));
+    if (channel != reference_ && !own.empty()) {
+      phases_.learn(channel, own, fewest);
     }
   }
 }
@@ -221,11 +243,9 @@ void Associator::place(const Pulse& pulse, bool spoilt, Association& out) {
     restart_after_step(pulse);
   }
   const double phase = clock_->phase_turns(pulse.t);
-  if (!phases_.knows(pulse.channel)) {
-    phases_.learn(pulse.channel, std::array{phase});
-  }
   close_before(phase, out);
-  if (pulse.channel != reference_ && !count_of(pulse).near) {
+  const bool lies_near = phases_.knows(pulse.channel) && count_of(pulse).near;
+  if (pulse.channel != reference_ && !lies_near) {
     phases_.stray(pulse.channel, phase,
                   spoilt ? crowded_.displacement_s() / clock_->period_s() : 0.0);
   }
@@ -245,8 +265,12 @@ Associator::Count Associator::count_of(const Pulse& pulse) const {
           .near = std::abs(count - turn) <= reach_turns(pulse.channel, phase)};
 }
 
-/// Empty where the edge is too far from any turn, or its revolution is closed already.
+/// Empty where the edge is too far from any turn, its revolution is closed already, or its channel
+/// is not known.
 Revolution* Associator::revolution_of(const Pulse& pulse) {
+  if (!phases_.knows(pulse.channel)) {
+    return nullptr;
+  }
   const Count count = count_of(pulse);
   return count.near ? open_revolution(count.turn) : nullptr;
 }
@@ -307,6 +331,7 @@ void Associator::close_front(Association& out) {
   revolution.period = period_at(revolution.t_start);
   count_silence(revolution);
   phases_.keep_chords_near();
+  phases_.end_revolution();
   out.closed.push_back(revolution);
   open_.pop_front();
 }

@@ -3,7 +3,7 @@
 /// by the order of arrival.
 ///
 /// A clock counts spin phase in turns from the sun1 edges; where sun1 is silent, from those of
-/// another channel. Each channel is expected at its own phase, learnt from the edges themselves and
+/// another channel. Each channel is expected at its own phase, learnt from edges that agree and
 /// followed as the Earth moves; an edge belongs to the revolution whose expected phase it is
 /// nearest to. So a chord that straddles the next sun1, or hovers about it, stays with one
 /// revolution. An edge further from its expectation than the screening's sigmas is kept with its

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -26,11 +28,38 @@ constexpr double kHover_turns = 0.25;
 // Learnt from no more than this.
 constexpr std::size_t kMostLearnt = 32;
 // So many edges in a row that miss their place and agree on another one move it there; fewer where
-// hardly more were at the old one.
-constexpr int kStraysToAgree = 5;
+// hardly more were at the old one, or none. Strays of a silent channel, one in fifty turns, do so
+// by chance once in ten million turns, as long as they have to come within so many revolutions.
+constexpr std::size_t kStraysToAgree = 5;
+constexpr std::size_t kFewestToAgree = 3;
+// A channel that scatters more than stated shows itself by as many, and never scatters by more.
+constexpr double kWidest_turns = 0.02;
 constexpr std::size_t kMostStrays = 9;
+constexpr int kAgreeWithin = 20;
+// Without a good edge in so many revolutions a channel is silent.
+constexpr int kSilent = 30;
 
 double fraction(double turns) { return turns - std::floor(turns); }
+
+/// An edge may come doubled.
+std::size_t turns_among(const std::vector<PhasePoint>& points) {
+  std::set<double> turns;
+  std::transform(points.begin(), points.end(), std::inserter(turns, turns.end()),
+                 [](const PhasePoint& point) { return point.turn; });
+  return turns.size();
+}
+
+/// Whether so many turns have an edge within `off` of the line, or enough for edges that scatter
+/// more.
+bool is_no_chance(const std::vector<PhasePoint>& points, const PhaseLine& line, double off,
+                  std::size_t fewest_turns) {
+  std::vector<PhasePoint> near;
+  std::copy_if(
+      points.begin(), points.end(), std::back_inserter(near),
+      [&](const PhasePoint& point) { return std::abs(point.phase - line.at(point.turn)) <= off; });
+  return turns_among(near) >= fewest_turns ||
+         (turns_among(line.agreeing) >= kStraysToAgree && line.scatter <= kWidest_turns);
+}
 
 }  // namespace
 
@@ -67,10 +96,13 @@ void ExpectedPhases::define(PulseChannel channel, std::int64_t turn, double phas
                                    .value_sigma = noise_turns(channel),
                                    .change = 0.0,
                                    .change_sigma = most_drift(channel) / kMostEarthRates}};
+  of(channel).known = true;
   of(channel).in_a_row = 0;
+  of(channel).last_seen = revolution_;
 }
 
-void ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts) {
+bool ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts,
+                           std::size_t fewest_turns) {
   counts = counts.last(std::min(counts.size(), kMostLearnt));
   std::vector<double> phases(counts.size());
   std::transform(counts.begin(), counts.end(), phases.begin(), fraction);
@@ -82,6 +114,9 @@ void ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts)
     return PhasePoint{.turn = turn, .phase = count - turn};
   });
   const auto line = fit_phase_line(points, noise_turns(channel), most_drift(channel));
+  if (!is_no_chance(points, *line, gate_sigma_ * noise_turns(channel), fewest_turns)) {
+    return false;
+  }
   const auto edges = static_cast<double>(line->agreeing.size());
   // A few edges say less of the drift than what is possible does.
   const double possible = most_drift(channel) / kMostEarthRates;
@@ -95,6 +130,23 @@ void ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts)
                                    .change = change,
                                    .change_sigma = possible * seen / std::hypot(possible, seen),
                                    .scale = line->scatter / noise_turns(channel)}};
+  of(channel).known = true;
+  of(channel).last_seen = revolution_;
+  return true;
+}
+
+void ExpectedPhases::end_revolution() {
+  ++revolution_;
+  for (Channel& channel : channels_) {
+    if (&channel != &of(reference_) && revolution_ - channel.last_seen > kSilent) {
+      channel.known = false;
+      channel.accepted = 0;
+      channel.in_a_row = 0;
+    }
+    std::erase_if(channel.strays, [this](const Stray& stray) {
+      return revolution_ - stray.revolution > kAgreeWithin;
+    });
+  }
 }
 
 bool ExpectedPhases::follow(PulseChannel channel, std::int64_t turn, double phase_turns,
@@ -108,6 +160,7 @@ bool ExpectedPhases::follow(PulseChannel channel, std::int64_t turn, double phas
     own.strays.clear();
     ++own.accepted;
     ++own.in_a_row;
+    own.last_seen = revolution_;
   } else {
     own.in_a_row = 0;
   }
@@ -139,31 +192,37 @@ bool ExpectedPhases::interfere(PulseChannel one, PulseChannel other, double turn
 bool ExpectedPhases::stray(PulseChannel channel, double count, double displaced_turns) {
   Channel& own = of(channel);
   own.in_a_row = 0;
-  own.strays.insert(std::upper_bound(own.strays.begin(), own.strays.end(), count), count);
+  const auto place =
+      std::upper_bound(own.strays.begin(), own.strays.end(), count,
+                       [](double later, const Stray& stray) { return later < stray.count; });
+  own.strays.insert(place, {.count = count, .revolution = revolution_});
   if (own.strays.size() > kMostStrays) {
     own.strays.pop_front();
   }
-  const int needed = std::clamp(own.accepted, 2, kStraysToAgree);
-  if (own.strays.size() < static_cast<std::size_t>(needed)) {
+  const std::size_t needed = std::clamp(own.accepted, kFewestToAgree, kStraysToAgree);
+  if (own.strays.size() < needed) {
     return false;
   }
   std::vector<PhasePoint> points;
-  for (const double other : own.strays) {
-    const double turn = std::round(other - count);
-    points.push_back({.turn = turn, .phase = other - count - turn});
+  for (const Stray& other : own.strays) {
+    const double turn = std::round(other.count - count);
+    points.push_back({.turn = turn, .phase = other.count - count - turn});
   }
-  const double noise = std::hypot(own.phase->scale() * noise_turns(channel), displaced_turns);
+  const double scale = own.phase ? own.phase->scale() : 1.0;
+  const double noise = std::hypot(scale * noise_turns(channel), displaced_turns);
   const auto line = fit_phase_line(points, noise, most_drift(channel));
-  const bool agree = line->scatter <= gate_sigma_ * noise &&
-                     line->agreeing.size() >= static_cast<std::size_t>(needed) &&
-                     line->agreeing.back().phase == points.back().phase;
+  if ((own.known && line->scatter > gate_sigma_ * noise) || turns_among(line->agreeing) < needed ||
+      line->agreeing.back().phase != points.back().phase) {
+    return false;
+  }
+  std::vector<double> counts(line->agreeing.size());
+  std::transform(line->agreeing.begin(), line->agreeing.end(), counts.begin(),
+                 [&](const PhasePoint& point) { return count + point.turn + point.phase; });
+  const bool agree = learn(channel, counts, needed);
   if (agree) {
-    std::vector<double> counts(line->agreeing.size());
-    std::transform(line->agreeing.begin(), line->agreeing.end(), counts.begin(),
-                   [&](const PhasePoint& point) { return count + point.turn + point.phase; });
     own.strays.clear();
-    learn(channel, counts);
-    own.accepted = own.in_a_row = needed;
+    own.accepted = needed;
+    own.in_a_row = static_cast<int>(needed);
   }
   return agree;
 }
@@ -186,7 +245,7 @@ void ExpectedPhases::forget_strays() {
 double ExpectedPhases::latest(double turn) const {
   double latest = 0.0;
   for (const Channel& channel : channels_) {
-    if (channel.phase) {
+    if (channel.known) {
       latest = std::max(latest, channel.phase->at(turn));
     }
   }

@@ -10,6 +10,7 @@
 #include <deque>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/drift_filter.h"
@@ -49,23 +50,29 @@ class ExpectedPhases {
 
   /// Places a channel by definition.
   void define(PulseChannel channel, std::int64_t turn, double phase_turns);
-  bool knows(PulseChannel channel) const { return of(channel).phase.has_value(); }
+  bool knows(PulseChannel channel) const { return of(channel).known; }
   /// Of a channel that is known.
   double at(PulseChannel channel, double turn) const { return of(channel).phase->at(turn); }
   double drift(PulseChannel channel) const { return of(channel).phase->change(); }
 
-  /// Learns a channel from what most of its edges agree on.
+  /// Learns a channel from what most of its edges agree on, where they do in so many turns: one
+  /// edge alone may be a stray of a channel that is silent.
   /// @param counts Phases of edges, with the turns counted by the spin clock; at least one.
-  void learn(PulseChannel channel, std::span<const double> counts);
+  /// @return Whether they do.
+  bool learn(PulseChannel channel, std::span<const double> counts, std::size_t fewest_turns);
 
   /// @return Whether an edge of a known channel lies where it should; if so it is followed.
   bool follow(PulseChannel channel, std::int64_t turn, double phase_turns,
               double clock_sigma_turns);
 
-  /// An edge that is not where it should be. @return Whether it and those before it agree on
-  /// another place, which is then expected.
+  /// An edge that is not where it should be, or of a channel that is not known. @return Whether it
+  /// and those shortly before it agree on a place, which is then expected.
   /// @param displaced_turns Standard deviation of what interference may have moved it by.
   bool stray(PulseChannel channel, double count, double displaced_turns);
+
+  /// A revolution is over. Channels that have been silent for many are forgotten: that the next
+  /// edge lies near enough to so old a place says little.
+  void end_revolution();
 
   /// Whether the edges of two channels are expected so near to each other that some of them meet.
   bool interfere(PulseChannel one, PulseChannel other, double turn, double clock_sigma_turns) const;
@@ -83,11 +90,17 @@ class ExpectedPhases {
   double latest(double turn) const;
 
  private:
+  struct Stray {
+    double count;
+    int revolution;  ///< At its arrival.
+  };
   struct Channel {
-    std::optional<DriftFilter> phase;
-    std::deque<double> strays;  ///< Since the last edge that was where it should be.
-    int accepted = 0;
+    bool known = false;
+    std::optional<DriftFilter> phase;  ///< Where it was last, once it is forgotten.
+    std::deque<Stray> strays;  ///< Since the last edge that was where it should be, by their count.
+    std::size_t accepted = 0;
     int in_a_row = 0;
+    int last_seen = 0;  ///< The revolution in which one was where it should be.
   };
   const Channel& of(PulseChannel channel) const { return channels_.at(index_of(channel)); }
   Channel& of(PulseChannel channel) { return channels_.at(index_of(channel)); }
@@ -103,6 +116,7 @@ class ExpectedPhases {
   double slit_separation_turns_;
   double period_s_ = 1.0;
   PulseChannel reference_ = PulseChannel::Sun1;
+  int revolution_ = 0;  ///< Of those that had edges.
   std::array<Channel, kPulseChannels> channels_;
 };
 

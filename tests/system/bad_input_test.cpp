@@ -184,6 +184,18 @@ TEST(OneSensor, AloneGivesNoAxisAndNoBatchSolutionAndSaysWhy) {
   }
 }
 
+/// Every fiftieth edge of a channel, as far off its place as chance would have it, is no channel:
+/// no axis is made of it.
+TEST(MissingChannel, StraysOfADeadSensorGiveNoAxis) {
+  const TemporaryFolder folder;
+  const auto outcome = process_part(folder, [](const std::string& channel, int row) {
+    return !channel.starts_with("sun") || (channel.starts_with("sun2") && row % 331 == 7);
+  });
+  expect_no_axis(outcome);
+  EXPECT_GT(number_of(outcome.db, "SELECT count(*) FROM pulse_use WHERE channel = 'sun2'"), 0);
+  EXPECT_EQ(number_of(outcome.db, "SELECT sum(accepted) FROM pulse_use WHERE channel = 'sun2'"), 0);
+}
+
 TEST(FewEdges, GiveNoBatchSolutionAndSayHowManyItNeeds) {
   const TemporaryFolder folder;
   const auto outcome = process_part(folder, [](const std::string&, int row) { return row <= 15; });
