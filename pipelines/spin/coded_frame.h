@@ -26,9 +26,9 @@ struct CodedFrame {
   friend auto operator<=>(const CodedFrame&, const CodedFrame&) = default;
 };
 
-/// Its edges in order of time: sun1, and the others within the period behind it, but for the end of
-/// a chord that straddles the next sun1: that lies behind its beginning. Without a period, or with
-/// one that is none, the delays are taken as they are.
+/// Its edges in order of time: sun1, and the others within the period behind it, as the counter on
+/// board sees them. So the end of a chord that straddles sun1 is in the frame behind that of its
+/// beginning. Without a period, or with one that is none, the delays are taken as they are.
 std::vector<Pulse> edges_of(const CodedFrame& frame);
 
 }  // namespace spindrift

@@ -85,9 +85,6 @@ SpinOutput SpinPass::finish() {
       take(frame, out);
     }
   }
-  for (const Pulse& edge : std::exchange(of_next_turn_, {})) {
-    take(edge, out);
-  }
   const ReorderWindow::Rest rest = reorder_.release_all();
   sort_out(rest.in_time, out);
   associate(interference_.finish(), out);
@@ -108,15 +105,7 @@ void SpinPass::take(const CodedFrame& frame, SpinOutput& out) {
   if (frame.period_s) {
     associator_.note_period(frame.t, *frame.period_s);
   }
-  std::vector<Pulse> edges = std::exchange(of_next_turn_, edges_of(frame));
-  const auto in_this_turn =
-      std::partition_point(of_next_turn_.begin(), of_next_turn_.end(), [&](const Pulse& edge) {
-        return !frame.period_s || edge.t < later_by_s(frame.t, *frame.period_s);
-      });
-  edges.insert(edges.end(), of_next_turn_.begin(), in_this_turn);
-  of_next_turn_.erase(of_next_turn_.begin(), in_this_turn);
-  std::sort(edges.begin(), edges.end());
-  for (const Pulse& edge : edges) {
+  for (const Pulse& edge : edges_of(frame)) {
     take(edge, out);
   }
 }

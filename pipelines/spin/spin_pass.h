@@ -91,7 +91,6 @@ class SpinPass {
   PassNotices notices_;
   Surroundings surroundings_;
   FrameReorderWindow frames_;
-  std::vector<Pulse> of_next_turn_;  ///< Of the last frame, but behind the sun1 of the next.
   ReorderWindow reorder_;
   InterferenceWindow interference_;
   Associator associator_;
