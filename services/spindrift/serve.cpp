@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "services/archive/archive.h"
+#include "services/archive/stored_results.h"
 #include "services/bus/participant.h"
 #include "services/ingest/telemetry_subscriber.h"
 #include "services/mission/mission.h"
@@ -199,6 +200,22 @@ Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db,
                                 }});
 }
 
+/// Of the runs that go on, before they do.
+Expected<void> note_announced(const std::filesystem::path& db, const Routed& stored,
+                              Announcer& announcer) {
+  for (const ArchiveBatch& batch : stored.samples) {
+    if (!batch.continuation) {
+      continue;
+    }
+    auto results = find_stored_results(db, batch.run_id);
+    if (!results) {
+      return Unexpected{results.error()};
+    }
+    announcer.go_on(batch.run_id, batch.spacecraft_id, *std::move(results));
+  }
+  return {};
+}
+
 }  // namespace
 
 Expected<void> serve(const ServeOptions& options) {
@@ -227,7 +244,8 @@ Expected<void> serve(const ServeOptions& options) {
   spdlog::info("archive {}", options.db.string());
 
   const auto done = processor->go_on(options.db).and_then([&](Routed stored) {
-    return submit_all(archive, std::move(stored.samples))
+    return note_announced(options.db, stored, announcer)
+        .and_then([&] { return submit_all(archive, std::move(stored.samples)); })
         .and_then([&] { return archive.flush(); })
         .and_then([&] {
           return run(std::move(stored.work), *participant, *publisher, *processor, archive,
