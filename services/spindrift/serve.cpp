@@ -128,14 +128,14 @@ void lose_patience(const std::stop_token& done, Patience& patience,
 }
 
 /// From "ready" until a signal, or a failure, and everything taken is with the archive.
-Expected<void> run(std::vector<PassInput> again, const bus::Participant& participant,
-                   const ResultPublisher& publisher, Processor& processor, Archive& archive,
-                   StopSignal& stop_signal) {
+Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins,
+                   const bus::Participant& participant, const ResultPublisher& publisher,
+                   Processor& processor, Archive& archive, StopSignal& stop_signal) {
   BoundedQueue<SampleBatch> queue{kSamplesTaken,
                                   [](const SampleBatch& taken) { return sample_count(taken); }};
   BoundedQueue<PassInput> work{kSamplesToCompute,
                                [](const PassInput& input) { return sample_count(input); }};
-  auto started = TelemetrySubscriber::start(participant, queue);
+  auto started = TelemetrySubscriber::start(participant, queue, last_origins);
   if (!started) {
     return Unexpected{started.error()};
   }
@@ -201,9 +201,9 @@ Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db,
 }
 
 /// Of the runs that go on, before they do.
-Expected<void> note_announced(const std::filesystem::path& db, const Routed& stored,
-                              Announcer& announcer) {
-  for (const ArchiveBatch& batch : stored.samples) {
+Expected<void> note_announced(const std::filesystem::path& db,
+                              const std::vector<ArchiveBatch>& going_on, Announcer& announcer) {
+  for (const ArchiveBatch& batch : going_on) {
     if (!batch.continuation) {
       continue;
     }
@@ -243,13 +243,13 @@ Expected<void> serve(const ServeOptions& options) {
   Archive& archive = **opened;
   spdlog::info("archive {}", options.db.string());
 
-  const auto done = processor->go_on(options.db).and_then([&](Routed stored) {
-    return note_announced(options.db, stored, announcer)
-        .and_then([&] { return submit_all(archive, std::move(stored.samples)); })
+  const auto done = processor->go_on(options.db).and_then([&](GoneOn stored) {
+    return note_announced(options.db, stored.routed.samples, announcer)
+        .and_then([&] { return submit_all(archive, std::move(stored.routed.samples)); })
         .and_then([&] { return archive.flush(); })
         .and_then([&] {
-          return run(std::move(stored.work), *participant, *publisher, *processor, archive,
-                     stop_signal);
+          return run(std::move(stored.routed.work), stored.last_origins, *participant, *publisher,
+                     *processor, archive, stop_signal);
         });
   });
   if (auto outcome = outcome_of(done, archive.close()); !outcome) {

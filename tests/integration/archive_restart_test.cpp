@@ -1,5 +1,6 @@
 // What the archive gives back to a service that goes on with a pass.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -112,6 +113,28 @@ TEST_F(ArchiveRestart, SamplesOfARunThatAnEarlierOneHasStoredAreItsOwnToo) {
   ASSERT_TRUE(pass);
   EXPECT_EQ(pass->run_id, "run-2");
   EXPECT_THAT(times_of(pass->pulses), ElementsAre(30, 20, 40));
+}
+
+TEST_F(ArchiveRestart, TheLastSampleOfEachSessionComesBack) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(begun("run-1", 100)));
+  PulseSample other = pulse_at(30, 2);
+  other.origin.session = ~std::uint64_t{0};
+  ArchiveBatch batch = arrived("run-1", 100, {pulse_at(10, 41), pulse_at(40, 42), other});
+  batch.coded = {frame_at(50, 9)};
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+
+  const auto text_of = [](const std::vector<Origin>& origins) {
+    std::string text;
+    for (const Origin& origin : origins) {
+      text += fmt::format("{} {} {}; ", origin.source, origin.session, origin.seq);
+    }
+    return text;
+  };
+  const LastOrigins last = stored().value().last_origins;
+  EXPECT_EQ(text_of(last.pulses), "station 18446744073709551615 2; station 7 42; ");
+  EXPECT_EQ(text_of(last.frames), "station 7 9; ");
 }
 
 TEST_F(ArchiveRestart, OnlyARunThatWasMadeTheSameWayIsContinued) {

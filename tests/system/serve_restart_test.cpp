@@ -199,6 +199,41 @@ TEST(Serve, PublishesWhatIsInForceAgainAfterARestart) {
   ASSERT_EQ(service.stop(), 0) << service.program().log();
 }
 
+TEST(Serve, CountsMissingSamplesOnceHoweverOftenTheyAreSentAgain) {
+  Service service{"nominal"};
+  const auto participant = bus::Participant::create(service.bus()).value();
+  const auto front_end = bus::Writer<spindrift_Pulse>::create(participant, bus::kPulseTopic,
+                                                              bus::telemetry_writer_qos())
+                             .value();
+  const std::set<std::uint64_t> withheld = {100, 101, 102, 103, 250, 251, 400};
+  const auto send = [&](std::uint64_t from, std::uint64_t end) {
+    for (std::uint64_t seq = from; seq < end; ++seq) {
+      if (!withheld.contains(seq)) {
+        ASSERT_TRUE(front_end.write(idl_pulse(seq)));
+      }
+    }
+  };
+  const auto gaps_when_stopped_after = [&](std::uint64_t last) {
+    EXPECT_TRUE(eventually([&] {
+      return number_of(service.db(), "SELECT max(seq) FROM pulse") ==
+             static_cast<std::int64_t>(last);
+    }));
+    EXPECT_EQ(service.stop(), 0) << service.program().log();
+    return number_of(service.db(), "SELECT gaps FROM source_count");
+  };
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  send(0, 200);
+  EXPECT_EQ(gaps_when_stopped_after(199), 4);
+  send(200, 300);  // The service is away, and gets it later.
+  service.start();
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  send(300, 500);
+  EXPECT_EQ(gaps_when_stopped_after(499), 7);
+  service.start();
+  send(500, 501);
+  EXPECT_EQ(gaps_when_stopped_after(500), 7);
+}
+
 TEST(Serve, SaysWhenAChangedMissionFileBeginsANewRun) {
   const PassCopy pass{"nominal"};
   const bus::BusConfig bus = bus_of_its_own();
