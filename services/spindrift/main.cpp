@@ -71,6 +71,13 @@ std::string check_path(const std::string& path) {
   return path.empty() ? "must be a path, not empty" : std::string{};
 }
 
+/// Another suffix promises what is not written.
+std::string check_svg(const std::string& path) {
+  return std::filesystem::path{path}.extension() == ".svg"
+             ? std::string{}
+             : fmt::format("'{}': must end in .svg: plots are written as SVG", path);
+}
+
 /// Written so that NaN fails.
 void check_speed(double speed) {
   if (!(speed == 0.0 || (speed >= kSlowest && speed <= kFastest))) {
@@ -202,7 +209,8 @@ void add_geometry(CLI::App& app, Request& request) {
       ->required();
   command.add_option("--rpm", options.rate_rpm, "Spin rate, 5 to 200; without it 60 is assumed");
   command.add_option("--step", options.step_s, "Seconds between rows; without it about 60 rows");
-  command.add_option("--plot", options.plot, "SVG file to write")->check(check_path);
+  command.add_option("--plot", options.plot, "SVG file to write, its name ending in .svg")
+      ->check(check_svg);
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] { request.run = [&] { return geometry(request.geometry); }; });
 }
