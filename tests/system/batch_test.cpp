@@ -151,6 +151,15 @@ TEST(Batch, ASpacecraftOrRunThatTheArchiveHasNotIsNamed) {
   EXPECT_THAT(run.log(), HasSubstr("has no run nope of spacecraft 'SPINNER'"));
 }
 
+TEST(Batch, LastTakesAPositiveIntegerOnly) {
+  for (const std::string last : {"0", "-3", "abc", "1.5", "99999999999999999999"}) {
+    Program program{batch_of("nominal", "any.db", {"--last=" + last})};
+    EXPECT_EQ(program.exit_status(), 2);
+    EXPECT_THAT(program.log(),
+                HasSubstr("spindrift: --last: '" + last + "': must be a positive integer\n"));
+  }
+}
+
 TEST(Batch, AnArchiveThatIsNotThereIsBadInputAndIsNotMade) {
   const TemporaryFolder folder;
   folder.write("empty.db", "");
