@@ -63,6 +63,21 @@ Expected<std::string> header_of(const std::filesystem::path& path) {
   }
 }
 
+/// SQLite would tell little of these. Empty: there is something.
+std::string_view why_nothing_to_read(const std::filesystem::path& path) {
+  std::error_code unknown;
+  const std::filesystem::file_status status = std::filesystem::status(path, unknown);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    return "no such file";
+  }
+  if (std::filesystem::is_directory(status)) {
+    return "it is a folder";
+  }
+  return std::filesystem::is_regular_file(status) && std::filesystem::is_empty(path, unknown)
+             ? "the file is empty"
+             : "";
+}
+
 }  // namespace
 
 Expected<void> refuse_foreign_file(const std::filesystem::path& path) {
@@ -136,6 +151,10 @@ Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path) {
 }
 
 Expected<SQLite::Database> open_for_reading(const std::filesystem::path& path) {
+  if (const std::string_view why = why_nothing_to_read(path); !why.empty()) {
+    return Unexpected{{ErrorCode::InvalidConfiguration,
+                       fmt::format("there is no archive {}: {}", path.string(), why)}};
+  }
   if (const auto ours = refuse_foreign_file(path); !ours) {
     return Unexpected{ours.error()};
   }

@@ -26,8 +26,8 @@ Expected<void> refuse_foreign_file(const std::filesystem::path& path);
 Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path);
 
 /// A connection that cannot write, for one thread.
-/// @return InvalidConfiguration when the file is not an archive; Unavailable when it cannot be
-///         opened.
+/// @return InvalidConfiguration when there is no such file or it is not an archive; Unavailable
+///         when it cannot be opened.
 Expected<SQLite::Database> open_for_reading(const std::filesystem::path& path);
 
 /// InvalidInput when a row breaks a rule of the schema and trying again is no use; Unavailable

@@ -4,16 +4,11 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
-#include <numbers>
-#include <string_view>
-
-#include "pipelines/frames/celestial.h"
 #include "services/archive/connection.h"
+#include "services/archive/row_values.h"
 
 namespace spindrift {
 namespace {
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 std::optional<std::string> find_run(SQLite::Database& database, const std::string& spacecraft_id,
                                     const std::optional<std::string>& run_id) {
@@ -31,31 +26,15 @@ std::optional<std::string> find_run(SQLite::Database& database, const std::strin
   return query.executeStep() ? std::optional{query.getColumn(0).getString()} : std::nullopt;
 }
 
-template <class Name, class Value>
-Value named(std::string_view name, Value last, const Name& name_of_value) {
-  int value = 0;
-  while (value < static_cast<int>(last) && name_of_value(static_cast<Value>(value)) != name) {
-    ++value;
-  }
-  return static_cast<Value>(value);
-}
-
 PulseUse use_of(SQLite::Statement& row) {
   PulseUse use{.pulse = {.t = tai_from_ns(row.getColumn(0).getInt64()),
-                         .channel = named(row.getColumn(1).getText(), PulseChannel::SouthOut,
-                                          [](PulseChannel channel) { return name_of(channel); })},
+                         .channel = named(row.getColumn(1).getText(), PulseChannel::SouthOut)},
                .revolution = row.getColumn(2).getInt64(),
                .rejected_by = {}};
   if (!row.getColumn(3).isNull()) {
-    use.rejected_by = named(row.getColumn(3).getText(), Rejection::MixedAzimuth,
-                            [](Rejection rejection) { return name_of(rejection); });
+    use.rejected_by = named(row.getColumn(3).getText(), Rejection::MixedAzimuth);
   }
   return use;
-}
-
-Eigen::Vector3d axis_of(SQLite::Statement& row) {
-  return direction_icrf({.ra_rad = row.getColumn(0).getDouble() * kDegree_rad,
-                         .dec_rad = row.getColumn(1).getDouble() * kDegree_rad});
 }
 
 void read_uses(SQLite::Database& database, StoredEdges& stored) {

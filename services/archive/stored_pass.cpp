@@ -66,6 +66,7 @@ std::vector<StoredPass> find_runs(const SQLite::Database& database,
                     .last_revolution = time_of(query.getColumn(5)),
                     .rejected_inputs = query.getColumn(6).getInt64(),
                     .source_counts = {},
+                    .last_origins = {},
                     .pulses = {},
                     .frames = {}});
   }
@@ -141,6 +142,20 @@ void read_frames(const SQLite::Database& database, const std::string& spacecraft
             [](const StoredFrame& a, const StoredFrame& b) { return a.arrival < b.arrival; });
 }
 
+std::vector<Origin> last_origins(const SQLite::Database& database, const std::string& table,
+                                 const std::string& spacecraft_id, const StoredPass& pass) {
+  SQLite::Statement query{database, "SELECT source, session, max(seq) FROM " + table + kExtent +
+                                        " GROUP BY source, session"};
+  bind_extent(query, spacecraft_id, pass);
+  std::vector<Origin> last;
+  while (query.executeStep()) {
+    last.push_back({.source = query.getColumn(0).getString(),
+                    .session = static_cast<std::uint64_t>(query.getColumn(1).getInt64()),
+                    .seq = static_cast<std::uint64_t>(query.getColumn(2).getInt64())});
+  }
+  return last;
+}
+
 }  // namespace
 
 Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path& archive,
@@ -153,6 +168,8 @@ Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path
       if (pass.earliest) {
         read_pulses(database, spacecraft_id, pass);
         read_frames(database, spacecraft_id, pass);
+        pass.last_origins = {.pulses = last_origins(database, "pulse", spacecraft_id, pass),
+                             .frames = last_origins(database, "coded_frame", spacecraft_id, pass)};
       }
     }
     return passes;

@@ -11,6 +11,7 @@
 
 #include "pipelines/core/expected.h"
 #include "services/archive/records.h"
+#include "services/ingest/last_origins.h"
 
 namespace spindrift {
 
@@ -40,6 +41,7 @@ struct StoredPass {
   std::optional<TaiTime> last_revolution;
   std::int64_t rejected_inputs;
   std::vector<SourceCount> source_counts;
+  LastOrigins last_origins;         ///< Of its samples, as they arrived first.
   std::vector<StoredPulse> pulses;  ///< In order of arrival; so are the frames.
   std::vector<StoredFrame> frames;
 };

@@ -5,6 +5,11 @@
 
 namespace spindrift {
 
+void SequenceTracker::go_on(const Origin& last, std::size_t topic) {
+  Session& session = session_of(last, topic);
+  session.floor = std::max(session.floor, last.seq + 1);
+}
+
 Arrival SequenceTracker::record(const Origin& origin, const std::string& spacecraft,
                                 std::size_t topic) {
   if (!last_.is_of(origin, spacecraft, topic)) {
@@ -50,7 +55,9 @@ SequenceTracker::Place SequenceTracker::place_of(const Origin& origin,
 Arrival SequenceTracker::insert(Session& session, std::uint64_t seq, SequenceCounts& counts) {
   auto& runs = session.runs;
   if (runs.empty()) {
-    runs.emplace(seq, seq);
+    // Sent again, up to where the session was: it goes on from there.
+    const std::uint64_t reached = seq < session.floor ? session.floor - 1 : seq;
+    runs.emplace(reached, reached);
     return Arrival::New;
   }
   const auto last = std::prev(runs.end());
@@ -63,12 +70,12 @@ Arrival SequenceTracker::insert(Session& session, std::uint64_t seq, SequenceCou
     join_neighbours(session, runs.emplace(seq, seq).first);
     return Arrival::New;
   }
+  if (seq < session.floor) {
+    return Arrival::New;
+  }
   const auto above = runs.upper_bound(seq);
   if (above != runs.begin() && seq <= std::prev(above)->second) {
     return Arrival::Duplicate;
-  }
-  if (seq < session.floor) {
-    return Arrival::New;
   }
   if (above == runs.begin()) {
     counts.missing += above->first - seq - 1;

@@ -45,6 +45,10 @@ class SequenceTracker {
   SequenceTracker(SequenceTracker&&) = delete;
   SequenceTracker& operator=(SequenceTracker&&) = delete;
 
+  /// The archive holds what a session sent up to `last`, and its gaps are counted: what of that is
+  /// sent again leaves none. What follows, if it is sent again, goes on from there.
+  void go_on(const Origin& last, std::size_t topic = 0);
+
   /// @param topic  Any number that stands for the topic.
   Arrival record(const Origin& origin, const std::string& spacecraft, std::size_t topic = 0);
 
@@ -57,7 +61,7 @@ class SequenceTracker {
   /// What has arrived of one session: runs of consecutive seq, first to last, both included.
   struct Session {
     std::map<std::uint64_t, std::uint64_t> runs;
-    std::uint64_t floor = 0;                       ///< Below it nothing is known any more.
+    std::uint64_t floor = 0;                       ///< Below it gaps are not looked for any more.
     std::map<std::string, std::uint64_t> highest;  ///< By spacecraft.
     std::uint64_t last_active = 0;
   };

@@ -46,7 +46,8 @@ void keep(CodedSample&& sample, SampleBatch& batch) { batch.coded.push_back(std:
 }  // namespace
 
 Expected<std::unique_ptr<TelemetrySubscriber>> TelemetrySubscriber::start(
-    const bus::Participant& participant, BoundedQueue<SampleBatch>& queue) {
+    const bus::Participant& participant, BoundedQueue<SampleBatch>& queue,
+    const LastOrigins& stored) {
   auto waitset = bus::WaitSet::create(participant);
   if (!waitset) {
     return Unexpected{waitset.error()};
@@ -60,14 +61,21 @@ Expected<std::unique_ptr<TelemetrySubscriber>> TelemetrySubscriber::start(
     return Unexpected{coded.error()};
   }
   return std::unique_ptr<TelemetrySubscriber>{new TelemetrySubscriber{
-      Readers{std::move(*pulses), std::move(*coded)}, std::move(*waitset), queue}};
+      Readers{std::move(*pulses), std::move(*coded)}, std::move(*waitset), queue, stored}};
 }
 
 TelemetrySubscriber::TelemetrySubscriber(Readers readers, bus::WaitSet waitset,
-                                         BoundedQueue<SampleBatch>& queue)
-    : readers_{std::move(readers)}, waitset_{std::move(waitset)}, queue_{queue}, thread_{[this] {
-        run();
-      }} {}
+                                         BoundedQueue<SampleBatch>& queue,
+                                         const LastOrigins& stored)
+    : readers_{std::move(readers)}, waitset_{std::move(waitset)}, queue_{queue} {
+  for (const Origin& last : stored.pulses) {
+    tracker_.go_on(last, kPulses);
+  }
+  for (const Origin& last : stored.frames) {
+    tracker_.go_on(last, kCodedFrames);
+  }
+  thread_ = std::thread{[this] { run(); }};
+}
 
 TelemetrySubscriber::~TelemetrySubscriber() { stop(); }
 
@@ -131,11 +139,11 @@ Expected<void> TelemetrySubscriber::take_what_is_left() {
 
 // False: there was nothing to take.
 Expected<bool> TelemetrySubscriber::hand_over_batches() {
-  auto pulses = hand_over_batch<0>();
+  auto pulses = hand_over_batch<kPulses>();
   if (!pulses) {
     return pulses;
   }
-  auto coded = hand_over_batch<1>();
+  auto coded = hand_over_batch<kCodedFrames>();
   if (coded) {
     *coded = *coded || *pulses;
   }

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -12,6 +13,7 @@
 
 #include "services/bus/reader.h"
 #include "services/bus/wait_set.h"
+#include "services/ingest/last_origins.h"
 #include "services/ingest/sample_batch.h"
 #include "services/ingest/sequence_tracker.h"
 #include "services/queue/bounded_queue.h"
@@ -29,9 +31,11 @@ struct TelemetrySubscriberStatus {
 /// full it waits, the reader fills up, and the writers feel the pressure: nothing is dropped.
 class TelemetrySubscriber {
  public:
-  /// `participant` and `queue` outlive it. @return Unavailable when Cyclone refuses.
+  /// `participant` and `queue` outlive it. @param stored Before a restart: no gap is counted again.
+  /// @return Unavailable when Cyclone refuses.
   static Expected<std::unique_ptr<TelemetrySubscriber>> start(const bus::Participant& participant,
-                                                              BoundedQueue<SampleBatch>& queue);
+                                                              BoundedQueue<SampleBatch>& queue,
+                                                              const LastOrigins& stored = {});
 
   ~TelemetrySubscriber();
   TelemetrySubscriber(const TelemetrySubscriber&) = delete;
@@ -49,8 +53,11 @@ class TelemetrySubscriber {
  private:
   /// One for each topic; what is done with a sample follows from its type (from_idl).
   using Readers = std::tuple<bus::Reader<spindrift_Pulse>, bus::Reader<spindrift_CodedFrame>>;
+  static constexpr std::size_t kPulses = 0;
+  static constexpr std::size_t kCodedFrames = 1;
 
-  TelemetrySubscriber(Readers readers, bus::WaitSet waitset, BoundedQueue<SampleBatch>& queue);
+  TelemetrySubscriber(Readers readers, bus::WaitSet waitset, BoundedQueue<SampleBatch>& queue,
+                      const LastOrigins& stored);
 
   void run();
   Expected<void> take_until_stopped();
@@ -70,7 +77,7 @@ class TelemetrySubscriber {
   bool taking_ = true;
   std::string failure_;
 
-  std::thread thread_;  // Last: it uses all the others.
+  std::thread thread_;  // Last: it uses all the others, and begins once they are there.
 };
 
 }  // namespace spindrift

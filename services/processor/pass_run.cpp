@@ -15,23 +15,6 @@ constexpr std::chrono::minutes kBetweenBatches{1};
 
 }  // namespace
 
-void LatestResults::note(const std::vector<SpinProduct>& products) {
-  for (const SpinProduct& product : products) {
-    if (const auto* estimate = std::get_if<SpinEstimate>(&product)) {
-      latest_.insert_or_assign(name_of(estimate->estimator), product);
-    } else if (const auto* fix = std::get_if<SpinFix>(&product);
-               fix != nullptr && (fix->accepted || fix->resolution == Resolution::Ambiguous)) {
-      latest_.insert_or_assign("fix", product);
-    }
-  }
-}
-
-void LatestResults::move_to(std::vector<SpinProduct>& products) {
-  for (auto& [name, product] : std::exchange(latest_, {})) {
-    products.push_back(std::move(product));
-  }
-}
-
 PassRun::PassRun(const Mission& mission, const std::string& run_id, BatchPlan plan)
     : spacecraft_id_{mission.spacecraft_id},
       config_{*mission.spin},
@@ -47,7 +30,7 @@ void PassRun::begin(const std::string& run_id) {
   fresh.spacecraft_id = spacecraft_id_;
   summary_ = std::move(fresh);
   pass_ = SpinPass{config_, orbit_};
-  catch_up_.reset();
+  again_from_.reset();
   edges_ = {};
   next_batch_.reset();
 }
@@ -61,7 +44,7 @@ ArchiveBatch PassRun::batch() const {
 
 void PassRun::go_on(const std::string& run_id, TaiTime again_from) {
   begin(run_id);
-  catch_up_ = CatchUp{.again_from = again_from};
+  again_from_ = again_from;
 }
 
 std::vector<ArchiveBatch> PassRun::compute(const PassInput& input) {
@@ -91,18 +74,15 @@ template <class Sample>
 void PassRun::compute(const Sample& sample, Computed& computed) {
   SpinOutput output = pass_.push(sample);
   note(output);
-  if (catch_up_ && sample.t >= catch_up_->again_from) {
-    computed.front().continuation = Continuation{.t = catch_up_->again_from};
-    catch_up_->latest.move_to(computed.front().products);
-    catch_up_.reset();
+  if (again_from_ && sample.t >= *again_from_) {
+    computed.front().continuation = Continuation{.t = *std::exchange(again_from_, {})};
   }
-  if (catch_up_) {
-    catch_up_->latest.note(output.products);
-  } else {
-    for (SpinProduct& product : output.products) {
-      const std::size_t place = is_detail(product) ? 1 + product.index() : 0;
-      computed.at(place).products.push_back(std::move(product));
-    }
+  if (again_from_) {
+    return;
+  }
+  for (SpinProduct& product : output.products) {
+    const std::size_t place = is_detail(product) ? 1 + product.index() : 0;
+    computed.at(place).products.push_back(std::move(product));
   }
 }
 
@@ -120,7 +100,7 @@ void PassRun::note_time(TaiTime t) {
   if (plan_ == BatchPlan::WholePass || (next_batch_ && t < *next_batch_)) {
     return;
   }
-  if (next_batch_ && !catch_up_) {
+  if (next_batch_ && !again_from_) {
     edges_.keep_last(kLastRevolutions);
     due_.push_back(batch_task(edges_));
   }

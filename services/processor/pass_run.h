@@ -5,10 +5,8 @@
 
 #include <array>
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -31,16 +29,6 @@ struct PassInput {
 inline std::size_t sample_count(const PassInput& input) {
   return input.pulses.size() + input.frames.size();
 }
-
-/// The fix and the estimates in force, those that are announced, as they pass by.
-class LatestResults {
- public:
-  void note(const std::vector<SpinProduct>& products);
-  void move_to(std::vector<SpinProduct>& products);
-
- private:
-  std::map<std::string_view, SpinProduct> latest_;
-};
 
 /// When the estimator `batch` runs, beside the end of the pass.
 enum class BatchPlan {
@@ -82,19 +70,13 @@ class PassRun {
   void note_time(TaiTime t);
   BatchTask batch_task(PassEdges edges) const;
 
-  /// What is stored already comes by once more.
-  struct CatchUp {
-    TaiTime again_from;
-    LatestResults latest = {};
-  };
-
   std::string spacecraft_id_;
   SpinConfig config_;
   Orbit orbit_;
   std::vector<RunSummary> finished_;
   RunSummary summary_;
   SpinPass pass_;
-  std::optional<CatchUp> catch_up_;
+  std::optional<TaiTime> again_from_;  ///< Until the pass is there again: what it makes is stored.
   BatchPlan plan_;
   PassEdges edges_;
   std::optional<TaiTime> next_batch_;

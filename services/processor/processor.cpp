@@ -41,8 +41,9 @@ std::string why_not_continued(const LastRun& last, const RunStart& now) {
   return fmt::format("since run {} these have changed: {}", last.run_id, changed);
 }
 
-void append(std::vector<ArchiveBatch>& batches, std::vector<ArchiveBatch> more) {
-  std::move(more.begin(), more.end(), std::back_inserter(batches));
+template <class Value>
+void append(std::vector<Value>& values, std::vector<Value> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(values));
 }
 
 void add(SpacecraftRun::Taken taken, Routed& routed) {
@@ -91,8 +92,8 @@ std::vector<ArchiveBatch> Processor::begin() {
   return batches;
 }
 
-Expected<Routed> Processor::go_on(const std::filesystem::path& archive) {
-  Routed routed;
+Expected<GoneOn> Processor::go_on(const std::filesystem::path& archive) {
+  GoneOn gone_on;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     const auto stored = find_stored_passes(archive, runs_[i].spacecraft_id(), runs_[i].start());
     if (!stored) {
@@ -107,22 +108,24 @@ Expected<Routed> Processor::go_on(const std::filesystem::path& archive) {
         spdlog::warn("{}: a new run begins: {}: {}", runs_[i].spacecraft_id(), runs_[i].run_id(),
                      why_not_continued(**last, runs_[i].start()));
       }
-      routed.samples.push_back(runs_[i].begin());
+      gone_on.routed.samples.push_back(runs_[i].begin());
     } else {
-      go_on(i, *stored, routed);
+      go_on(i, *stored, gone_on);
     }
   }
-  return routed;
+  return gone_on;
 }
 
-void Processor::go_on(std::size_t i, const std::vector<StoredPass>& stored, Routed& routed) {
+void Processor::go_on(std::size_t i, const std::vector<StoredPass>& stored, GoneOn& gone_on) {
   SpacecraftRun::Taken taken = runs_[i].go_on(stored);
   // Products of a later run are never stored before the end of an earlier one.
   const StoredPass& first = stored.front();
   passes_[i].go_on(first.run_id,
                    stored.size() > 1 ? TaiTime::min() : made_again_from(first, runs_[i].reached()));
-  add(std::move(taken), routed);
+  add(std::move(taken), gone_on.routed);
   for (const StoredPass& pass : stored) {
+    append(gone_on.last_origins.pulses, pass.last_origins.pulses);
+    append(gone_on.last_origins.frames, pass.last_origins.frames);
     spdlog::info("{}: continuing run {}: {} samples read back", runs_[i].spacecraft_id(),
                  pass.run_id, pass.pulses.size() + pass.frames.size());
   }

@@ -27,6 +27,12 @@ struct Routed {
   std::vector<PassInput> work;
 };
 
+/// What a restarted service goes on with.
+struct GoneOn {
+  Routed routed;
+  LastOrigins last_origins;  ///< Of all the samples in it; a session may stand there twice.
+};
+
 /// Has two sides, each for one thread: `route` takes samples in, `compute` works on them. The
 /// batches of `route` go to the archive before its work is computed. The other calls need both
 /// sides at rest.
@@ -42,7 +48,7 @@ class Processor {
   /// In place of `begin`: goes on with those runs that `archive` holds, and begins the others. Its
   /// batches are committed before the next of `route` are submitted; its work comes first.
   /// @return the error of reading the archive.
-  Expected<Routed> go_on(const std::filesystem::path& archive);
+  Expected<GoneOn> go_on(const std::filesystem::path& archive);
 
   /// What belongs to no spacecraft, rejected inputs and the counts of the sources, is stored under
   /// the first run only, so that sums over runs hold. A sample of a spacecraft without a mission
@@ -71,7 +77,7 @@ class Processor {
   template <class Sample>
   void distribute(std::vector<Sample>& samples, std::vector<Sample> SampleBatch::*kind,
                   std::map<std::size_t, SampleBatch>& by_run);
-  void go_on(std::size_t i, const std::vector<StoredPass>& stored, Routed& routed);
+  void go_on(std::size_t i, const std::vector<StoredPass>& stored, GoneOn& gone_on);
   void count_other(const std::string& spacecraft);
 
   std::unordered_map<std::string, std::size_t> index_of_;  ///< Of a spacecraft, in both below.

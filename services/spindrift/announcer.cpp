@@ -2,7 +2,11 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "services/spindrift/summary_text.h"
 
@@ -10,6 +14,15 @@ namespace spindrift {
 namespace {
 
 constexpr std::chrono::seconds kBetweenEstimatesInLog{10};
+
+std::vector<SpinProduct> news(const std::vector<SpinProduct>& products,
+                              const StoredResults& announced) {
+  std::vector<SpinProduct> news;
+  std::copy_if(
+      products.begin(), products.end(), std::back_inserter(news),
+      [&](const SpinProduct& product) { return !is_detail(product) && !announced.hold(product); });
+  return news;
+}
 
 }  // namespace
 
@@ -21,9 +34,20 @@ Announcer::~Announcer() {
   thread_.join();
 }
 
+void Announcer::go_on(const std::string& run_id, const std::string& spacecraft,
+                      StoredResults stored) {
+  waiting_.add(spacecraft, stored.in_force);
+  announced_before_.insert_or_assign(run_id, std::move(stored));
+}
+
 void Announcer::committed(std::span<const ArchiveBatch> batches) {
   for (const ArchiveBatch& batch : batches) {
-    waiting_.add(batch.spacecraft_id, batch.products);
+    if (const auto before = announced_before_.find(batch.run_id);
+        before == announced_before_.end()) {
+      waiting_.add(batch.spacecraft_id, batch.products);
+    } else {
+      waiting_.add(batch.spacecraft_id, news(batch.products, before->second));
+    }
   }
 }
 

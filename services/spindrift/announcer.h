@@ -12,6 +12,7 @@
 
 #include "pipelines/spin/products.h"
 #include "services/archive/records.h"
+#include "services/archive/stored_results.h"
 #include "services/publisher/announcements.h"
 #include "services/publisher/result_publisher.h"
 
@@ -27,6 +28,10 @@ class Announcer {
   Announcer(Announcer&&) = delete;
   Announcer& operator=(Announcer&&) = delete;
 
+  /// A run goes on that has announced `stored`: of that only what is in force is announced again.
+  /// Before anything of the run is committed.
+  void go_on(const std::string& run_id, const std::string& spacecraft, StoredResults stored);
+
   /// Of what the archive has just committed; never waits.
   void committed(std::span<const ArchiveBatch> batches);
 
@@ -36,6 +41,7 @@ class Announcer {
 
   const ResultPublisher& publisher_;
   Announcements waiting_;
+  std::map<std::string, StoredResults> announced_before_;              ///< By run.
   std::map<std::string, std::chrono::steady_clock::time_point> said_;  ///< When, by spacecraft.
   std::thread thread_;                                                 // Last: it uses the others.
 };

@@ -10,7 +10,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -71,6 +73,22 @@ std::string check_path(const std::string& path) {
   return path.empty() ? "must be a path, not empty" : std::string{};
 }
 
+/// Another suffix promises what is not written.
+std::string check_svg(const std::string& path) {
+  return std::filesystem::path{path}.extension() == ".svg"
+             ? std::string{}
+             : fmt::format("'{}': must end in .svg: plots are written as SVG", path);
+}
+
+std::string check_count(const std::string& text) {
+  const char* const end = text.data() + text.size();
+  std::int64_t count = 0;
+  const auto [rest, error] = std::from_chars(text.data(), end, count);
+  return error == std::errc{} && rest == end && count > 0
+             ? std::string{}
+             : fmt::format("'{}': must be a positive integer", text);
+}
+
 /// Written so that NaN fails.
 void check_speed(double speed) {
   if (!(speed == 0.0 || (speed >= kSlowest && speed <= kFastest))) {
@@ -120,7 +138,7 @@ void add_batch(CLI::App& app, Request& request) {
   command.add_option("--db", options.db, "Archive; it is only read")->check(check_path)->required();
   command.add_option("--run", options.run, "Run; without, the newest of the spacecraft");
   command.add_option("--last", options.last_revolutions, "Only so many of the last revolutions")
-      ->check(CLI::PositiveNumber);
+      ->check(check_count);
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] { request.run = [&] { return batch(request.batch); }; });
 }
@@ -202,7 +220,8 @@ void add_geometry(CLI::App& app, Request& request) {
       ->required();
   command.add_option("--rpm", options.rate_rpm, "Spin rate, 5 to 200; without it 60 is assumed");
   command.add_option("--step", options.step_s, "Seconds between rows; without it about 60 rows");
-  command.add_option("--plot", options.plot, "SVG file to write")->check(check_path);
+  command.add_option("--plot", options.plot, "SVG file to write, its name ending in .svg")
+      ->check(check_svg);
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] { request.run = [&] { return geometry(request.geometry); }; });
 }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "services/archive/archive.h"
+#include "services/archive/stored_results.h"
 #include "services/bus/participant.h"
 #include "services/ingest/telemetry_subscriber.h"
 #include "services/mission/mission.h"
@@ -127,14 +128,14 @@ void lose_patience(const std::stop_token& done, Patience& patience,
 }
 
 /// From "ready" until a signal, or a failure, and everything taken is with the archive.
-Expected<void> run(std::vector<PassInput> again, const bus::Participant& participant,
-                   const ResultPublisher& publisher, Processor& processor, Archive& archive,
-                   StopSignal& stop_signal) {
+Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins,
+                   const bus::Participant& participant, const ResultPublisher& publisher,
+                   Processor& processor, Archive& archive, StopSignal& stop_signal) {
   BoundedQueue<SampleBatch> queue{kSamplesTaken,
                                   [](const SampleBatch& taken) { return sample_count(taken); }};
   BoundedQueue<PassInput> work{kSamplesToCompute,
                                [](const PassInput& input) { return sample_count(input); }};
-  auto started = TelemetrySubscriber::start(participant, queue);
+  auto started = TelemetrySubscriber::start(participant, queue, last_origins);
   if (!started) {
     return Unexpected{started.error()};
   }
@@ -199,6 +200,22 @@ Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db,
                                 }});
 }
 
+/// Of the runs that go on, before they do.
+Expected<void> note_announced(const std::filesystem::path& db,
+                              const std::vector<ArchiveBatch>& going_on, Announcer& announcer) {
+  for (const ArchiveBatch& batch : going_on) {
+    if (!batch.continuation) {
+      continue;
+    }
+    auto results = find_stored_results(db, batch.run_id);
+    if (!results) {
+      return Unexpected{results.error()};
+    }
+    announcer.go_on(batch.run_id, batch.spacecraft_id, *std::move(results));
+  }
+  return {};
+}
+
 }  // namespace
 
 Expected<void> serve(const ServeOptions& options) {
@@ -226,12 +243,13 @@ Expected<void> serve(const ServeOptions& options) {
   Archive& archive = **opened;
   spdlog::info("archive {}", options.db.string());
 
-  const auto done = processor->go_on(options.db).and_then([&](Routed stored) {
-    return submit_all(archive, std::move(stored.samples))
+  const auto done = processor->go_on(options.db).and_then([&](GoneOn stored) {
+    return note_announced(options.db, stored.routed.samples, announcer)
+        .and_then([&] { return submit_all(archive, std::move(stored.routed.samples)); })
         .and_then([&] { return archive.flush(); })
         .and_then([&] {
-          return run(std::move(stored.work), *participant, *publisher, *processor, archive,
-                     stop_signal);
+          return run(std::move(stored.routed.work), stored.last_origins, *participant, *publisher,
+                     *processor, archive, stop_signal);
         });
   });
   if (auto outcome = outcome_of(done, archive.close()); !outcome) {

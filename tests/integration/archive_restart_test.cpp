@@ -1,5 +1,6 @@
 // What the archive gives back to a service that goes on with a pass.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,9 +8,11 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "services/archive/stored_pass.h"
+#include "services/archive/stored_results.h"
 #include "tests/integration/archive_fixture.h"
 
 namespace spindrift {
@@ -110,6 +113,28 @@ TEST_F(ArchiveRestart, SamplesOfARunThatAnEarlierOneHasStoredAreItsOwnToo) {
   ASSERT_TRUE(pass);
   EXPECT_EQ(pass->run_id, "run-2");
   EXPECT_THAT(times_of(pass->pulses), ElementsAre(30, 20, 40));
+}
+
+TEST_F(ArchiveRestart, TheLastSampleOfEachSessionComesBack) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(begun("run-1", 100)));
+  PulseSample other = pulse_at(30, 2);
+  other.origin.session = ~std::uint64_t{0};
+  ArchiveBatch batch = arrived("run-1", 100, {pulse_at(10, 41), pulse_at(40, 42), other});
+  batch.coded = {frame_at(50, 9)};
+  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->flush());
+
+  const auto text_of = [](const std::vector<Origin>& origins) {
+    std::string text;
+    for (const Origin& origin : origins) {
+      text += fmt::format("{} {} {}; ", origin.source, origin.session, origin.seq);
+    }
+    return text;
+  };
+  const LastOrigins last = stored().value().last_origins;
+  EXPECT_EQ(text_of(last.pulses), "station 18446744073709551615 2; station 7 42; ");
+  EXPECT_EQ(text_of(last.frames), "station 7 9; ");
 }
 
 TEST_F(ArchiveRestart, OnlyARunThatWasMadeTheSameWayIsContinued) {
@@ -231,6 +256,73 @@ SpinFix fix_with_alternates(std::size_t alternates) {
   fix.alternate_axes_icrf.assign(axes.begin(),
                                  axes.begin() + static_cast<std::ptrdiff_t>(alternates));
   return fix;
+}
+
+SpinFix accepted_fix(std::int64_t revolution) {
+  SpinFix fix = fix_with_alternates(1);
+  fix.revolution = revolution;
+  fix.resolution = Resolution::Prior;
+  fix.accepted = true;
+  return fix;
+}
+
+SpinEstimate estimate_at(std::int64_t t_tai_ns, SpinEstimator estimator) {
+  return {.t = tai_from_ns(t_tai_ns),
+          .estimator = estimator,
+          .axis_icrf = Eigen::Vector3d{1.0, 2.0, -2.0} / 3.0,
+          .covariance_rad2 = (Eigen::Matrix2d{} << 4e-6, 1e-6, 1e-6, 9e-6).finished(),
+          .spin_rate_rad_s = 6.0,
+          .spin_rate_sigma_rad_s = 0.1,
+          .status = "OK 5 fixes"};
+}
+
+TEST_F(ArchiveRestart, ResultsInForceComeBackAsTheyWereGiven) {
+  using enum SpinEstimator;
+  ArchiveBatch batch = start_of("run-1");
+  const SpinFix fix = accepted_fix(5);
+  const SpinEstimate last = estimate_at(50, Sequential);
+  SpinFix contradictory = accepted_fix(8);
+  contradictory.accepted = false;
+  batch.products = {accepted_fix(4),       fix, contradictory, estimate_at(40, Sequential),
+                    estimate_at(40, Mean), last};
+  store(batch);
+
+  const StoredResults stored = find_stored_results(path(), "run-1").value();
+  ASSERT_EQ(stored.in_force.size(), 3U);
+  const auto& again = std::get<SpinFix>(stored.in_force.at(0));
+  EXPECT_EQ(again.revolution, 5);
+  EXPECT_EQ(again.t, fix.t);
+  EXPECT_EQ(again.resolution, Resolution::Prior);
+  EXPECT_TRUE(again.accepted);
+  EXPECT_TRUE(again.axis_icrf.isApprox(fix.axis_icrf, 1e-14));
+  EXPECT_TRUE(again.covariance_rad2.isApprox(fix.covariance_rad2, 1e-14));
+  EXPECT_TRUE(again.alternate_axes_icrf.at(0).isApprox(fix.alternate_axes_icrf.at(0), 1e-14));
+  const auto& estimate = std::get<SpinEstimate>(stored.in_force.at(2));
+  EXPECT_EQ(estimate.t, last.t);
+  EXPECT_EQ(estimate.estimator, Sequential);
+  EXPECT_TRUE(estimate.axis_icrf.isApprox(last.axis_icrf, 1e-14));
+  EXPECT_TRUE(estimate.covariance_rad2.isApprox(last.covariance_rad2, 1e-14));
+  EXPECT_NEAR(estimate.spin_rate_rad_s, last.spin_rate_rad_s, 1e-14);
+  EXPECT_NEAR(estimate.spin_rate_sigma_rad_s, last.spin_rate_sigma_rad_s, 1e-14);
+  EXPECT_EQ(estimate.status, last.status);
+}
+
+TEST_F(ArchiveRestart, ResultsThatWereGivenBeforeAreKnownButNotAFixThatIsDecidedNow) {
+  using enum SpinEstimator;
+  ArchiveBatch batch = start_of("run-1");
+  batch.products = {accepted_fix(6), fix_with_alternates(2), estimate_at(70, Mean)};
+  store(batch);
+
+  const StoredResults stored = find_stored_results(path(), "run-1").value();
+  EXPECT_TRUE(stored.hold(accepted_fix(6)));
+  EXPECT_FALSE(stored.hold(accepted_fix(8)));
+  // The seventh is AMBIGUOUS.
+  EXPECT_TRUE(stored.hold(fix_with_alternates(3)));
+  EXPECT_FALSE(stored.hold(accepted_fix(7)));
+  EXPECT_TRUE(stored.hold(estimate_at(70, Mean)));
+  EXPECT_FALSE(stored.hold(estimate_at(71, Mean)));
+  EXPECT_FALSE(stored.hold(estimate_at(70, Sequential)));
+  EXPECT_TRUE(find_stored_results(path(), "run-2").value().in_force.empty());
 }
 
 TEST_F(ArchiveRestart, AllAxesOfAnAmbiguousFixAreStoredUntilItIsGivenAgainOrWithdrawn) {

@@ -110,7 +110,7 @@ class ProcessorRestart : public testing::ArchiveFixture {
         });
     Processor processor = new_processor();
     Submitted out;
-    work(processor, processor.go_on(db).value(), out);
+    work(processor, processor.go_on(db).value().routed, out);
     receive(processor, missing, out);
     out.add_products(processor.finish());
     return out;

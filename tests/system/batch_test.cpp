@@ -151,6 +151,34 @@ TEST(Batch, ASpacecraftOrRunThatTheArchiveHasNotIsNamed) {
   EXPECT_THAT(run.log(), HasSubstr("has no run nope of spacecraft 'SPINNER'"));
 }
 
+TEST(Batch, LastTakesAPositiveIntegerOnly) {
+  for (const std::string last : {"0", "-3", "abc", "1.5", "99999999999999999999"}) {
+    Program program{batch_of("nominal", "any.db", {"--last=" + last})};
+    EXPECT_EQ(program.exit_status(), 2);
+    EXPECT_THAT(program.log(),
+                HasSubstr("spindrift: --last: '" + last + "': must be a positive integer\n"));
+  }
+}
+
+TEST(Batch, AnArchiveThatIsNotThereIsBadInputAndIsNotMade) {
+  const TemporaryFolder folder;
+  folder.write("empty.db", "");
+  const auto expect_refused = [&](const std::filesystem::path& db, const std::string& why) {
+    Program program{batch_of("nominal", db, {"--json"})};
+    EXPECT_EQ(program.exit_status(), 2);
+    const std::string says = "there is no archive " + db.string() + ": " + why;
+    EXPECT_THAT(program.log(), HasSubstr(says));
+    EXPECT_EQ(nlohmann::json::parse(program.out())["error"], says);
+  };
+  expect_refused(folder.path() / "absent.db", "no such file");
+  expect_refused(folder.path() / "nowhere" / "absent.db", "no such file");
+  expect_refused(folder.path() / "empty.db" / "absent.db", "no such file");
+  expect_refused(folder.path() / "empty.db", "the file is empty");
+  expect_refused(folder.path(), "it is a folder");
+  const std::filesystem::directory_iterator left{folder.path()};
+  EXPECT_EQ(std::distance(begin(left), end(left)), 1);
+}
+
 TEST(Batch, EstimatesTheBiasesThatTheMissionAsksFor) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "out.db";

@@ -168,7 +168,9 @@ TEST(Geometry, RefusesWhatCannotBe) {
       {{{"--mission", "/nowhere.toml"}}, "/nowhere.toml"},
       {{{"--mission", (kMissions / "dawn-2015.toml").string()}},
        R"(spacecraft.kind = "three_axis": passes are planned for kind "spin")"},
-      {{{"--plot", "/nowhere/pass.svg"}}, "/nowhere/pass.svg"}};
+      {{{"--plot", "/nowhere/pass.svg"}}, "/nowhere/pass.svg"},
+      {{{"--plot", "pass.png"}}, "--plot: 'pass.png': must end in .svg: plots are written as SVG"},
+      {{{"--plot", "pass"}}, "--plot: 'pass': must end in .svg"}};
   for (const Refusal& refusal : refusals) {
     SCOPED_TRACE(refusal.says);
     auto changes = refusal.changes;

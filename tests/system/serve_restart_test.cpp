@@ -7,8 +7,12 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "services/bus/qos.h"
 #include "services/bus/reader.h"
@@ -53,15 +57,19 @@ TEST(Serve, LeavesAWholeArchiveWhenKilled) {
             0);
 }
 
-/// As they would be sent, but that every 97th comes 50 later: late by seconds, or within the
-/// reorder window.
-std::vector<Pulse> disordered_pulses(const std::string& pass) {
+std::vector<Pulse> pulses_of(const std::string& pass) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "processed.db";
   Program process{{"process", "--mission", (kPasses / pass / "mission.toml").string(),
                    "--telemetry", (kPasses / pass).string(), "--db", db.string()}};
   EXPECT_EQ(process.exit_status(), 0) << process.log();
-  std::vector<Pulse> pulses = pulses_in(db);
+  return pulses_in(db);
+}
+
+/// As they would be sent, but that every 97th comes 50 later: late by seconds, or within the
+/// reorder window.
+std::vector<Pulse> disordered_pulses(const std::string& pass) {
+  std::vector<Pulse> pulses = pulses_of(pass);
   for (std::size_t i = 0; i + 50 < pulses.size(); i += 97) {
     const auto first = pulses.begin() + static_cast<std::ptrdiff_t>(i);
     std::rotate(first, first + 1, first + 50);
@@ -104,6 +112,75 @@ TEST_P(ServeRestart, IntoARunningPassGivesWhatNoRestartWouldHave) {
             nlohmann::json::parse(whole.program().out())["runs"][0]["revolutions"]);
 }
 
+/// What a subscriber who keeps everything was sent, by kind: of fixes the revolutions, of the
+/// estimates of each estimator the times.
+using Announced = std::map<std::string, std::vector<std::int64_t>>;
+
+class Listener {
+ public:
+  explicit Listener(const bus::BusConfig& bus)
+      : participant_{bus::Participant::create(bus).value()},
+        fixes_{bus::Reader<spindrift_SpinFix>::create(participant_, bus::kSpinFixTopic,
+                                                      bus::telemetry_reader_qos())
+                   .value()},
+        estimates_{bus::Reader<spindrift_SpinEstimate>::create(
+                       participant_, bus::kSpinEstimateTopic, bus::telemetry_reader_qos())
+                       .value()} {}
+
+  Announced take_all() const {
+    Announced all;
+    const auto take_fix = [&](const spindrift_SpinFix& fix) {
+      all["fix"].push_back(fix.revolution);
+    };
+    const auto take_estimate = [&](const spindrift_SpinEstimate& estimate) {
+      all[estimate.estimator].push_back(estimate.t_tai_ns);
+    };
+    while (fixes_.take(take_fix).value() > 0 || estimates_.take(take_estimate).value() > 0) {
+    }
+    return all;
+  }
+
+ private:
+  bus::Participant participant_;
+  bus::Reader<spindrift_SpinFix> fixes_;
+  bus::Reader<spindrift_SpinEstimate> estimates_;
+};
+
+TEST_P(ServeRestart, AnnouncesNothingTwiceButWhatIsInForce) {
+  const std::vector<Pulse> pulses = pulses_of("nominal");
+  Service service{"nominal"};
+  const Listener listener{service.bus()};
+  FrontEnd front_end{service.bus(), "SPINNER", pulses};
+  for (const auto& [share, fixes] : {std::pair{0.3, 150}, std::pair{0.6, 300}}) {
+    ASSERT_TRUE(service.ready()) << service.program().log();
+    ASSERT_TRUE(front_end.send_until(share));
+    ASSERT_TRUE(eventually([db = service.db(), least = fixes] {
+      return number_of(db, "SELECT count(*) FROM spin_fix") > least;
+    }));
+    service.program().signal(GetParam());
+    ASSERT_EQ(service.program().exit_status(), GetParam() == SIGKILL ? -1 : 0);
+    service.start();
+  }
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  ASSERT_TRUE(front_end.send_until(1.0));
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+
+  const Announced announced = listener.take_all();
+  ASSERT_EQ(announced.size(), 4U);
+  for (const auto& [kind, times] : announced) {
+    const std::set<std::int64_t> different{times.begin(), times.end()};
+    EXPECT_LE(times.size(), different.size() + 2) << kind;
+    if (kind != "batch") {  // The solution of a minute may come after that of an orderly stop.
+      EXPECT_TRUE(std::is_sorted(times.begin(), times.end())) << kind;
+    }
+  }
+  const std::vector<std::int64_t>& fixes = announced.at("fix");
+  if (GetParam() == SIGTERM) {
+    EXPECT_EQ((std::set<std::int64_t>{fixes.begin(), fixes.end()}.size()),
+              number_of(service.db(), "SELECT count(*) FROM spin_fix WHERE accepted"));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Signals, ServeRestart, ::testing::Values(SIGKILL, SIGTERM),
                          [](const auto& signal) {
                            return signal.param == SIGKILL ? "Kill" : "Term";
@@ -120,6 +197,41 @@ TEST(Serve, PublishesWhatIsInForceAgainAfterARestart) {
   const auto estimate = take_samples(estimates, 1);
   ASSERT_FALSE(estimate.empty());
   ASSERT_EQ(service.stop(), 0) << service.program().log();
+}
+
+TEST(Serve, CountsMissingSamplesOnceHoweverOftenTheyAreSentAgain) {
+  Service service{"nominal"};
+  const auto participant = bus::Participant::create(service.bus()).value();
+  const auto front_end = bus::Writer<spindrift_Pulse>::create(participant, bus::kPulseTopic,
+                                                              bus::telemetry_writer_qos())
+                             .value();
+  const std::set<std::uint64_t> withheld = {100, 101, 102, 103, 250, 251, 400};
+  const auto send = [&](std::uint64_t from, std::uint64_t end) {
+    for (std::uint64_t seq = from; seq < end; ++seq) {
+      if (!withheld.contains(seq)) {
+        ASSERT_TRUE(front_end.write(idl_pulse(seq)));
+      }
+    }
+  };
+  const auto gaps_when_stopped_after = [&](std::uint64_t last) {
+    EXPECT_TRUE(eventually([&] {
+      return number_of(service.db(), "SELECT max(seq) FROM pulse") ==
+             static_cast<std::int64_t>(last);
+    }));
+    EXPECT_EQ(service.stop(), 0) << service.program().log();
+    return number_of(service.db(), "SELECT gaps FROM source_count");
+  };
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  send(0, 200);
+  EXPECT_EQ(gaps_when_stopped_after(199), 4);
+  send(200, 300);  // The service is away, and gets it later.
+  service.start();
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  send(300, 500);
+  EXPECT_EQ(gaps_when_stopped_after(499), 7);
+  service.start();
+  send(500, 501);
+  EXPECT_EQ(gaps_when_stopped_after(500), 7);
 }
 
 TEST(Serve, SaysWhenAChangedMissionFileBeginsANewRun) {

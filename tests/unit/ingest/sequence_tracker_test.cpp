@@ -65,6 +65,31 @@ TEST(SequenceTracker, TakesNoGapAtARestartOfTheSource) {
   EXPECT_EQ(tracker.by_source().at("front-end"), (SequenceCounts{.received = 30}));
 }
 
+TEST(SequenceTracker, CountsNoGapAgainOfWhatIsSentAgain) {
+  SequenceTracker tracker;
+  tracker.go_on(origin(20));
+  tracker.go_on(origin(9));
+  EXPECT_EQ(counts_after(tracker, {5, 6, 10, 19, 20, 21, 23}),
+            (SequenceCounts{.received = 7, .missing = 1}));
+}
+
+TEST(SequenceTracker, TakesWhatIsSentAgainToGoOnWhereItWas) {
+  SequenceTracker tracker;
+  tracker.go_on(origin(20));
+  EXPECT_EQ(counts_after(tracker, {19, 23, 24}), (SequenceCounts{.received = 3, .missing = 2}));
+  EXPECT_EQ(counts_after(tracker, {21, 22}), (SequenceCounts{.received = 5, .disordered = 2}));
+}
+
+TEST(SequenceTracker, TakesNoGapBetweenWhatIsKnownAndWhatIsSentSince) {
+  SequenceTracker tracker;
+  tracker.go_on(origin(20));
+  EXPECT_EQ(counts_after(tracker, {500, 502}), (SequenceCounts{.received = 2, .missing = 1}));
+  // Of another session nothing is known.
+  tracker.record(origin(3, 2), kSpacecraft);
+  tracker.record(origin(5, 2), kSpacecraft);
+  EXPECT_EQ(tracker.by_source().at("front-end"), (SequenceCounts{.received = 4, .missing = 2}));
+}
+
 TEST(SequenceTracker, KeepsSourcesOfTheSameSessionNumberApart) {
   SequenceTracker tracker;
   EXPECT_EQ(tracker.record(origin(0, 1, "north"), kSpacecraft), Arrival::New);
