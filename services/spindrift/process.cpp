@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -49,6 +50,22 @@ Expected<void> run(Processor& processor, TelemetryInput& telemetry, Archive& arc
   }
 }
 
+/// Whoever has edges is told by the pass why they give no axis.
+void warn_where_no_edge_came(const Processor& processor, std::uint64_t bad_rows) {
+  std::int64_t others = 0;
+  for (const auto& [spacecraft, samples] : processor.other_spacecraft()) {
+    others += samples;
+  }
+  for (const RunSummary& summary : processor.summaries()) {
+    if (summary.edges_received == 0) {
+      spdlog::warn(
+          "{}: no edge of it in the telemetry, and no axis: {} bad rows, {} samples of other "
+          "spacecraft",
+          summary.spacecraft_id, bad_rows, others);
+    }
+  }
+}
+
 }  // namespace
 
 Expected<void> process(const ProcessOptions& options) {
@@ -81,6 +98,7 @@ Expected<void> process(const ProcessOptions& options) {
   if (telemetry->bad_rows().count > 0) {
     spdlog::warn("{}", telemetry->bad_rows().text());
   }
+  warn_where_no_edge_came(*processor, telemetry->bad_rows().count);
   return report(*processor, options.db, options.json).map([](const std::string& text) {
     fmt::print("{}", text);
   });

@@ -31,6 +31,25 @@ TEST(Process, CountsAndStoresBadRowsWithTheirReason) {
   EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3600);
 }
 
+TEST(Process, SaysWhyThereIsNoAxisWhereNoRowIsOfUse) {
+  const std::string header = "t_tai_ns,channel,spacecraft\n";
+  const std::string edge = "1795143637568806257,sun1,";
+  const auto log_of = [&](const std::string& rows, std::int64_t bad_rows) {
+    const PassCopy pass{"nominal"};
+    pass.folder.write("pulses.csv", header + rows);
+    Program program{pass.arguments_here()};
+    EXPECT_EQ(program.exit_status(), 0) << program.log();
+    EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 0);
+    EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM rejected_input"), bad_rows);
+    return program.log();
+  };
+  const std::string says = "SPINNER: no edge of it in the telemetry, and no axis: ";
+  EXPECT_THAT(log_of(edge + "OTHER\n" + edge + "THIRD\n", 0),
+              HasSubstr(says + "0 bad rows, 2 samples of other spacecraft\n"));
+  EXPECT_THAT(log_of(edge + "\n", 1),
+              HasSubstr(says + "1 bad rows, 0 samples of other spacecraft\n"));
+}
+
 TEST(Process, RefusesBadRowsWhenStrict) {
   const PassCopy pass{"nominal"};
   pass.folder.write("more.csv", "t_tai_ns,channel\n1795143637568806257,sun3\n");
