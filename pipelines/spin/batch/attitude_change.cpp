@@ -1,13 +1,16 @@
 #include "pipelines/spin/batch/attitude_change.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace spindrift {
 namespace {
 
 constexpr std::size_t kSpans = 64;
-// Chi-square of five degrees: one in 10^9 for one place of the change, of which there are 63.
+// Chi-square of five degrees: one in 10^9 for one place of the change, of which there are 63. Of
+// one degree, as outliers have it: one in 10^13, of 2,016; but they come in bursts.
 constexpr double kSignificant = 55.0;
 
 using Motion = Eigen::Matrix<double, kMotionUnknowns, kMotionUnknowns>;
@@ -20,19 +23,46 @@ double gain_of(const PassInformation& part) {
   return score.dot(information.ldlt().solve(score));
 }
 
-bool mostly_outliers(const PassInformation& part) { return part.outlier_share() > 0.5; }
+bool mostly_outliers(const PassInformation& part) { return part.outlier_share() > kMostOutliers; }
 
-/// A state that fits one attitude leaves the edges of the other as outliers.
+/// Twice the log likelihood of its outliers, each edge being one at the same odds.
+double evenly(const PassInformation& part) {
+  const auto all = static_cast<double>(part.edges + part.outliers);
+  double sum = 0.0;
+  for (const auto some : {static_cast<double>(part.edges), static_cast<double>(part.outliers)}) {
+    sum += some > 0.0 ? 2.0 * some * std::log(some / all) : 0.0;
+  }
+  return sum;
+}
+
+/// How much likelier other odds before than after make the outliers: a chi-square of one degree.
+double contrast(const PassInformation& before, const PassInformation& after) {
+  PassInformation both = before;
+  both += after;
+  return evenly(before) + evenly(after) - evenly(both);
+}
+
+/// A state that fits one attitude leaves the edges of the other as outliers. What lies before may
+/// begin anywhere: at a change before this one.
 std::optional<AttitudeChange> change_to_outliers(const std::vector<SpanInformation>& spans) {
+  std::optional<AttitudeChange> best;
+  double clearest = kSignificant;
+  PassInformation after;
   for (std::size_t i = spans.size() - 1; i > 0; --i) {
-    if (mostly_outliers(spans[i].of) != mostly_outliers(spans[i - 1].of)) {
-      return AttitudeChange{.t = spans[i].begin,
-                            .first_edge = spans[i].first_edge,
-                            .gain = static_cast<double>(spans[i].of.edges + spans[i].of.outliers) *
-                                    kOutlierSigmas * kOutlierSigmas};
+    after += spans[i].of;
+    PassInformation before;
+    for (std::size_t j = i; j-- > 0;) {
+      before += spans[j].of;
+      if (mostly_outliers(before) != mostly_outliers(after) && contrast(before, after) > clearest) {
+        clearest = contrast(before, after);
+        const auto outliers = std::max(before.outliers, after.outliers);
+        best = {.t = spans[i].begin,
+                .first_edge = spans[i].first_edge,
+                .gain = static_cast<double>(outliers) * kOutlierSigmas * kOutlierSigmas};
+      }
     }
   }
-  return std::nullopt;
+  return best;
 }
 
 }  // namespace

@@ -10,14 +10,12 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/added_biases.h"
-#include "pipelines/spin/batch/attitude_change.h"
 #include "pipelines/spin/batch/batch_status.h"
-#include "pipelines/spin/batch/best_start.h"
 #include "pipelines/spin/batch/bias_choice.h"
-#include "pipelines/spin/batch/clock_break.h"
 #include "pipelines/spin/batch/first_clock.h"
 #include "pipelines/spin/batch/observability.h"
 #include "pipelines/spin/batch/pass_nutation.h"
+#include "pipelines/spin/batch/since_change.h"
 #include "pipelines/spin/time_span.h"
 #include "pipelines/time/utc.h"
 
@@ -25,87 +23,11 @@ namespace spindrift {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
-// Fewer turns do not tell rate and drift from noise.
-constexpr std::int64_t kFewestTurns = 3;
-// More outliers are no dirt of a pass but another motion.
-constexpr double kMostOutliers = 0.5;
 // An axis known no better is not determined: cones about Sun or Earth, more or less.
 constexpr double kLost_rad = 10.0 * kDegree_rad;
-constexpr int kMostChanges = 4;
 
 Unexpected unobservable(std::string message) {
   return Unexpected{{ErrorCode::Unobservable, std::move(message)}};
-}
-
-/// All that is found out of the edges from the last change on.
-struct Solved {
-  PassModel model;
-  std::span<const PassEdge> edges;
-  Best of;
-  std::optional<TaiTime> changed;
-};
-
-/// A wrong bias lets residuals drift as the geometry turns, which is no change of the attitude.
-bool is_change(const std::optional<AttitudeChange>& change, const Explained& found) {
-  if (!change) {
-    return false;
-  }
-  const auto bias = most_wanted_bias(found.information, found.estimated);
-  return !bias || change->gain > bias->gain + kSettled;
-}
-
-/// A step of the rate is dated by the clock alone, as a state lies between both or fits neither.
-std::optional<AttitudeChange> change_in(const PassModel& model, std::span<const PassEdge> edges,
-                                        const Explained& found) {
-  auto change = find_change(model, edges, found.fit.state);
-  if (!is_change(change, found)) {
-    change.reset();
-  }
-  if (change || found.information.outlier_share() > kMostOutliers) {
-    const auto step = find_clock_break(edges);
-    return step ? step : change;
-  }
-  return change;
-}
-
-Expected<void> suffices(std::span<const PassEdge> edges) {
-  const auto turns = edges.empty() ? 0 : edges.back().revolution - edges.front().revolution + 1;
-  if (turns < kFewestTurns || edges.size() <= static_cast<std::size_t>(kBatchUnknowns)) {
-    return unobservable(
-        fmt::format("{} edges of {} turn{}: axis, phase, rate and drift need more than {} edges of "
-                    "at least {} turns",
-                    edges.size(), turns, turns == 1 ? "" : "s", kBatchUnknowns, kFewestTurns));
-  }
-  return {};
-}
-
-Expected<Solved> solve_since_change(const SpinConfig& config, const Orbit& orbit,
-                                    std::span<const PassEdge> edges,
-                                    std::span<const Eigen::Vector3d> starts, BiasSet estimated) {
-  std::optional<TaiTime> changed;
-  for (int change = 0; change < kMostChanges; ++change) {
-    if (const auto enough = suffices(edges); !enough) {
-      return Unexpected{enough.error()};
-    }
-    auto model = PassModel::make(config, orbit, edges);
-    if (!model) {
-      return Unexpected{model.error()};
-    }
-    auto best = best_of(*model, edges, starts, estimated);
-    if (!best) {
-      return Unexpected{best.error()};
-    }
-    const auto found = change_in(*model, edges, best->best);
-    if (!found) {
-      return Solved{
-          .model = *std::move(model), .edges = edges, .of = *std::move(best), .changed = changed};
-    }
-    changed = found->t;
-    edges = edges.subspan(found->first_edge);
-  }
-  return unobservable(fmt::format(
-      "attitude or rate change all the time, last at {}: no one state explains the edges",
-      format_utc(*changed, 0)));
 }
 
 /// @param bound_rad2 Of the axis.
@@ -211,7 +133,7 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
       .biases = all_biases(best),
       .undetermined = {},
       .singular_values = observed.singular_values(),
-      .changed = solved.changed,
+      .changed = solved.left_out ? std::optional{solved.left_out->until} : std::nullopt,
       .edges = information.edges,
       .outliers = information.outliers,
       .noise = std::sqrt(excess_noise),
@@ -267,6 +189,7 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
   const auto wanted = most_wanted_bias(information, best.estimated);
   solution.estimate.status =
       status_of(solution, {.or_axis_icrf = solved->of.or_axis_icrf,
+                           .left_out = solved->left_out,
                            .estimated = best.estimated,
                            .at_bound = best.fit.at_bound,
                            .coning_by_edges = !config.batch.biases.has_value(),

@@ -3,15 +3,17 @@
 /// the biases of the sensors that they show, and the bound that no estimator can beat beside it.
 ///
 /// It begins at every axis it is given and keeps the likeliest. Where two axes explain the edges
-/// alike it is AMBIGUOUS. A pass in which the attitude or the rate has changed is solved from the
-/// last change on. Biases are those that the mission asks for; where it does not say, the edges
-/// decide, one bias after the other, as long as one explains the residuals beyond doubt.
+/// alike it is AMBIGUOUS. A pass in which the attitude or the rate has changed, which no axis in
+/// the sky explains without, is solved from the last change on. Biases are those that the mission
+/// asks for; where it does not say, the edges decide, one bias after the other, as long as one
+/// explains the residuals beyond doubt.
 ///
 /// The status begins with
 ///     OK         all is well
 ///     AMBIGUOUS  another axis, named, fits as well
-///     DOUBTFUL   the edges scatter more than their noise, many are outliers, a bias or coning is
-///                not to be believed, or the residuals still ask for one
+///     DOUBTFUL   the edges scatter more than their noise, many are outliers, the larger part lies
+///                before a change, or fits no axis; a bias or coning is not to be believed, or the
+///                residuals still ask for one
 
 #pragma once
 

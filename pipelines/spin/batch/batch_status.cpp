@@ -13,10 +13,6 @@ namespace spindrift {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
-// More outliers are no dirt of a pass but another motion, or none: a wrong axis may have all edges
-// of five channels where they came, and none of the sixth.
-constexpr double kManyOutliers = 0.15;
-
 // Of the prior: what is so far off is no misplacement.
 constexpr double kFarOff_sigmas = 4.0;
 
@@ -24,10 +20,17 @@ bool is_far_off(const BiasEstimate& bias) {
   return bias.estimated && std::abs(bias.value) > kFarOff_sigmas * prior_of(bias.bias).sigma;
 }
 
+/// The larger part of the pass contradicts it, whatever may have happened in between.
+bool rests_on_few(const BatchSolution& solution, const LeftOut& left_out) {
+  return left_out.edges + solution.outliers > solution.edges;
+}
+
 bool is_doubtful(const BatchSolution& solution, const BatchDoubts& doubts) {
   const auto outliers = static_cast<double>(solution.outliers);
   const bool dirty = outliers > kManyOutliers * (outliers + static_cast<double>(solution.edges));
-  return solution.noise > 1.0 || dirty || doubts.at_bound.any() || doubts.wanted ||
+  const bool contradicted = doubts.left_out && (rests_on_few(solution, *doubts.left_out) ||
+                                                !doubts.left_out->fit_one_attitude);
+  return solution.noise > 1.0 || dirty || contradicted || doubts.at_bound.any() || doubts.wanted ||
          (doubts.coning_by_edges && solution.coning.verdict.detected) ||
          std::any_of(solution.biases.begin(), solution.biases.end(), is_far_off);
 }
@@ -39,6 +42,18 @@ std::string first_word(const BatchSolution& solution, const BatchDoubts& doubts)
                        other.dec_rad / kDegree_rad);
   }
   return is_doubtful(solution, doubts) ? "DOUBTFUL" : "OK";
+}
+
+std::string change_in_words(const BatchSolution& solution, const LeftOut& left_out) {
+  std::string words =
+      fmt::format(" since {}, where attitude or rate changed", format_utc(left_out.until, 0));
+  if (rests_on_few(solution, left_out)) {
+    words += fmt::format(", {} edges before that are left out: the larger part", left_out.edges);
+  }
+  if (!left_out.fit_one_attitude) {
+    words += ", no one axis fits the edges before that";
+  }
+  return words;
 }
 
 /// What the body does that is no even spin.
@@ -81,9 +96,8 @@ std::string bias_in_words(const BiasEstimate& bias) {
 
 std::string status_of(const BatchSolution& solution, const BatchDoubts& doubts) {
   std::string status = first_word(solution, doubts) + fmt::format(", {} edges", solution.edges);
-  if (solution.changed) {
-    status +=
-        fmt::format(" since {}, where attitude or rate changed", format_utc(*solution.changed, 0));
+  if (doubts.left_out) {
+    status += change_in_words(solution, *doubts.left_out);
   }
   if (solution.outliers > 0) {
     status += fmt::format(", {} outliers", solution.outliers);

@@ -8,12 +8,14 @@
 #include <string>
 
 #include "pipelines/spin/batch/batch_solution.h"
+#include "pipelines/spin/batch/since_change.h"
 
 namespace spindrift {
 
 /// What a solution does not say of itself.
 struct BatchDoubts {
   std::optional<Eigen::Vector3d> or_axis_icrf;  ///< Fits as well.
+  std::optional<LeftOut> left_out;
   BiasSet estimated;
   BiasSet at_bound;
   bool coning_by_edges;              ///< Nobody has asked for it.

@@ -9,10 +9,7 @@ double Explained::excess_noise() const {
                                   kNutationUnknowns * static_cast<int>(fit.state.nutation.size()));
 }
 
-double Explained::misfit() const {
-  return information.squares +
-         static_cast<double>(information.outliers) * kOutlierSigmas * kOutlierSigmas;
-}
+double Explained::misfit() const { return information.misfit(); }
 
 Expected<Explained> explain(const PassModel& model, std::span<const PassEdge> edges,
                             const SpinState& start, BiasSet estimated) {

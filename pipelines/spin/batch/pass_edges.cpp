@@ -96,7 +96,7 @@ std::vector<Eigen::Vector3d> PassEdges::starts(const std::optional<SpinPrior>& p
       add((*estimate)->axis_icrf);
     }
   }
-  const bool settled = sequential_ && !sequential_->status.starts_with("AMBIGUOUS");
+  const bool settled = sequential_ && sequential_->status.starts_with("OK");
   if (last_fix_ && !settled) {
     add(last_fix_->axis_icrf);
     for (const Eigen::Vector3d& alternate : last_fix_->alternate_axes_icrf) {

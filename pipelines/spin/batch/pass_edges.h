@@ -31,7 +31,7 @@ class PassEdges {
   /// their test, as an angle rests on several edges and the fit finds the one.
   std::vector<PassEdge> edges() &&;
 
-  /// Axes to begin at: of the other estimators, and where these are AMBIGUOUS all that are left.
+  /// Axes to begin at: of the other estimators, and where these are not OK all that are left.
   /// Without any, where the mission expects the axis.
   std::vector<Eigen::Vector3d> starts(const std::optional<SpinPrior>& prior) const;
 

@@ -24,6 +24,10 @@ double PassInformation::outlier_share() const {
   return static_cast<double>(outliers) / static_cast<double>(edges + outliers);
 }
 
+double PassInformation::misfit() const {
+  return squares + static_cast<double>(outliers) * kOutlierSigmas * kOutlierSigmas;
+}
+
 double PassInformation::excess_noise(int unknowns) const {
   const auto freedom = static_cast<double>(edges - unknowns);
   if (!(freedom > 0.0)) {

@@ -15,6 +15,10 @@ namespace spindrift {
 
 /// Farther from where the state has it (sigmas) an edge has no weight: Tukey's biweight.
 inline constexpr double kOutlierSigmas = 8.0;
+/// More outliers are no dirt of a pass but another motion, or none: a wrong axis may have all edges
+/// of five channels where they came, and none of the sixth.
+inline constexpr double kManyOutliers = 0.15;
+inline constexpr double kMostOutliers = 0.5;
 /// Of normal noise so weighted, the share of its information that is left, and the mean slope of
 /// the weighted residual.
 inline constexpr double kEfficiency = 0.99401;
@@ -31,6 +35,7 @@ struct PassInformation {
 
   PassInformation& operator+=(const PassInformation& other);
   double outlier_share() const;
+  double misfit() const;  ///< Squares, an outlier's as the least that it may be.
   /// How many times their variance is what the stated noise makes it; 1 unless significantly more.
   /// @param unknowns Estimated from these edges.
   double excess_noise(int unknowns) const;

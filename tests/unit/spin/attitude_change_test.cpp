@@ -134,6 +134,46 @@ TEST(AttitudeChange, OfTwoLargeOnesTheLastIsFound) {
   EXPECT_NEAR(turns_apart(scene.body, change->t, 90.0), 0.0, kNear_turns);
 }
 
+/// So many edges in turn, from this one on, half a second late.
+std::vector<PassEdge> spoilt(std::vector<PassEdge> edges, std::size_t from, std::size_t some) {
+  for (std::size_t i = from; i < from + some; ++i) {
+    edges[i].pulse.t += std::chrono::milliseconds{500};
+  }
+  return edges;
+}
+
+TEST(AttitudeChange, AFewOutliersAreNone) {
+  Scene scene;
+  auto edges = scene.pass(kTurns);
+  edges.resize(57);
+  const PassModel model = scene.model(edges);
+  const SpinState state = scene.fitted(edges);
+  for (const std::size_t from : {0U, 1U, 20U, 40U, 50U}) {
+    EXPECT_FALSE(find_change(model, spoilt(edges, from, 7), state)) << from;
+  }
+}
+
+TEST(AttitudeChange, ManyOutliersOnEndAreOne) {
+  Scene scene;
+  auto edges = scene.pass(kTurns);
+  edges.resize(57);
+  const auto changed = spoilt(edges, 42, 15);
+  const auto change = find_change(scene.model(edges), changed, scene.fitted(edges));
+  ASSERT_TRUE(change);
+  EXPECT_EQ(change->first_edge, 42U);
+}
+
+TEST(AttitudeChange, ALinkThatBecomesBadIsNone) {
+  Scene scene;
+  auto edges = scene.pass(kTurns);
+  const SpinState state = scene.fitted(edges);
+  const PassModel model = scene.model(edges);
+  for (std::size_t i = edges.size() / 2; i < edges.size(); i += 3) {
+    edges = spoilt(std::move(edges), i, 1);
+  }
+  EXPECT_FALSE(find_change(model, edges, state));
+}
+
 TEST(AttitudeChange, OneEdgeCannotChange) {
   Scene scene;
   auto edges = scene.pass(kTurns);

@@ -1,0 +1,39 @@
+/// @file
+/// What explains a pass from the last change of attitude or rate on, and what becomes of the rest.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/orbit.h"
+#include "pipelines/spin/batch/best_start.h"
+#include "pipelines/spin/batch/pass_model.h"
+#include "pipelines/spin/config.h"
+
+namespace spindrift {
+
+/// The edges before a change.
+struct LeftOut {
+  TaiTime until;
+  std::int64_t edges;
+  bool fit_one_attitude;  ///< Or are too few to tell.
+};
+
+/// All that is found out of the edges from the last change on.
+struct Solved {
+  PassModel model;
+  std::span<const PassEdge> edges;
+  Best of;
+  std::optional<LeftOut> left_out;
+};
+
+/// @return Unobservable where edges do not suffice, or change all the time; NoCoverage.
+Expected<Solved> solve_since_change(const SpinConfig& config, const Orbit& orbit,
+                                    std::span<const PassEdge> edges,
+                                    std::span<const Eigen::Vector3d> starts, BiasSet estimated);
+
+}  // namespace spindrift

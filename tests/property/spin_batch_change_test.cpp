@@ -1,0 +1,163 @@
+/// A change of attitude or rate is reported where there was one, and neither dirt nor a false axis
+/// passes for one.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/batch/batch_estimator.h"
+#include "pipelines/spin/batch/pass_edges.h"
+#include "pipelines/spin/spin_pass.h"
+#include "tests/support/batch_pass.h"
+#include "tests/support/dirt.h"
+#include "tests/support/product_text.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree_rad = kPi / 180.0;
+constexpr double kRpm_rad_s = kPi / 30.0;
+
+/// As `process` does at the end of a pass.
+Expected<BatchSolution> solved(const SpinConfig& config, const Orbit& orbit,
+                               const std::vector<Pulse>& pulses) {
+  PassEdges edges;
+  for (const SpinProduct& product : testing::run(SpinPass{config, orbit}, pulses).products) {
+    edges.note(product);
+  }
+  const auto starts = edges.starts(config.prior);
+  return solve_batch(config, orbit, std::move(edges).edges(), starts);
+}
+
+std::vector<Pulse> dirty_pulses(const testing::SpinningBody& body,
+                                const testing::Surroundings& around, double from_s, double to_s,
+                                const testing::Dirt& dirt, std::mt19937_64& rng) {
+  const auto clean = testing::pulses_from(testing::edges_between(body, around, from_s, to_s),
+                                          testing::kTransferStart, body.config.noise, rng);
+  return testing::dirty(clean, 2.0 * kPi / body.rate_rad_s, dirt, rng).pulses;
+}
+
+constexpr testing::Dirt kDirt{.lost = 0.05, .spoilt = 0.05};
+
+TEST(SpinBatchChange, IsNotMadeOfTheDirtOfASteadyPass) {
+  testing::BatchScene scene{3101};
+  std::uniform_real_distribution<double> uniform;
+  int solutions = 0;
+  for (int pass = 0; pass < 200; ++pass) {
+    testing::SpinningBody body = testing::random_body(scene.around, 3.0 * kDegree_rad, scene.rng);
+    body.rate_rad_s = 5.0 * std::pow(40.0, uniform(scene.rng)) * kRpm_rad_s;
+    const double turns = 10.0 + 20.0 * uniform(scene.rng);
+    SCOPED_TRACE(fmt::format("pass {}: {:.1f} turns at {:.1f} rpm", pass, turns,
+                             body.rate_rad_s / kRpm_rad_s));
+    const auto solution =
+        solved(body.config, scene.orbit,
+               dirty_pulses(body, scene.around, 0.0, turns * 2.0 * kPi / body.rate_rad_s, kDirt,
+                            scene.rng));
+    if (solution) {
+      ++solutions;
+      EXPECT_FALSE(solution->changed) << solution->estimate.status;
+    }
+  }
+  EXPECT_GT(solutions, 150);
+}
+
+/// The Sun 6 deg from the axis, so that sun2 and the north beam see nothing: four axes are left,
+/// and fixes have chosen a false one.
+struct HardPass {
+  Orbit orbit{KeplerOrbit::make({.epoch = testing::kTransferStart,
+                                 .semi_major_axis_km = 24400.0,
+                                 .eccentricity = 0.73,
+                                 .inclination_rad = 28.5 * kDegree_rad,
+                                 .raan_rad = 91.06809 * kDegree_rad,
+                                 .argument_of_perigee_rad = 178.0 * kDegree_rad,
+                                 .mean_anomaly_rad = 30.0 * kDegree_rad})
+                  .value()};
+  testing::Surroundings around = testing::seen_from(orbit, testing::ellipsoidal_horizon_km(40.0));
+  testing::SpinningBody body{.axis_icrf = direction_icrf({.ra_rad = 61.455876 * kDegree_rad,
+                                                          .dec_rad = 19.945283 * kDegree_rad}),
+                             .rate_rad_s = 150.0 * kRpm_rad_s,
+                             .first_turn_rad = 0.0,
+                             .config = testing::usual_config()};
+
+  HardPass() {
+    body.config.south->mount_angle_rad = 120.0 * kDegree_rad;
+    body.config.south->azimuth_rad = 120.0 * kDegree_rad;
+    body.config.horizon.model = HorizonModel::Ellipsoid;
+  }
+};
+
+TEST(SpinBatchChange, DoesNotExplainAFalseAxis) {
+  HardPass hard;
+  std::mt19937_64 rng{3102};
+  for (int pass = 0; pass < 20; ++pass) {
+    SCOPED_TRACE(pass);
+    hard.body.first_turn_rad = 0.3 * pass;
+    const auto solution = solved(
+        hard.body.config, hard.orbit,
+        dirty_pulses(hard.body, hard.around, 0.0, 120.0, {.lost = 0.03, .spoilt = 0.02}, rng));
+    if (!solution || !solution->estimate.status.starts_with("OK")) {
+      continue;
+    }
+    const SpinEstimate& estimate = solution->estimate;
+    EXPECT_LT(angle_between_rad(estimate.axis_icrf, hard.body.axis_icrf),
+              5.0 * testing::sigma_rad(estimate))
+        << estimate.status;
+    EXPECT_FALSE(solution->changed) << estimate.status;
+  }
+}
+
+/// Ten minutes, with dirt, of a body whose axis moves by so much.
+Expected<BatchSolution> solved_moved(testing::BatchScene& scene, double at_s, double by_rad) {
+  testing::SpinningBody after = scene.body;
+  after.axis_icrf =
+      Eigen::AngleAxisd{by_rad, after.axis_icrf.unitOrthogonal()} * scene.body.axis_icrf;
+  auto pulses = dirty_pulses(scene.body, scene.around, 0.0, at_s, kDirt, scene.rng);
+  const auto later = dirty_pulses(after, scene.around, at_s, 600.0, kDirt, scene.rng);
+  pulses.insert(pulses.end(), later.begin(), later.end());
+  std::sort(pulses.begin(), pulses.end());
+  auto solution = solved(scene.body.config, scene.orbit, pulses);
+  scene.body = after;
+  return solution;
+}
+
+TEST(SpinBatchChange, IsFoundInDirtAndDated) {
+  testing::BatchScene scene{3103};
+  for (const double by_deg : {0.57, 2.0, 10.0}) {
+    SCOPED_TRACE(by_deg);
+    scene.body = testing::random_body(scene.around, 3.0 * kDegree_rad, scene.rng);
+    const auto solution = solved_moved(scene, 240.0, by_deg * kDegree_rad);
+    ASSERT_TRUE(solution) << solution.error().message;
+    SCOPED_TRACE(solution->estimate.status);
+    ASSERT_TRUE(solution->changed);
+    // A sixty-fourth of the pass, and the one beside it.
+    EXPECT_NEAR(seconds_between(testing::kTransferStart, *solution->changed), 240.0, 20.0);
+    EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
+    EXPECT_LT(angle_between_rad(solution->estimate.axis_icrf, scene.body.axis_icrf),
+              4.0 * testing::sigma_rad(solution->estimate));
+  }
+}
+
+TEST(SpinBatchChange, IsDoubtedWhereItLeavesOutTheLargerPart) {
+  testing::BatchScene scene{3104};
+  const auto solution = solved_moved(scene, 450.0, 2.0 * kDegree_rad);
+  ASSERT_TRUE(solution) << solution.error().message;
+  EXPECT_THAT(solution->estimate.status, StartsWith("DOUBTFUL"));
+  EXPECT_THAT(solution->estimate.status, HasSubstr("the larger part"));
+  EXPECT_THAT(solution->estimate.status, Not(HasSubstr("no one axis fits")));
+}
+
+}  // namespace
+}  // namespace spindrift
