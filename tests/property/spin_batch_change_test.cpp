@@ -102,7 +102,7 @@ struct HardPass {
 TEST(SpinBatchChange, DoesNotExplainAFalseAxis) {
   HardPass hard;
   std::mt19937_64 rng{3102};
-  for (int pass = 0; pass < 20; ++pass) {
+  for (int pass = 0; pass < 10; ++pass) {
     SCOPED_TRACE(pass);
     hard.body.first_turn_rad = 0.3 * pass;
     const auto solution = solved(

@@ -17,7 +17,7 @@ namespace {
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 // Two ends are one axis within this.
 constexpr double kSameAxis_rad = kDegree_rad;
-constexpr int kAboutSun = 16;
+constexpr int kAboutSun = 32;
 // 14 deg apart.
 constexpr int kPlaces = 200;
 constexpr std::size_t kSample = 400;
@@ -58,7 +58,7 @@ std::vector<Eigen::Vector3d> places_about(const Eigen::Vector3d& sun_icrf) {
   }
   const Eigen::Vector3d across = sun_icrf.unitOrthogonal();
   for (int i = 0; i < kAboutSun; ++i) {
-    const double off_rad = (i % 2 == 0 ? 5.0 : 10.0) * kDegree_rad;
+    const double off_rad = (3.0 + 3.0 * (i % 4)) * kDegree_rad;
     const Eigen::AngleAxisd about{2.0 * std::numbers::pi * i / kAboutSun, sun_icrf};
     const Eigen::Vector3d place = about * (Eigen::AngleAxisd{off_rad, across} * sun_icrf);
     places.push_back(place);
