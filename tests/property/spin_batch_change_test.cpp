@@ -150,12 +150,12 @@ TEST(SpinBatchChange, IsFoundInDirtAndDated) {
   }
 }
 
-TEST(SpinBatchChange, IsDoubtedWhereItLeavesOutTheLargerPart) {
+TEST(SpinBatchChange, IsDoubtedWhereItLeavesOutMostOfThePass) {
   testing::BatchScene scene{3104};
   const auto solution = solved_moved(scene, 450.0, 2.0 * kDegree_rad);
   ASSERT_TRUE(solution) << solution.error().message;
   EXPECT_THAT(solution->estimate.status, StartsWith("DOUBTFUL"));
-  EXPECT_THAT(solution->estimate.status, HasSubstr("the larger part"));
+  EXPECT_THAT(solution->estimate.status, HasSubstr("most of the pass"));
   EXPECT_THAT(solution->estimate.status, Not(HasSubstr("no one axis fits")));
 }
 

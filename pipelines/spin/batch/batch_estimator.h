@@ -11,8 +11,8 @@
 /// The status begins with
 ///     OK         all is well
 ///     AMBIGUOUS  another axis, named, fits as well
-///     DOUBTFUL   the edges scatter more than their noise, many are outliers, the larger part lies
-///                before a change, or fits no axis; a bias or coning is not to be believed, or the
+///     DOUBTFUL   the edges scatter more than their noise, many are outliers, most of them lie
+///                before a change, or fit no axis; a bias or coning is not to be believed, or the
 ///                residuals still ask for one
 
 #pragma once

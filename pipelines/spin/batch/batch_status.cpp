@@ -20,9 +20,9 @@ bool is_far_off(const BiasEstimate& bias) {
   return bias.estimated && std::abs(bias.value) > kFarOff_sigmas * prior_of(bias.bias).sigma;
 }
 
-/// The larger part of the pass contradicts it, whatever may have happened in between.
+/// Most of the pass contradicts it, two edges for one, whatever may have happened in between.
 bool rests_on_few(const BatchSolution& solution, const LeftOut& left_out) {
-  return left_out.edges + solution.outliers > solution.edges;
+  return left_out.edges + solution.outliers > 2 * solution.edges;
 }
 
 bool is_doubtful(const BatchSolution& solution, const BatchDoubts& doubts) {
@@ -48,7 +48,7 @@ std::string change_in_words(const BatchSolution& solution, const LeftOut& left_o
   std::string words =
       fmt::format(" since {}, where attitude or rate changed", format_utc(left_out.until, 0));
   if (rests_on_few(solution, left_out)) {
-    words += fmt::format(", {} edges before that are left out: the larger part", left_out.edges);
+    words += fmt::format(", {} edges before that are left out: most of the pass", left_out.edges);
   }
   if (!left_out.fit_one_attitude) {
     words += ", no one axis fits the edges before that";
