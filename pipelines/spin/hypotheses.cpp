@@ -98,7 +98,7 @@ void Hypotheses::favour_at(const StartingPoint& point) {
 
 bool Hypotheses::work_in(const SpinConfig& config, const Revolution& revolution, const Sky& sky,
                          double gate_noise) {
-  const GoodEdges edges{revolution};
+  const GoodEdges edges{config, revolution};
   for (Hypothesis& hypothesis : all_) {
     SpinFilter& filter = hypothesis.filter;
     filter.predict(revolution.t_start);

@@ -6,6 +6,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/edge_prediction.h"
+#include "pipelines/spin/edge_use.h"
 
 namespace spindrift {
 namespace {
@@ -43,10 +44,11 @@ double log_normal_density(double squared_innovation, double variance) {
 
 }  // namespace
 
-GoodEdges::GoodEdges(const Revolution& revolution) {
+GoodEdges::GoodEdges(const SpinConfig& config, const Revolution& revolution) {
   for (std::size_t i = 0; i < kPulseChannels; ++i) {
     const auto channel = static_cast<PulseChannel>(i);
-    if (const auto t = revolution.good_edge(channel)) {
+    const auto t = revolution.good_edge(channel);
+    if (t && has_sensor(config, channel)) {
       edges_.at(count_++) = {.t = *t, .channel = channel};
     }
   }
@@ -59,7 +61,7 @@ std::optional<SpinFilter> SpinFilter::about(const Eigen::Vector3d& axis_icrf,
   const auto q_icrf_spin = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis_icrf);
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin.conjugate().toRotationMatrix();
   const double rate_rad_s = 2.0 * std::numbers::pi / revolution.period.period_s;
-  const GoodEdges edges{revolution};
+  const GoodEdges edges{config, revolution};
   for (const Pulse& edge : edges.span()) {
     const auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
     if (!predicted) {

@@ -106,10 +106,10 @@ class SpinFilter {
       Eigen::Matrix<double, 5, kModelErrors>::Zero();
 };
 
-/// The good edges of a revolution.
+/// The good edges of a revolution; of channels without a sensor none are.
 class GoodEdges {
  public:
-  explicit GoodEdges(const Revolution& revolution);
+  GoodEdges(const SpinConfig& config, const Revolution& revolution);
   std::span<const Pulse> span() const { return {edges_.data(), count_}; }
 
  private:

@@ -414,6 +414,25 @@ TEST(Sequential, EdgesBeyondDoubtSettleIt) {
   }
 }
 
+TEST(Sequential, EdgesOfASensorThatTheMissionHasNotDoNotTouchIt) {
+  auto pass = testing::recorded_pass("nominal");
+  pass.config.south.reset();
+  const auto with_south = testing::observed(pass.config, pass.orbit, pass.pulses);
+  auto without_south = with_south;
+  for (ObservedRevolution& seen : without_south) {
+    seen.revolution.edges.at(index_of(PulseChannel::SouthIn)).reset();
+    seen.revolution.edges.at(index_of(PulseChannel::SouthOut)).reset();
+  }
+  std::mt19937_64 rng{3};
+  const Fixes fixes = at_first(testing::drawn_fix(pass.true_axis_icrf, kFixSigma_rad, rng));
+  const SpinEstimate with = estimates(pass.config, with_south, fixes).back();
+  const SpinEstimate without = estimates(pass.config, without_south, fixes).back();
+  EXPECT_THAT(with.status, StartsWith("OK"));
+  EXPECT_EQ(with.status, without.status);
+  EXPECT_EQ(with.axis_icrf, without.axis_icrf);
+  EXPECT_EQ(with.covariance_rad2, without.covariance_rad2);
+}
+
 TEST(Sequential, TheBetterOfTwoFalseAxesIsNotTrue) {
   Scene scene;
   const auto seen = scene.seen(0.0, 60.0);
