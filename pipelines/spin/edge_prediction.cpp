@@ -1,6 +1,7 @@
 #include "pipelines/spin/edge_prediction.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "pipelines/frames/celestial.h"
@@ -13,6 +14,9 @@ namespace {
 
 // So near (6 deg) to its limit, the axis or the end of slit 2, an edge is no measure of the axis.
 constexpr double kLeastSlope = 0.1;
+
+// Half a chord is taken for no narrower than so many times the noise of its edges.
+constexpr double kNarrowestSigmas = 2.0;
 
 using PerError = Eigen::Matrix<double, 1, kModelErrors>;
 using PerBias = Eigen::Matrix<double, 1, kSensorBiases>;
@@ -108,6 +112,23 @@ std::optional<PredictedEdge> sun2_edge(const SunSensor& sensor, const Eigen::Vec
                                          per_coning(*view, slit)};
 }
 
+struct Beam {
+  Side side;
+  Crossing crossing;
+};
+
+/// Of any channel but a slit's.
+Beam beam_of(PulseChannel channel) {
+  const bool north = channel == PulseChannel::NorthIn || channel == PulseChannel::NorthOut;
+  const bool in = channel == PulseChannel::NorthIn || channel == PulseChannel::SouthIn;
+  return {.side = north ? Side::North : Side::South, .crossing = in ? Crossing::In : Crossing::Out};
+}
+
+EarthView earth_view(const Sky& sky, const Eigen::Matrix3d& R_spin_icrf, TaiTime t) {
+  return {.spacecraft_spin_km = R_spin_icrf * spacecraft_icrf_km(sky, t),
+          .pole_spin = R_spin_icrf * sky.earth_pole_icrf};
+}
+
 struct BeamBiases {
   SensorBias mount_angle;
   SensorBias chord;
@@ -118,8 +139,9 @@ BeamBiases biases_of(Side side) {
                              : BeamBiases{SouthMountAngleBias, SouthChordBias};
 }
 
-std::optional<PredictedEdge> beam_edge(const SpinConfig& config, Side side, const EarthView& earth,
-                                       Crossing crossing, const SensorBiases& biases) {
+std::optional<PredictedEdge> beam_edge(const SpinConfig& config, Beam beam, const EarthView& earth,
+                                       const SensorBiases& biases) {
+  const auto [side, crossing] = beam;
   if (!sensor_of(config, side)) {
     return std::nullopt;
   }
@@ -154,27 +176,40 @@ std::optional<PredictedEdge> beam_edge(const SpinConfig& config, Side side, cons
 std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& sky,
                                           const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge,
                                           const SensorBiases& biases) {
-  const auto sun_spin = [&]() -> Eigen::Vector3d { return R_spin_icrf * sky.sun_icrf; };
-  const auto beam = [&](Side side, Crossing crossing) {
-    const EarthView earth{.spacecraft_spin_km = R_spin_icrf * spacecraft_icrf_km(sky, edge.t),
-                          .pole_spin = R_spin_icrf * sky.earth_pole_icrf};
-    return beam_edge(config, side, earth, crossing, biases);
-  };
-  switch (edge.channel) {
-    case PulseChannel::Sun1:
-      return sun1_edge(sun_spin(), biases);
-    case PulseChannel::Sun2:
-      return sun2_edge(config.sun_sensor, sun_spin(), biases);
-    case PulseChannel::NorthIn:
-      return beam(Side::North, Crossing::In);
-    case PulseChannel::NorthOut:
-      return beam(Side::North, Crossing::Out);
-    case PulseChannel::SouthIn:
-      return beam(Side::South, Crossing::In);
-    case PulseChannel::SouthOut:
-      return beam(Side::South, Crossing::Out);
+  const Eigen::Vector3d sun_spin = R_spin_icrf * sky.sun_icrf;
+  if (edge.channel == PulseChannel::Sun1) {
+    return sun1_edge(sun_spin, biases);
   }
-  return std::nullopt;
+  if (edge.channel == PulseChannel::Sun2) {
+    return sun2_edge(config.sun_sensor, sun_spin, biases);
+  }
+  return beam_edge(config, beam_of(edge.channel), earth_view(sky, R_spin_icrf, edge.t), biases);
+}
+
+std::optional<PredictedEdge> edge_nearby(const SpinConfig& config, const Sky& sky,
+                                         const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge,
+                                         double phase_rad, double sigma_rad) {
+  if (edge.channel == PulseChannel::Sun1 || edge.channel == PulseChannel::Sun2) {
+    return std::nullopt;
+  }
+  const auto [side, crossing] = beam_of(edge.channel);
+  if (!sensor_of(config, side)) {
+    return std::nullopt;
+  }
+  const InfraredSensor& sensor = *sensor_of(config, side);
+  const auto limb =
+      limb_distance(horizon_axes(config.horizon), earth_view(sky, R_spin_icrf, edge.t),
+                    sensor.mount_angle_rad, phase_rad - sensor.azimuth_rad);
+  if (!limb) {
+    return std::nullopt;
+  }
+  const double slope = std::max(std::abs(limb->depth_per_rotation.z()),
+                                kNarrowestSigmas * sigma_rad * std::abs(limb->depth_bend));
+  const double scale = crossing == Crossing::In ? slope : -slope;
+  return PredictedEdge{.phase_rad = wrapped_rad(phase_rad - limb->depth / scale),
+                       .phase_per_rotation = -limb->depth_per_rotation / scale,
+                       .phase_per_error = PerError::Zero(),
+                       .phase_per_bias = PerBias::Zero()};
 }
 
 double edge_sigma_s(const PulseNoise& noise, PulseChannel channel) {

@@ -44,6 +44,17 @@ std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& s
                                           const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge,
                                           const SensorBiases& biases = SensorBiases::Zero());
 
+/// Where a state has no such edge, or hardly so: which states have it, linearised in the direction
+/// of the beam when it came. Far less curved than the time of an edge, which near the limb goes as
+/// a square root; but as the direction has the edge's noise, only to find such a state.
+/// @param phase_rad Of slit 1 when it came, as the state has it.
+/// @param sigma_rad Of the edge's noise.
+/// @return The third of its `phase_per_rotation` is not -1. Nothing by errors or biases. Empty for
+///         a slit, and for a beam that points away from the Earth or does not exist.
+std::optional<PredictedEdge> edge_nearby(const SpinConfig& config, const Sky& sky,
+                                         const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge,
+                                         double phase_rad, double sigma_rad);
+
 /// One standard deviation of the time of an edge, s.
 double edge_sigma_s(const PulseNoise& noise, PulseChannel channel);
 

@@ -130,4 +130,20 @@ std::optional<LimbCrossing> limb_crossing(const HorizonAxes& axes, const EarthVi
   return std::nullopt;
 }
 
+std::optional<LimbDistance> limb_distance(const HorizonAxes& axes, const EarthView& earth,
+                                          double mount_angle_rad, double azimuth_rad) {
+  const TangentForm form{axes, earth};
+  const double sine = std::sin(mount_angle_rad);
+  const Eigen::Vector3d across{sine * std::cos(azimuth_rad), sine * std::sin(azimuth_rad), 0.0};
+  const Eigen::Vector3d beam = across + std::cos(mount_angle_rad) * Eigen::Vector3d::UnitZ();
+  if (!form.points_down(beam)) {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d onwards = Eigen::Vector3d::UnitZ().cross(beam);
+  const Eigen::Vector3d gradient = form.times(beam);
+  return LimbDistance{.depth = 0.5 * beam.dot(gradient),
+                      .depth_per_rotation = beam.cross(gradient),
+                      .depth_bend = onwards.dot(form.times(onwards)) - across.dot(gradient)};
+}
+
 }  // namespace spindrift

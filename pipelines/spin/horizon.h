@@ -52,4 +52,15 @@ struct EarthView {
 std::optional<LimbCrossing> limb_crossing(const HorizonAxes& axes, const EarthView& earth,
                                           double mount_angle_rad, Crossing crossing);
 
+/// How far a beam is from the limb, wherever it points.
+struct LimbDistance {
+  double depth;                        ///< F/2: positive where the beam is on the Earth.
+  Eigen::Vector3d depth_per_rotation;  ///< When the frame turns; the third is also by azimuth.
+  double depth_bend;                   ///< Second derivative by azimuth.
+};
+
+/// @return Empty where the beam points away from the Earth.
+std::optional<LimbDistance> limb_distance(const HorizonAxes& axes, const EarthView& earth,
+                                          double mount_angle_rad, double azimuth_rad);
+
 }  // namespace spindrift

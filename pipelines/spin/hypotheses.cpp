@@ -21,6 +21,9 @@ constexpr double kPriorInDoubt = 5.0;
 // each, is within so many of its sigmas.
 constexpr double kFitSigmas = 5.0;
 
+// A stray edge may make a fix, and may do so twice.
+constexpr int kFewestFixes = 5;
+
 StartingPoint place_of(const Hypothesis& hypothesis) {
   return {.axis_icrf = hypothesis.filter.axis_icrf(),
           .covariance_rad2 = hypothesis.filter.axis_covariance_rad2()};
@@ -48,6 +51,10 @@ bool Hypotheses::contradicted_by(const StartingPoint& point) const {
   });
 }
 
+bool Hypotheses::settled_by_edges() const {
+  return others_beaten_ && all_.size() == 1 && published().fixes >= kFewestFixes;
+}
+
 /// Nor where all fixes graze: filters that began to one side of the axis need not come to it.
 bool Hypotheses::prior_stands() const {
   return published().favoured && !provisional_ &&
@@ -66,8 +73,17 @@ bool Hypotheses::add(const StartingPoint& point, const SpinConfig& config,
   all_.push_back(
       {.filter = *filter, .log_likelihood = all_.empty() ? 0.0 : all_.front().log_likelihood});
   settled_ = false;
-  settled_by_edges_ = false;
+  others_beaten_ = false;
   return true;
+}
+
+void Hypotheses::note(const StartingPoints::Known& said) {
+  for (Hypothesis& hypothesis : all_) {
+    const bool named = std::any_of(
+        said.points.begin(), said.points.end(),
+        [&](const StartingPoint& point) { return !contradict(point, place_of(hypothesis)); });
+    hypothesis.fixes += named ? said.fixes : 0;
+  }
 }
 
 /// The nearest; the end where that is contradicted.
@@ -98,7 +114,7 @@ void Hypotheses::favour_at(const StartingPoint& point) {
 
 bool Hypotheses::work_in(const SpinConfig& config, const Revolution& revolution, const Sky& sky,
                          double gate_noise) {
-  const GoodEdges edges{revolution};
+  const GoodEdges edges{config, revolution};
   for (Hypothesis& hypothesis : all_) {
     SpinFilter& filter = hypothesis.filter;
     filter.predict(revolution.t_start);
@@ -134,9 +150,7 @@ bool Hypotheses::drop_the_beaten() {
     return same || out;
   };
   all_.erase(std::remove_if(all_.begin() + 1, all_.end(), beaten), all_.end());
-  settled_by_edges_ =
-      settled_by_edges_ || (best_fits && before > 1 && all_.size() == 1 && !provisional_);
-  settled_ = settled_ || settled_by_edges_;
+  others_beaten_ = others_beaten_ || (best_fits && before > 1 && all_.size() == 1 && !provisional_);
   // Unbeaten, the prior's candidate stands before likelier ones.
   std::stable_partition(all_.begin(), all_.end(),
                         [](const Hypothesis& hypothesis) { return hypothesis.favoured; });

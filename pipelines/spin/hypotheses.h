@@ -23,6 +23,7 @@ struct Hypothesis {
   double log_likelihood = 0.0;       ///< Of them.
   double squared_innovations = 0.0;  ///< Normalised, their sum: as many as edges when all is well.
   EdgeTally tally = {};              ///< Of the last revolution.
+  int fixes = 0;                     ///< That have it among their candidates.
 };
 
 /// So many edges say whether a hypothesis fits them.
@@ -37,8 +38,9 @@ class Hypotheses {
   std::size_t count() const { return all_.size(); }
   bool provisional() const { return provisional_; }
   /// One is left, by a fix or by the edges beyond doubt.
-  bool settled() const { return settled_ && all_.size() == 1; }
-  bool settled_by_edges() const { return settled_by_edges_ && all_.size() == 1; }
+  bool settled() const { return (settled_ || settled_by_edges()) && all_.size() == 1; }
+  /// Of candidates that are no accident of one fix: the likeliest of false ones is false.
+  bool settled_by_edges() const;
 
   /// The likeliest first, but before it the prior's, until the edges beat that; likewise
   /// `published`, of which there must be one.
@@ -55,6 +57,9 @@ class Hypotheses {
   /// @return False where none of the revolution's edges can tell its phase.
   bool add(const StartingPoint& point, const SpinConfig& config, const Revolution& revolution,
            const Sky& sky);
+
+  /// Fixes have said this.
+  void note(const StartingPoints::Known& said);
 
   /// A fix settles which of them is true, unless it contradicts them all.
   void settle_at(const StartingPoint& point);
@@ -73,7 +78,7 @@ class Hypotheses {
   std::vector<Hypothesis> all_;
   bool provisional_;
   bool settled_ = false;
-  bool settled_by_edges_ = false;
+  bool others_beaten_ = false;
 };
 
 }  // namespace spindrift

@@ -223,9 +223,10 @@ void PassNotices::say_why_no_mean() {
 }
 
 std::string PassNotices::why_ambiguous() const {
-  if (last_status_.ends_with("all fixes graze")) {
+  if (last_status_.ends_with("fixes graze")) {
     return fmt::format(
-        "all fixes graze: the true axis may be missing among their candidates, so that {} settle "
+        "nearly all fixes graze: the true axis may be missing among their candidates, so that {} "
+        "settle "
         "it",
         config_.prior ? "the prior of the mission (spin.prior) does not" : "no prior would");
   }

@@ -18,6 +18,9 @@ namespace {
 constexpr std::size_t kMostHypotheses = 8;
 // So many fixes that graze, and none that does not: there will be no better ones.
 constexpr int kFewestGrazing = 20;
+// Weight of one fix in the share of those that graze.
+constexpr double kRecentFix = 0.02;
+constexpr double kNearlyAll = 0.8;
 // Mean squared angle between an axis that may point anywhere and any other.
 constexpr double kAnywhere_rad2 = (std::numbers::pi * std::numbers::pi - 4.0) / 2.0;
 
@@ -55,6 +58,7 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
 
 /// @return Whether filters began here.
 bool SequentialEstimator::heed(const SpinFix& fix, const Revolution& revolution, const Sky& sky) {
+  note_grazing(fix);
   StartingPoints* const starts = starting_points_for(fix);
   const auto said = starts != nullptr ? starts->add(candidates_of(fix)) : std::nullopt;
   if (!said) {
@@ -62,8 +66,9 @@ bool SequentialEstimator::heed(const SpinFix& fix, const Revolution& revolution,
   }
   // Afresh: what fixes have in common to one side does not average out.
   starts->forget();
-  if (!hypotheses_.empty() && !fix.grazing) {
+  if (!hypotheses_.empty() && !counts_as_grazing(fix)) {
     contradiction_.note(hypotheses_, *said);
+    hypotheses_.note(*said);
   }
   if (gives_way_to(fix)) {
     return begin(fix, said->points, revolution, sky);
@@ -77,10 +82,21 @@ bool SequentialEstimator::heed(const SpinFix& fix, const Revolution& revolution,
   return false;
 }
 
+void SequentialEstimator::note_grazing(const SpinFix& fix) {
+  ++fixes_;
+  const double weight = std::max(kRecentFix, 1.0 / static_cast<double>(fixes_));
+  grazing_share_ += weight * ((fix.grazing ? 1.0 : 0.0) - grazing_share_);
+}
+
+/// Where nearly all graze it is noise that keeps some from it, and their candidates are no better.
+bool SequentialEstimator::counts_as_grazing(const SpinFix& fix) const {
+  return fix.grazing || (leaves_open(fix) && grazing_share_ > kNearlyAll);
+}
+
 /// A branch that only alternates have made is not confirmed by a settled fix that comes near it.
 /// Where there are fixes that do not graze, the others say nothing.
 StartingPoints* SequentialEstimator::starting_points_for(const SpinFix& fix) {
-  if (fix.grazing) {
+  if (counts_as_grazing(fix)) {
     const bool no_others = hypotheses_.empty() || hypotheses_.provisional();
     return leaves_open(fix) && no_others ? &grazing_starts_ : nullptr;
   }
@@ -96,7 +112,7 @@ bool SequentialEstimator::gives_way_to(const SpinFix& fix) const {
     return true;
   }
   if (hypotheses_.provisional()) {
-    return !fix.grazing || gates_.most_gated();
+    return !counts_as_grazing(fix) || gates_.most_gated();
   }
   return fix.accepted && (gates_.most_gated() || fixes_contradict());
 }
@@ -110,7 +126,7 @@ bool SequentialEstimator::fixes_contradict() const {
 /// start is forgotten.
 bool SequentialEstimator::begin(const SpinFix& fix, std::span<const StartingPoint> points,
                                 const Revolution& revolution, const Sky& sky) {
-  Hypotheses started{fix.grazing};
+  Hypotheses started{counts_as_grazing(fix)};
   for (const StartingPoint& point : points) {
     if (!started.add(point, config_, revolution, sky)) {
       return false;
@@ -199,16 +215,21 @@ double SequentialEstimator::model_leverage() const {
 }
 
 std::optional<KnownAxis> SequentialEstimator::settled_by_edges() const {
-  if (!hypotheses_.settled_by_edges() || gates_.most_gated()) {
+  if (!hypotheses_.settled_by_edges() || gates_.most_gated() || model_contradicts()) {
     return std::nullopt;
   }
   return KnownAxis{.axis_icrf = hypotheses_.published().filter.axis_icrf(),
                    .sigma_rad = std::hypot(std::sqrt(covariance_rad2().trace()), kModelLimit_rad)};
 }
 
+/// No sensor is misplaced so far: it is the axis that is wrong, however well the rest fits.
+bool SequentialEstimator::model_contradicts() const {
+  return verdict_.beyond_allowance || verdict_.error_rad > kModelLimit_rad;
+}
+
 std::string SequentialEstimator::ambiguous_status() const {
   const std::size_t count = hypotheses_.count();
-  const std::string_view none = ", or none: all fixes graze";
+  const std::string_view none = ", or none: fixes graze";
   if (count == 1) {
     return hypotheses_.provisional()
                ? fmt::format("AMBIGUOUS{}", none)
@@ -245,7 +266,7 @@ std::string SequentialEstimator::status() const {
   }
   if (verdict_.error_rad > 0.0) {
     return fmt::format("{}, model off by {:.2g} deg, {} revolutions",
-                       verdict_.beyond_allowance ? "DOUBTFUL" : "OK", degrees(verdict_.error_rad),
+                       model_contradicts() ? "DOUBTFUL" : "OK", degrees(verdict_.error_rad),
                        revolutions);
   }
   const std::string counts =

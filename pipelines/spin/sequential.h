@@ -17,13 +17,14 @@
 ///     OK         all is well
 ///     AMBIGUOUS  another axis, named, fits as well or nearly so, or nothing has settled it; the
 ///                covariance is that of the candidate published, were it true. "or 2 more": so many
-///                others do, which the fixes list among their alternates. "or none: all fixes
-///                graze": where two branches touch, candidates are off by more than their
-///                covariances and many fixes lack the true one, so that no filter may follow it
+///                others do, which the fixes list among their alternates. "or none: fixes graze",
+///                nearly all of them: where two branches touch, candidates are off by more than
+///                their covariances and many fixes lack the true one, so that no filter may follow
+///                it
 ///     DOUBTFUL   the edges scatter more than their noise, or show errors of the model beyond its
-///                allowance: the covariance is raised to cover it (within the allowance likewise,
-///                and the status is OK, "model off by"); or most edges of the channel named are not
-///                where this axis has them
+///                allowance, or of half a degree whatever they may be: the covariance is raised to
+///                cover it (below that likewise, and the status is OK, "model off by"); or most
+///                edges of the channel named are not where this axis has them
 ///     LOST       most edges are not: the axis is no longer, or never was, the true one; the
 ///                covariance is that of an axis which may point anywhere
 
@@ -78,6 +79,8 @@ class SequentialEstimator {
 
  private:
   bool heed(const SpinFix& fix, const Revolution& revolution, const Sky& sky);
+  void note_grazing(const SpinFix& fix);
+  bool counts_as_grazing(const SpinFix& fix) const;
   StartingPoints* starting_points_for(const SpinFix& fix);
   bool gives_way_to(const SpinFix& fix) const;
   bool begin(const SpinFix& fix, std::span<const StartingPoint> points,
@@ -87,6 +90,7 @@ class SequentialEstimator {
   bool fixes_contradict() const;
   void work_in(const Revolution& revolution, const Sky& sky);
   Eigen::Matrix2d covariance_rad2() const;
+  bool model_contradicts() const;
   std::string ambiguous_status() const;
   std::string status() const;
 
@@ -96,6 +100,8 @@ class SequentialEstimator {
   StartingPoints settled_starts_;  ///< Of fixes that are settled.
   StartingPoints open_starts_;     ///< Of those that leave several candidates open.
   StartingPoints grazing_starts_;
+  std::int64_t fixes_ = 0;
+  double grazing_share_ = 0.0;   ///< Of the recent fixes.
   StartingPoints unfollowed_;    ///< Candidates that no filter follows, since the start.
   Contradiction contradiction_;  ///< By fixes, since the start.
 

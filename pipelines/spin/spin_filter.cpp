@@ -6,6 +6,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/edge_prediction.h"
+#include "pipelines/spin/edge_use.h"
 
 namespace spindrift {
 namespace {
@@ -25,9 +26,10 @@ constexpr double kDriftWander_rad_s2_sqrt_s = 2e-9;
 // One edge in a thousand is spurious and anywhere on the circle.
 const double kLogSpurious = std::log(1e-3 / (2.0 * std::numbers::pi));
 // A correction of the axis beyond this (0.06 deg) is linearised anew where it ends, up to so many
-// times: what two linearisations disagree on would count as knowledge of what no edge measures.
+// times: what two linearisations disagree on would count as knowledge of what no edge measures. The
+// narrower a chord, the steeper its edges and, squared, the more curved.
 constexpr double kFarFromLinear_rad = 1e-3;
-constexpr int kMostPasses = 4;
+constexpr int kMostPasses = 8;
 // The first phase comes from an edge that the axis may rest on too: known so badly, it is free.
 constexpr double kFirstPhase_rad = 0.1;
 // The first rate comes from the period: ten of its sigmas leave the filter a hundredth of its
@@ -43,10 +45,11 @@ double log_normal_density(double squared_innovation, double variance) {
 
 }  // namespace
 
-GoodEdges::GoodEdges(const Revolution& revolution) {
+GoodEdges::GoodEdges(const SpinConfig& config, const Revolution& revolution) {
   for (std::size_t i = 0; i < kPulseChannels; ++i) {
     const auto channel = static_cast<PulseChannel>(i);
-    if (const auto t = revolution.good_edge(channel)) {
+    const auto t = revolution.good_edge(channel);
+    if (t && has_sensor(config, channel)) {
       edges_.at(count_++) = {.t = *t, .channel = channel};
     }
   }
@@ -59,7 +62,7 @@ std::optional<SpinFilter> SpinFilter::about(const Eigen::Vector3d& axis_icrf,
   const auto q_icrf_spin = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis_icrf);
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin.conjugate().toRotationMatrix();
   const double rate_rad_s = 2.0 * std::numbers::pi / revolution.period.period_s;
-  const GoodEdges edges{revolution};
+  const GoodEdges edges{config, revolution};
   for (const Pulse& edge : edges.span()) {
     const auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
     if (!predicted) {
@@ -111,12 +114,17 @@ void SpinFilter::predict(TaiTime t) {
 EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges,
                              double excess_noise) {
   const SpinFilter prior = *this;
-  const double gate = square(kGateSigmas) * excess_noise;
+  const Revolved seen{
+      .config = config, .sky = sky, .edges = edges, .gate = square(kGateSigmas) * excess_noise};
   EdgeTally tally;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    const Error moved = update_linearised_here(prior, config, sky, edges, gate, tally);
-    if (moved.head<2>().norm() < kFarFromLinear_rad) {
-      break;
+  // There may be no state near with all these edges: then those that are missing pull no more.
+  for (const Missing missing : {Missing::Approached, Missing::LeftOut}) {
+    *this = prior;
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      const Linearised here = update_linearised_here(prior, seen, missing, tally);
+      if (!here.approached && here.moved_rad * square(here.steepest) < kFarFromLinear_rad) {
+        return tally;
+      }
     }
   }
   return tally;
@@ -124,41 +132,48 @@ EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky, std::span
 
 /// All edges are linearised at the present state: then their order has no weight, and sun edges,
 /// the sharper, come first to the gate.
-SpinFilter::Error SpinFilter::update_linearised_here(const SpinFilter& prior,
-                                                     const SpinConfig& config, const Sky& sky,
-                                                     std::span<const Pulse> edges, double gate,
-                                                     EdgeTally& tally) {
+SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prior,
+                                                          const Revolved& seen, Missing missing,
+                                                          EdgeTally& tally) {
+  const auto& [config, sky, edges, gate] = seen;
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin_.conjugate().toRotationMatrix();
+  Linearised here;
   tally = {};
   tally.squared_gate = gate;
   covariance_ = prior.covariance_;
   of_errors_ = prior.of_errors_;
   Error error = error_of(prior);
-  const auto leave_out = [&tally, gate](const Pulse& edge) {
+  const auto leave_out = [&tally, limit = gate](const Pulse& edge) {
     tally.gated.set(index_of(edge.channel));
     tally.log_likelihood += kLogSpurious;
-    tally.squared_innovations += gate;
+    tally.squared_innovations += limit;
   };
   for (const Pulse& edge : edges) {
-    const auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
+    const double dt_s = seconds_between(t_, edge.t);
+    const double phase_rad = phase_rad_ + (rate_rad_s_ + 0.5 * drift_rad_s2_ * dt_s) * dt_s;
+    const double sigma_rad = rate_rad_s_ * edge_sigma_s(config.noise, edge.channel);
+    auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
+    const bool exists = predicted.has_value();
+    if (!exists && missing == Missing::Approached) {
+      predicted = edge_nearby(config, sky, R_spin_icrf, edge, phase_rad, sigma_rad);
+    }
     if (!predicted) {
       leave_out(edge);
       continue;
     }
-    const double dt_s = seconds_between(t_, edge.t);
-    const Error slope{predicted->phase_per_rotation.x(), predicted->phase_per_rotation.y(), -1.0,
-                      -dt_s, -0.5 * square(dt_s)};
+    const double by_phase = predicted->phase_per_rotation.z();
+    const Error slope{predicted->phase_per_rotation.x(), predicted->phase_per_rotation.y(),
+                      by_phase, by_phase * dt_s, by_phase * 0.5 * square(dt_s)};
     const Error gain_unscaled = covariance_ * slope;
-    const double variance =
-        slope.dot(gain_unscaled) + square(rate_rad_s_ * edge_sigma_s(config.noise, edge.channel));
-    const double innovation =
-        wrapped_rad(phase_rad_ + (rate_rad_s_ + 0.5 * drift_rad_s2_ * dt_s) * dt_s -
-                    predicted->phase_rad - slope.dot(error));
+    const double variance = slope.dot(gain_unscaled) + square(sigma_rad);
+    const double innovation = wrapped_rad(phase_rad - predicted->phase_rad - slope.dot(error));
     const double squared_innovation = square(innovation) / variance;
     if (squared_innovation > gate) {
       leave_out(edge);
       continue;
     }
+    here.approached = here.approached || !exists;
+    here.steepest = std::max(here.steepest, predicted->phase_per_rotation.head<2>().norm());
     // An edge that is late by an angle looks as if the phase were ahead by it.
     const Eigen::Matrix<double, 1, kModelErrors> innovation_of_errors =
         slope.transpose() * of_errors_ + predicted->phase_per_error;
@@ -172,7 +187,8 @@ SpinFilter::Error SpinFilter::update_linearised_here(const SpinFilter& prior,
     tally.squared_innovations += squared_innovation;
   }
   correct(error);
-  return error;
+  here.moved_rad = error.head<2>().norm();
+  return here;
 }
 
 /// Of this state, were `truth` true.

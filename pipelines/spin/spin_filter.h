@@ -90,8 +90,21 @@ class SpinFilter {
   /// Tilt about the frame's first and second axes, phase, rate, drift.
   using Error = Eigen::Matrix<double, 5, 1>;
 
-  Error update_linearised_here(const SpinFilter& prior, const SpinConfig& config, const Sky& sky,
-                               std::span<const Pulse> edges, double gate, EdgeTally& tally);
+  struct Revolved {
+    const SpinConfig& config;
+    const Sky& sky;
+    std::span<const Pulse> edges;
+    double gate;
+  };
+  /// What is done with edges that the state does not have.
+  enum class Missing { Approached, LeftOut };
+  struct Linearised {
+    double moved_rad = 0.0;   ///< The axis, by the update.
+    double steepest = 1.0;    ///< Change of an edge's phase with the axis, rad/rad.
+    bool approached = false;  ///< The update used edges that the state does not have.
+  };
+  Linearised update_linearised_here(const SpinFilter& prior, const Revolved& seen, Missing missing,
+                                    EdgeTally& tally);
   Error error_of(const SpinFilter& truth) const;
   void correct(const Error& error);
 
@@ -106,10 +119,10 @@ class SpinFilter {
       Eigen::Matrix<double, 5, kModelErrors>::Zero();
 };
 
-/// The good edges of a revolution.
+/// The good edges of a revolution; of channels without a sensor none are.
 class GoodEdges {
  public:
-  explicit GoodEdges(const Revolution& revolution);
+  GoodEdges(const SpinConfig& config, const Revolution& revolution);
   std::span<const Pulse> span() const { return {edges_.data(), count_}; }
 
  private:

@@ -11,8 +11,8 @@
 namespace spindrift {
 namespace {
 
-// From so near a fit ends at the same place.
-constexpr double kSameStart_rad = 2.0 * std::numbers::pi / 180.0;
+// From so near a fit ends at the same place. The narrowest chord vanishes within a degree.
+constexpr double kSameStart_rad = 0.1 * std::numbers::pi / 180.0;
 
 /// Not where it should be, or with nothing to compare it with; else it is one of several edges of
 /// an angle that failed its test.

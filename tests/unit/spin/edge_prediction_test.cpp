@@ -9,6 +9,7 @@
 #include <cmath>
 #include <random>
 
+#include "pipelines/frames/celestial.h"
 #include "pipelines/frames/wgs84.h"
 #include "pipelines/spin/measurement.h"
 #include "tests/support/observed_spin.h"
@@ -69,6 +70,47 @@ TEST(EdgePrediction, ASunAngleMeasuredTooLargeMovesTheSecondSlitAlone) {
   const double before_rad = sun_angle(sensor, delay_rad, 1.0, 0.0)->value_rad;
   const double after_rad = sun_angle(sensor, delay_rad + later_rad, 1.0, 0.0)->value_rad;
   EXPECT_NEAR((after_rad - before_rad) / kError_rad, 1.0, 1e-3);
+}
+
+TEST(EdgePrediction, WhatLeadsToAnEdgeIsTheEdgeItselfWhereThereIsOne) {
+  const Scene scene;
+  const SpinConfig& config = scene.body.config;
+  for (const PulseChannel channel : {NorthIn, NorthOut, SouthIn, SouthOut}) {
+    const PredictedEdge there = scene.predicted(channel, config);
+    const PredictedEdge near =
+        edge_nearby(config, scene.sky, scene.R_spin_icrf, {.t = scene.sky.t, .channel = channel},
+                    there.phase_rad, 0.001)
+            .value();
+    EXPECT_NEAR(near.phase_rad, there.phase_rad, 1e-9);
+    EXPECT_LT((near.phase_per_rotation - there.phase_per_rotation).norm(), 1e-9);
+  }
+}
+
+TEST(EdgePrediction, AStepTowardsAnEdgeLeadsFromABeamThatMissesTheEarthToOneThatHasIt) {
+  const Scene scene;
+  // Half a degree beyond the limb.
+  SpinConfig config = scene.body.config;
+  const Eigen::Vector3d earth_spin =
+      -(scene.R_spin_icrf * scene.sky.spacecraft.position_icrf_km).normalized();
+  const double disc_rad = std::asin((wgs84::kEquatorialRadius_km + 40.0) /
+                                    scene.sky.spacecraft.position_icrf_km.norm());
+  const double earth_rad = std::acos(earth_spin.z());
+  config.north->mount_angle_rad = earth_rad - disc_rad - 0.0087;
+  const Pulse edge{.t = scene.sky.t, .channel = NorthIn};
+  ASSERT_FALSE(predict_edge(config, scene.sky, scene.R_spin_icrf, edge));
+  const double phase_rad =
+      std::atan2(earth_spin.y(), earth_spin.x()) + config.north->azimuth_rad - 0.05;
+  const PredictedEdge near =
+      edge_nearby(config, scene.sky, scene.R_spin_icrf, edge, phase_rad, 0.001).value();
+  const Eigen::Vector2d slope = near.phase_per_rotation.head<2>();
+  const Eigen::Vector2d tilt =
+      slope * wrapped_rad(phase_rad - near.phase_rad) / slope.squaredNorm();
+  const Eigen::Matrix3d tilted =
+      Eigen::AngleAxisd{tilt.norm(), Eigen::Vector3d{tilt.x(), tilt.y(), 0.0}.normalized()}
+          .toRotationMatrix()
+          .transpose() *
+      scene.R_spin_icrf;
+  EXPECT_NEAR(predict_edge(config, scene.sky, tilted, edge).value().phase_rad, phase_rad, 0.005);
 }
 
 }  // namespace

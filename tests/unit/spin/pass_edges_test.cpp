@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <utility>
 
 #include "pipelines/frames/celestial.h"
@@ -102,6 +103,17 @@ TEST(PassEdges, BeginAtTheEstimatesAndWhereTheseAreAmbiguousAtAllCandidates) {
   ASSERT_EQ(starts.size(), 2U);
   EXPECT_EQ(starts[0], x);
   EXPECT_EQ(starts[1], z);
+}
+
+TEST(PassEdges, BeginAtEstimatesThatDifferByADegree) {
+  // One of them may have a narrow chord, the other none.
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  PassEdges pass;
+  pass.note(estimate(SpinEstimator::Sequential, x, "DOUBTFUL"));
+  pass.note(estimate(SpinEstimator::Mean, {std::cos(0.01), std::sin(0.01), 0.0}, "OK"));
+  EXPECT_EQ(pass.starts({}).size(), 2U);
+  pass.note(estimate(SpinEstimator::Mean, {std::cos(0.001), std::sin(0.001), 0.0}, "OK"));
+  EXPECT_EQ(pass.starts({}).size(), 1U);
 }
 
 }  // namespace

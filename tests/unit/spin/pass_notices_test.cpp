@@ -130,7 +130,7 @@ TEST(PassNotices, WhereTheMissionHasAPriorTheEndSaysWhyItDoesNotSettleTheAxis) {
 }
 
 TEST(PassNotices, WhereAllFixesGrazeNoPriorIsSaidToSettleTheAxis) {
-  const char* const status = "AMBIGUOUS, or none: all fixes graze";
+  const char* const status = "AMBIGUOUS, or none: fixes graze";
   EXPECT_THAT(said_of_ambiguous(status, {}, {}), EndsWith("no prior would settle it"));
   const SpinPrior prior{.axis_icrf = Eigen::Vector3d::UnitX(), .sigma_rad = 0.009};
   EXPECT_THAT(said_of_ambiguous(status, prior, PriorVerdict::Chooses),

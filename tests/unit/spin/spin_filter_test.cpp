@@ -27,7 +27,7 @@ Eigen::Matrix2d round_covariance(double sigma_rad) {
 }
 
 EdgeTally work_in(SpinFilter& filter, const SpinConfig& config, const ObservedRevolution& seen) {
-  const GoodEdges edges{seen.revolution};
+  const GoodEdges edges{config, seen.revolution};
   filter.predict(edges.span().front().t);
   return filter.update(config, seen.sky, edges.span());
 }
@@ -135,7 +135,7 @@ TEST(SpinFilter, TheOrderOfTheEdgesHasNoWeight) {
                                          seen[0].revolution, seen[0].sky)
                            .value();
   SpinFilter backward = forward;
-  const GoodEdges good{seen[1].revolution};
+  const GoodEdges good{pass.config, seen[1].revolution};
   std::vector<Pulse> edges{good.span().begin(), good.span().end()};
   forward.update(pass.config, seen[1].sky, edges);
   std::reverse(edges.begin(), edges.end());

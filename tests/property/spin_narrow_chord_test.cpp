@@ -1,0 +1,126 @@
+/// Beams that cross the Earth near its limb: chords of a few degrees, which an axis two tenths of
+/// a degree away does not have, while single fixes are degrees off. `sequential` and `batch` find
+/// the axis of every such pass, and no row of `sequential` is OK that is not near it.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/batch/batch_estimator.h"
+#include "pipelines/spin/batch/pass_edges.h"
+#include "pipelines/spin/spin_pass.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/product_text.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree_rad = kPi / 180.0;
+constexpr double kSigmas = 5.0;
+
+/// Near its apogee, 42,000 km from the Earth's centre: the disc has a half-angle of 8.8 deg.
+Orbit high_orbit() {
+  return Orbit{KeplerOrbit::make({.epoch = testing::kTransferStart,
+                                  .semi_major_axis_km = 24400.0,
+                                  .eccentricity = 0.73,
+                                  .inclination_rad = 28.5 * kDegree_rad,
+                                  .raan_rad = 281.0 * kDegree_rad,
+                                  .argument_of_perigee_rad = kPi,
+                                  .mean_anomaly_rad = 164.698 * kDegree_rad})
+                   .value()};
+}
+
+struct NarrowPass {
+  const char* name;
+  std::vector<PulseChannel> dead;
+  double rate_rpm;
+  double turns;
+};
+
+/// The beam at 85 deg, north's or south's, has a chord of 3.7 deg; that at 95 deg 17 deg.
+testing::SpinningBody body_of(const NarrowPass& pass) {
+  testing::SpinningBody body{.axis_icrf = direction_icrf({.ra_rad = 196.6782 * kDegree_rad,
+                                                          .dec_rad = 55.206 * kDegree_rad}),
+                             .rate_rad_s = pass.rate_rpm * 2.0 * kPi / 60.0,
+                             .first_turn_rad = 0.4,
+                             .config = testing::usual_config()};
+  if (!pass.dead.empty() && pass.dead.front() == PulseChannel::NorthIn) {
+    std::swap(body.config.north, body.config.south);
+  }
+  return body;
+}
+
+struct Solved {
+  SpinOutput output;
+  Expected<BatchSolution> batch;
+};
+
+Solved solved(const testing::SpinningBody& body, const Orbit& orbit,
+              const std::vector<Pulse>& pulses) {
+  SpinOutput output = testing::run(SpinPass{body.config, orbit}, pulses);
+  PassEdges pass;
+  for (const SpinProduct& product : output.products) {
+    pass.note(product);
+  }
+  const auto starts = pass.starts(body.config.prior);
+  auto batch = solve_batch(body.config, orbit, std::move(pass).edges(), starts);
+  return {.output = std::move(output), .batch = std::move(batch)};
+}
+
+double error_sigmas(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
+  return angle_between_rad(estimate.axis_icrf, true_icrf) / testing::sigma_rad(estimate);
+}
+
+class SpinNarrowChord : public ::testing::TestWithParam<NarrowPass> {};
+
+TEST_P(SpinNarrowChord, EveryPassIsSolved) {
+  constexpr std::uint64_t kSeeds = 12;
+  const NarrowPass& pass = GetParam();
+  const Orbit orbit = high_orbit();
+  const testing::SpinningBody body = body_of(pass);
+  auto edges =
+      testing::edges_between(body, testing::seen_from(orbit, testing::spherical_horizon_km(40.0)),
+                             0.0, pass.turns * 2.0 * kPi / body.rate_rad_s);
+  std::erase_if(edges, [&](const testing::Edge& edge) {
+    return std::find(pass.dead.begin(), pass.dead.end(), edge.channel) != pass.dead.end();
+  });
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 rng{seed};
+    const Solved found = solved(
+        body, orbit, testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
+    for (const SpinEstimate& estimate : testing::all_of<SpinEstimate>(found.output)) {
+      if (estimate.estimator == SpinEstimator::Sequential && estimate.status.starts_with("OK")) {
+        EXPECT_LT(error_sigmas(estimate, body.axis_icrf), kSigmas) << estimate.status;
+      }
+    }
+    const SpinEstimate last = testing::last_estimate(found.output, SpinEstimator::Sequential);
+    EXPECT_TRUE(last.status.starts_with("OK")) << last.status;
+    EXPECT_LT(error_sigmas(last, body.axis_icrf), kSigmas);
+    ASSERT_TRUE(found.batch) << found.batch.error().message;
+    EXPECT_TRUE(found.batch->estimate.status.starts_with("OK")) << found.batch->estimate.status;
+    EXPECT_LT(error_sigmas(found.batch->estimate, body.axis_icrf), kSigmas);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Passes, SpinNarrowChord,
+    ::testing::Values(
+        NarrowPass{"north_alone", {PulseChannel::SouthIn, PulseChannel::SouthOut}, 151.104, 150.0},
+        NarrowPass{"south_alone", {PulseChannel::NorthIn, PulseChannel::NorthOut}, 151.104, 150.0},
+        NarrowPass{"slower", {PulseChannel::SouthIn, PulseChannel::SouthOut}, 60.0, 150.0},
+        NarrowPass{"both", {}, 151.104, 150.0}),
+    [](const auto& pass) { return std::string{pass.param.name}; });
+
+}  // namespace
+}  // namespace spindrift
