@@ -7,12 +7,18 @@
 /// that the fixes state. Both depend on the noise of the fix, in the second order, and do not
 /// average out: where one beam is all there is, it lay up to nine of its sigmas to one side.
 ///
+/// That mean of unit vectors, the plain average, lies among its fixes whatever they are. So it is
+/// where the least squares begin, and what they are held against: where they leave it, or the
+/// angles are not linear and leave the axis open, the plain average stands in for them.
+///
 /// Its covariance holds the noise of the fixes, what it may have moved it by that others were left
 /// out for their noise (fixes_by_case.h), and what the residuals show to be wrong with noise and
 /// model. Cases that it may move by more than they help are not in it. The status begins with
 ///     OK         all is well, or the model is off within its allowance
 ///     DOUBTFUL   the residuals scatter more than their noise, or the model is off by more; or most
-///                fixes like those that it rests on were left out
+///                fixes like those that it rests on were left out; or it is a plain average, or
+///                of fixes that differ, or of so few that nothing checks them
+///     LOST       the axis has moved, or the mean was wrong, and no fix has come since
 
 #pragma once
 
@@ -27,6 +33,7 @@
 #include "pipelines/spin/angle_equations.h"
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/fixes_by_case.h"
+#include "pipelines/spin/mean_axis.h"
 #include "pipelines/spin/measurement.h"
 #include "pipelines/spin/model_check.h"
 #include "pipelines/spin/products.h"
@@ -54,12 +61,13 @@ class MeanEstimator {
 
   /// Of fixes in the mean; the following need one.
   std::size_t count() const { return mean_ ? mean_->count : 0; }
-  Eigen::Vector3d axis_icrf() const { return mean_->equations.axis_icrf(); }
+  Eigen::Vector3d axis_icrf() const;
   Eigen::Matrix2d covariance_rad2() const;  ///< In the tangent plane: east, north.
   /// Likewise, against the question whether the axis has moved: a wrong model moves the mean and
   /// lets residuals scatter as before; a move does not.
   Eigen::Matrix2d covariance_if_moved_rad2() const;
 
+  /// Of the mean, or of that which was given up; there must be one of them.
   SpinEstimate estimate(const Revolution& revolution) const;
 
  private:
@@ -77,15 +85,25 @@ class MeanEstimator {
   void settle(Kept& kept, const SpinFix& fix);
   void add(const Kept& kept, const Eigen::Vector3d& axis_icrf);
   void linearise_anew();
+  void linearise_about(const Eigen::Vector3d& axis_icrf);
+  Eigen::Matrix2d least_squares_covariance_rad2() const;
+  double excess_noise() const;
+  double fix_rad2() const;
+  bool tells_less_than_a_fix() const;
+  double off_the_fixes_rad() const;
+  bool fits_the_fixes() const;
+  std::string doubt() const;
   std::string status() const;
 
   SpinConfig config_;
   std::deque<Kept> kept_;  ///< The last revolutions.
   FixesByCase fixes_;
-  std::size_t settled_ = 0;  ///< So many are in these.
-  std::optional<MeanOfCases> mean_;
+  std::size_t settled_ = 0;          ///< So many are in these.
+  std::optional<MeanOfCases> mean_;  ///< The least squares.
+  MeanAxis average_;                 ///< Of the same fixes.
   ModelVerdict verdict_;
   std::optional<TaiTime> began_;  ///< Empty: with the pass.
+  std::optional<Eigen::Vector3d> given_up_icrf_;
 };
 
 }  // namespace spindrift

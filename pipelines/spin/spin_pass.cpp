@@ -294,6 +294,7 @@ void SpinPass::say_why_not_accepted(const SpinFix& fix) {
 void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   const Revolution& revolution = candidate.revolution;
   const std::vector<SpinFix> fixes = find_fixes(candidate);
+  const bool had_mean = mean_.count() > 0;
   std::optional<SpinEstimate> sequential;
   if (const auto sky = surroundings_.sky(revolution.t_start)) {
     sequential = sequential_.update(
@@ -307,6 +308,7 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
     }
   }
   std::copy(fixes.begin(), fixes.end(), std::back_inserter(out.products));
+  const bool mean_given_up = had_mean && mean_.count() == 0;
   bool mean_moved = false;
   mean_.keep(revolution.number, candidate.measured, *candidate.sightlines);
   for (const SpinFix& fix : fixes) {
@@ -316,7 +318,7 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
       mean_moved = true;
     }
   }
-  if (mean_moved) {
+  if (mean_moved || mean_given_up) {
     out.products.emplace_back(mean_.estimate(revolution));
     notices_.mean_began();
   }

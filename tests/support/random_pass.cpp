@@ -19,6 +19,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegree_rad = kPi / 180.0;
 constexpr double kCo2_km = 40.0;
+constexpr double kRevolutions = 300.0;
 
 class Draw {
  public:
@@ -79,7 +80,8 @@ bool well_seen_or_not(const std::optional<InfraredSensor>& sensor, double earth_
   return *chord > 8.0 * kDegree_rad && *chord < 160.0 * kDegree_rad;
 }
 
-bool is_observable(const SpinningBody& body, const Surroundings& around, double t_s) {
+bool is_observable_at(const RandomPass& pass, double t_s) {
+  const auto& [name, orbit, around, body, dead] = pass;
   const Eigen::Vector3d earth_icrf_km = around.earth_icrf_km(t_s);
   const Eigen::Vector3d sun_icrf = around.sun_icrf(t_s);
   const double sun_earth_rad = angle_between_rad(sun_icrf, earth_icrf_km);
@@ -96,6 +98,74 @@ bool is_observable(const SpinningBody& body, const Surroundings& around, double 
          well_seen_or_not(body.config.south, earth_rad, *disc_rad, seen) && seen > 0;
 }
 
+bool is_observable(const RandomPass& pass) {
+  return is_observable_at(pass, 0.0) &&
+         is_observable_at(pass, kRevolutions * 2.0 * kPi / pass.body.rate_rad_s);
+}
+
+bool sees_the_earth(const RandomPass& pass, const std::optional<InfraredSensor>& sensor,
+                    double t_s) {
+  const Eigen::Vector3d earth_icrf_km = pass.around.earth_icrf_km(t_s);
+  const auto disc_rad = earth_disc_half_angle_rad(earth_icrf_km.norm(), kCo2_km);
+  const double earth_rad = angle_between_rad(pass.body.axis_icrf, earth_icrf_km);
+  return sensor && disc_rad &&
+         predict_chord_rad(sensor->mount_angle_rad, earth_rad, *disc_rad).has_value();
+}
+
+bool crosses_the_limb(const RandomPass& pass) {
+  const double end_s = kRevolutions * 2.0 * kPi / pass.body.rate_rad_s;
+  const SpinConfig& config = pass.body.config;
+  return sees_the_earth(pass, config.north, 0.0) != sees_the_earth(pass, config.north, end_s) ||
+         sees_the_earth(pass, config.south, 0.0) != sees_the_earth(pass, config.south, end_s);
+}
+
+/// All channels, or some that are missing or dead.
+std::string draw_channels(Draw& draw, SpinningBody& body, std::vector<PulseChannel>& dead) {
+  const double kind = draw.between(0.0, 1.0);
+  if (kind < 0.15) {
+    body.config.south.reset();
+    return "north only";
+  }
+  if (kind < 0.3) {
+    body.config.north.reset();
+    return "south only";
+  }
+  if (kind < 0.45) {
+    dead.push_back(PulseChannel::Sun2);
+    return "no sun2";
+  }
+  if (kind < 0.6) {
+    dead.push_back(PulseChannel::Sun1);
+    return "no sun1";
+  }
+  return "all channels";
+}
+
+RandomPass drawn_pass(Draw& draw) {
+  const Orbit orbit = random_orbit(draw);
+  SpinningBody body{.axis_icrf = draw.direction(),
+                    .rate_rad_s = 2.0 * kPi / 60.0 * 5.0 * std::pow(40.0, draw.between(0.0, 1.0)),
+                    .first_turn_rad = draw.between(0.0, 2.0 * kPi),
+                    .config = random_config(draw)};
+  std::vector<PulseChannel> dead;
+  const std::string channels = draw_channels(draw, body, dead);
+  const bool sphere = body.config.horizon.model == HorizonModel::Sphere;
+  const RaDec axis = ra_dec_of(body.axis_icrf);
+  const auto mount_deg = [](const std::optional<InfraredSensor>& sensor) {
+    return sensor ? sensor->mount_angle_rad / kDegree_rad : 0.0;
+  };
+  return {
+      .name = fmt::format("{}, {}, {:.1f} rpm, axis {:.1f} {:.1f} deg, mounted {:.1f} {:.1f}",
+                          channels, sphere ? "sphere" : "ellipsoid", body.rate_rad_s * 30.0 / kPi,
+                          axis.ra_rad / kDegree_rad, axis.dec_rad / kDegree_rad,
+                          mount_deg(body.config.north), mount_deg(body.config.south)),
+      .orbit = orbit,
+      .around = seen_from(orbit,
+                          sphere ? spherical_horizon_km(kCo2_km) : ellipsoidal_horizon_km(kCo2_km)),
+      .body = body,
+      .dead = dead};
+}
+
 }  // namespace
 
 std::vector<Pulse> RandomPass::pulses(double revolutions, std::mt19937_64& rng) const {
@@ -109,48 +179,20 @@ std::vector<Pulse> RandomPass::pulses(double revolutions, std::mt19937_64& rng) 
 RandomPass random_pass(std::mt19937_64& rng) {
   Draw draw{rng};
   while (true) {
-    const Orbit orbit = random_orbit(draw);
-    SpinningBody body{.axis_icrf = draw.direction(),
-                      .rate_rad_s = 2.0 * kPi / 60.0 * 5.0 * std::pow(40.0, draw.between(0.0, 1.0)),
-                      .first_turn_rad = draw.between(0.0, 2.0 * kPi),
-                      .config = random_config(draw)};
-    const double kind = draw.between(0.0, 1.0);
-    std::string channels = "all channels";
-    std::vector<PulseChannel> dead;
-    if (kind < 0.15) {
-      body.config.south.reset();
-      channels = "north only";
-    } else if (kind < 0.3) {
-      body.config.north.reset();
-      channels = "south only";
-    } else if (kind < 0.45) {
-      dead.push_back(PulseChannel::Sun2);
-      channels = "no sun2";
-    } else if (kind < 0.6) {
-      dead.push_back(PulseChannel::Sun1);
-      channels = "no sun1";
+    RandomPass pass = drawn_pass(draw);
+    if (is_observable(pass)) {
+      return pass;
     }
-    const bool sphere = body.config.horizon.model == HorizonModel::Sphere;
-    const Surroundings around =
-        seen_from(orbit, sphere ? spherical_horizon_km(kCo2_km) : ellipsoidal_horizon_km(kCo2_km));
-    const double rpm = body.rate_rad_s * 30.0 / kPi;
-    constexpr double kRevolutions = 300.0;
-    if (!is_observable(body, around, 0.0) ||
-        !is_observable(body, around, kRevolutions * 60.0 / rpm)) {
-      continue;
+  }
+}
+
+RandomPass pass_across_the_limb(std::mt19937_64& rng) {
+  Draw draw{rng};
+  while (true) {
+    RandomPass pass = drawn_pass(draw);
+    if (crosses_the_limb(pass)) {
+      return pass;
     }
-    const RaDec axis = ra_dec_of(body.axis_icrf);
-    const auto mount_deg = [](const std::optional<InfraredSensor>& sensor) {
-      return sensor ? sensor->mount_angle_rad / kDegree_rad : 0.0;
-    };
-    return {.name = fmt::format("{}, {}, {:.1f} rpm, axis {:.1f} {:.1f} deg, mounted {:.1f} {:.1f}",
-                                channels, sphere ? "sphere" : "ellipsoid", rpm,
-                                axis.ra_rad / kDegree_rad, axis.dec_rad / kDegree_rad,
-                                mount_deg(body.config.north), mount_deg(body.config.south)),
-            .orbit = orbit,
-            .around = around,
-            .body = body,
-            .dead = dead};
   }
 }
 

@@ -30,4 +30,8 @@ struct RandomPass {
 /// all channels, either infrared sensor alone, no sun2, no sun1.
 RandomPass random_pass(std::mt19937_64& rng);
 
+/// Likewise, of any geometry in which the Earth comes into a beam's sight, or leaves it, within the
+/// first 300 revolutions.
+RandomPass pass_across_the_limb(std::mt19937_64& rng);
+
 }  // namespace spindrift::testing

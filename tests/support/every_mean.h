@@ -1,0 +1,95 @@
+/// @file
+/// Every row of the estimator `mean` in passes of random geometry, not only the last.
+
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/spin_pass.h"
+#include "tests/support/dirt.h"
+#include "tests/support/product_text.h"
+#include "tests/support/random_pass.h"
+
+namespace spindrift::testing {
+
+inline constexpr double kMostSigmas = 5.0;
+
+inline bool lies_at(const SpinEstimate& mean, const SpinFix& fix) {
+  const double both_rad =
+      std::hypot(testing::sigma_rad(mean), std::sqrt(fix.covariance_rad2.trace()));
+  return angle_between_rad(mean.axis_icrf, fix.axis_icrf) < kMostSigmas * both_rad;
+}
+
+inline bool lies_at(const SpinFix& fix, const Eigen::Vector3d& axis_icrf) {
+  return angle_between_rad(fix.axis_icrf, axis_icrf) <
+         kMostSigmas * std::sqrt(fix.covariance_rad2.trace());
+}
+
+struct Checked {
+  int ok = 0;      ///< At true fixes.
+  int misled = 0;  ///< OK as well, but the last fix is of the false one of two candidates.
+};
+
+/// Expects each to lie at one of the fixes so far, and what is OK at the true axis, unless misled.
+inline Checked check_every_mean(const SpinOutput& output, const Eigen::Vector3d& axis_icrf) {
+  Checked means;
+  std::vector<SpinFix> fixes;
+  for (const SpinProduct& product : output.products) {
+    if (const auto* const fix = std::get_if<SpinFix>(&product)) {
+      if (fix->accepted && !fix->grazing) {
+        fixes.push_back(*fix);
+      }
+    }
+    const auto* const mean = std::get_if<SpinEstimate>(&product);
+    if (mean == nullptr || mean->estimator != SpinEstimator::Mean) {
+      continue;
+    }
+    EXPECT_TRUE(std::any_of(fixes.begin(), fixes.end(), [&](const SpinFix& fix) {
+      return lies_at(*mean, fix);
+    })) << mean->status;
+    if (mean->status.starts_with("OK")) {
+      const bool misled = !lies_at(fixes.back(), axis_icrf);
+      ++(misled ? means.misled : means.ok);
+      EXPECT_TRUE(misled ||
+                  angle_between_rad(mean->axis_icrf, axis_icrf) < kMostSigmas * sigma_rad(*mean))
+          << mean->status;
+    }
+  }
+  return means;
+}
+
+/// Passes in which the Earth comes into sight or leaves it, so that chords are short and fixes few;
+/// half of them without sun2, which leaves one beam two angles with nothing to spare.
+/// @return In how many passes there are such means.
+inline Checked check_passes_across_the_limb(std::uint64_t first_seed, int passes) {
+  constexpr double kRevolutions = 300.0;
+  Checked checked;
+  for (int pass = 0; pass < passes; ++pass) {
+    std::mt19937_64 rng{first_seed + static_cast<std::uint64_t>(pass)};
+    RandomPass drawn = pass_across_the_limb(rng);
+    SCOPED_TRACE(std::to_string(pass) + ": " + drawn.name);
+    if (pass % 2 == 0) {
+      drawn.dead.push_back(PulseChannel::Sun2);
+    }
+    const double period_s = 2.0 * std::numbers::pi / drawn.body.rate_rad_s;
+    const DirtyPass received =
+        dirty(drawn.pulses(kRevolutions, rng), period_s, {.lost = 0.03, .spoilt = 0.02}, rng);
+    const SpinOutput output = run(SpinPass{drawn.body.config, drawn.orbit}, received.pulses);
+    const Checked means = check_every_mean(output, drawn.body.axis_icrf);
+    checked.ok += means.ok > 0 ? 1 : 0;
+    checked.misled += means.misled > 0 ? 1 : 0;
+  }
+  return checked;
+}
+
+}  // namespace spindrift::testing

@@ -1,0 +1,83 @@
+#include "pipelines/spin/mean_estimator.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "pipelines/frames/celestial.h"
+#include "tests/support/axis_scene.h"
+#include "tests/support/product_text.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+/// A body at rest, revolution after revolution.
+class Pass {
+ public:
+  /// @param turned_rad The fix stands so far from what its angles say.
+  SpinEstimate next(double turned_rad = 0.0) {
+    const Revolution revolution = testing::noisy(scene_, scene_.seen(), rng_);
+    const RevolutionMeasurements measured = measure(scene_.config, revolution);
+    SpinFix fix = testing::lone_fix(scene_.config, revolution, {}, scene_.sightlines()).value();
+    fix.revolution = ++number_;
+    fix.axis_icrf = Eigen::AngleAxisd{turned_rad, Eigen::Vector3d::UnitX()} * fix.axis_icrf;
+    mean_.keep(number_, measured, scene_.sightlines());
+    EXPECT_TRUE(mean_.take(fix));
+    return mean_.estimate(revolution);
+  }
+  SpinEstimate begin_anew() {
+    mean_.begin_anew(scene_.start);
+    return mean_.estimate(scene_.seen());
+  }
+  double off_rad(const SpinEstimate& mean) const {
+    return angle_between_rad(mean.axis_icrf, scene_.axis_icrf);
+  }
+
+ private:
+  testing::AxisScene scene_;
+  std::mt19937_64 rng_{41};
+  MeanEstimator mean_{scene_.config};
+  std::int64_t number_ = 0;
+};
+
+TEST(MeanEstimator, OneOrTwoFixesAreDoubtfulAndThreeAreNot) {
+  Pass pass;
+  EXPECT_EQ(pass.next().status, "DOUBTFUL, 1 fix, fewer than 3");
+  EXPECT_EQ(pass.next().status, "DOUBTFUL, 2 fixes, fewer than 3");
+  const SpinEstimate mean = pass.next();
+  EXPECT_EQ(mean.status, "OK, 3 fixes");
+  EXPECT_LT(pass.off_rad(mean), 3.0 * testing::sigma_rad(mean));
+}
+
+TEST(MeanEstimator, WhatIsGivenUpIsLostUntilAFixComes) {
+  Pass pass;
+  pass.next();
+  pass.next();
+  const SpinEstimate last = pass.next();
+  for (const SpinEstimate& lost : {pass.begin_anew(), pass.begin_anew()}) {
+    EXPECT_EQ(lost.status, "LOST, awaiting a fix");
+    EXPECT_EQ(lost.axis_icrf, last.axis_icrf);
+    EXPECT_GT(testing::sigma_rad(lost), 90.0 * kDegree_rad);
+  }
+  EXPECT_EQ(pass.next().status, "DOUBTFUL, 1 fix, fewer than 3");
+}
+
+TEST(MeanEstimator, FixesThatAreNotWhatTheirAnglesSayAreDoubtful) {
+  for (const double turned_deg : {4.0, 20.0, 90.0}) {
+    SCOPED_TRACE(turned_deg);
+    Pass pass;
+    for (int i = 0; i < 20; ++i) {
+      const SpinEstimate mean = pass.next(turned_deg * kDegree_rad);
+      EXPECT_TRUE(mean.status.starts_with("DOUBTFUL")) << mean.status;
+      EXPECT_TRUE(i < 2 || pass.off_rad(mean) < 3.0 * testing::sigma_rad(mean)) << mean.status;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spindrift
