@@ -184,6 +184,17 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
     return unobservable("the biases that the edges ask for leave the axis open");
   }
   BatchSolution solution = solution_of(*solved, open_rad2);
+  if (solution.estimate.covariance_rad2.trace() > kLost_rad * kLost_rad) {
+    return unobservable("the biases that the edges ask for leave the axis open");
+  }
+  if (solved->left_out && !solved->left_out->fit_one_attitude &&
+      rests_on_few(solution, *solved->left_out)) {
+    return unobservable(
+        fmt::format("no one attitude fits the {} edges before {}, and {} of the {} behind it fit "
+                    "this one badly",
+                    solved->left_out->edges, format_utc(solved->left_out->until, 0),
+                    solution.outliers, solution.edges + solution.outliers));
+  }
   const BiasSet suspected = config.batch.biases.value_or(seen_biases(information));
   solution.undetermined = Observability{information, suspected}.undetermined();
   const auto wanted = most_wanted_bias(information, best.estimated);

@@ -20,11 +20,6 @@ bool is_far_off(const BiasEstimate& bias) {
   return bias.estimated && std::abs(bias.value) > kFarOff_sigmas * prior_of(bias.bias).sigma;
 }
 
-/// Most of the pass contradicts it, two edges for one, whatever may have happened in between.
-bool rests_on_few(const BatchSolution& solution, const LeftOut& left_out) {
-  return left_out.edges + solution.outliers > 2 * solution.edges;
-}
-
 bool is_doubtful(const BatchSolution& solution, const BatchDoubts& doubts) {
   const auto outliers = static_cast<double>(solution.outliers);
   const bool dirty = outliers > kManyOutliers * (outliers + static_cast<double>(solution.edges));
@@ -93,6 +88,10 @@ std::string bias_in_words(const BiasEstimate& bias) {
 }
 
 }  // namespace
+
+bool rests_on_few(const BatchSolution& solution, const LeftOut& left_out) {
+  return left_out.edges + solution.outliers > 2 * solution.edges;
+}
 
 std::string status_of(const BatchSolution& solution, const BatchDoubts& doubts) {
   std::string status = first_word(solution, doubts) + fmt::format(", {} edges", solution.edges);

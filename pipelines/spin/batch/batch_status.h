@@ -22,6 +22,9 @@ struct BatchDoubts {
   std::optional<SensorBias> wanted;  ///< What the residuals still ask for.
 };
 
+/// Most of the pass contradicts it, two edges for one, whatever may have happened in between.
+bool rests_on_few(const BatchSolution& solution, const LeftOut& left_out);
+
 /// As batch_estimator.h has it.
 std::string status_of(const BatchSolution& solution, const BatchDoubts& doubts);
 
