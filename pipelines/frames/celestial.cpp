@@ -45,6 +45,11 @@ Eigen::Matrix2d tangent_from_tilts(const Eigen::Quaterniond& q_icrf_frame) {
   return tangent_basis(R_icrf_frame.col(2)).transpose() * moved_icrf;
 }
 
+Eigen::Matrix2d anywhere_covariance_rad2() {
+  constexpr double kMeanSquare_rad2 = (std::numbers::pi * std::numbers::pi - 4.0) / 2.0;
+  return Eigen::Matrix2d::Identity() * (0.5 * kMeanSquare_rad2);
+}
+
 double wrapped_rad(double angle_rad) {
   const double wrapped = std::remainder(angle_rad, kTurn_rad);
   return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;

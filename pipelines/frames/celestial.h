@@ -30,6 +30,10 @@ Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& axis_icrf);
 /// small angles to displacements in the tangent plane, east and north; a rotation or reflection.
 Eigen::Matrix2d tangent_from_tilts(const Eigen::Quaterniond& q_icrf_frame);
 
+/// Of an axis that may point anywhere, in the tangent plane: its trace is the mean square of the
+/// angle to any other.
+Eigen::Matrix2d anywhere_covariance_rad2();
+
 /// `angle_rad` wrapped into (-pi, pi].
 double wrapped_rad(double angle_rad);
 

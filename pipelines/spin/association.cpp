@@ -373,9 +373,10 @@ void Associator::judge_others(Revolution& revolution) {
     const double count = clock_->phase_turns(*edge);
     const double displaced = displaced_turns(revolution, channel);
     // Of spoilt edges too: most of a channel's may be.
-    const bool believed = phases_.follow(channel, revolution.number, count - turn,
-                                         std::hypot(clock_sigma, displaced)) ||
-                          phases_.stray(channel, count, displaced);
+    const bool believed =
+        (phases_.knows(channel) && phases_.follow(channel, revolution.number, count - turn,
+                                                  std::hypot(clock_sigma, displaced))) ||
+        phases_.stray(channel, count, displaced);
     std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
     if (!believed && !rejection) {
       rejection = Rejection::Phase;

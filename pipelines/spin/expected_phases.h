@@ -10,7 +10,6 @@
 #include <deque>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/drift_filter.h"

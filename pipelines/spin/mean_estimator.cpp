@@ -26,8 +26,6 @@ constexpr double kFarSigmas = 5.0;
 constexpr double kScattered = 9.0;
 // Of two that differ nobody knows which is right.
 constexpr std::size_t kFewestFixes = 3;
-// Of a direction that may be any: the mean square of the angle to another.
-constexpr double kAnywhere_rad2 = 0.5 * std::numbers::pi * std::numbers::pi - 2.0;
 
 double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
 
@@ -209,8 +207,7 @@ SpinEstimate MeanEstimator::estimate(const Revolution& revolution) const {
       .t = revolution.t_start,
       .estimator = SpinEstimator::Mean,
       .axis_icrf = mean_ ? axis_icrf() : *given_up_icrf_,
-      .covariance_rad2 =
-          mean_ ? covariance_rad2() : Eigen::Matrix2d::Identity() * (0.5 * kAnywhere_rad2),
+      .covariance_rad2 = mean_ ? covariance_rad2() : anywhere_covariance_rad2(),
       .spin_rate_rad_s = rate_rad_s,
       .spin_rate_sigma_rad_s = rate_rad_s / revolution.period.period_s * revolution.period.sigma_s,
       .status = status()};

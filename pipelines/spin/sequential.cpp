@@ -21,8 +21,6 @@ constexpr int kFewestGrazing = 20;
 // Weight of one fix in the share of those that graze.
 constexpr double kRecentFix = 0.02;
 constexpr double kNearlyAll = 0.8;
-// Mean squared angle between an axis that may point anywhere and any other.
-constexpr double kAnywhere_rad2 = (std::numbers::pi * std::numbers::pi - 4.0) / 2.0;
 
 double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
 
@@ -202,7 +200,7 @@ void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) 
 
 Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
   if (gates_.most_gated()) {
-    return Eigen::Matrix2d::Identity() * (0.5 * kAnywhere_rad2);
+    return anywhere_covariance_rad2();
   }
   const SpinFilter& filter = hypotheses_.published().filter;
   const Eigen::Matrix<double, 2, kModelErrors> moved = filter.axis_of_errors();

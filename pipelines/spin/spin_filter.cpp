@@ -162,33 +162,45 @@ SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prio
       continue;
     }
     const double by_phase = predicted->phase_per_rotation.z();
-    const Error slope{predicted->phase_per_rotation.x(), predicted->phase_per_rotation.y(),
-                      by_phase, by_phase * dt_s, by_phase * 0.5 * square(dt_s)};
-    const Error gain_unscaled = covariance_ * slope;
-    const double variance = slope.dot(gain_unscaled) + square(sigma_rad);
-    const double innovation = wrapped_rad(phase_rad - predicted->phase_rad - slope.dot(error));
-    const double squared_innovation = square(innovation) / variance;
-    if (squared_innovation > gate) {
+    const Measured measured{
+        .residual_rad = phase_rad - predicted->phase_rad,
+        .sigma_rad = sigma_rad,
+        .slope = Error{predicted->phase_per_rotation.x(), predicted->phase_per_rotation.y(),
+                       by_phase, by_phase * dt_s, by_phase * 0.5 * square(dt_s)},
+        .per_error = predicted->phase_per_error};
+    if (!work_in(measured, gate, error, tally)) {
       leave_out(edge);
       continue;
     }
     here.approached = here.approached || !exists;
     here.steepest = std::max(here.steepest, predicted->phase_per_rotation.head<2>().norm());
-    // An edge that is late by an angle looks as if the phase were ahead by it.
-    const Eigen::Matrix<double, 1, kModelErrors> innovation_of_errors =
-        slope.transpose() * of_errors_ + predicted->phase_per_error;
-    of_errors_ -= gain_unscaled * innovation_of_errors / variance;
-    tally.errors.information += innovation_of_errors.transpose() * innovation_of_errors / variance;
-    tally.errors.score += innovation_of_errors.transpose() * (innovation / variance);
-    error += gain_unscaled * (innovation / variance);
-    covariance_ -= gain_unscaled * gain_unscaled.transpose() / variance;
     tally.accepted.set(index_of(edge.channel));
-    tally.log_likelihood += log_normal_density(squared_innovation, variance);
-    tally.squared_innovations += squared_innovation;
   }
   correct(error);
   here.moved_rad = error.head<2>().norm();
   return here;
+}
+
+/// @return Whether it is within the gate; if not nothing is done.
+bool SpinFilter::work_in(const Measured& measured, double gate, Error& error, EdgeTally& tally) {
+  const Error gain_unscaled = covariance_ * measured.slope;
+  const double variance = measured.slope.dot(gain_unscaled) + square(measured.sigma_rad);
+  const double innovation = wrapped_rad(measured.residual_rad - measured.slope.dot(error));
+  const double squared_innovation = square(innovation) / variance;
+  if (squared_innovation > gate) {
+    return false;
+  }
+  // An edge that is late by an angle looks as if the phase were ahead by it.
+  const Eigen::Matrix<double, 1, kModelErrors> innovation_of_errors =
+      measured.slope.transpose() * of_errors_ + measured.per_error;
+  of_errors_ -= gain_unscaled * innovation_of_errors / variance;
+  tally.errors.information += innovation_of_errors.transpose() * innovation_of_errors / variance;
+  tally.errors.score += innovation_of_errors.transpose() * (innovation / variance);
+  error += gain_unscaled * (innovation / variance);
+  covariance_ -= gain_unscaled * gain_unscaled.transpose() / variance;
+  tally.log_likelihood += log_normal_density(squared_innovation, variance);
+  tally.squared_innovations += squared_innovation;
+  return true;
 }
 
 /// Of this state, were `truth` true.

@@ -103,8 +103,16 @@ class SpinFilter {
     double steepest = 1.0;    ///< Change of an edge's phase with the axis, rad/rad.
     bool approached = false;  ///< The update used edges that the state does not have.
   };
+  /// An edge as the present state predicts it.
+  struct Measured {
+    double residual_rad;  ///< Of the phase; by any number of turns more.
+    double sigma_rad;
+    Error slope;
+    Eigen::Matrix<double, 1, kModelErrors> per_error;
+  };
   Linearised update_linearised_here(const SpinFilter& prior, const Revolved& seen, Missing missing,
                                     EdgeTally& tally);
+  bool work_in(const Measured& measured, double gate, Error& error, EdgeTally& tally);
   Error error_of(const SpinFilter& truth) const;
   void correct(const Error& error);
 

@@ -77,14 +77,7 @@ TEST(SpinBatchChange, IsNotMadeOfTheDirtOfASteadyPass) {
 /// The Sun 6 deg from the axis, so that sun2 and the north beam see nothing: four axes are left,
 /// and fixes have chosen a false one.
 struct HardPass {
-  Orbit orbit{KeplerOrbit::make({.epoch = testing::kTransferStart,
-                                 .semi_major_axis_km = 24400.0,
-                                 .eccentricity = 0.73,
-                                 .inclination_rad = 28.5 * kDegree_rad,
-                                 .raan_rad = 91.06809 * kDegree_rad,
-                                 .argument_of_perigee_rad = 178.0 * kDegree_rad,
-                                 .mean_anomaly_rad = 30.0 * kDegree_rad})
-                  .value()};
+  Orbit orbit = testing::transfer_with_node(91.06809);
   testing::Surroundings around = testing::seen_from(orbit, testing::ellipsoidal_horizon_km(40.0));
   testing::SpinningBody body{.axis_icrf = direction_icrf({.ra_rad = 61.455876 * kDegree_rad,
                                                           .dec_rad = 19.945283 * kDegree_rad}),

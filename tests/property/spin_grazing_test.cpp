@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/spin_pass.h"
 #include "tests/support/observed_spin.h"
@@ -21,17 +20,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegree_rad = kPi / 180.0;
 constexpr double kSigmas = 5.0;
-
-Orbit orbit_of_the_pass() {
-  return Orbit{KeplerOrbit::make({.epoch = testing::kTransferStart,
-                                  .semi_major_axis_km = 24400.0,
-                                  .eccentricity = 0.73,
-                                  .inclination_rad = 28.5 * kDegree_rad,
-                                  .raan_rad = 187.32712908047432 * kDegree_rad,
-                                  .argument_of_perigee_rad = 178.0 * kDegree_rad,
-                                  .mean_anomaly_rad = 30.0 * kDegree_rad})
-                   .value()};
-}
 
 /// Sun slit 2 does not see the Sun: case 6.
 testing::SpinningBody body_of_the_pass() {
@@ -48,7 +36,7 @@ TEST(SpinGrazing, NoRowIsOkThatIsNotNearTheAxis) {
   constexpr std::uint64_t kSeeds = 6;
   constexpr double kTurns = 1000.0;
   constexpr double kLost = 0.03;
-  const Orbit orbit = orbit_of_the_pass();
+  const Orbit orbit = testing::transfer_with_node(187.32712908047432);
   const testing::SpinningBody body = body_of_the_pass();
   auto edges =
       testing::edges_between(body, testing::seen_from(orbit, testing::spherical_horizon_km(40.0)),

@@ -67,16 +67,18 @@ Surroundings seen_from(const Orbit& orbit, const Eigen::Vector3d& horizon_km) {
       .horizon_km = horizon_km};
 }
 
-Orbit orbit_across_the_earth() {
+Orbit transfer_with_node(double raan_deg) {
   return Orbit{KeplerOrbit::make({.epoch = kTransferStart,
                                   .semi_major_axis_km = 24400.0,
                                   .eccentricity = 0.73,
                                   .inclination_rad = 28.5 * kDegree_rad,
-                                  .raan_rad = 300.0 * kDegree_rad,
+                                  .raan_rad = raan_deg * kDegree_rad,
                                   .argument_of_perigee_rad = 178.0 * kDegree_rad,
                                   .mean_anomaly_rad = 30.0 * kDegree_rad})
                    .value()};
 }
+
+Orbit orbit_across_the_earth() { return transfer_with_node(300.0); }
 
 SpinningBody body_across_the_earth() {
   return {

@@ -35,6 +35,9 @@ Orbit transfer_orbit();
 /// on the Earth's pole of date, all turned with it.
 Surroundings seen_from(const Orbit& orbit, const Eigen::Vector3d& horizon_km);
 
+/// The scenarios' transfer orbit with another node.
+Orbit transfer_with_node(double raan_deg);
+
 /// Both beams look across the same middle of the Earth: errors of the model move the axis far, and
 /// without sun slit 1 the two roots keep fitting all edges alike. From `kTransferStart` on.
 Orbit orbit_across_the_earth();

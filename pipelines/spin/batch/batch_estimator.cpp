@@ -180,11 +180,9 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
           axis_left_open(Observability{information, best.estimated}.axis_covariance_rad2())) {
     return Unexpected{*open};
   }
-  if (!open_rad2.allFinite() || !std::isfinite(best.excess_noise())) {
-    return unobservable("the biases that the edges ask for leave the axis open");
-  }
   BatchSolution solution = solution_of(*solved, open_rad2);
-  if (solution.estimate.covariance_rad2.trace() > kLost_rad * kLost_rad) {
+  // Nor is it finite where they are not told apart at all.
+  if (!(solution.estimate.covariance_rad2.trace() <= kLost_rad * kLost_rad)) {
     return unobservable("the biases that the edges ask for leave the axis open");
   }
   if (solved->left_out && !solved->left_out->fit_one_attitude &&

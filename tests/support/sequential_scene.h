@@ -1,0 +1,96 @@
+/// @file
+/// The estimator `sequential` by itself: revolutions of a body under the transfer orbit, and fixes
+/// as a test wants them.
+
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/sequential.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift::testing {
+
+inline constexpr double kDegree_rad = std::numbers::pi / 180.0;
+inline constexpr double kFixSigma_rad = 0.5 * kDegree_rad;
+inline constexpr double kOneInTenThousand = 18.42;  // chi-square, two degrees of freedom.
+
+inline double error_deg(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
+  return angle_between_rad(estimate.axis_icrf, true_icrf) / kDegree_rad;
+}
+
+inline double sigma_deg(const SpinEstimate& estimate) {
+  return std::sqrt(estimate.covariance_rad2.trace()) / kDegree_rad;
+}
+
+inline double squared_error(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
+  const Eigen::Vector2d error_rad = testing::error_rad(estimate.axis_icrf, true_icrf);
+  return error_rad.dot(estimate.covariance_rad2.ldlt().solve(error_rad));
+}
+
+/// The fixes that are settled before the revolution with that index is worked in.
+using Fixes = std::function<std::vector<SpinFix>(std::size_t index)>;
+
+/// Every estimate there is; none may say more than its field holds.
+inline std::vector<SpinEstimate> estimates(const SpinConfig& config,
+                                           const std::vector<ObservedRevolution>& seen,
+                                           const Fixes& fixes) {
+  SequentialEstimator estimator{config};
+  std::vector<SpinEstimate> all;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const auto estimate = estimator.update(seen[i].revolution, seen[i].sky, fixes(i));
+    if (estimate) {
+      EXPECT_LE(estimate->status.size(), 63U) << estimate->status;
+      EXPECT_EQ(estimate->estimator, SpinEstimator::Sequential);
+      all.push_back(*estimate);
+    }
+  }
+  return all;
+}
+
+inline Fixes at_first(const SpinFix& fix) {
+  return [fix](std::size_t i) { return i == 0 ? std::vector{fix} : std::vector<SpinFix>{}; };
+}
+
+/// A body under the transfer orbit.
+struct Scene {
+  Orbit orbit = transfer_orbit();
+  Surroundings around = seen_from(orbit, spherical_horizon_km(40.0));
+  std::mt19937_64 rng{27};
+  SpinningBody body = random_body(around, 4.0 * kDegree_rad, rng);
+
+  std::vector<ObservedRevolution> seen(double from_s, double to_s) {
+    return observed(body.config, orbit,
+                    pulses_from(edges_between(body, around, from_s, to_s), kTransferStart,
+                                body.config.noise, rng));
+  }
+  SpinFix fix() { return drawn_fix(body.axis_icrf, kFixSigma_rad, rng); }
+
+  Eigen::Vector3d turned_about(const Eigen::Vector3d& direction, double angle_deg) const {
+    return Eigen::AngleAxisd{angle_deg * kDegree_rad, direction.normalized()} * body.axis_icrf;
+  }
+  Eigen::Vector3d turned_about_earth(double angle_deg) const {
+    return turned_about(around.earth_icrf_km(0.0), angle_deg);
+  }
+};
+
+/// What is left when the Sun is not seen: a cone about the Earth.
+inline std::vector<ObservedRevolution> without_sun(std::vector<ObservedRevolution> seen) {
+  for (ObservedRevolution& observed : seen) {
+    observed.revolution.edges.at(index_of(PulseChannel::Sun1)).reset();
+    observed.revolution.edges.at(index_of(PulseChannel::Sun2)).reset();
+  }
+  return seen;
+}
+
+}  // namespace spindrift::testing
