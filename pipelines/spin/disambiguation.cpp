@@ -17,6 +17,8 @@ namespace {
 constexpr double kSigmas = 5.0;
 constexpr int kSilentRevolutions = 5;
 constexpr double kPriorSigmas = 3.0;
+// Fixes that graze may lack the true candidate: false ones lie near an axis that is known worse.
+constexpr double kWidest_rad = 3.0 * std::numbers::pi / 180.0;
 constexpr int kContradictionsInARow = 20;
 
 double sigma_of(const AxisCandidate& candidate) {
@@ -63,7 +65,8 @@ Nearest nearest_to(const KnownAxis& known, const AxisCandidates& found,
   const auto nearest = *std::min_element(
       possible.begin(), possible.end(),
       [&](std::size_t a, std::size_t b) { return distance_rad(a) < distance_rad(b); });
-  const double sigma_rad = std::hypot(known.sigma_rad, sigma_of(found.candidates[nearest]));
+  const double known_rad = found.grazing ? std::min(known.sigma_rad, kWidest_rad) : known.sigma_rad;
+  const double sigma_rad = std::hypot(known_rad, sigma_of(found.candidates[nearest]));
   if (distance_rad(nearest) > kPriorSigmas * sigma_rad) {
     return {.candidate = nearest, .verdict = PriorVerdict::FarFromAll};
   }

@@ -12,7 +12,9 @@
 namespace spindrift {
 namespace {
 
-// So near (6 deg) to its limit, the axis or the end of slit 2, an edge is no measure of the axis.
+// The Sun so near to the axis (0.6 deg) has no azimuth.
+constexpr double kNearestAxis = 0.01;
+// So near (6 deg) to the end of slit 2 an edge is no measure of the axis.
 constexpr double kLeastSlope = 0.1;
 
 // Half a chord is taken for no narrower than so many times the noise of its edges.
@@ -31,7 +33,7 @@ struct SunView {
 
 std::optional<SunView> view_of_sun(const Eigen::Vector3d& sun_spin) {
   const double across = std::hypot(sun_spin.x(), sun_spin.y());
-  if (!(across > kLeastSlope)) {
+  if (!(across > kNearestAxis)) {
     return std::nullopt;
   }
   const Eigen::Vector3d towards{sun_spin.x() / across, sun_spin.y() / across, 0.0};

@@ -18,6 +18,8 @@ constexpr double kLinear_rad = std::numbers::pi / 180.0;
 // Where a pass of the first fixes moves their mean by less, they are linear about it.
 constexpr double kConverged_rad = 1e-5;
 constexpr int kMostPasses = 8;
+// Each of these moves the mean.
+constexpr std::size_t kFirstFixes = 8;
 // Where fewer of the fixes that there might be are settled, the mean is that of a selection.
 constexpr double kMostlySettled = 0.5;
 // A mean that is further from the plain average of its fixes is not theirs.
@@ -87,7 +89,7 @@ void MeanEstimator::settle(Kept& kept, const SpinFix& fix) {
   add(kept, mean_ ? axis_icrf() : fix.axis_icrf);
   mean_ = fixes_.mean();
   ++settled_;
-  if (std::has_single_bit(settled_)) {
+  if (settled_ < kFirstFixes || std::has_single_bit(settled_)) {
     linearise_anew();
   }
   if (mean_->covariance_rad2.trace() < kLinear_rad * kLinear_rad) {

@@ -57,6 +57,11 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
 /// @return Whether filters began here.
 bool SequentialEstimator::heed(const SpinFix& fix, const Revolution& revolution, const Sky& sky) {
   note_grazing(fix);
+  if (poor_start_.unconfirmed()) {
+    const SpinFilter& filter = hypotheses_.published().filter;
+    poor_start_.note(
+        fix, {.axis_icrf = filter.axis_icrf(), .covariance_rad2 = filter.axis_covariance_rad2()});
+  }
   StartingPoints* const starts = starting_points_for(fix);
   const auto said = starts != nullptr ? starts->add(candidates_of(fix)) : std::nullopt;
   if (!said) {
@@ -135,6 +140,7 @@ bool SequentialEstimator::begin(const SpinFix& fix, std::span<const StartingPoin
     restarted_ = gates_.most_gated() ? "edges gated" : "fixes differ";
   }
   hypotheses_ = std::move(started);
+  poor_start_.begin(points.front());
   if (fix.accepted) {
     take_side(fix, points.front());
   }
@@ -266,6 +272,9 @@ std::string SequentialEstimator::status() const {
     return fmt::format("{}, model off by {:.2g} deg, {} revolutions",
                        model_contradicts() ? "DOUBTFUL" : "OK", degrees(verdict_.error_rad),
                        revolutions);
+  }
+  if (poor_start_.unconfirmed()) {
+    return fmt::format("DOUBTFUL, poor fixes to confirm it yet, {} revolutions", revolutions);
   }
   const std::string counts =
       fmt::format("OK, {} revolutions, {} edges gated{}", revolutions, gates_.gated(),

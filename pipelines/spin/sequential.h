@@ -45,6 +45,7 @@
 #include "pipelines/spin/innovation_watch.h"
 #include "pipelines/spin/known_axis.h"
 #include "pipelines/spin/model_check.h"
+#include "pipelines/spin/poor_start.h"
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/sky.h"
 #include "pipelines/spin/starting_points.h"
@@ -104,6 +105,7 @@ class SequentialEstimator {
   double grazing_share_ = 0.0;   ///< Of the recent fixes.
   StartingPoints unfollowed_;    ///< Candidates that no filter follows, since the start.
   Contradiction contradiction_;  ///< By fixes, since the start.
+  PoorStart poor_start_;
 
   GateWatch gates_;        ///< Since the start.
   InnovationWatch watch_;  ///< Over the restarts: noise and model stay what they are.

@@ -131,6 +131,30 @@ TEST(Disambiguation, WhatThePassHasEstablishedTakesThePlaceOfThePrior) {
   EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 1e-6);
 }
 
+TEST(Disambiguation, AnAxisKnownBadlyChoosesNoneOfThoseThatGrazeBesideIt) {
+  // The true one may be lost in the noise; with a sigma of 7 deg a false one is near it soon.
+  const Scene scene;
+  const auto measured = testing::measured_without(scene.config, scene.seen(), kDihedrals);
+  AxisCandidates found = axis_candidates(scene.config, measured, scene.sightlines()).value();
+  found.candidates.resize(1);
+  const auto resolution = [&](bool grazing, double off_deg, double sigma_deg) {
+    found.grazing = grazing;
+    const Eigen::Vector3d& axis_icrf = found.candidates.front().axis_icrf;
+    const KnownAxis known{
+        .axis_icrf =
+            Eigen::AngleAxisd{off_deg * kDegree_rad, axis_icrf.unitOrthogonal()} * axis_icrf,
+        .sigma_rad = sigma_deg * kDegree_rad};
+    return Disambiguator{scene.config}
+        .settle(0, kStart, measured, scene.sightlines(), found, known)
+        .back()
+        .resolution;
+  };
+  EXPECT_EQ(resolution(true, 2.0, 2.0), Resolution::Prior);
+  EXPECT_EQ(resolution(true, 2.0, 7.0), Resolution::Prior);
+  EXPECT_EQ(resolution(true, 15.0, 7.0), Resolution::Ambiguous);
+  EXPECT_EQ(resolution(false, 15.0, 7.0), Resolution::Prior);
+}
+
 TEST(Disambiguation, AHealthyBeamThatIsSilentRulesOutTheAxisThatShowsItTheEarth) {
   // The Earth, of half-angle 24 deg, stands 100 deg from the axis: the south beam, at 70 deg,
   // cannot reach it. The other root of north's chord stands on the near side, in full view of that

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "pipelines/frames/celestial.h"
@@ -70,6 +71,26 @@ TEST(EdgePrediction, ASunAngleMeasuredTooLargeMovesTheSecondSlitAlone) {
   const double before_rad = sun_angle(sensor, delay_rad, 1.0, 0.0)->value_rad;
   const double after_rad = sun_angle(sensor, delay_rad + later_rad, 1.0, 0.0)->value_rad;
   EXPECT_NEAR((after_rad - before_rad) / kError_rad, 1.0, 1e-3);
+}
+
+TEST(EdgePrediction, TheSunHasAnAzimuthUpToHalfADegreeFromTheAxis) {
+  const Scene scene;
+  const Eigen::Vector3d across = scene.sky.sun_icrf.unitOrthogonal();
+  const auto sun1_at = [&](double sun_angle_deg) {
+    const Eigen::Vector3d axis_icrf =
+        Eigen::AngleAxisd{sun_angle_deg * std::numbers::pi / 180.0, across} * scene.sky.sun_icrf;
+    return predict_edge(
+        scene.body.config, scene.sky,
+        Eigen::Quaterniond::FromTwoVectors(axis_icrf, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
+        {.t = scene.sky.t, .channel = Sun1});
+  };
+  // An edge that no candidate could have would be held against the one near the Sun.
+  EXPECT_TRUE(sun1_at(5.0));
+  EXPECT_TRUE(sun1_at(0.7));
+  EXPECT_FALSE(sun1_at(0.5));
+  // The azimuth turns by so much as the axis moves across the Sun's direction.
+  EXPECT_NEAR(sun1_at(2.0)->phase_per_rotation.head<2>().norm(),
+              1.0 / std::tan(2.0 * std::numbers::pi / 180.0), 1e-9);
 }
 
 TEST(EdgePrediction, WhatLeadsToAnEdgeIsTheEdgeItselfWhereThereIsOne) {

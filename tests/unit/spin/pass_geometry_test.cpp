@@ -223,7 +223,7 @@ TEST(PassGeometry, SaysWhichSlitCannotSeeTheSun) {
   // A slit canted by 45 deg ends 45 deg from the axis.
   EXPECT_THAT(words_at(50.0), Not(Contains(HasSubstr("slit"))));
   EXPECT_THAT(words_at(40.0), Contains("slit 2 cannot see the Sun"));
-  EXPECT_THAT(words_at(3.0), Contains("the Sun stands too near the spin axis for either slit"));
+  EXPECT_THAT(words_at(0.3), Contains("the Sun stands too near the spin axis for either slit"));
 }
 
 TEST(PassGeometry, SaysWhatSpoilsAFix) {

@@ -43,7 +43,7 @@ TEST(Sequential, AFixThatComesNearABranchOfAlternatesDoesNotStartThere) {
   constexpr double kPoor_rad = 8.0 * kDegree_rad;
   constexpr std::size_t kByPrior = 14;
   Scene scene;
-  const auto seen = scene.seen(0.0, 60.0);
+  const auto seen = scene.seen(0.0, 240.0);
   const Eigen::Vector3d elsewhere = scene.turned_about_earth(40.0);
   const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {
     SpinFix fix = testing::drawn_fix(scene.body.axis_icrf, kPoor_rad, scene.rng);
