@@ -10,8 +10,9 @@ namespace {
 
 // Across less, edges are linear.
 constexpr double kPoor_rad = 1.0 * std::numbers::pi / 180.0;
-// So far from it, it is confirmed in its turn by nineteen of twenty that are right.
-constexpr double kSigmas = 2.0;
+// So near to a mean known to a degree; a better one is held to no more, as fixes of which the noise
+// leaves some out lie to one side.
+constexpr double kSigmas = 1.5;
 
 }  // namespace
 
@@ -26,7 +27,7 @@ void PoorStart::note(const SpinFix& fix, const StartingPoint& followed) {
   }
   fixes_->add(fix);
   const double mean_rad2 = fixes_->covariance_rad2().trace() * fixes_->excess_scatter();
-  const double sigma_rad = std::sqrt(mean_rad2 + followed.covariance_rad2.trace());
+  const double sigma_rad = std::hypot(kPoor_rad, std::sqrt(followed.covariance_rad2.trace()));
   if (mean_rad2 < kPoor_rad * kPoor_rad &&
       angle_between_rad(fixes_->axis_icrf(), followed.axis_icrf) < kSigmas * sigma_rad) {
     fixes_.reset();
