@@ -113,7 +113,7 @@ void Hypotheses::favour_at(const StartingPoint& point) {
 }
 
 bool Hypotheses::work_in(const SpinConfig& config, const Revolution& revolution, const Sky& sky,
-                         double gate_noise) {
+                         const ChannelNoise& noise) {
   const GoodEdges edges{config, revolution};
   for (Hypothesis& hypothesis : all_) {
     SpinFilter& filter = hypothesis.filter;
@@ -124,7 +124,7 @@ bool Hypotheses::work_in(const SpinConfig& config, const Revolution& revolution,
                    .value_or(filter);
       hypothesis.tally = {};
     } else {
-      hypothesis.tally = filter.update(config, sky, edges.span(), gate_noise);
+      hypothesis.tally = filter.update(config, sky, edges.span(), noise);
     }
     const EdgeTally& tally = hypothesis.tally;
     hypothesis.edges += static_cast<double>(tally.accepted.count() + tally.gated.count());

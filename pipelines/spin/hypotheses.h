@@ -66,10 +66,10 @@ class Hypotheses {
   /// Likewise a prior, but the others stay until the edges settle it.
   void favour_at(const StartingPoint& point);
 
-  /// @param gate_noise Of the filters' update.
+  /// @param noise Of the filters' update.
   /// @return Whether the edges have beaten the candidate that a prior had chosen.
   bool work_in(const SpinConfig& config, const Revolution& revolution, const Sky& sky,
-               double gate_noise);
+               const ChannelNoise& noise);
 
  private:
   std::vector<Hypothesis>::iterator at(const StartingPoint& point);

@@ -30,8 +30,7 @@ void InnovationWatch::note(const EdgeTally& tally) {
   gated_share_ += (gated - (accepted + gated) * gated_share_) / edges_;
   const bool with_gated = gated_share_ > kManyGated;
   const double counted = accepted + (with_gated ? gated : 0.0);
-  const double squares =
-      tally.squared_innovations - (with_gated ? 0.0 : tally.squared_gate * gated);
+  const double squares = tally.squared_innovations - (with_gated ? 0.0 : tally.squared_gates);
   squared_innovation_ += (squares - counted * squared_innovation_) / edges_;
   error_edges_ += accepted;
   errors_.information += tally.errors.information;

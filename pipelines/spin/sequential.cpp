@@ -148,6 +148,7 @@ bool SequentialEstimator::begin(const SpinFix& fix, std::span<const StartingPoin
   watch_.fade();
   verdict_ = watch_.verdict();
   gates_ = {};
+  unsteady_ = {};
   contradiction_ = {};
   settled_starts_.forget();
   open_starts_.forget();
@@ -186,14 +187,22 @@ void SequentialEstimator::join(std::span<const StartingPoint> points, const Revo
   }
 }
 
+ChannelNoise SequentialEstimator::gate_noise() const {
+  ChannelNoise noise = unsteady_.noise();
+  const double of_all = std::min(verdict_.excess_noise, noise_at_restart_);
+  std::transform(noise.begin(), noise.end(), noise.begin(),
+                 [of_all](double of_channel) { return std::max(of_channel, of_all); });
+  return noise;
+}
+
 void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) {
-  const double gate_noise = std::min(verdict_.excess_noise, noise_at_restart_);
-  if (hypotheses_.work_in(config_, revolution, sky, gate_noise)) {
+  if (hypotheses_.work_in(config_, revolution, sky, gate_noise())) {
     prior_refuted_ = true;
     ++restarts_;
   }
   const Hypothesis& published = hypotheses_.published();
   gates_.note(published.tally);
+  unsteady_.note(published.tally);
   watch_.note(published.tally);
   verdict_ = watch_.verdict();
   // The first edges pull the filter from its start to where they fit.
@@ -201,6 +210,7 @@ void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) 
       static_cast<double>(published.tally.accepted.count() + published.tally.gated.count());
   if (published.edges - edges < kFewestEdgesToFit && published.edges >= kFewestEdgesToFit) {
     watch_.forget_the_start();
+    unsteady_ = {};
   }
 }
 
@@ -273,7 +283,8 @@ std::string SequentialEstimator::status() const {
                        model_contradicts() ? "DOUBTFUL" : "OK", degrees(verdict_.error_rad),
                        revolutions);
   }
-  if (poor_start_.unconfirmed()) {
+  // Filters that began at several places and were beaten have searched more than one.
+  if (poor_start_.unconfirmed() && !hypotheses_.settled_by_edges()) {
     return fmt::format("DOUBTFUL, poor fixes to confirm it yet, {} revolutions", revolutions);
   }
   const std::string counts =

@@ -49,6 +49,7 @@
 #include "pipelines/spin/products.h"
 #include "pipelines/spin/sky.h"
 #include "pipelines/spin/starting_points.h"
+#include "pipelines/spin/unsteady_channels.h"
 
 namespace spindrift {
 
@@ -89,6 +90,7 @@ class SequentialEstimator {
   void take_side(const SpinFix& fix, const StartingPoint& axis);
   void join(std::span<const StartingPoint> points, const Revolution& revolution, const Sky& sky);
   bool fixes_contradict() const;
+  ChannelNoise gate_noise() const;
   void work_in(const Revolution& revolution, const Sky& sky);
   Eigen::Matrix2d covariance_rad2() const;
   bool model_contradicts() const;
@@ -107,9 +109,10 @@ class SequentialEstimator {
   Contradiction contradiction_;  ///< By fixes, since the start.
   PoorStart poor_start_;
 
-  GateWatch gates_;        ///< Since the start.
-  InnovationWatch watch_;  ///< Over the restarts: noise and model stay what they are.
-  ModelVerdict verdict_;   ///< Of the watch.
+  GateWatch gates_;            ///< Since the start.
+  UnsteadyChannels unsteady_;  ///< Since the start.
+  InnovationWatch watch_;      ///< Over the restarts: noise and model stay what they are.
+  ModelVerdict verdict_;       ///< Of the watch.
   /// The gate opens for noise that made the filter begin anew before: then it was not the axis.
   double noise_at_restart_ = 1.0;
 

@@ -112,10 +112,9 @@ void SpinFilter::predict(TaiTime t) {
 }
 
 EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges,
-                             double excess_noise) {
+                             const ChannelNoise& noise) {
   const SpinFilter prior = *this;
-  const Revolved seen{
-      .config = config, .sky = sky, .edges = edges, .gate = square(kGateSigmas) * excess_noise};
+  const Revolved seen{.config = config, .sky = sky, .edges = edges, .noise = noise};
   EdgeTally tally;
   // There may be no state near with all these edges: then those that are missing pull no more.
   for (const Missing missing : {Missing::Approached, Missing::LeftOut}) {
@@ -135,18 +134,21 @@ EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky, std::span
 SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prior,
                                                           const Revolved& seen, Missing missing,
                                                           EdgeTally& tally) {
-  const auto& [config, sky, edges, gate] = seen;
+  const auto& [config, sky, edges, noise] = seen;
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin_.conjugate().toRotationMatrix();
   Linearised here;
   tally = {};
-  tally.squared_gate = gate;
   covariance_ = prior.covariance_;
   of_errors_ = prior.of_errors_;
   Error error = error_of(prior);
-  const auto leave_out = [&tally, limit = gate](const Pulse& edge) {
+  const auto gate_of = [&noise = noise](PulseChannel channel) {
+    return square(kGateSigmas) * noise.at(index_of(channel));
+  };
+  const auto leave_out = [&](const Pulse& edge) {
     tally.gated.set(index_of(edge.channel));
     tally.log_likelihood += kLogSpurious;
-    tally.squared_innovations += limit;
+    tally.squared_innovations += gate_of(edge.channel);
+    tally.squared_gates += gate_of(edge.channel);
   };
   for (const Pulse& edge : edges) {
     const double dt_s = seconds_between(t_, edge.t);
@@ -163,12 +165,13 @@ SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prio
     }
     const double by_phase = predicted->phase_per_rotation.z();
     const Measured measured{
+        .channel = edge.channel,
         .residual_rad = phase_rad - predicted->phase_rad,
         .sigma_rad = sigma_rad,
         .slope = Error{predicted->phase_per_rotation.x(), predicted->phase_per_rotation.y(),
                        by_phase, by_phase * dt_s, by_phase * 0.5 * square(dt_s)},
         .per_error = predicted->phase_per_error};
-    if (!work_in(measured, gate, error, tally)) {
+    if (!work_in(measured, gate_of(edge.channel), error, tally)) {
       leave_out(edge);
       continue;
     }
@@ -187,6 +190,7 @@ bool SpinFilter::work_in(const Measured& measured, double gate, Error& error, Ed
   const double variance = measured.slope.dot(gain_unscaled) + square(measured.sigma_rad);
   const double innovation = wrapped_rad(measured.residual_rad - measured.slope.dot(error));
   const double squared_innovation = square(innovation) / variance;
+  tally.innovations.at(index_of(measured.channel)) = innovation / std::sqrt(variance);
   if (squared_innovation > gate) {
     return false;
   }

@@ -34,6 +34,10 @@ namespace spindrift {
 
 using ChannelSet = std::bitset<kPulseChannels>;
 
+/// How many times the variance of a channel's edges is what their stated noise makes it.
+using ChannelNoise = std::array<double, kPulseChannels>;
+inline constexpr ChannelNoise kStatedNoise = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+
 /// What became of the edges of one revolution.
 struct EdgeTally {
   ChannelSet accepted;
@@ -41,7 +45,9 @@ struct EdgeTally {
   /// Natural logarithm of the edges' probability density, 1/rad each, gated ones as spurious.
   double log_likelihood = 0.0;
   double squared_innovations = 0.0;  ///< Normalised, their sum; gated ones as at the gate.
-  double squared_gate = 0.0;
+  double squared_gates = 0.0;        ///< The share of gated ones in that.
+  /// Normalised, of each channel that was expected to have an edge, gated or not.
+  std::array<std::optional<double>, kPulseChannels> innovations = {};
   /// What the innovations of the accepted edges say of the model. The filter has eliminated axis,
   /// phase and rate from them, and made them independent (Friedland's separate-bias estimation).
   ErrorInformation errors = {};
@@ -65,10 +71,9 @@ class SpinFilter {
   void predict(TaiTime t);
 
   /// Works in the edges of about one revolution near the reference time.
-  /// @param excess_noise How many times their variance is what their stated noise makes it: the
-  ///        gate opens by so much, the weights stay.
+  /// @param noise The gate opens by so much, the weights stay.
   EdgeTally update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges,
-                   double excess_noise = 1.0);
+                   const ChannelNoise& noise = kStatedNoise);
 
   TaiTime t() const { return t_; }
   Eigen::Vector3d axis_icrf() const { return q_icrf_spin_ * Eigen::Vector3d::UnitZ(); }
@@ -94,7 +99,7 @@ class SpinFilter {
     const SpinConfig& config;
     const Sky& sky;
     std::span<const Pulse> edges;
-    double gate;
+    const ChannelNoise& noise;
   };
   /// What is done with edges that the state does not have.
   enum class Missing { Approached, LeftOut };
@@ -105,6 +110,7 @@ class SpinFilter {
   };
   /// An edge as the present state predicts it.
   struct Measured {
+    PulseChannel channel;
     double residual_rad;  ///< Of the phase; by any number of turns more.
     double sigma_rad;
     Error slope;

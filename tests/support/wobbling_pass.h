@@ -70,6 +70,7 @@ class WobblingPasses {
     return solve_batch(body_.config, orbit_, edges, {{start}});
   }
   SpinConfig& config() { return body_.config; }
+  const Orbit& orbit() const { return orbit_; }
 
  private:
   double duration_s_;

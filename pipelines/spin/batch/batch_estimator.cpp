@@ -12,6 +12,7 @@
 #include "pipelines/spin/batch/added_biases.h"
 #include "pipelines/spin/batch/batch_status.h"
 #include "pipelines/spin/batch/bias_choice.h"
+#include "pipelines/spin/batch/edge_noise.h"
 #include "pipelines/spin/batch/first_clock.h"
 #include "pipelines/spin/batch/observability.h"
 #include "pipelines/spin/batch/pass_nutation.h"
@@ -25,6 +26,9 @@ namespace {
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 // An axis known no better is not determined: cones about Sun or Earth, more or less.
 constexpr double kLost_rad = 10.0 * kDegree_rad;
+// Noise that is more than stated by so much has too many edges for outliers, and weighs those of
+// slits and beams wrongly against each other.
+constexpr double kLouder = 1.25;
 
 Unexpected unobservable(std::string message) {
   return Unexpected{{ErrorCode::Unobservable, std::move(message)}};
@@ -108,7 +112,8 @@ ConingEstimate coning_of(const Explained& found, double excess_noise) {
 
 /// All but its status, and what an estimate of all biases would leave open.
 /// @param open_rad2 What the choice among biases does, of the axis: tilts.
-BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2) {
+/// @param louder So many times the stated noise is that of the model.
+BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2, double louder) {
   const Explained& best = solved.of.best;
   const PassInformation& information = best.information;
   const Observability observed{information, best.estimated};
@@ -136,7 +141,7 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
       .changed = solved.left_out ? std::optional{solved.left_out->until} : std::nullopt,
       .edges = information.edges,
       .outliers = information.outliers,
-      .noise = std::sqrt(excess_noise),
+      .noise = louder * std::sqrt(excess_noise),
       .iterations = best.fit.iterations,
       .nutation = best.nutation,
       .nutation_t = solved.edges.back().pulse.t,
@@ -148,11 +153,15 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
   return solution;
 }
 
-}  // namespace
+struct Heard {
+  BatchSolution solution;
+  PulseNoise noise;
+};
 
-Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit,
-                                    std::span<const PassEdge> edges,
-                                    std::span<const Eigen::Vector3d> starts) {
+/// @param louder So many times the stated noise is that of `config`.
+Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
+                                 std::span<const PassEdge> edges,
+                                 std::span<const Eigen::Vector3d> starts, double louder) {
   if (starts.empty()) {
     return unobservable(
         "no fix has given an axis to begin at, and the mission file has no [spin.prior]");
@@ -180,7 +189,7 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
           axis_left_open(Observability{information, best.estimated}.axis_covariance_rad2())) {
     return Unexpected{*open};
   }
-  BatchSolution solution = solution_of(*solved, open_rad2);
+  BatchSolution solution = solution_of(*solved, open_rad2, louder);
   // Nor is it finite where they are not told apart at all.
   if (!(solution.estimate.covariance_rad2.trace() <= kLost_rad * kLost_rad)) {
     return unobservable("the biases that the edges ask for leave the axis open");
@@ -203,7 +212,30 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
                            .at_bound = best.fit.at_bound,
                            .coning_by_edges = !config.batch.biases.has_value(),
                            .wanted = wanted ? std::optional{wanted->bias} : std::nullopt});
-  return solution;
+  return Heard{.solution = std::move(solution),
+               .noise = noise_seen(solved->model, solved->edges, best.fit.state)};
+}
+
+}  // namespace
+
+Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit,
+                                    std::span<const PassEdge> edges,
+                                    std::span<const Eigen::Vector3d> starts) {
+  auto as_stated = solve_with_noise(config, orbit, edges, starts, 1.0);
+  if (!as_stated) {
+    return Unexpected{std::move(as_stated).error()};
+  }
+  const double louder = std::max(as_stated->noise.sun_s / config.noise.sun_s,
+                                 as_stated->noise.infrared_s / config.noise.infrared_s);
+  if (as_stated->solution.noise > 1.0 && louder > kLouder) {
+    SpinConfig heard = config;
+    heard.noise = as_stated->noise;
+    if (auto again = solve_with_noise(heard, orbit, edges, starts, louder)) {
+      again->solution.bound_rad = as_stated->solution.bound_rad;
+      return std::move(again)->solution;
+    }
+  }
+  return std::move(as_stated)->solution;
 }
 
 }  // namespace spindrift

@@ -254,7 +254,7 @@ TEST(Sequential, EdgesThatScatterMoreThanTheirNoiseAreDoubted) {
     scene.body.config.noise = stated;
     const SpinEstimate last = estimates(scene.body.config, seen, at_first(scene.fix())).back();
     EXPECT_EQ(last.status.starts_with("OK"), times == 1.0) << last.status;
-    EXPECT_EQ(last.status.starts_with("DOUBTFUL, residuals"), times == 2.0) << last.status;
+    EXPECT_EQ(last.status.starts_with("DOUBTFUL, residuals"), times > 1.0) << last.status;
     EXPECT_LT(squared_error(last, scene.body.axis_icrf), kOneInTenThousand) << times;
   }
 }

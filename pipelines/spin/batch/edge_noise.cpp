@@ -1,0 +1,50 @@
+#include "pipelines/spin/batch/edge_noise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+namespace spindrift {
+namespace {
+
+constexpr double kMedianOfNormal = 0.6745;
+
+double median_of(std::vector<double>& values) {
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return middle == values.end() ? 0.0 : *middle;
+}
+
+bool is_of_slit(std::size_t channel) {
+  return channel == index_of(PulseChannel::Sun1) || channel == index_of(PulseChannel::Sun2);
+}
+
+}  // namespace
+
+PulseNoise noise_seen(const PassModel& model, std::span<const PassEdge> edges,
+                      const SpinState& state) {
+  std::array<std::vector<double>, kPulseChannels> off;  // In sigmas.
+  for (const PassEdge& edge : edges) {
+    if (const auto met = model.meet(edge.pulse, state)) {
+      off.at(index_of(edge.pulse.channel)).push_back(met->off_rad / met->sigma_rad);
+    }
+  }
+  std::vector<double> of_slits;
+  std::vector<double> of_beams;
+  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+    const double median = median_of(off.at(channel));
+    std::vector<double>& deviations = is_of_slit(channel) ? of_slits : of_beams;
+    std::transform(off.at(channel).begin(), off.at(channel).end(), std::back_inserter(deviations),
+                   [median](double value) { return std::abs(value - median); });
+  }
+  const auto times_stated = [](std::vector<double>& deviations) {
+    return std::max(1.0, median_of(deviations) / kMedianOfNormal);
+  };
+  const PulseNoise& stated = model.config().noise;
+  return {.sun_s = stated.sun_s * times_stated(of_slits),
+          .infrared_s = stated.infrared_s * times_stated(of_beams)};
+}
+
+}  // namespace spindrift

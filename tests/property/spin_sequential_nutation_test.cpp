@@ -1,0 +1,71 @@
+/// Bodies that nutate: `sequential` follows the axis that stays, says that its edges swing, and its
+/// covariance holds. (`batch` finds the nutation and takes it out.)
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "pipelines/spin/spin_pass.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/product_text.h"
+#include "tests/support/wobbling_pass.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+std::vector<Pulse> pulses_of(const std::vector<PassEdge>& edges) {
+  std::vector<Pulse> pulses;
+  for (const PassEdge& edge : edges) {
+    pulses.push_back(edge.pulse);
+  }
+  return pulses;
+}
+
+/// The first turns of a nutating body look like those of another axis.
+constexpr double kFirstTurns = 20.0;
+constexpr double kSigmas = 5.0;
+
+void expect_no_wrong_row_is_ok(const SpinOutput& output, const SpinMotion& motion) {
+  const auto rows = testing::all_of<SpinEstimate>(output);
+  for (const SpinEstimate& row : rows) {
+    const double turns =
+        seconds_between(rows.front().t, row.t) * motion.rate_rad_s / (2.0 * std::numbers::pi);
+    if (row.estimator == SpinEstimator::Sequential && row.status.starts_with("OK") &&
+        turns > kFirstTurns) {
+      EXPECT_LT(testing::error_rad(row.axis_icrf, motion.axis_icrf).norm(),
+                kSigmas * testing::sigma_rad(row))
+          << row.status;
+    }
+  }
+}
+
+TEST(SpinSequentialNutation, DoesNotMoveTheAxis) {
+  constexpr int kPasses = 40;
+  testing::WobblingPasses passes{2403, 300.0};
+  double squares = 0.0;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    SpinTruth truth = passes.drawn();
+    truth.motion.nutation = passes.random_nutation(pass % 2 == 0 ? 0.2 * kDegree_rad : kDegree_rad);
+    const auto pulses = pulses_of(passes.edges(truth));
+    const SpinOutput output = testing::run(SpinPass{passes.config(), passes.orbit()}, pulses);
+    const SpinEstimate last = testing::last_estimate(output, SpinEstimator::Sequential);
+    SCOPED_TRACE(std::to_string(pass) + ": " + last.status);
+    const Eigen::Vector2d error_rad = testing::error_rad(last.axis_icrf, truth.motion.axis_icrf);
+    const double square = error_rad.dot(last.covariance_rad2.inverse() * error_rad);
+    EXPECT_LT(square, kSigmas * kSigmas);
+    squares += square;
+    expect_no_wrong_row_is_ok(output, truth.motion);
+  }
+  RecordProperty("squares", std::to_string(squares));
+  // Swings average out faster than the noise that they are taken for: 99 % of chi-square, 80
+  // degrees of freedom, is no more than the upper limit.
+  EXPECT_LT(squares, 112.3);
+}
+
+}  // namespace
+}  // namespace spindrift
