@@ -161,8 +161,7 @@ TEST_P(DeadSensor, MakesNothingConfidentlyWrong) {
   for (const DeadSensors& dead : kDead) {
     RecordProperty(dead.name, std::to_string(sure[dead.name]) + " sure, " +
                                   std::to_string(with_fix[dead.name]) + " with a fix");
-    // Most fixes of these passes graze, and the Earth turns by few degrees: most are left open.
-    EXPECT_GT(sure[dead.name], kPasses / 5) << dead.name;
+    EXPECT_GT(sure[dead.name], kPasses / 4) << dead.name;
   }
 }
 
