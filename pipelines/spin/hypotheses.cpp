@@ -14,9 +14,9 @@ namespace {
 // phase and rate start anew.
 constexpr double kPhaseLost_rad = 0.3;
 constexpr double kBeyondDoubt = 20.0;
-// A prior's candidate is in doubt when the edges are e^5 times likelier under another one: were it
-// true, that would happen in one pass of 150 at most (Ville's inequality).
-constexpr double kPriorInDoubt = 5.0;
+// The edges are e^5 times likelier under another candidate: were this one true, that would happen
+// in one pass of 150 at most (Ville's inequality).
+constexpr double kUnlikely = 5.0;
 // A hypothesis fits when the sum of its squared innovations, chi-square of one degree of freedom
 // each, is within so many of its sigmas.
 constexpr double kFitSigmas = 5.0;
@@ -51,15 +51,18 @@ bool Hypotheses::contradicted_by(const StartingPoint& point) const {
   });
 }
 
-bool Hypotheses::settled_by_edges() const {
-  return others_beaten_ && all_.size() == 1 && published().fixes >= kFewestFixes;
+bool Hypotheses::closed() const {
+  return !all_.empty() && !provisional_ && published().has_beaten &&
+         published().fixes >= kFewestFixes &&
+         std::all_of(all_.begin() + 1, all_.end(),
+                     [](const Hypothesis& other) { return other.late; });
 }
 
 /// Nor where all fixes graze: filters that began to one side of the axis need not come to it.
 bool Hypotheses::prior_stands() const {
   return published().favoured && !provisional_ &&
          std::all_of(all_.begin() + 1, all_.end(), [&](const Hypothesis& other) {
-           return other.log_likelihood - published().log_likelihood < kPriorInDoubt;
+           return other.log_likelihood - published().log_likelihood < kUnlikely;
          });
 }
 
@@ -70,10 +73,15 @@ bool Hypotheses::add(const StartingPoint& point, const SpinConfig& config,
   if (!filter) {
     return false;
   }
-  all_.push_back(
-      {.filter = *filter, .log_likelihood = all_.empty() ? 0.0 : all_.front().log_likelihood});
+  Hypothesis added{.filter = *filter};
+  if (!all_.empty()) {
+    Hypothesis& published = all_.front();
+    published.has_beaten = published.has_beaten && !settled();
+    added.log_likelihood = published.log_likelihood;
+    added.late = published.has_beaten;
+  }
+  all_.push_back(std::move(added));
   settled_ = false;
-  others_beaten_ = false;
   return true;
 }
 
@@ -127,9 +135,15 @@ bool Hypotheses::work_in(const SpinConfig& config, const Revolution& revolution,
       hypothesis.tally = filter.update(config, sky, edges.span(), noise);
     }
     const EdgeTally& tally = hypothesis.tally;
+    const bool was_new = hypothesis.edges < kFewestEdgesToFit;
     hypothesis.edges += static_cast<double>(tally.accepted.count() + tally.gated.count());
     hypothesis.log_likelihood += tally.log_likelihood;
     hypothesis.squared_innovations += tally.squared_innovations;
+    // A filter knows little at first, and its edges are unlikely for that: one that came late is
+    // held against the others, which have this behind them, from here on.
+    if (hypothesis.late && was_new && hypothesis.edges >= kFewestEdgesToFit) {
+      hypothesis.log_likelihood = std::max(hypothesis.log_likelihood, published().log_likelihood);
+    }
   }
   return drop_the_beaten();
 }
@@ -140,17 +154,19 @@ bool Hypotheses::drop_the_beaten() {
   });
   Hypothesis& best = all_.front();
   const bool best_fits = fits(best);
-  const std::size_t before = all_.size();
   bool prior_beaten = false;
   const auto beaten = [&](const Hypothesis& other) {
+    const bool judged = other.late && other.edges >= kFewestEdgesToFit && best.has_beaten;
+    const double enough = judged ? kUnlikely : kBeyondDoubt;
     const bool same = agree(best.filter, other.filter);
-    const bool out = best_fits && best.log_likelihood - other.log_likelihood > kBeyondDoubt;
+    const bool out = best_fits && best.log_likelihood - other.log_likelihood > enough;
     best.favoured = best.favoured || (same && other.favoured);
     prior_beaten = prior_beaten || (!same && out && other.favoured);
     return same || out;
   };
-  all_.erase(std::remove_if(all_.begin() + 1, all_.end(), beaten), all_.end());
-  others_beaten_ = others_beaten_ || (best_fits && before > 1 && all_.size() == 1 && !provisional_);
+  const auto left = std::remove_if(all_.begin() + 1, all_.end(), beaten);
+  best.has_beaten = best.has_beaten || (best_fits && left != all_.end());
+  all_.erase(left, all_.end());
   // Unbeaten, the prior's candidate stands before likelier ones.
   std::stable_partition(all_.begin(), all_.end(),
                         [](const Hypothesis& hypothesis) { return hypothesis.favoured; });

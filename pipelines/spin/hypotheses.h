@@ -1,7 +1,8 @@
 /// @file
 /// Candidates for the axis, each with a filter that sees the same edges. They compete by the
 /// likelihood of these: a candidate is out when the edges are e^20 times likelier under another one
-/// that fits them, or when both filters have come to one axis.
+/// that fits them, or when both filters have come to one axis. Of those that come when one is
+/// out, e^5 is enough, once they are as well known as the others.
 
 #pragma once
 
@@ -24,6 +25,8 @@ struct Hypothesis {
   double squared_innovations = 0.0;  ///< Normalised, their sum: as many as edges when all is well.
   EdgeTally tally = {};              ///< Of the last revolution.
   int fixes = 0;                     ///< That have it among their candidates.
+  bool has_beaten = false;           ///< Another, by the edges.
+  bool late = false;                 ///< Came when the one then published had beaten another.
 };
 
 /// So many edges say whether a hypothesis fits them.
@@ -37,10 +40,14 @@ class Hypotheses {
   bool empty() const { return all_.empty(); }
   std::size_t count() const { return all_.size(); }
   bool provisional() const { return provisional_; }
-  /// One is left, by a fix or by the edges beyond doubt.
-  bool settled() const { return (settled_ || settled_by_edges()) && all_.size() == 1; }
+  /// By a fix, which leaves one, or by the edges beyond doubt.
+  bool settled() const { return (settled_ || closed()) && all_.size() == 1; }
   /// Of candidates that are no accident of one fix: the likeliest of false ones is false.
-  bool settled_by_edges() const;
+  bool settled_by_edges() const { return closed() && all_.size() == 1; }
+
+  /// The one published has beaten all that came before it had beaten any: those that are left are
+  /// the last to be judged. False ones of later fixes would come and go for ever.
+  bool closed() const;
 
   /// The likeliest first, but before it the prior's, until the edges beat that; likewise
   /// `published`, of which there must be one.
@@ -53,7 +60,8 @@ class Hypotheses {
   /// Nothing but a prior chose the one published, and the edges do not speak against it.
   bool prior_stands() const;
 
-  /// Another candidate, with the benefit of the doubt: as likely so far as the one published.
+  /// Another candidate, with the benefit of the doubt: as likely so far as the one published,
+  /// which, where it was settled, no longer is.
   /// @return False where none of the revolution's edges can tell its phase.
   bool add(const StartingPoint& point, const SpinConfig& config, const Revolution& revolution,
            const Sky& sky);
@@ -78,7 +86,6 @@ class Hypotheses {
   std::vector<Hypothesis> all_;
   bool provisional_;
   bool settled_ = false;
-  bool others_beaten_ = false;
 };
 
 }  // namespace spindrift

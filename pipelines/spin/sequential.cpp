@@ -172,7 +172,7 @@ void SequentialEstimator::take_side(const SpinFix& fix, const StartingPoint& axi
 /// told from the true one by it. What is settled is asked again only where fixes contradict it.
 void SequentialEstimator::join(std::span<const StartingPoint> points, const Revolution& revolution,
                                const Sky& sky) {
-  if (hypotheses_.settled() && !fixes_contradict()) {
+  if ((hypotheses_.settled() || hypotheses_.closed()) && !fixes_contradict()) {
     return;
   }
   std::vector<StartingPoint> unfollowed;
