@@ -76,7 +76,7 @@ bool Hypotheses::add(const StartingPoint& point, const SpinConfig& config,
   Hypothesis added{.filter = *filter};
   if (!all_.empty()) {
     Hypothesis& published = all_.front();
-    published.has_beaten = published.has_beaten && !settled();
+    published.has_beaten = published.has_beaten && !settled() && !closed();
     added.log_likelihood = published.log_likelihood;
     added.late = published.has_beaten;
   }

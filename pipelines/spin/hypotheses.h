@@ -61,7 +61,7 @@ class Hypotheses {
   bool prior_stands() const;
 
   /// Another candidate, with the benefit of the doubt: as likely so far as the one published,
-  /// which, where it was settled, no longer is.
+  /// which, where it was settled or the list closed, stands no higher than it from now on.
   /// @return False where none of the revolution's edges can tell its phase.
   bool add(const StartingPoint& point, const SpinConfig& config, const Revolution& revolution,
            const Sky& sky);
