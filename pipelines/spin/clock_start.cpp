@@ -141,7 +141,10 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
     return std::nullopt;
   }
   const auto first = std::find_if(sane.begin(), sane.end(), agrees);
-  const double sigma_s = std::numbers::sqrt2 * config.noise.sun_s;
+  // Either period is the mean of its turn, half a turn from its sun1.
+  const double apart_s = std::abs(elapsed_s(first->t_sun1, middle->t_sun1)) + middle->period_s;
+  const double drifted_s = period_s * period_s * kFirstDrift_per_s2 * apart_s;
+  const double sigma_s = std::hypot(std::numbers::sqrt2 * config.noise.sun_s, drifted_s);
   return ClockStart{.reference = Sun1,
                     .clock = SpinClock{{.t = first->t_sun1,
                                         .turn = 0,

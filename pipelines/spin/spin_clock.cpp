@@ -12,12 +12,9 @@ namespace {
 constexpr double kRateWander = 5e-7;
 // Turns a second squared, in a second.
 constexpr double kDriftWander = 3e-10;
-constexpr double kRpmPerHour_per_s2 = 1.0 / 60.0 / 3600.0;
-// As in the spin filter.
-constexpr double kFirstDrift_per_s2 = 2.0 * kRpmPerHour_per_s2;
 // Eddy currents, warming and leaks seldom do more. A few turns tell of what does; before, to be
 // ready for any drift would leave the count uncertain through a silence of minutes.
-constexpr double kUsualDrift_per_s2 = 0.2 * kRpmPerHour_per_s2;
+constexpr double kUsualDrift_per_s2 = 0.1 * kFirstDrift_per_s2;
 
 }  // namespace
 

@@ -11,6 +11,10 @@
 
 namespace spindrift {
 
+/// One sigma of a drift of which nothing is known, turns a second in a second: 2 rpm an hour, as in
+/// the spin filter.
+inline constexpr double kFirstDrift_per_s2 = 2.0 / 60.0 / 3600.0;
+
 /// Phase n is where the sun1 edge of turn n is expected (or whatever stands in for it). The spin
 /// rate may drift evenly, by a few rpm an hour, and wander a little about that. As long as nothing
 /// is known of the drift, turns are counted as with a small one, but the period is not stated so.

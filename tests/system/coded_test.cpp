@@ -105,6 +105,33 @@ TEST(Coded, SimulatedPassGivesTheSameProductsFromTheBusAsFromFiles) {
   EXPECT_EQ(product_rows(served), product_rows(offline));
 }
 
+/// Its period changes by a hundred times its noise a turn.
+TEST(Coded, FramesOfASlowBodyThatDriftsAreTakenFromTheFirstTurns) {
+  for (const std::string drift_rpm_h : {"0.5", "1.0", "2.0"}) {
+    SCOPED_TRACE(drift_rpm_h);
+    const TemporaryFolder folder;
+    std::string scenario = text_of(kScenario) + "[telemetry]\nkind = \"coded\"\n";
+    const std::string rate = "rate_rpm = 60.0\n";
+    scenario.replace(scenario.find(rate), rate.size(),
+                     "rate_rpm = 5.5\nrate_drift_rpm_h = " + drift_rpm_h + "\n");
+    const auto pass = folder.path() / "pass";
+    Program simulate{
+        {"simulate", folder.write("scenario.toml", scenario).string(), "--out", pass.string()}};
+    ASSERT_EQ(simulate.exit_status(), 0) << simulate.log();
+    const auto db = folder.path() / "processed.db";
+    process((pass / "mission.toml").string(), pass, db);
+    EXPECT_GT(real_of(db, "SELECT avg(accepted) FROM pulse_use"), 0.9);
+    // One frame a turn, and every turn counted.
+    EXPECT_EQ(number_of(db, "SELECT max(revolution) - min(revolution) + 1 FROM revolution"),
+              number_of(db, "SELECT count(*) FROM coded_frame") - 1);
+    EXPECT_EQ(number_of(db, "SELECT count(*) FROM pass_answer WHERE status LIKE 'OK%'"), 3);
+    const auto truth = nlohmann::json::parse(text_of(pass / "truth.json"));
+    for (const std::string estimator : {"mean", "sequential", "batch"}) {
+      EXPECT_LT(error_deg(db, estimator, truth), 0.06) << estimator;
+    }
+  }
+}
+
 TEST(Coded, SimulatedPassWithASilenceAndEveryFaultIsTelemetryThatCanBeTrue) {
   const TemporaryFolder folder;
   const std::string scenario =

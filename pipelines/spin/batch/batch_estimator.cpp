@@ -45,17 +45,19 @@ std::optional<Error> axis_left_open(const Eigen::Matrix2d& bound_rad2) {
                            std::min(std::sqrt(bound_rad2.trace()) / kDegree_rad, 180.0))};
 }
 
-/// What the edges leave open wanders off.
-Error why_diverged(const Solved& solved, const Eigen::Vector3d& start_icrf) {
+/// Where it began, whatever the solution slid to: near the Sun or the Earth the edges of one sensor
+/// seem to tell more.
+std::optional<Error> axis_open_at_start(const Solved& solved, const Eigen::Vector3d& start_icrf) {
   const auto start = first_state(solved.model, solved.edges, start_icrf);
-  if (start) {
-    const PassInformation there =
-        information_of(solved.model, solved.edges, *start, std::numeric_limits<double>::infinity());
-    const Observability observed{there, solved.of.best.estimated};
-    if (auto open = axis_left_open(observed.axis_covariance_rad2())) {
-      return *std::move(open);
-    }
+  if (!start) {
+    return std::nullopt;
   }
+  const PassInformation there =
+      information_of(solved.model, solved.edges, *start, std::numeric_limits<double>::infinity());
+  return axis_left_open(Observability{there, solved.of.best.estimated}.axis_covariance_rad2());
+}
+
+Error why_diverged(const Solved& solved) {
   const PassInformation& found = solved.of.best.information;
   return {ErrorCode::Unobservable,
           fmt::format("the solution diverged: {} of {} edges are not where it has them",
@@ -182,8 +184,11 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
   }
   const Explained& best = solved->of.best;
   const PassInformation& information = best.information;
+  if (auto open = axis_open_at_start(*solved, starts.front())) {
+    return Unexpected{*std::move(open)};
+  }
   if (information.outlier_share() > kMostOutliers) {
-    return Unexpected{why_diverged(*solved, starts.front())};
+    return Unexpected{why_diverged(*solved)};
   }
   if (const auto open =
           axis_left_open(Observability{information, best.estimated}.axis_covariance_rad2())) {

@@ -227,6 +227,24 @@ TEST(BatchEstimator, EdgesOfOneSensorAloneLeaveTheAxisOpen) {
   }
 }
 
+/// Where the solution slides to, at the Sun, its slit seems to tell all.
+TEST(BatchEstimator, EdgesOfOneSlitNearTheSunLeaveTheAxisOpen) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene{seed};
+    const Eigen::Vector3d sun_icrf = scene.around.sun_icrf(0.0).normalized();
+    scene.body.axis_icrf =
+        Eigen::AngleAxisd{12.0 * kDegree_rad, sun_icrf.unitOrthogonal()} * sun_icrf;
+    auto edges = scene.pass(120.0);
+    std::erase_if(edges,
+                  [](const PassEdge& edge) { return edge.pulse.channel != PulseChannel::Sun1; });
+    ASSERT_GT(edges.size(), 100U);
+    const auto solution = scene.solved(edges);
+    ASSERT_FALSE(solution) << solution->estimate.status;
+    EXPECT_THAT(solution.error().message, HasSubstr("a cone about Sun or Earth"));
+  }
+}
+
 TEST(BatchEstimator, WithoutAStartThereIsNone) {
   Scene scene;
   const auto solution = solve_batch(scene.body.config, scene.orbit, scene.pass(60.0), {});
