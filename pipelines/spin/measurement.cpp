@@ -65,7 +65,7 @@ std::optional<EarthCrossing> crossing_of(const SpinConfig& config, const Revolut
     return std::nullopt;
   }
   const double chord_rad = revolution.turned_rad(*in, *out);
-  if (!(chord_rad > 0.0 && chord_rad < std::numbers::pi)) {
+  if (!(chord_rad > 0.0 && chord_rad < 2.0 * std::numbers::pi)) {
     return std::nullopt;
   }
   const double rate_rad_s = revolution.rate_rad_s(*in);

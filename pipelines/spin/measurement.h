@@ -82,7 +82,7 @@ std::optional<Measured> good_value_of(const RevolutionMeasurements& measured,
 /// Marks a quantity as not to be used, unless it is already.
 void reject(RevolutionMeasurements& measured, SpinQuantity quantity, Rejection why);
 
-/// A measurement that has no meaning (slit lag of a quarter turn or more, chord of half a turn or
+/// A measurement that has no meaning (slit lag of a quarter turn or more, chord of a whole turn or
 /// more) is absent; one that rests on a rejected edge is there, rejected for the same reason.
 RevolutionMeasurements measure(const SpinConfig& config, const Revolution& revolution);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,10 +16,19 @@ namespace spindrift {
 namespace {
 
 constexpr double kPriorSigmas = 5.0;
+// Of a pass of few turns a large share is left out before its spin period is found.
+constexpr std::int64_t kFewestToJudge = 100;
 // What is said of it, is said once.
 constexpr std::string_view kPrior = "prior";
 
 double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
+
+/// It is the edges themselves, or what the mission says of them, that does not fit.
+bool is_of_the_edge(Rejection rejection) {
+  return rejection != Rejection::Late && rejection != Rejection::OutOfTime &&
+         rejection != Rejection::Interference && rejection != Rejection::NoSensor &&
+         rejection != Rejection::NoOrbit;
+}
 
 /// Why the fixes of that case leave several candidates.
 std::string_view what_is_missing(int geometry_case) {
@@ -41,6 +51,17 @@ std::string_view what_is_missing(int geometry_case) {
 void PassNotices::say_first(std::string_view kind, const std::string& notice) {
   if (said_.emplace(kind).second) {
     say(notice);
+  }
+}
+
+void PassNotices::used(std::span<const SpinProduct> products) {
+  for (const SpinProduct& product : products) {
+    if (const auto* use = std::get_if<PulseUse>(&product)) {
+      ++edges_;
+      if (use->rejected_by) {
+        ++left_out_[*use->rejected_by];
+      }
+    }
   }
 }
 
@@ -184,6 +205,9 @@ void PassNotices::pass_ended(std::span<const InterferingChannels> interfering,
                     "revolution, and no axis",
                     kSlowestSearched_rpm, kFastestSearched_rpm));
   }
+  if (closed_any_) {
+    say_what_was_left_out();
+  }
   if (const std::string silent = silent_channels(); closed_any_ && !silent.empty()) {
     say(fmt::format("no edge at all came from {}", silent));
   }
@@ -202,6 +226,24 @@ void PassNotices::pass_ended(std::span<const InterferingChannels> interfering,
                     last_outside_orbit_));
   }
   say_what_the_axis_lacks(sequential);
+}
+
+void PassNotices::say_what_was_left_out() {
+  std::erase_if(left_out_, [](const auto& of_kind) { return !is_of_the_edge(of_kind.first); });
+  std::int64_t all = 0;
+  for (const auto& [rejection, edges] : left_out_) {
+    all += edges;
+  }
+  if (edges_ < kFewestToJudge || 2 * all <= edges_) {
+    return;
+  }
+  const auto most =
+      std::max_element(left_out_.begin(), left_out_.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  say(fmt::format(
+      "{:.0f} % of all edges do not fit and are left out, most as '{}': the count of "
+      "revolutions, and what is made of the others, may be wrong",
+      100.0 * static_cast<double>(all) / static_cast<double>(edges_), name_of(most->first)));
 }
 
 /// It takes fixes that are accepted and do not graze.

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -32,6 +33,8 @@ class PassNotices {
 
   // As it happens.
   void edge_came(PulseChannel channel) { heard_.at(index_of(channel)) = true; }
+  /// What became of all edges among them.
+  void used(std::span<const SpinProduct> products);
   void edge_came_late();
   void edge_out_of_time();
   void associated(const Association& association);
@@ -63,6 +66,7 @@ class PassNotices {
   void say_once(const std::string& notice) { say_first(notice, notice); }
   void say_first(std::string_view kind, const std::string& notice);
   std::string silent_channels() const;
+  void say_what_was_left_out();
   void say_why_no_mean();
   std::string why_ambiguous() const;
   void say_what_the_axis_lacks(const SequentialEstimator& sequential);
@@ -71,10 +75,12 @@ class PassNotices {
   std::vector<std::string> pending_;
   std::set<std::string, std::less<>> said_;
   std::array<bool, kPulseChannels> heard_{};
-  bool closed_any_ = false;     ///< Revolution.
-  bool left_over_any_ = false;  ///< Edge of none.
-  std::string last_status_;     ///< Of `sequential`; empty: it never began.
-  int last_case_ = 0;           ///< Of the last fix.
+  std::int64_t edges_ = 0;
+  std::map<Rejection, std::int64_t> left_out_;  ///< Of them.
+  bool closed_any_ = false;                     ///< Revolution.
+  bool left_over_any_ = false;                  ///< Edge of none.
+  std::string last_status_;                     ///< Of `sequential`; empty: it never began.
+  int last_case_ = 0;                           ///< Of the last fix.
   std::optional<PriorVerdict> prior_verdict_;
   bool prior_contradicted_ = false;
   bool mean_began_ = false;

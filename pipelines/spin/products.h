@@ -36,7 +36,7 @@ enum class Rejection {
   OutOfTime,     ///< Far ahead of all others, by a clock that nothing else agrees with.
   Interference,  ///< An edge of another channel is so near that both are spoilt.
   Phase,     ///< Not where the edges of its channel lie; of a measurement: rests on such an edge.
-  Geometry,  ///< The measurement has no meaning (chord of half a turn, slit lag out of range).
+  Geometry,  ///< The measurement has no meaning (chord of a whole turn, slit lag out of range).
   NoSensor,  ///< The mission file has no such sensor.
   NoOrbit,   ///< The orbit does not cover it: not testable.
   Period,    ///< Failed the spin-period test.

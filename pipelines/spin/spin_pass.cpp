@@ -51,6 +51,7 @@ SpinPass::SpinPass(const SpinConfig& config, Orbit orbit)
 SpinOutput SpinPass::push(const Pulse& pulse) {
   SpinOutput out;
   take(pulse, out);
+  notices_.used(out.products);
   out.notices = notices_.take();
   return out;
 }
@@ -73,6 +74,7 @@ SpinOutput SpinPass::push(const CodedFrame& frame) {
     case FrameReorderWindow::Verdict::Duplicate:
       break;
   }
+  notices_.used(out.products);
   out.notices = notices_.take();
   return out;
 }
@@ -96,6 +98,7 @@ SpinOutput SpinPass::finish() {
     leave_out(pulse, Rejection::OutOfTime, out);
     notices_.edge_out_of_time();
   }
+  notices_.used(out.products);
   notices_.pass_ended(associator_.interfering(), sequential_);
   out.notices = notices_.take();
   return out;

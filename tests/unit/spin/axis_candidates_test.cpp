@@ -45,6 +45,22 @@ TEST(AxisCandidates, CasesTwoAndThreeHaveOneChord) {
   }
 }
 
+TEST(AxisCandidates, AChordMayBeWiderThanHalfATurn) {
+  Scene scene;
+  scene.earth_icrf =
+      Eigen::AngleAxisd{10.0 * kDegree_rad, scene.axis_icrf.unitOrthogonal()} * scene.axis_icrf;
+  scene.config.north->mount_angle_rad = 16.0 * kDegree_rad;
+  scene.config.south->mount_angle_rad = 20.0 * kDegree_rad;
+  const RevolutionMeasurements measured = measure(scene.config, scene.seen());
+  EXPECT_GT(value_of(measured, NorthChord)->value_rad, 240.0 * kDegree_rad);
+  EXPECT_GT(value_of(measured, SouthChord)->value_rad, 190.0 * kDegree_rad);
+  for (const std::set<SpinQuantity>& left_out :
+       {std::set<SpinQuantity>{}, std::set{SouthChord}, std::set{NorthChord}}) {
+    const SpinFix fix = scene.fix(left_out).value();
+    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad) << left_out.size();
+  }
+}
+
 TEST(AxisCandidates, OneDihedralIsEnough) {
   const Scene scene;
   for (const SpinQuantity left_out : {NorthDihedral, SouthDihedral}) {

@@ -166,7 +166,7 @@ TEST(SpinMeasurements, ASlitLagOfAQuarterTurnHasNoMeaning) {
   EXPECT_FALSE(sun_angle(sensor, std::nan(""), kRate_rad_s, 1e-4));
 }
 
-TEST(SpinMeasurements, AChordOfHalfATurnOrBackwardsHasNoMeaning) {
+TEST(SpinMeasurements, AChordOfAWholeTurnOrBackwardsHasNoMeaning) {
   const Scene scene;
   Revolution revolution = seen(scene);
   const auto chord_of = [&](double width_rad) {
@@ -174,8 +174,8 @@ TEST(SpinMeasurements, AChordOfHalfATurnOrBackwardsHasNoMeaning) {
         shifted(*revolution.edge(NorthIn), width_rad / kRate_rad_s);
     return measure(scene.config, revolution).crossing(Side::North);
   };
-  EXPECT_TRUE(chord_of(0.99 * kPi));
-  EXPECT_FALSE(chord_of(1.01 * kPi));
+  EXPECT_TRUE(chord_of(1.99 * kPi));
+  EXPECT_FALSE(chord_of(2.01 * kPi));
   EXPECT_FALSE(chord_of(0.0));
   EXPECT_FALSE(chord_of(-0.1));
 }

@@ -74,6 +74,36 @@ std::string said_of_ambiguous(const char* status, const std::optional<SpinPrior>
   return said.size() == 1 ? said.front() : "not one notice";
 }
 
+/// So many edges, and so many of them left out for that reason.
+std::vector<SpinProduct> used(std::int64_t edges, std::int64_t left_out, Rejection rejection) {
+  std::vector<SpinProduct> products;
+  for (std::int64_t i = 0; i < edges; ++i) {
+    products.emplace_back(
+        PulseUse{.pulse = {.t = tai_from_ns(i), .channel = Sun1},
+                 .revolution = {},
+                 .rejected_by = i < left_out ? std::optional{rejection} : std::nullopt});
+  }
+  return products;
+}
+
+TEST(PassNotices, SayThatMostEdgesDoNotFit) {
+  const auto said = [](const std::vector<SpinProduct>& products) {
+    PassNotices notices{kConfig};
+    notices.associated(of_one_revolution());
+    for (const PulseChannel channel : {Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut}) {
+      notices.edge_came(channel);
+    }
+    notices.used(products);
+    return at_the_end(notices);
+  };
+  EXPECT_THAT(said(used(200, 101, Rejection::Phase)),
+              ElementsAre(StartsWith("50 % of all edges do not fit and are left out, most as "
+                                     "'phase'")));
+  EXPECT_THAT(said(used(200, 100, Rejection::Phase)), IsEmpty());
+  EXPECT_THAT(said(used(90, 90, Rejection::Phase)), IsEmpty());
+  EXPECT_THAT(said(used(200, 200, Rejection::NoOrbit)), IsEmpty());
+}
+
 TEST(PassNotices, EachThingIsSaidOnce) {
   PassNotices notices{kConfig};
   notices.edge_came_late();
