@@ -20,6 +20,8 @@ class GateWatch {
 
   /// Of the recent edges.
   bool most_gated() const;
+  /// A third of them, or of the first ones: among those accepted a wrong one is likely.
+  bool many_gated() const;
   /// The channel most of whose edges of the recent revolutions are gated.
   std::optional<PulseChannel> channel_mostly_gated() const;
 
@@ -29,7 +31,9 @@ class GateWatch {
  private:
   std::int64_t revolutions_ = 0;
   std::int64_t gated_ = 0;
+  double edges_ = 0.0;
   double share_ = 0.0;
+  double share_from_the_start_ = 0.0;
   std::array<double, kPulseChannels> channel_share_ = {};
 };
 

@@ -274,6 +274,9 @@ std::string SequentialEstimator::status() const {
     return fmt::format("DOUBTFUL, most {} edges gated, {} revolutions", name_of(*channel),
                        revolutions);
   }
+  if (gates_.many_gated()) {
+    return fmt::format("DOUBTFUL, many edges gated, {} revolutions", revolutions);
+  }
   if (verdict_.excess_noise > 1.0) {
     return fmt::format("DOUBTFUL, residuals {:.1f} x stated noise, {} revolutions",
                        std::sqrt(verdict_.excess_noise), revolutions);
