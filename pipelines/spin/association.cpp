@@ -183,32 +183,31 @@ void Associator::restart_after_step(const Pulse& pulse) {
   const double expected = phases_.at(reference_, phase);
   const double turn = std::round(phase - expected);
   const double noise_s = noise_of(config_.noise, reference_);
-  const bool good = clock_->accepts(
-      static_cast<std::int64_t>(turn), zero_of(pulse.t, turn), noise_s, reference_wander(),
-      {.sigma = config_.screening.sigma, .most = gate_turns(reference_)});
+  const bool good =
+      clock_->accepts(turn + phases_.at(reference_, turn), pulse.t, noise_s, reference_wander(),
+                      {.sigma = config_.screening.sigma, .most = gate_turns(reference_)});
   rate_step_.add(pulse.t, good);
-  const auto comb = rate_step_.new_comb(noise_s, clock_->period_s());
+  const auto comb = rate_step_.new_comb(clock_->scale() * noise_s, clock_->period_s());
   if (!comb) {
     return;
   }
+  SpinClock::Setting setting = setting_of(*comb, noise_s);
+  const SpinClock teeth{setting};
   auto number = std::max(static_cast<std::int64_t>(turn), first_open_);
   if (!open_.empty() && open_.back().edge(reference_)) {
-    number = std::max(number, open_.back().number + 1);
+    const double turns_behind =
+        teeth.phase_turns(pulse.t) - teeth.phase_turns(*open_.back().edge(reference_));
+    number = std::max(number, open_.back().number + std::int64_t{std::llround(turns_behind)});
   }
-  SpinClock::Setting setting = setting_of(*comb, noise_s);
-  const double turns_on_comb = SpinClock{setting}.phase_turns(pulse.t);
-  setting.t = later_by_s(comb->t, -expected * comb->period_s);
-  setting.turn = number - static_cast<std::int64_t>(std::llround(turns_on_comb));
+  setting.phase_turns =
+      static_cast<double>(number) + expected - std::round(teeth.phase_turns(pulse.t));
   clock_ = SpinClock{setting};
+  // The comb's period is that of the reference's own edges: the clock keeps to them.
+  phases_.define(reference_, number, expected);
   intervals_.begin_anew(noise_s);
   rate_step_.forget();
   phases_.set_period(comb->period_s);
   phases_.forget_strays();
-}
-
-/// Where phase `turn` is, judged by an edge of the reference.
-TaiTime Associator::zero_of(TaiTime t, double turn) const {
-  return later_by_s(t, -phases_.at(reference_, turn) * clock_->period_s());
 }
 
 double Associator::clock_sigma_turns(double phase_turns) const {
@@ -353,7 +352,7 @@ void Associator::judge_reference(Revolution& revolution) {
   const double noise_s = std::hypot(noise_of(config_.noise, reference_),
                                     displaced_turns(revolution, reference_) * clock_->period_s());
   const bool good =
-      clock_->follow(revolution.number, zero_of(*edge, turn), noise_s, reference_wander(),
+      clock_->follow(turn + phases_.at(reference_, turn), *edge, noise_s, reference_wander(),
                      {.sigma = config_.screening.sigma, .most = reach_turns(reference_, turn)});
   phases_.set_period(clock_->period_s());
   std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(reference_));

@@ -89,7 +89,6 @@ class Associator {
   void change_reference(PulseChannel channel, std::int64_t turn);
   TaiTime t_start_of(const Revolution& revolution) const;
 
-  TaiTime zero_of(TaiTime t, double turn) const;
   double reference_wander() const;
   SpinPeriod period_at(TaiTime t) const;
   double reach_turns(PulseChannel channel, double phase_turns) const;

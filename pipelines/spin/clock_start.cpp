@@ -65,7 +65,7 @@ SpinClock counted_from(SpinClock::Setting setting, const std::vector<TaiTime>& e
   };
   const auto first = std::find_if(turns.begin(), turns.end(), begins_here);
   if (!turns.empty()) {
-    setting.turn = -static_cast<std::int64_t>(first == turns.end() ? turns.front() : *first);
+    setting.phase_turns -= first == turns.end() ? turns.front() : *first;
   }
   return SpinClock{setting};
 }
@@ -89,12 +89,21 @@ double apparent_motion_s(PulseChannel channel, double period_s) {
 }
 
 SpinClock::Setting setting_of(const Comb& comb, double noise_s) {
+  const double turns = std::max(1.0, comb.turns);
+  const double hidden_turns = kHidden_scatters * comb.scatter_s / comb.period_s;
+  const double span_s = turns * comb.period_s;
+  // A drift that was seen leaves between its ends what hides from a straight line.
+  const double drift_sigma =
+      comb.drift_per_s2 == 0.0
+          ? kFirstDrift_per_s2
+          : std::min(kFirstDrift_per_s2, 8.0 * hidden_turns / (span_s * span_s));
   return {.t = comb.t,
-          .turn = 0,
+          .phase_turns = 0.0,
           .period_s = comb.period_s,
-          .period_sigma_s = kHidden_scatters * 2.0 * comb.scatter_s / std::max(1.0, comb.turns),
+          .period_sigma_s = kHidden_scatters * 2.0 * comb.scatter_s / turns,
           .sigma_s = kHidden_scatters * comb.scatter_s,
           .drift_per_s2 = comb.drift_per_s2,
+          .drift_sigma_per_s2 = drift_sigma,
           .scale = comb.scatter_s / noise_s};
 }
 
@@ -111,7 +120,7 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
     }
     const double phase_turns = defined_phase_turns(config, channel);
     SpinClock::Setting setting = setting_of(*comb, noise_s);
-    setting.t = later_by_s(setting.t, -phase_turns * comb->period_s);
+    setting.phase_turns = phase_turns;
     return ClockStart{.reference = channel,
                       .clock = counted_from(setting, edges, channel, phase_turns)};
   }
@@ -147,7 +156,7 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
   const double sigma_s = std::hypot(std::numbers::sqrt2 * config.noise.sun_s, drifted_s);
   return ClockStart{.reference = Sun1,
                     .clock = SpinClock{{.t = first->t_sun1,
-                                        .turn = 0,
+                                        .phase_turns = 0.0,
                                         .period_s = period_s,
                                         .period_sigma_s = sigma_s,
                                         .sigma_s = config.noise.sun_s}}};

@@ -15,14 +15,25 @@ namespace {
 constexpr std::size_t kRecent = 9;
 constexpr std::ptrdiff_t kDoubtful = 4;
 constexpr std::size_t kFewestAfterStep = 6;
+// Further from it spoilt edges would share a comb with good ones.
+constexpr double kOn_sigma = 6.0;
 // A body that turns so much faster than before has an edge on nearly every turn. Otherwise it turns
 // as before, and the time stamps have stepped by a fraction of a turn.
 constexpr double kMuchFaster = 0.75;
 constexpr double kNearlyEvery = 0.8;
+// Turns of the clock, along all of the comb.
+constexpr double kSameTurns = 0.05;
 
 bool is_fraction(const Comb& comb, double period_s) {
   return comb.period_s < kMuchFaster * period_s &&
          static_cast<double>(comb.edges) < kNearlyEvery * (comb.turns + 1.0);
+}
+
+/// The clock's own, of every second turn or fewer.
+bool is_multiple(const Comb& comb, double period_s) {
+  const double clock_turns = comb.period_s / period_s;
+  const double whole = std::round(clock_turns);
+  return whole > 1.0 && std::abs(clock_turns - whole) * comb.turns < kSameTurns;
 }
 
 }  // namespace
@@ -44,20 +55,22 @@ std::optional<Comb> RateStepWatch::new_comb(double noise_s, double period_s) con
   std::transform(recent_.begin(), recent_.end(), edges.begin(),
                  [](const ReferenceEdge& edge) { return edge.t; });
   auto comb = find_comb(edges, noise_s, kFewestAfterStep);
-  if (!comb || is_fraction(*comb, period_s)) {
+  if (!comb || is_fraction(*comb, period_s) || is_multiple(*comb, period_s)) {
     return std::nullopt;
   }
   const SpinClock teeth{setting_of(*comb, noise_s)};
-  const double limit = std::max(0.005, 6.0 * comb->scatter_s / comb->period_s);
-  const auto on_comb = [&](TaiTime t) {
-    return std::abs(std::remainder(teeth.phase_turns(t), 1.0)) <= limit;
+  const auto on_comb = [&](const ReferenceEdge& edge) {
+    const double off_s = std::remainder(teeth.phase_turns(edge.t), 1.0) * comb->period_s;
+    return std::abs(off_s) <= kOn_sigma * noise_s;
   };
-  // Most of the edges that the clock thinks good lie on the comb: it is the clock's own.
-  std::size_t agreeing = 0;
-  for (const ReferenceEdge& edge : recent_) {
-    agreeing += edge.good && on_comb(edge.t) ? 1U : 0U;
-  }
-  return 4 * agreeing < 3 * comb->edges && on_comb(recent_.back().t) ? comb : std::nullopt;
+  const auto on_it = std::count_if(recent_.begin(), recent_.end(), on_comb);
+  const auto agreeing =
+      std::count_if(recent_.begin(), recent_.end(),
+                    [&](const ReferenceEdge& edge) { return edge.good && on_comb(edge); });
+  // Where half of them are good ones it is the clock's own.
+  const bool another = on_it >= static_cast<std::ptrdiff_t>(kFewestAfterStep) &&
+                       2 * agreeing < on_it && on_comb(recent_.back());
+  return another ? comb : std::nullopt;
 }
 
 }  // namespace spindrift

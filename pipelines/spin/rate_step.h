@@ -19,7 +19,7 @@ class RateStepWatch {
 
   /// The comb of the last edges, where the clock should be set by it: the last one lies on it and
   /// is not good, and it is not the clock's own.
-  /// @param noise_s Standard deviation of an edge.
+  /// @param noise_s Standard deviation of an edge as it was seen so far.
   /// @param period_s The clock's.
   std::optional<Comb> new_comb(double noise_s, double period_s) const;
 

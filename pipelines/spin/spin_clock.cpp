@@ -20,7 +20,7 @@ constexpr double kUsualDrift_per_s2 = 0.1 * kFirstDrift_per_s2;
 
 SpinClock::SpinClock(const Setting& setting)
     : epoch_{setting.t},
-      epoch_turn_{static_cast<double>(setting.turn)},
+      epoch_turn_{setting.phase_turns},
       turns_{
           DriftState{.x = 0.0,
                      .value = 0.0,
@@ -28,7 +28,7 @@ SpinClock::SpinClock(const Setting& setting)
                      .change = 1.0 / setting.period_s,
                      .change_sigma = setting.period_sigma_s / (setting.period_s * setting.period_s),
                      .bend = setting.drift_per_s2,
-                     .bend_sigma = kFirstDrift_per_s2,
+                     .bend_sigma = setting.drift_sigma_per_s2,
                      .scale = setting.scale}},
       usual_{turns_.supposing_bend(0.0, kUsualDrift_per_s2)} {}
 
@@ -60,15 +60,15 @@ double SpinClock::sigma_s(double phase_turns, double earth_turns) const {
          period_s();
 }
 
-bool SpinClock::accepts(std::int64_t turn, TaiTime t, double noise_s, double earth_turns,
+bool SpinClock::accepts(double phase_turns, TaiTime t, double noise_s, double earth_turns,
                         const DriftGate& gate_turns) const {
-  return turns_.accepts(elapsed_s(epoch_, t), static_cast<double>(turn) - epoch_turn_,
+  return turns_.accepts(elapsed_s(epoch_, t), phase_turns - epoch_turn_,
                         noise(noise_s, earth_turns), gate_turns);
 }
 
-bool SpinClock::follow(std::int64_t turn, TaiTime t, double noise_s, double earth_turns,
+bool SpinClock::follow(double phase_turns, TaiTime t, double noise_s, double earth_turns,
                        const DriftGate& gate_turns) {
-  const bool good = turns_.follow(elapsed_s(epoch_, t), static_cast<double>(turn) - epoch_turn_,
+  const bool good = turns_.follow(elapsed_s(epoch_, t), phase_turns - epoch_turn_,
                                   noise(noise_s, earth_turns), gate_turns);
   usual_ = turns_.supposing_bend(0.0, kUsualDrift_per_s2);
   return good;

@@ -21,13 +21,14 @@ inline constexpr double kFirstDrift_per_s2 = 2.0 / 60.0 / 3600.0;
 class SpinClock {
  public:
   struct Setting {
-    TaiTime t;  ///< Of phase `turn`.
-    std::int64_t turn;
+    TaiTime t;
+    double phase_turns;  ///< At t.
     double period_s;
     double period_sigma_s;
     double sigma_s;             ///< Of t.
     double drift_per_s2 = 0.0;  ///< Of the spin rate in turns a second.
-    double scale = 1.0;         ///< See DriftState.
+    double drift_sigma_per_s2 = kFirstDrift_per_s2;
+    double scale = 1.0;  ///< See DriftState.
   };
   explicit SpinClock(const Setting& setting);
 
@@ -39,12 +40,12 @@ class SpinClock {
   double scale() const { return turns_.scale(); }
   double sigma_s(double phase_turns, double earth_turns) const;
 
-  /// @param t Where an edge says that phase `turn` is.
-  /// @param noise_s Standard deviation of that.
-  /// @param earth_turns Wander per turn of the phase of the channel that t comes from.
-  bool accepts(std::int64_t turn, TaiTime t, double noise_s, double earth_turns,
+  /// @param phase_turns Where the edge at t is expected.
+  /// @param noise_s Standard deviation of t.
+  /// @param earth_turns Wander per turn of the phase of the edge's channel.
+  bool accepts(double phase_turns, TaiTime t, double noise_s, double earth_turns,
                const DriftGate& gate_turns) const;
-  bool follow(std::int64_t turn, TaiTime t, double noise_s, double earth_turns,
+  bool follow(double phase_turns, TaiTime t, double noise_s, double earth_turns,
               const DriftGate& gate_turns);
 
   /// Adds to the count of turns.

@@ -96,7 +96,9 @@ TEST(AssociationDirt, RejectsTheBadEdgesOfADirtyPassAndKeepsTheGood) {
 struct Dirt {
   double lost = 0.0;
   double spurious = 0.0;  ///< Edges a turn and channel, anywhere.
-  double spoilt = 0.0;    ///< Off by a hundredth to a fifth of a turn.
+  double spoilt = 0.0;    ///< Off by a twentieth of the most up to it.
+  double most_off_turns = 0.2;
+  double doubled = 0.0;  ///< Once more within a two-hundredth of a turn.
 };
 
 /// The phases of the channels behind sun1, in turns.
@@ -109,6 +111,8 @@ struct Train {
   Phases phases_turns = kOrdinary;
   double earth_drift = 0.0;   ///< Of the infrared phases, turns a turn.
   double period_drift = 0.0;  ///< Of the period, of itself a turn.
+  int step_turn = 0;
+  double step = 1.0;  ///< Of the period, from step_turn on.
   Dirt dirt = {};
 };
 
@@ -139,15 +143,20 @@ Pass made(const Train& train, std::mt19937_64& rng) {
         continue;
       }
       if (uniform(rng) < train.dirt.spoilt) {
-        const double off = (0.01 + 0.19 * uniform(rng)) * (uniform(rng) < 0.5 ? -1.0 : 1.0);
-        edge.t = shifted(edge.t, off * period_s);
+        const double off = (0.05 + 0.95 * uniform(rng)) * (uniform(rng) < 0.5 ? -1.0 : 1.0);
+        edge.t = shifted(edge.t, off * train.dirt.most_off_turns * period_s);
       } else {
         pass.turns[edge] = turn;
       }
       pass.pulses.push_back(edge);
+      if (train.dirt.doubled > 0.0 && uniform(rng) < train.dirt.doubled) {
+        const double behind_s = 0.005 * uniform(rng) * period_s;
+        pass.pulses.push_back({.t = shifted(edge.t, behind_s), .channel = channel});
+      }
     }
     sun1_s += period_s;
     period_s *= 1.0 + train.period_drift;
+    period_s *= turn + 1 == train.step_turn ? train.step : 1.0;
   }
   return pass;
 }
@@ -339,6 +348,59 @@ TEST(AssociationDirt, RunsOnAnotherChannelWhereSun1IsDead) {
         }
       }
     }
+  }
+}
+
+TEST(AssociationDirt, CountsRightWhereEdgesAreDoubledAndSpoiltByLittle) {
+  std::mt19937_64 rng{309};
+  for (const double rpm : {6.0, 17.0, 60.0}) {
+    for (int trial = 0; trial < 12; ++trial) {
+      SCOPED_TRACE(::testing::Message() << rpm << " rpm, trial " << trial);
+      const Pass pass = made({.period_s = 60.0 / rpm,
+                              .turns = static_cast<int>(30.0 * rpm),
+                              .dirt = {.lost = 0.05,
+                                       .spurious = 0.1,
+                                       .spoilt = 0.12,
+                                       .most_off_turns = 0.005,
+                                       .doubled = 0.08}},
+                             rng);
+      const Mistakes counted = mistakes(pass, associate(pass.pulses));
+      EXPECT_EQ(counted.misplaced, 0);
+      EXPECT_LE(counted.rejected, 0.05 * counted.good);
+    }
+  }
+}
+
+TEST(AssociationDirt, RunsOnABeamOfALowOrbitWhileTheRateDrifts) {
+  std::mt19937_64 rng{310};
+  for (int trial = 0; trial < 20; ++trial) {
+    SCOPED_TRACE(trial);
+    const Pass pass = without(made({.period_s = 5.5,
+                                    .turns = 150,
+                                    .earth_drift = 1e-3,
+                                    .period_drift = -2.7e-4,
+                                    .dirt = {.lost = 0.25}},
+                                   rng),
+                              [&](const Pulse& p) { return sees_the_sun(p.channel); });
+    const Mistakes counted = mistakes(pass, associate(pass.pulses));
+    EXPECT_EQ(counted.misplaced, 0);
+    EXPECT_LE(counted.rejected, 0.03 * counted.good);
+  }
+}
+
+TEST(AssociationDirt, FollowsAStepOfTheRateOnABeamThatTookOverTheClock) {
+  std::mt19937_64 rng{311};
+  for (int trial = 0; trial < 20; ++trial) {
+    SCOPED_TRACE(trial);
+    const Pass pass = without(
+        made({.period_s = 5.5, .turns = 250, .earth_drift = 1e-3, .step_turn = 150, .step = 0.98},
+             rng),
+        [&](const Pulse& p) {
+          return p.channel != NorthOut && (p.channel != NorthIn || seconds_in(p) > 400.0);
+        });
+    const Mistakes counted = mistakes(pass, associate(pass.pulses));
+    EXPECT_EQ(counted.misplaced, 0);
+    EXPECT_LE(counted.rejected, 0.05 * counted.good);
   }
 }
 

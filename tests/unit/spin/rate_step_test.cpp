@@ -82,5 +82,32 @@ TEST(RateStep, AThreefoldRateIsOne) {
   EXPECT_NEAR(comb->period_s, 1.0 / 3.0, 1e-9);
 }
 
+TEST(RateStep, SpoiltEdgesAndGoodOnesThatShareAWideCombLeaveTheClockItsOwn) {
+  RateStepWatch watch;
+  int turn = 0;
+  for (const double off_s : {0.0, 0.0, 0.0, -0.0017, 0.0016, 0.0, 0.0027, 0.0, -0.0050}) {
+    watch.add(later_by_s(kStart, turn++ + off_s), off_s == 0.0);
+    EXPECT_FALSE(watch.new_comb(kNoise_s, kPeriod_s)) << turn;
+  }
+}
+
+TEST(RateStep, EverySecondTurnOfTheClockIsNoHalfRate) {
+  RateStepWatch watch;
+  for (int turn = 0; turn < 18; turn += 2) {
+    watch.add(later_by_s(kStart, turn + (turn % 4 == 0 ? 0.0015 : 0.002)), false);
+    EXPECT_FALSE(watch.new_comb(kNoise_s, kPeriod_s)) << turn;
+  }
+}
+
+TEST(RateStep, AHalvedRateIsOne) {
+  RateStepWatch watch;
+  for (int turn = 0; turn < 9; ++turn) {
+    watch.add(later_by_s(kStart, turn * 2.02), false);
+  }
+  const auto comb = watch.new_comb(kNoise_s, kPeriod_s);
+  ASSERT_TRUE(comb);
+  EXPECT_NEAR(comb->period_s, 2.02, 1e-9);
+}
+
 }  // namespace
 }  // namespace spindrift
