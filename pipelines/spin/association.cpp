@@ -171,7 +171,7 @@ void Associator::learn_phases() {
   for (const PulseChannel channel : kChannels) {
     const std::vector<double>& own = counts.at(index_of(channel));
     if (channel != reference_ && !own.empty()) {
-      phases_.learn(channel, own, fewest);
+      phases_.learn(channel, own, fewest, clock_sigma_turns(own.back()));
     }
   }
 }
@@ -246,7 +246,8 @@ void Associator::place(const Pulse& pulse, bool spoilt, Association& out) {
   const bool lies_near = phases_.knows(pulse.channel) && count_of(pulse).near;
   if (pulse.channel != reference_ && !lies_near) {
     phases_.stray(pulse.channel, phase,
-                  spoilt ? crowded_.displacement_s() / clock_->period_s() : 0.0);
+                  spoilt ? crowded_.displacement_s() / clock_->period_s() : 0.0,
+                  clock_sigma_turns(phase));
   }
   const auto spoilt_by = spoilt ? std::optional{Rejection::Interference} : std::nullopt;
   if (Revolution* const revolution = revolution_of(pulse)) {
@@ -375,7 +376,7 @@ void Associator::judge_others(Revolution& revolution) {
     const bool believed =
         (phases_.knows(channel) && phases_.follow(channel, revolution.number, count - turn,
                                                   std::hypot(clock_sigma, displaced))) ||
-        phases_.stray(channel, count, displaced);
+        phases_.stray(channel, count, displaced, clock_sigma);
     std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
     if (!believed && !rejection) {
       rejection = Rejection::Phase;
@@ -417,6 +418,7 @@ void Associator::count_silence(const Revolution& revolution) {
 
 void Associator::change_reference(PulseChannel channel, std::int64_t turn) {
   const auto turn_d = static_cast<double>(turn);
+  const bool was_the_earth = !sees_the_sun(reference_);
   // From here on the old one is followed again.
   phases_.define(reference_, turn, phases_.at(reference_, turn_d));
   reference_ = channel;
@@ -430,6 +432,11 @@ void Associator::change_reference(PulseChannel channel, std::int64_t turn) {
     const double late_turns = phases_.at(channel, turn_d) - defined_phase_turns(config_, channel);
     const double drift = phases_.drift(channel);
     clock_->shift(turn, late_turns, drift);
+    if (was_the_earth) {
+      // What was taken for the body's drift is in part the Earth's.
+      clock_->loosen(phases_.phase_sigma(channel, turn_d), phases_.drift_sigma(channel, turn_d),
+                     kEarthAcceleration_per_s2);
+    }
     phases_.shift(turn, late_turns, drift);
   }
   sun1_known_ = sun1_known_ || is_sun1;

@@ -36,6 +36,12 @@ constexpr double kLongestNote_s = 60.0;
 // One sigma of a rate that lies anywhere between those of a low orbit in either sense.
 constexpr double kEarthRate_rad_s = 1.2e-3 / std::numbers::sqrt3;
 
+auto same_period_as(const PeriodNote& one) {
+  return [one](const PeriodNote& note) {
+    return std::abs(note.period_s - one.period_s) <= kSamePeriod * one.period_s;
+  };
+}
+
 std::vector<TaiTime> times_of(std::span<const Pulse> pulses, PulseChannel channel) {
   std::vector<TaiTime> times;
   for (const Pulse& pulse : pulses) {
@@ -44,6 +50,22 @@ std::vector<TaiTime> times_of(std::span<const Pulse> pulses, PulseChannel channe
     }
   }
   return times;
+}
+
+/// A lost sun1 makes a period of several turns: of the middle period, the shortest that two notes
+/// say and that it is a multiple of.
+PeriodNote note_of_one_turn(const std::vector<PeriodNote>& notes, const PeriodNote& middle) {
+  PeriodNote shortest = middle;
+  for (const PeriodNote& note : notes) {
+    const double turns = std::round(middle.period_s / note.period_s);
+    const bool divides = turns > 1.0 && std::abs(middle.period_s - turns * note.period_s) <=
+                                            kSamePeriod * note.period_s;
+    if (divides && note.period_s < shortest.period_s &&
+        std::count_if(notes.begin(), notes.end(), same_period_as(note)) >= 2) {
+      shortest = note;
+    }
+  }
+  return shortest;
 }
 
 /// The setting with its turns counted so that the first edge near the comb is on turn 0; a stray
@@ -92,11 +114,12 @@ SpinClock::Setting setting_of(const Comb& comb, double noise_s) {
   const double turns = std::max(1.0, comb.turns);
   const double hidden_turns = kHidden_scatters * comb.scatter_s / comb.period_s;
   const double span_s = turns * comb.period_s;
-  // A drift that was seen leaves between its ends what hides from a straight line.
+  // A drift that was seen, by the middle of several parabolas, leaves between its ends twice what
+  // hides from a straight line.
   const double drift_sigma =
       comb.drift_per_s2 == 0.0
           ? kFirstDrift_per_s2
-          : std::min(kFirstDrift_per_s2, 8.0 * hidden_turns / (span_s * span_s));
+          : std::min(kFirstDrift_per_s2, 16.0 * hidden_turns / (span_s * span_s));
   return {.t = comb.t,
           .phase_turns = 0.0,
           .period_s = comb.period_s,
@@ -141,17 +164,16 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
   std::nth_element(
       sorted.begin(), middle, sorted.end(),
       [](const PeriodNote& a, const PeriodNote& b) { return a.period_s < b.period_s; });
-  const double period_s = middle->period_s;
-  const auto agrees = [&](const PeriodNote& note) {
-    return std::abs(note.period_s - period_s) <= kSamePeriod * period_s;
-  };
+  const PeriodNote chosen = note_of_one_turn(sane, *middle);
+  const double period_s = chosen.period_s;
+  const auto agrees = same_period_as(chosen);
   const auto agreeing = std::count_if(sane.begin(), sane.end(), agrees);
   if (!at_end && agreeing < static_cast<std::ptrdiff_t>(kNotesToAgree)) {
     return std::nullopt;
   }
   const auto first = std::find_if(sane.begin(), sane.end(), agrees);
   // Either period is the mean of its turn, half a turn from its sun1.
-  const double apart_s = std::abs(elapsed_s(first->t_sun1, middle->t_sun1)) + middle->period_s;
+  const double apart_s = std::abs(elapsed_s(first->t_sun1, chosen.t_sun1)) + period_s;
   const double drifted_s = period_s * period_s * kFirstDrift_per_s2 * apart_s;
   const double sigma_s = std::hypot(std::numbers::sqrt2 * config.noise.sun_s, drifted_s);
   return ClockStart{.reference = Sun1,

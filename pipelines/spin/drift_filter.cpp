@@ -103,6 +103,10 @@ DriftFilter DriftFilter::supposing_bend(double bend, double sigma) const {
   return supposed;
 }
 
+void DriftFilter::loosen(double value_sigma, double change_sigma, double bend_sigma) {
+  covariance_.diagonal() += Eigen::Vector3d{value_sigma, change_sigma, bend_sigma}.cwiseAbs2();
+}
+
 void DriftFilter::shift(double x, double value, double change) {
   state_[0] += value + change * (x_ - x);
   state_[1] += change;

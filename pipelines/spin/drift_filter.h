@@ -65,6 +65,8 @@ class DriftFilter {
 
   /// Moves value (at `x`) and change.
   void shift(double x, double value, double change);
+  /// Adds independent errors at the last abscissa, one sigma each.
+  void loosen(double value_sigma, double change_sigma, double bend_sigma);
 
  private:
   Eigen::Matrix3d covariance_at(double x, const DriftNoise& noise) const;

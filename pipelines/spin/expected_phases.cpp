@@ -102,7 +102,7 @@ void ExpectedPhases::define(PulseChannel channel, std::int64_t turn, double phas
 }
 
 bool ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts,
-                           std::size_t fewest_turns) {
+                           std::size_t fewest_turns, double clock_sigma_turns) {
   counts = counts.last(std::min(counts.size(), kMostLearnt));
   std::vector<double> phases(counts.size());
   std::transform(counts.begin(), counts.end(), phases.begin(), fraction);
@@ -124,12 +124,13 @@ bool ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts,
                                  wander(channel) * std::sqrt(edges));
   const double change = line->drift * possible * possible / (possible * possible + seen * seen);
   const double first = line->agreeing.front().turn;
-  of(channel).phase = DriftFilter{{.x = first,
-                                   .value = line->phase + change * (first - line->turn),
-                                   .value_sigma = 2.0 * line->scatter / std::sqrt(edges),
-                                   .change = change,
-                                   .change_sigma = possible * seen / std::hypot(possible, seen),
-                                   .scale = line->scatter / noise_turns(channel)}};
+  of(channel).phase = DriftFilter{
+      {.x = first,
+       .value = line->phase + change * (first - line->turn),
+       .value_sigma = std::hypot(2.0 * line->scatter / std::sqrt(edges), clock_sigma_turns),
+       .change = change,
+       .change_sigma = possible * seen / std::hypot(possible, seen),
+       .scale = line->scatter / noise_turns(channel)}};
   of(channel).known = true;
   of(channel).last_seen = revolution_;
   return true;
@@ -167,6 +168,14 @@ bool ExpectedPhases::follow(PulseChannel channel, std::int64_t turn, double phas
   return accepted;
 }
 
+double ExpectedPhases::phase_sigma(PulseChannel channel, double turn) const {
+  return of(channel).phase->sigma_at(turn, {.measured = 0.0, .wander = wander(channel)});
+}
+
+double ExpectedPhases::drift_sigma(PulseChannel channel, double turn) const {
+  return of(channel).phase->change_sigma_at(turn, {.measured = 0.0, .wander = wander(channel)});
+}
+
 /// Of the next edge, not of a mean of many.
 double ExpectedPhases::sigma_turns(PulseChannel channel, double turn,
                                    double clock_sigma_turns) const {
@@ -189,7 +198,8 @@ bool ExpectedPhases::interfere(PulseChannel one, PulseChannel other, double turn
   return apart < interference_s_ / period_s_ + kInterferenceSigmas * sigma;
 }
 
-bool ExpectedPhases::stray(PulseChannel channel, double count, double displaced_turns) {
+bool ExpectedPhases::stray(PulseChannel channel, double count, double displaced_turns,
+                           double clock_sigma_turns) {
   Channel& own = of(channel);
   own.in_a_row = 0;
   const auto place =
@@ -218,7 +228,7 @@ bool ExpectedPhases::stray(PulseChannel channel, double count, double displaced_
   std::vector<double> counts(line->agreeing.size());
   std::transform(line->agreeing.begin(), line->agreeing.end(), counts.begin(),
                  [&](const PhasePoint& point) { return count + point.turn + point.phase; });
-  const bool agree = learn(channel, counts, needed);
+  const bool agree = learn(channel, counts, needed, clock_sigma_turns);
   if (agree) {
     own.strays.clear();
     own.accepted = needed;

@@ -32,6 +32,9 @@ inline constexpr double kInterferenceSigmas = 2.5;
 constexpr double gate_turns(PulseChannel channel) {
   return channel == PulseChannel::Sun1 ? 0.1 : 0.2;
 }
+/// One sigma of the acceleration of a chord's edge from a low orbit, turns a second squared: near
+/// the limb it is several times that of the nadir.
+inline constexpr double kEarthAcceleration_per_s2 = 1e-6;
 /// By how much the drift of a channel's phase wanders in a turn: the Earth of a low orbit turns
 /// its apparent motion by as much as n^2.
 double earth_wander_turns(PulseChannel channel, double period_s);
@@ -53,12 +56,17 @@ class ExpectedPhases {
   /// Of a channel that is known.
   double at(PulseChannel channel, double turn) const { return of(channel).phase->at(turn); }
   double drift(PulseChannel channel) const { return of(channel).phase->change(); }
+  /// One sigma each.
+  double phase_sigma(PulseChannel channel, double turn) const;
+  double drift_sigma(PulseChannel channel, double turn) const;
 
   /// Learns a channel from what most of its edges agree on, where they do in so many turns: one
   /// edge alone may be a stray of a channel that is silent.
   /// @param counts Phases of edges, with the turns counted by the spin clock; at least one.
+  /// @param clock_sigma_turns One sigma of the count of the last, which they have in common.
   /// @return Whether they do.
-  bool learn(PulseChannel channel, std::span<const double> counts, std::size_t fewest_turns);
+  bool learn(PulseChannel channel, std::span<const double> counts, std::size_t fewest_turns,
+             double clock_sigma_turns);
 
   /// @return Whether an edge of a known channel lies where it should; if so it is followed.
   bool follow(PulseChannel channel, std::int64_t turn, double phase_turns,
@@ -67,7 +75,7 @@ class ExpectedPhases {
   /// An edge that is not where it should be, or of a channel that is not known. @return Whether it
   /// and those shortly before it agree on a place, which is then expected.
   /// @param displaced_turns Standard deviation of what interference may have moved it by.
-  bool stray(PulseChannel channel, double count, double displaced_turns);
+  bool stray(PulseChannel channel, double count, double displaced_turns, double clock_sigma_turns);
 
   /// A revolution is over. Channels that have been silent for many are forgotten: that the next
   /// edge lies near enough to so old a place says little.

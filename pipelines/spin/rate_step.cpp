@@ -5,8 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "pipelines/spin/clock_start.h"
-#include "pipelines/spin/spin_clock.h"
+#include "pipelines/spin/time_span.h"
 
 namespace spindrift {
 namespace {
@@ -58,10 +57,10 @@ std::optional<Comb> RateStepWatch::new_comb(double noise_s, double period_s) con
   if (!comb || is_fraction(*comb, period_s) || is_multiple(*comb, period_s)) {
     return std::nullopt;
   }
-  const SpinClock teeth{setting_of(*comb, noise_s)};
   const auto on_comb = [&](const ReferenceEdge& edge) {
-    const double off_s = std::remainder(teeth.phase_turns(edge.t), 1.0) * comb->period_s;
-    return std::abs(off_s) <= kOn_sigma * noise_s;
+    const double t_s = elapsed_s(comb->t, edge.t);
+    const double turns = t_s / comb->period_s + 0.5 * comb->drift_per_s2 * t_s * t_s;
+    return std::abs(std::remainder(turns, 1.0)) * comb->period_s <= kOn_sigma * noise_s;
   };
   const auto on_it = std::count_if(recent_.begin(), recent_.end(), on_comb);
   const auto agreeing =

@@ -80,4 +80,9 @@ void SpinClock::shift(std::int64_t turn, double phase_turns, double drift) {
   usual_ = turns_.supposing_bend(0.0, kUsualDrift_per_s2);
 }
 
+void SpinClock::loosen(double phase_turns, double drift, double drift_per_s2) {
+  turns_.loosen(phase_turns, drift * turns_.change(), drift_per_s2);
+  usual_ = turns_.supposing_bend(0.0, kUsualDrift_per_s2);
+}
+
 }  // namespace spindrift

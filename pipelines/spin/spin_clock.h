@@ -53,6 +53,8 @@ class SpinClock {
 
   /// Puts phase `turn` by `phase_turns` later and lengthens the period by `drift` of itself.
   void shift(std::int64_t turn, double phase_turns, double drift);
+  /// Adds errors of one sigma each: of the phase, of the period in parts of itself, of the drift.
+  void loosen(double phase_turns, double drift, double drift_per_s2);
 
  private:
   DriftNoise noise(double noise_s, double earth_turns) const;

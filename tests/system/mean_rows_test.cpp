@@ -61,29 +61,33 @@ Replacements usual_but(const std::string& raan, const std::string& anomaly, cons
 }
 
 TEST(MeanRows, FewFixesWithShortChordsAreAveragedAndDoubtful) {
-  const TemporaryFolder folder;
-  Replacements scenario = usual_but("313.2237056952047", "15.0", "254.68834644255713",
-                                    "-27.78443213581462", "60.0\nrate_drift_rpm_h = 0.3");
-  scenario.insert(scenario.end(), {{"duration_s = 600.0", "duration_s = 900.0\nseed = 107"},
-                                   {"mount_angle_deg = 85.0", "mount_angle_deg = 60.0"},
-                                   {"mount_angle_deg = 95.0", "mount_angle_deg = 120.0"},
-                                   {"co2_altitude_km = 40.0",
-                                    "co2_altitude_km = 40.0\n[faults]\nlost = 0.03\nspoilt = 0.02\n"
-                                    "[faults.channel.north_in]\ndead = true\n"
-                                    "[faults.channel.north_out]\ndead = true"}});
-  const auto outcome = process_simulated(folder, scenario);
-  ASSERT_EQ(outcome.status, 0) << outcome.log;
-  const auto means = means_of(outcome.db, place(254.68834644255713, -27.78443213581462));
-  ASSERT_THAT(means, Not(IsEmpty()));
-  for (const MeanRow& mean : means) {
-    EXPECT_LT(mean.off_deg, 2.0 * mean.sigma_deg) << mean.status;
-    EXPECT_LT(mean.sigma_deg, 0.5) << mean.status;
-    EXPECT_THAT(mean.status, ::testing::StartsWith("DOUBTFUL"));
+  for (int seed = 112; seed <= 118; ++seed) {
+    SCOPED_TRACE(seed);
+    const TemporaryFolder folder;
+    Replacements scenario = usual_but("313.2237056952047", "15.0", "254.68834644255713",
+                                      "-27.78443213581462", "60.0\nrate_drift_rpm_h = 0.3");
+    scenario.insert(scenario.end(),
+                    {{"duration_s = 600.0", "duration_s = 900.0\nseed = " + std::to_string(seed)},
+                     {"mount_angle_deg = 85.0", "mount_angle_deg = 60.0"},
+                     {"mount_angle_deg = 95.0", "mount_angle_deg = 120.0"},
+                     {"co2_altitude_km = 40.0",
+                      "co2_altitude_km = 40.0\n[faults]\nlost = 0.03\nspoilt = 0.02\n"
+                      "[faults.channel.north_in]\ndead = true\n"
+                      "[faults.channel.north_out]\ndead = true"}});
+    const auto outcome = process_simulated(folder, scenario);
+    ASSERT_EQ(outcome.status, 0) << outcome.log;
+    const auto means = means_of(outcome.db, place(254.68834644255713, -27.78443213581462));
+    ASSERT_THAT(means, Not(IsEmpty()));
+    for (const MeanRow& mean : means) {
+      EXPECT_LT(mean.off_deg, 2.0 * mean.sigma_deg) << mean.status;
+      EXPECT_LT(mean.sigma_deg, 0.5) << mean.status;
+      EXPECT_THAT(mean.status, ::testing::StartsWith("DOUBTFUL"));
+    }
+    EXPECT_EQ(means.front().status, "DOUBTFUL, 1 fix, fewer than 3");
+    EXPECT_EQ(means.back().status, "DOUBTFUL, " + std::to_string(means.size()) +
+                                       " fixes, plain average: beams too near the limb");
+    EXPECT_THAT(outcome.log, Not(HasSubstr("begins anew")));
   }
-  EXPECT_EQ(means.front().status, "DOUBTFUL, 1 fix, fewer than 3");
-  EXPECT_EQ(means.back().status, "DOUBTFUL, " + std::to_string(means.size()) +
-                                     " fixes, plain average: beams too near the limb");
-  EXPECT_THAT(outcome.log, Not(HasSubstr("begins anew")));
 }
 
 TEST(MeanRows, ShortChordsThatBecomeLongLeadToTheLeastSquares) {
