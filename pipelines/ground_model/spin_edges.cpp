@@ -17,11 +17,12 @@ namespace spindrift {
 namespace {
 
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-constexpr double kNarrowestHalfChord_rad = 0.25 * std::numbers::pi / 180.0;
+constexpr double kNarrowestHalf_rad = 0.25 * std::numbers::pi / 180.0;
 
 // A step this small changes no nanosecond; the last one is a hundred times better than it is long.
 constexpr double kConverged_s = 1e-10;
-constexpr double kSlopeFrom_s = 1e-6;  // Nearer points give rounding for a slope.
+constexpr double kSlopeFrom_s = 1e-6;                // Nearer points give rounding for a slope.
+constexpr double kLeastTurn_rad = 0.25 * kTurn_rad;  // Between two edges of a channel.
 constexpr int kMostSteps = 30;
 constexpr double kConverged_rad = 1e-13;
 constexpr int kMostHalvings = 60;
@@ -181,15 +182,18 @@ SpinEdges::Due SpinEdges::earth_due(const TrueInfrared& sensor, bool in, const V
     return unseen;
   }
   const double outside_rad = *deepest_rad + (in ? -std::numbers::pi : std::numbers::pi);
-  if (!(beam.at(*deepest_rad).depth > 0.0 && beam.at(outside_rad).depth < 0.0)) {
-    return unseen;
+  // Where the chord shrinks to nothing or grows to the whole turn its edge goes on from there.
+  if (!(beam.at(*deepest_rad).depth > 0.0)) {
+    return {.azimuth_rad = *deepest_rad + sensor.azimuth_rad, .seen = false};
+  }
+  if (!(beam.at(outside_rad).depth < 0.0)) {
+    return {.azimuth_rad = outside_rad + sensor.azimuth_rad, .seen = false};
   }
   const double limb_rad = beam.limb_between(*deepest_rad, outside_rad);
-  if (std::abs(limb_rad - *deepest_rad) < kNarrowestHalfChord_rad) {
-    return unseen;
-  }
   const double late_rad = 0.5 * sensor.chord_excess_rad;
-  return {.azimuth_rad = limb_rad + (in ? -late_rad : late_rad) + sensor.azimuth_rad, .seen = true};
+  return {.azimuth_rad = limb_rad + (in ? -late_rad : late_rad) + sensor.azimuth_rad,
+          .seen = std::abs(limb_rad - *deepest_rad) >= kNarrowestHalf_rad &&
+                  std::abs(outside_rad - limb_rad) >= kNarrowestHalf_rad};
 }
 
 SpinEdges::Due SpinEdges::due(PulseChannel channel, const View& view) const {
@@ -206,18 +210,20 @@ SpinEdges::Due SpinEdges::due(PulseChannel channel, const View& view) const {
 }
 
 /// The crossing within half a turn of the guess, by secants: what the body lags behind is nearly
-/// linear in time.
+/// linear in time. It is wrapped once only: an edge that moves must not lead to another turn's.
 Expected<SpinEdges::Crossing> SpinEdges::crossing_near(PulseChannel channel, double guess_s) {
   double t_s = guess_s;
   double slope_rad_s = -truth_.motion.rate_at_rad_s(t_s);
   std::optional<std::pair<double, double>> before;
+  double due_rad = truth_.motion.azimuth_rad(t_s);
   for (int i = 0; i < kMostSteps; ++i) {
     const auto seen_from = view(t_s);
     if (!seen_from) {
       return Unexpected{seen_from.error()};
     }
     const Due expected = due(channel, *seen_from);
-    const double lag_rad = wrapped_rad(expected.azimuth_rad - truth_.motion.azimuth_rad(t_s));
+    due_rad += wrapped_rad(expected.azimuth_rad - due_rad);
+    const double lag_rad = due_rad - truth_.motion.azimuth_rad(t_s);
     if (before && std::abs(t_s - before->first) > kSlopeFrom_s) {
       slope_rad_s = (lag_rad - before->second) / (t_s - before->first);
     }
@@ -230,6 +236,16 @@ Expected<SpinEdges::Crossing> SpinEdges::crossing_near(PulseChannel channel, dou
   }
   // A chord that comes or goes within this very turn: it is too narrow to be seen.
   return Crossing{.t_s = guess_s, .seen = false};
+}
+
+/// The crossing a turn after the one at `t_s`.
+Expected<SpinEdges::Crossing> SpinEdges::crossing_after(PulseChannel channel, double t_s) {
+  const double guess_s = t_s + kTurn_rad / truth_.motion.rate_at_rad_s(t_s);
+  return crossing_near(channel, guess_s).map([&](const Crossing& next) {
+    const double turned_rad = truth_.motion.azimuth_rad(next.t_s) - truth_.motion.azimuth_rad(t_s);
+    // An edge that goes against the spin as fast as it is no edge to be seen.
+    return turned_rad > kLeastTurn_rad ? next : Crossing{.t_s = guess_s, .seen = false};
+  });
 }
 
 Expected<void> SpinEdges::start() {
@@ -267,8 +283,7 @@ Expected<void> SpinEdges::follow(Follower& follower, double end_s, std::vector<T
         edges.push_back({.t_s = t_s, .channel = follower.channel});
       }
     }
-    const auto next =
-        crossing_near(follower.channel, t_s + kTurn_rad / truth_.motion.rate_at_rad_s(t_s));
+    const auto next = crossing_after(follower.channel, t_s);
     if (!next) {
       return Unexpected{next.error()};
     }

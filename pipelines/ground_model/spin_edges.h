@@ -66,8 +66,9 @@ struct TrueEdge {
 
 /// The edges of a pass, asked for in slices.
 ///
-/// Good to 1e-10 s within a day. A chord narrower than half a degree is not seen: no beam is that
-/// fine, and its edges are no longer roots that a step can find.
+/// Good to 1e-10 s within a day. A chord narrower than half a degree, or within half a degree of
+/// the whole turn, is not seen: no beam is that fine, and its edges are no longer roots that a step
+/// can find.
 class SpinEdges {
  public:
   /// `orbit` outlives it.
@@ -109,6 +110,7 @@ class SpinEdges {
   static Due earth_due(const TrueInfrared& sensor, bool in, const View& view);
   static bool hides_sun(const View& view);
   Expected<Crossing> crossing_near(PulseChannel channel, double guess_s);
+  Expected<Crossing> crossing_after(PulseChannel channel, double t_s);
   Expected<void> follow(Follower& follower, double end_s, std::vector<TrueEdge>& edges);
   Expected<void> start();
 

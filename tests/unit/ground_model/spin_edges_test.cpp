@@ -1,5 +1,6 @@
 #include "pipelines/ground_model/spin_edges.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +9,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "pipelines/frames/celestial.h"
 #include "tests/support/spinning_body.h"
@@ -80,6 +84,8 @@ std::vector<testing::Edge> oracle(const SpinTruth& truth, const Orbit& orbit, do
   const Eigen::Vector2d zero_plane = tangent_basis(motion.axis_icrf).transpose() * zero;
   SpinConfig config = testing::usual_config();
   config.sun_sensor = truth.sun_sensor;
+  config.north->mount_angle_rad = truth.north->mount_angle_rad;
+  config.south->mount_angle_rad = truth.south->mount_angle_rad;
   const testing::SpinningBody body = {
       .axis_icrf = axis,
       .rate_rad_s = motion.rate_rad_s,
@@ -146,6 +152,72 @@ TEST(SpinEdges, AreThoseOfTheOracleOnTheSphereAndOnTheEllipsoid) {
       expect_the_oracles_edges(truth, each.orbit, 0.0, 30.3 * 60.0 / each.rpm);
     }
   }
+}
+
+/// Those of a chord or a gap between chords that is wider than `least_s`, by channel.
+std::vector<double> wide_edges_s(const std::vector<testing::Edge>& edges, PulseChannel channel,
+                                 PulseChannel opposite, double least_s) {
+  std::vector<double> wide_s;
+  for (const testing::Edge& edge : edges) {
+    const bool narrow = std::any_of(edges.begin(), edges.end(), [&](const testing::Edge& other) {
+      return other.channel == opposite && std::abs(other.t_s - edge.t_s) < least_s;
+    });
+    if (edge.channel == channel && !narrow) {
+      wide_s.push_back(edge.t_s);
+    }
+  }
+  return wide_s;
+}
+
+bool has_all(const std::vector<double>& all_s, const std::vector<double>& wanted_s) {
+  return std::all_of(wanted_s.begin(), wanted_s.end(), [&](double t_s) {
+    return std::any_of(all_s.begin(), all_s.end(),
+                       [t_s](double other_s) { return std::abs(other_s - t_s) < 1e-8; });
+  });
+}
+
+void expect_the_oracles_wide_edges(const SpinTruth& truth, const Orbit& orbit, double end_s) {
+  using enum PulseChannel;
+  std::vector<testing::Edge> found;
+  for (const TrueEdge& edge : edges_of(truth, orbit, end_s)) {
+    found.push_back({.t_s = edge.t_s, .channel = edge.channel});
+  }
+  const auto expected = oracle(truth, orbit, 0.0, end_s);
+  // A degree: the rule that drops the narrow ones looks at one instant, the oracle at two.
+  const double narrow_s = kDegree / truth.motion.rate_rad_s;
+  for (const auto& [channel, opposite] :
+       {std::pair{NorthIn, NorthOut}, std::pair{NorthOut, NorthIn}, std::pair{SouthIn, SouthOut},
+        std::pair{SouthOut, SouthIn}}) {
+    SCOPED_TRACE(name_of(channel));
+    EXPECT_TRUE(has_all(wide_edges_s(found, channel, opposite, 0.0),
+                        wide_edges_s(expected, channel, opposite, narrow_s)));
+    EXPECT_TRUE(has_all(wide_edges_s(expected, channel, opposite, 0.0),
+                        wide_edges_s(found, channel, opposite, 0.0)));
+  }
+}
+
+/// In a low orbit a chord comes, grows to the whole turn and goes within minutes.
+TEST(SpinEdges, AreThoseOfTheOracleWhereAChordComesOrGoes) {
+  std::mt19937_64 rng{20261123};
+  const auto uniform = [&rng](double from, double to) {
+    return std::uniform_real_distribution<double>{from, to}(rng);
+  };
+  for (int i = 0; i < 16; ++i) {
+    SCOPED_TRACE(i);
+    const HorizonModel horizon = i % 2 == 0 ? HorizonModel::Sphere : HorizonModel::Ellipsoid;
+    const double ra_deg = uniform(0.0, 360.0);
+    SpinTruth truth = truth_of(place(ra_deg, uniform(-89.0, 89.0)), uniform(5.0, 30.0), horizon);
+    truth.north->mount_angle_rad = uniform(20.0, 160.0) * kDegree;
+    truth.south->mount_angle_rad = uniform(20.0, 160.0) * kDegree;
+    const double a_km = uniform(7000.0, 9000.0);
+    expect_the_oracles_wide_edges(truth, orbit_of(a_km, 0.001, uniform(0.0, 6.28)), 1500.0);
+  }
+}
+
+TEST(SpinEdges, GoOnWhereABeamNoLongerLeavesTheEarth) {
+  SpinTruth truth = truth_of(place(350.0, 20.0), 60.0, HorizonModel::Sphere);
+  truth.north->mount_angle_rad = 30.0 * kDegree;
+  expect_the_oracles_wide_edges(truth, orbit_of(7000.0, 0.001, 30.0 * kDegree), 1200.0);
 }
 
 TEST(SpinEdges, AreThoseOfTheOracleAfterADay) {
