@@ -74,7 +74,8 @@ class OrbitEphemeris {
 /// its data lines all reach. Without INTERPOLATION: Hermite of degree 7, less if the points are
 /// few, since every data line has a velocity. Accelerations and covariances are checked for form
 /// only. Each state must follow from the one before (`jump_km` of state_jump.h; lesser jumps are
-/// taken, and `orbit_jumps` finds them); between segments the velocity may change.
+/// taken, and `orbit_jumps` finds them); between segments the velocity may change. Where lines are
+/// left out so that the interpolation goes astray, there is no orbit (`cut_at_holes`).
 /// @return InvalidConfiguration with the line number, the key and what is allowed.
 Expected<OrbitEphemeris> parse_oem(std::string_view text);
 

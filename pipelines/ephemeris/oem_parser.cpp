@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "pipelines/ephemeris/oem.h"
+#include "pipelines/ephemeris/oem_holes.h"
 #include "pipelines/ephemeris/state_jump.h"
 #include "pipelines/time/utc.h"
 
@@ -493,7 +494,7 @@ Expected<OrbitEphemeris> parse_oem(std::string_view text) {
   if (reader.disorder()) {
     return Unexpected{*reader.disorder()};
   }
-  return OrbitEphemeris::make(std::move(segments));
+  return OrbitEphemeris::make(std::move(segments)).and_then(cut_at_holes);
 }
 
 }  // namespace spindrift

@@ -14,6 +14,7 @@ namespace {
 
 // Within this a fall round the Earth's surface is good to a metre.
 constexpr double kIntegration_s = 30.0;
+constexpr double kMostSteps = 1e5;  // A month: no orbit is known so long from one state alone.
 constexpr double kTolerance_km = 10.0;
 constexpr double kToleranceOfWay = 0.05;
 
@@ -63,7 +64,7 @@ void widen(Fall& fall, double dt_s) {
 
 /// Two-body motion, by Runge and Kutta's fourth order.
 Fall fall_from(const OrbitState& from, double duration_s) {
-  const int steps = std::max(1, static_cast<int>(std::ceil(duration_s / kIntegration_s)));
+  const double steps = std::clamp(std::ceil(duration_s / kIntegration_s), 1.0, kMostSteps);
   const double dt_s = duration_s / steps;
   Fall fall{.state = from};
   for (int i = 0; i < steps; ++i) {
@@ -79,6 +80,10 @@ Fall fall_from(const OrbitState& from, double duration_s) {
   return fall;
 }
 
+bool inside_earth(const EphemerisPoint& point) {
+  return point.state.position_icrf_km.norm() < wgs84::kEquatorialRadius_km;
+}
+
 /// How a state lies to where the one before it falls to.
 struct Step {
   double off_km;
@@ -88,10 +93,8 @@ struct Step {
 
 /// Empty where it is not judged.
 std::optional<Step> step_between(const EphemerisPoint& from, const EphemerisPoint& to) {
-  const double least_range_km =
-      std::min(from.state.position_icrf_km.norm(), to.state.position_icrf_km.norm());
-  if (to.t < from.t || to.t - from.t > std::chrono::hours{6} ||
-      least_range_km < wgs84::kEquatorialRadius_km) {
+  if (to.t < from.t || to.t - from.t > std::chrono::hours{6} || inside_earth(from) ||
+      inside_earth(to)) {
     return std::nullopt;
   }
   const double dt_s = seconds_between(from.t, to.t);
@@ -133,6 +136,19 @@ std::optional<double> unexplained_km(const EphemerisPoint& from, const Ephemeris
   const std::optional<Step> step = step_between(from, to);
   const bool explained = !step || !(step->off_km > step->bound_km + step->manoeuvre_km);
   return explained ? std::nullopt : std::optional{step->off_km};
+}
+
+std::optional<Eigen::Vector3d> halfway_icrf_km(const EphemerisPoint& from,
+                                               const EphemerisPoint& to) {
+  if (inside_earth(from) || inside_earth(to)) {
+    return std::nullopt;
+  }
+  const double dt_s = seconds_between(from.t, to.t);
+  const OrbitState halfway = fall_from(from.state, 0.5 * dt_s).state;
+  const OrbitState whole = fall_from(halfway, 0.5 * dt_s).state;
+  // The cubic that begins with nothing and ends with what two-body motion lacks.
+  return halfway.position_icrf_km + 0.5 * (to.state.position_icrf_km - whole.position_icrf_km) -
+         0.125 * dt_s * (to.state.velocity_icrf_km_s - whole.velocity_icrf_km_s);
 }
 
 std::vector<OrbitJump> orbit_jumps(const OrbitEphemeris& ephemeris) {

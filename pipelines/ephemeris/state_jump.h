@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,12 @@ std::optional<double> jump_km(const EphemerisPoint& from, const EphemerisPoint& 
 /// Earth and over 10 minutes in the geostationary ring, 100 km over half an hour near the Earth. Of
 /// a manoeuvre that is a quarter of a revolution back, too little shows in `to`.
 std::optional<double> unexplained_km(const EphemerisPoint& from, const EphemerisPoint& to);
+
+/// Where an orbit is halfway in time from one state to the next: two-body motion, and evenly
+/// changing what carries it from there to `to`, good to metres over half an hour. Empty for states
+/// inside the Earth.
+std::optional<Eigen::Vector3d> halfway_icrf_km(const EphemerisPoint& from,
+                                               const EphemerisPoint& to);
 
 /// A step that nothing explains.
 struct OrbitJump {

@@ -50,8 +50,9 @@ std::vector<Check> check_settings(const MissionFacts& mission) {
         fmt::format("take it out, or correct spacecraft.kind = \"{}\"", name_of(mission.kind))));
   }
   for (const std::string& doubt : mission.orbit_doubts) {
-    checks.push_back(warning(
-        name, doubt, "make sure that the orbit is that of this spacecraft, and of one solution"));
+    checks.push_back(
+        warning(name, doubt,
+                "make sure that the orbit is that of this spacecraft, of one solution, and whole"));
   }
   if (checks.empty()) {
     checks.push_back(ok(name, "sound"));

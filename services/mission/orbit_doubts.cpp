@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipelines/ephemeris/oem_holes.h"
 #include "pipelines/ephemeris/state_jump.h"
 #include "pipelines/time/utc.h"
 
@@ -50,12 +51,30 @@ std::string doubt_about_jumps(const OrbitEphemeris& ephemeris, std::string_view 
       nadir_off_deg(worst));
 }
 
+/// Empty: none.
+std::string doubt_about_gaps(const OrbitEphemeris& ephemeris, std::string_view file) {
+  const std::vector<OrbitGap> gaps = orbit_gaps(ephemeris);
+  if (gaps.empty()) {
+    return {};
+  }
+  const auto longest = std::max_element(
+      gaps.begin(), gaps.end(),
+      [](const OrbitGap& a, const OrbitGap& b) { return a.to - a.from < b.to - b.from; });
+  return fmt::format(
+      "orbit.oem = \"{}\", line {}: no orbit for {:.9g} s before it, from {} to {}{}: the states "
+      "there are too far apart or belong to different segments, and nothing is computed between",
+      file, longest->line, seconds_between(longest->from, longest->to), format_utc(longest->from),
+      format_utc(longest->to),
+      gaps.size() == 1 ? std::string{} : fmt::format(", the longest of {} gaps", gaps.size()));
+}
+
 }  // namespace
 
 std::vector<std::string> orbit_doubts(const OrbitEphemeris& ephemeris, std::string_view file,
                                       std::string_view spacecraft_id) {
   std::vector<std::string> doubts = {doubt_about_name(ephemeris, spacecraft_id),
-                                     doubt_about_jumps(ephemeris, file)};
+                                     doubt_about_jumps(ephemeris, file),
+                                     doubt_about_gaps(ephemeris, file)};
   std::erase(doubts, std::string{});
   return doubts;
 }

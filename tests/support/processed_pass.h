@@ -59,16 +59,22 @@ inline std::string without_channel(const std::string& channel, const std::string
   return kept;
 }
 
-/// A pass simulated from scenarios/gto-nominal.toml with that changed, and without the edges of
-/// channels that begin so.
-inline Outcome process_simulated(const TemporaryFolder& folder, const Replacements& replacements,
-                                 const std::vector<std::string>& dead_channels = {}) {
+/// The folder of a pass simulated from scenarios/gto-nominal.toml with that changed.
+inline std::filesystem::path simulated_pass(const TemporaryFolder& folder,
+                                            const Replacements& replacements) {
   const auto nominal =
       std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios" / "gto-nominal.toml";
   const auto scenario = folder.write("scenario.toml", replaced(text_of(nominal), replacements));
   const auto pass = folder.path() / "pass";
   Program simulate{{"simulate", scenario.string(), "--out", pass.string()}};
   EXPECT_EQ(simulate.exit_status(), 0) << simulate.log();
+  return pass;
+}
+
+/// That, without the edges of channels that begin so.
+inline Outcome process_simulated(const TemporaryFolder& folder, const Replacements& replacements,
+                                 const std::vector<std::string>& dead_channels = {}) {
+  const auto pass = simulated_pass(folder, replacements);
   std::string csv = text_of(pass / "pulses.csv");
   for (const std::string& channel : dead_channels) {
     csv = without_channel(channel, csv);

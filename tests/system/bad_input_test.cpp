@@ -24,6 +24,7 @@
 namespace spindrift {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -319,9 +320,38 @@ TEST(SplicedOrbit, IsRefusedByLineWhereNoOrbitCouldBeSo) {
   EXPECT_FALSE(std::filesystem::exists(outcome.db));
 }
 
+TEST(OrbitWithAHole, IsWarnedOfAndGivesNoAxisThere) {
+  const TemporaryFolder folder;
+  // Through the perigee of 03:26.
+  const auto pass = simulated_pass(folder, {{"duration_s = 600.0", "duration_s = 3600.0"},
+                                            {"mean_anomaly_deg = 30.0", "mean_anomaly_deg = 345.0"},
+                                            {"rate_rpm = 60.0", "rate_rpm = 30.0"}});
+  std::istringstream whole{text_of(pass / "orbit.oem")};
+  std::ofstream holed{pass / "orbit.oem"};
+  for (std::string line; std::getline(whole, line);) {
+    const bool left_out = line > "2026-11-20T03:15:00.5" && line < "2026-11-20T03:44:59.5";
+    holed << (left_out ? "" : line + "\n");
+  }
+  holed.close();
+  const auto outcome = process(folder, pass);
+  EXPECT_EQ(outcome.status, 0) << outcome.log;
+  EXPECT_THAT(outcome.log,
+              HasSubstr("mission.toml: orbit.oem = \"orbit.oem\", line 43: no orbit for 1800 s "
+                        "before it, from 2026-11-20T03:15:00.000Z to 2026-11-20T03:45:00.000Z"));
+  // 03:15:00 and 03:45:00, by a revolution inwards.
+  EXPECT_EQ(number_of(outcome.db,
+                      "SELECT count(*) FROM spin_fix WHERE t_tai_ns BETWEEN 1795144539000000000 "
+                      "AND 1795146335000000000"),
+            0);
+  EXPECT_GT(outcome.run["fixes_accepted"], 400);
+  EXPECT_LT(error_deg(outcome.run["mean"]), 0.1);
+  EXPECT_LT(error_deg(outcome.run["sequential"]), 0.1);
+}
+
 TEST(NominalOrbit, IsNotWarnedOf) {
   const TemporaryFolder folder;
-  EXPECT_THAT(process(folder, kNominal).log, Not(HasSubstr("jumps")));
+  EXPECT_THAT(process(folder, kNominal).log,
+              AllOf(Not(HasSubstr("jumps")), Not(HasSubstr("no orbit"))));
 }
 
 TEST(AbsurdTimes, ThatCouldBeTrueLeaveTheOtherProductsAlone) {

@@ -1,6 +1,5 @@
 #include "pipelines/ground_model/spin_edges.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
