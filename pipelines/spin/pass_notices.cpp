@@ -70,7 +70,8 @@ void PassNotices::edge_came_late() {
 }
 
 void PassNotices::edge_out_of_time() {
-  say_once("pulses stamped far ahead of all others are left out: a sender's clock is wrong");
+  say_once(
+      "pulses stamped far from the times of all others are left out: a sender's clock is wrong");
 }
 
 void PassNotices::associated(const Association& association) {
@@ -185,16 +186,15 @@ void PassNotices::axis_moved(TaiTime t, double apart_rad) {
                   format_utc(t), degrees(apart_rad)));
 }
 
-/// Of those that the mission has.
-std::string PassNotices::silent_channels() const {
-  std::string silent;
+std::string PassNotices::channels_where(bool heard, bool described) const {
+  std::string channels;
   for (std::size_t i = 0; i < kPulseChannels; ++i) {
     const auto channel = static_cast<PulseChannel>(i);
-    if (!heard_.at(i) && has_sensor(config_, channel)) {
-      silent += fmt::format("{}{}", silent.empty() ? "" : ", ", name_of(channel));
+    if (heard_.at(i) == heard && has_sensor(config_, channel) == described) {
+      channels += fmt::format("{}{}", channels.empty() ? "" : ", ", name_of(channel));
     }
   }
-  return silent;
+  return channels;
 }
 
 void PassNotices::pass_ended(std::span<const InterferingChannels> interfering,
@@ -208,8 +208,14 @@ void PassNotices::pass_ended(std::span<const InterferingChannels> interfering,
   if (closed_any_) {
     say_what_was_left_out();
   }
-  if (const std::string silent = silent_channels(); closed_any_ && !silent.empty()) {
+  if (const std::string silent = channels_where(false, true); closed_any_ && !silent.empty()) {
     say(fmt::format("no edge at all came from {}", silent));
+  }
+  if (const std::string unknown = channels_where(true, false); !unknown.empty()) {
+    say(fmt::format(
+        "the mission describes no sensor for {}: their edges are left out; a beam needs "
+        "[spin.ir.north] or [spin.ir.south]",
+        unknown));
   }
   for (const InterferingChannels& channels : interfering) {
     if (channels.revolutions < kFewestInterfering) {

@@ -65,7 +65,8 @@ class PassNotices {
   void say(std::string notice) { pending_.push_back(std::move(notice)); }
   void say_once(const std::string& notice) { say_first(notice, notice); }
   void say_first(std::string_view kind, const std::string& notice);
-  std::string silent_channels() const;
+  /// Those that brought edges or none, and that the mission describes or not.
+  std::string channels_where(bool heard, bool described) const;
   void say_what_was_left_out();
   void say_why_no_mean();
   std::string why_ambiguous() const;

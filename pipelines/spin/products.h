@@ -33,7 +33,7 @@ std::string_view name_of(SpinQuantity quantity);
 enum class Rejection {
   Unassociated,  ///< No revolution had a place for the edge.
   Late,          ///< Arrived after its time had been processed.
-  OutOfTime,     ///< Far ahead of all others, by a clock that nothing else agrees with.
+  OutOfTime,     ///< Far from all others in time, by a clock that nothing else agrees with.
   Interference,  ///< An edge of another channel is so near that both are spoilt.
   Phase,     ///< Not where the edges of its channel lie; of a measurement: rests on such an edge.
   Geometry,  ///< The measurement has no meaning (chord of a whole turn, slit lag out of range).

@@ -1,7 +1,10 @@
 #include "services/mission/mission.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "services/mission/mission_orbit.h"
@@ -13,12 +16,10 @@
 #include "services/toml_schema/values.h"
 
 namespace spindrift {
-std::string_view name_of(SpacecraftKind kind) {
-  static constexpr std::array<std::string_view, 2> kNames = {"spin", "three_axis"};
-  return kNames.at(static_cast<std::size_t>(kind));
-}
+namespace {
 
-Expected<Mission> load_mission(const std::filesystem::path& path) {
+/// @param only The kind that is allowed; empty: any.
+Expected<Mission> load(const std::filesystem::path& path, std::optional<SpacecraftKind> only) {
   const auto schema = mission_schema();
   if (!schema) {
     return Unexpected{schema.error()};
@@ -43,6 +44,13 @@ Expected<Mission> load_mission(const std::filesystem::path& path) {
       std::get<std::string>(values.at("spacecraft.kind")) == name_of(SpacecraftKind::Spin)
           ? SpacecraftKind::Spin
           : SpacecraftKind::ThreeAxis;
+  if (only && kind != *only) {
+    add_problem(
+        *document, "spacecraft.kind",
+        fmt::format(R"(spacecraft.kind = "{}": must be "{}", nothing else is processed here yet)",
+                    name_of(kind), name_of(*only)));
+    return Unexpected{soundness(*document).error()};
+  }
   auto spacecraft_id = std::get<std::string>(values.at("spacecraft.id"));
   const OrbitEphemeris* const ephemeris = orbit->orbit ? orbit->orbit->ephemeris() : nullptr;
   auto doubts =
@@ -58,6 +66,21 @@ Expected<Mission> load_mission(const std::filesystem::path& path) {
       .sha256 = std::move(*sha256),
       .orbit_sha256 = std::move(orbit->file_sha256),
       .orbit_doubts = std::move(doubts)};
+}
+
+}  // namespace
+
+std::string_view name_of(SpacecraftKind kind) {
+  static constexpr std::array<std::string_view, 2> kNames = {"spin", "three_axis"};
+  return kNames.at(static_cast<std::size_t>(kind));
+}
+
+Expected<Mission> load_mission(const std::filesystem::path& path) {
+  return load(path, std::nullopt);
+}
+
+Expected<Mission> load_spinner(const std::filesystem::path& path) {
+  return load(path, SpacecraftKind::Spin);
 }
 
 }  // namespace spindrift

@@ -37,4 +37,7 @@ struct Mission {
 ///         "FILE:LINE: KEY = VALUE: what is allowed"; the line where one is to blame.
 Expected<Mission> load_mission(const std::filesystem::path& path);
 
+/// That of a spinner. @return InvalidConfiguration for any other, too.
+Expected<Mission> load_spinner(const std::filesystem::path& path);
+
 }  // namespace spindrift

@@ -66,10 +66,7 @@ Expected<Processor> Processor::make(const std::vector<Mission>& missions,
   };
   for (const Mission& mission : missions) {
     const std::string& spacecraft = mission.spacecraft_id;
-    if (!mission.spin) {
-      refuse(fmt::format("spacecraft '{}' is of kind {}: this version processes spin only",
-                         spacecraft, name_of(mission.kind)));
-    } else if (!processor.index_of_.emplace(spacecraft, processor.runs_.size()).second) {
+    if (!processor.index_of_.emplace(spacecraft, processor.runs_.size()).second) {
       refuse(fmt::format("two mission files name the spacecraft '{}': one is allowed", spacecraft));
     } else {
       processor.runs_.emplace_back(mission, source, processor.runs_.size());

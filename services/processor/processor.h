@@ -38,8 +38,8 @@ struct GoneOn {
 /// sides at rest.
 class Processor {
  public:
-  /// @return InvalidConfiguration with every mission that is no spinner, or the second of one
-  ///         spacecraft.
+  /// @param missions Of spinners.
+  /// @return InvalidConfiguration with every mission that is the second of one spacecraft.
   static Expected<Processor> make(const std::vector<Mission>& missions,
                                   const TelemetrySource& source);
 

@@ -15,14 +15,9 @@
 namespace spindrift {
 
 Expected<void> batch(const BatchOptions& options) {
-  const auto mission = load_mission(options.mission);
+  const auto mission = load_spinner(options.mission);
   if (!mission) {
     return Unexpected{mission.error()};
-  }
-  if (!mission->spin) {
-    return Unexpected{{ErrorCode::InvalidConfiguration,
-                       fmt::format("{}: spacecraft '{}' is no spinner", options.mission.string(),
-                                   mission->spacecraft_id)}};
   }
   warn_of_orbit(options.mission, *mission);
   auto stored = read_edges(options.db, mission->spacecraft_id, options.run);

@@ -133,16 +133,6 @@ Expected<PassRequest> request_of(const GeometryOptions& options) {
   return request;
 }
 
-Expected<Mission> spinner(const std::filesystem::path& path) {
-  auto mission = load_mission(path);
-  if (mission && mission->kind != SpacecraftKind::Spin) {
-    return refused(fmt::format(R"({}: spacecraft.kind = "{}": passes are planned for kind "{}")",
-                               path.string(), name_of(mission->kind),
-                               name_of(SpacecraftKind::Spin)));
-  }
-  return mission;
-}
-
 Expected<PlannedPass> planned(const GeometryOptions& options, const Mission& mission,
                               const PassRequest& request) {
   auto plan = plan_pass(*mission.spin, *mission.orbit, request);
@@ -168,7 +158,7 @@ Expected<void> write_plot(const GeometryOptions& options, const Mission& mission
 
 Expected<void> geometry(const GeometryOptions& options) {
   const auto request = request_of(options);
-  const auto mission = spinner(options.mission);
+  const auto mission = load_spinner(options.mission);
   if (!request || !mission) {
     return refused((request ? "" : request.error().message) + (request || mission ? "" : "\n") +
                    (mission ? "" : mission.error().message));

@@ -69,7 +69,7 @@ void warn_where_no_edge_came(const Processor& processor, std::uint64_t bad_rows)
 }  // namespace
 
 Expected<void> process(const ProcessOptions& options) {
-  const auto mission = load_mission(options.mission);
+  const auto mission = load_spinner(options.mission);
   if (!mission) {
     return Unexpected{mission.error()};
   }

@@ -84,6 +84,13 @@ TEST(Process, RefusesAnEmptyMission) {
   expect_refused("mission.toml", "", {"mission.toml: [spacecraft]: missing"});
 }
 
+TEST(Process, RefusesASpacecraftThatIsNoSpinner) {
+  expect_refused("mission.toml",
+                 "[spacecraft]\nid = \"SPINNER\"\nkind = \"three_axis\"\n"
+                 "[orbit]\noem = \"orbit.oem\"\n",
+                 {"mission.toml:3: spacecraft.kind = \"three_axis\": must be \"spin\""});
+}
+
 TEST(Process, RefusesAnOrbitThatCannotBeRead) {
   expect_refused("orbit.oem", "CCSDS_OEM_VERS = 2.0\nthis is no orbit\n", {"orbit.oem", "line 2"});
   expect_refused("orbit.oem", "", {"orbit.oem", "must begin with CCSDS_OEM_VERS"});

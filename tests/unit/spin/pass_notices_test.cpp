@@ -109,7 +109,8 @@ TEST(PassNotices, EachThingIsSaidOnce) {
   notices.edge_came_late();
   notices.edge_came_late();
   notices.edge_out_of_time();
-  EXPECT_THAT(notices.take(), ElementsAre(HasSubstr("after their time"), HasSubstr("far ahead")));
+  EXPECT_THAT(notices.take(),
+              ElementsAre(HasSubstr("after their time"), HasSubstr("far from the times")));
   notices.edge_came_late();
   EXPECT_THAT(notices.take(), IsEmpty());
 }
@@ -130,6 +131,18 @@ TEST(PassNotices, TheEndNamesTheChannelsThatWereNeverHeard) {
   }
   notices.associated(of_one_revolution());
   EXPECT_THAT(at_the_end(notices), ElementsAre("no edge at all came from sun2, south_out"));
+}
+
+TEST(PassNotices, TheEndNamesTheChannelsOfNoSensor) {
+  SpinConfig config = kConfig;
+  config.north.reset();
+  PassNotices notices{config};
+  for (const PulseChannel channel : {Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut}) {
+    notices.edge_came(channel);
+  }
+  notices.associated(of_one_revolution());
+  EXPECT_THAT(at_the_end(notices),
+              ElementsAre(StartsWith("the mission describes no sensor for north_in, north_out:")));
 }
 
 TEST(PassNotices, WithoutAnyRevolutionThePeriodIsWhatIsMissing) {
