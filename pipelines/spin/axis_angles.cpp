@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -14,6 +15,8 @@ namespace spindrift {
 namespace {
 
 constexpr double kGrazingSigmas = 3.0;
+// Where roots are missing, what is left must be the true one in all of the thousands of fixes.
+constexpr double kMissingSigmas = 5.0;
 // One root fits better than another only beyond so many sigmas of noise: of the thousands of fixes
 // of a pass, none is then the wrong one. And of the model, whose errors are drawn but once.
 constexpr double kToldApartSigmas = 5.0;
@@ -28,11 +31,26 @@ double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; 
 
 /// Cones that touch within noise and model. Where they miss each other by so little, the roots that
 /// are missing may be the true ones.
-/// @param excess By how much they miss each other, as a cosine; negative where they cross.
+/// @param excess By how much they miss each other; negative where they cross.
 void note_grazing(const Uncertain& excess, AxisSolutions& found) {
-  const bool grazing = std::abs(excess.value()) <=
-                       kGrazingSigmas * std::hypot(noise_of(excess), model_uncertainty_of(excess));
+  const double noise_sigmas = excess.value() > 0.0 ? kMissingSigmas : kGrazingSigmas;
+  const bool grazing =
+      std::abs(excess.value()) <=
+      std::hypot(noise_sigmas * noise_of(excess), kGrazingSigmas * model_uncertainty_of(excess));
   found.grazing = found.grazing || grazing;
+}
+
+/// Those in (0, 180) deg, and those outside that noise and model may have put there: opposite to
+/// the Sun, say, where the axis hardly depends on the dihedral, it goes on smoothly.
+std::vector<Uncertain> possible_angles(const ConeRootsOf<Uncertain>& roots) {
+  std::vector<Uncertain> angles_rad = roots.angles_rad;
+  std::copy_if(roots.outside_rad.begin(), roots.outside_rad.end(), std::back_inserter(angles_rad),
+               [](const Uncertain& root) {
+                 return std::abs(std::remainder(root.value(), std::numbers::pi)) <=
+                        std::hypot(kMissingSigmas * noise_of(root),
+                                   kGrazingSigmas * model_uncertainty_of(root));
+               });
+  return angles_rad;
 }
 
 /// theta_e from both chords, which needs no rho; where the beams see the Earth at different
@@ -166,10 +184,11 @@ void find_sun_angles(const FixInput& input, const Uncertain& earth_angle_rad,
   const ConeRootsOf<Uncertain> roots =
       cone_roots(Uncertain{cos(earth_angle_rad)}, b, certain(std::cos(input.sun_earth_rad)));
   note_grazing(roots.excess, found);
-  if (roots.angles_rad.empty()) {
+  const std::vector<Uncertain> sun_angles_rad = possible_angles(roots);
+  if (sun_angles_rad.empty()) {
     found.reason = "no sun angle in (0, 180) deg fits the measured earth angle and dihedral";
   }
-  for (const Uncertain& sun_angle_rad : roots.angles_rad) {
+  for (const Uncertain& sun_angle_rad : sun_angles_rad) {
     found.places.push_back({sun_angle_rad, earth_angle_rad, *input.dihedral});
   }
 }

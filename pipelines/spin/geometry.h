@@ -90,11 +90,12 @@ T earth_angle_linear(const OneChordInput<T>& input) {
   return atan2(T{sign * sine}, T{sign * cosine});
 }
 
-/// The angles x in (0, pi) with a cos x + b sin x = c.
+/// The angles x with a cos x + b sin x = c.
 template <class T>
 struct ConeRootsOf {
-  std::vector<T> angles_rad;
-  T excess;  ///< |c| / hypot(a, b) - 1: from zero on there is no angle.
+  std::vector<T> angles_rad;   ///< In (0, pi).
+  std::vector<T> outside_rad;  ///< In (-pi, 0] or [pi, 2 pi): no angles but for the noise.
+  T excess;                    ///< |c| / hypot(a, b) - 1: from zero on there is no root.
 };
 
 /// Where one cone meets another: a chord the Earth's disc (x = theta_e), or a dihedral the angle
@@ -104,6 +105,7 @@ ConeRootsOf<T> cone_roots(const T& a, const T& b, const T& c) {
   using std::acos, std::atan2, std::sqrt;
   const T cosine = c / T{sqrt(T{a * a + b * b})};
   ConeRootsOf<T> roots{.angles_rad = {},
+                       .outside_rad = {},
                        .excess = cosine < 0.0 ? T{-cosine - 1.0} : T{cosine - 1.0}};
   if (!(roots.excess < 0.0)) {
     return roots;
@@ -114,9 +116,8 @@ ConeRootsOf<T> cone_roots(const T& a, const T& b, const T& c) {
     if (root <= -std::numbers::pi) {
       root += 2.0 * std::numbers::pi;
     }
-    if (root > 0.0 && root < std::numbers::pi) {
-      roots.angles_rad.push_back(root);
-    }
+    const bool inside = root > 0.0 && root < std::numbers::pi;
+    (inside ? roots.angles_rad : roots.outside_rad).push_back(root);
   }
   return roots;
 }

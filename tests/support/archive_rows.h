@@ -15,8 +15,11 @@
 
 namespace spindrift {
 
+/// While a program opens or closes an archive, it is locked for a moment.
+inline constexpr int kBusy_ms = 30'000;
+
 inline std::vector<std::string> rows_of(const std::filesystem::path& db, const std::string& query) {
-  const SQLite::Database database{db.string(), SQLite::OPEN_READONLY};
+  const SQLite::Database database{db.string(), SQLite::OPEN_READONLY, kBusy_ms};
   SQLite::Statement statement{database, query};
   std::vector<std::string> rows;
   while (statement.executeStep()) {
@@ -32,12 +35,12 @@ inline std::vector<std::string> rows_of(const std::filesystem::path& db, const s
 }
 
 inline std::int64_t number_of(const std::filesystem::path& db, const std::string& query) {
-  SQLite::Database database{db.string(), SQLite::OPEN_READONLY};
+  SQLite::Database database{db.string(), SQLite::OPEN_READONLY, kBusy_ms};
   return database.execAndGet(query).getInt64();
 }
 
 inline double real_of(const std::filesystem::path& db, const std::string& query) {
-  SQLite::Database database{db.string(), SQLite::OPEN_READONLY};
+  SQLite::Database database{db.string(), SQLite::OPEN_READONLY, kBusy_ms};
   return database.execAndGet(query).getDouble();
 }
 
@@ -85,7 +88,7 @@ inline std::vector<std::string> last_batch_rows(const std::filesystem::path& db)
 
 /// In order of time.
 inline std::vector<Pulse> pulses_in(const std::filesystem::path& archive) {
-  const SQLite::Database database{archive.string(), SQLite::OPEN_READONLY};
+  const SQLite::Database database{archive.string(), SQLite::OPEN_READONLY, kBusy_ms};
   SQLite::Statement rows{database, "SELECT t_tai_ns, channel FROM pulse ORDER BY t_tai_ns"};
   std::vector<Pulse> pulses;
   while (rows.executeStep()) {

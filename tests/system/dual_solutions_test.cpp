@@ -51,5 +51,51 @@ TEST(DualSolutions, AreSettledByTheirDispersionAsTheGeometryTurns) {
   }
 }
 
+/// Of one beam and sun1: 25 deg from the true axis another one explains the edges as well, and no
+/// fix has the true one, whose candidates graze.
+Outcome process_false_twin(const TemporaryFolder& folder, int seed, const std::string& prior) {
+  return process_simulated(
+      folder,
+      {{"mean_anomaly_deg = 30.0", "mean_anomaly_deg = 60.1"},
+       {"duration_s = 600.0", "duration_s = 300.0\nseed = " + std::to_string(seed)},
+       {"\nra_deg = 100.0\ndec_deg = -55.0", "\nra_deg = 240.11\ndec_deg = 72.64"},
+       {"rate_rpm = 60.0", "rate_rpm = 200.0"},
+       {"[spin.noise]", prior + "[spin.noise]"}},
+      {"sun2", "north"});
+}
+
+TEST(DualSolutions, AFalseTwinOfTheTrueAxisLeavesBatchAmbiguous) {
+  for (int seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    const TemporaryFolder folder;
+    const auto outcome = process_false_twin(folder, seed, "");
+    ASSERT_EQ(outcome.status, 0) << outcome.log;
+    EXPECT_THAT(outcome.run["sequential"]["status"].get<std::string>(), StartsWith("AMBIGUOUS"));
+    EXPECT_THAT(outcome.run["batch"]["status"].get<std::string>(), StartsWith("AMBIGUOUS, or"));
+  }
+}
+
+TEST(DualSolutions, APriorSettlesForBatchWhatItsEdgesLeaveOpen) {
+  for (int seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    const TemporaryFolder folder;
+    const auto outcome = process_false_twin(
+        folder, seed, "[spin.prior]\nra_deg = 240.11\ndec_deg = 72.64\nsigma_deg = 1.0\n");
+    ASSERT_EQ(outcome.status, 0) << outcome.log;
+    const auto& batch = outcome.run["batch"];
+    EXPECT_THAT(batch["status"].get<std::string>(), StartsWith("OK"));
+    EXPECT_LT(error_deg(batch["ra_deg"], batch["dec_deg"], 240.11, 72.64),
+              3.0 * batch["sigma_deg"].get<double>());
+  }
+}
+
+TEST(DualSolutions, APriorFarFromAllOfThemSettlesNothing) {
+  const TemporaryFolder folder;
+  const auto outcome = process_false_twin(
+      folder, 1, "[spin.prior]\nra_deg = 100.0\ndec_deg = -55.0\nsigma_deg = 1.0\n");
+  ASSERT_EQ(outcome.status, 0) << outcome.log;
+  EXPECT_THAT(outcome.run["batch"]["status"].get<std::string>(), StartsWith("AMBIGUOUS, or"));
+}
+
 }  // namespace
 }  // namespace spindrift

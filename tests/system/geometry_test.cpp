@@ -167,7 +167,7 @@ TEST(Geometry, RefusesWhatCannotBe) {
       {{{"--to", "2026-11-20T03:20:00Z"}}, "480 s after the ephemeris ends"},
       {{{"--mission", "/nowhere.toml"}}, "/nowhere.toml"},
       {{{"--mission", (kMissions / "dawn-2015.toml").string()}},
-       R"(spacecraft.kind = "three_axis": passes are planned for kind "spin")"},
+       R"(dawn-2015.toml:3: spacecraft.kind = "three_axis": must be "spin")"},
       {{{"--plot", "/nowhere/pass.svg"}}, "/nowhere/pass.svg"},
       {{{"--plot", "pass.png"}}, "--plot: 'pass.png': must end in .svg: plots are written as SVG"},
       {{{"--plot", "pass"}}, "--plot: 'pass': must end in .svg"}};

@@ -162,9 +162,9 @@ struct Heard {
 
 /// @param louder So many times the stated noise is that of `config`.
 Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
-                                 std::span<const PassEdge> edges,
-                                 std::span<const Eigen::Vector3d> starts, double louder) {
-  if (starts.empty()) {
+                                 std::span<const PassEdge> edges, const StartingAxes& starts,
+                                 double louder) {
+  if (starts.axes_icrf.empty()) {
     return unobservable(
         "no fix has given an axis to begin at, and the mission file has no [spin.prior]");
   }
@@ -184,7 +184,7 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
   }
   const Explained& best = solved->of.best;
   const PassInformation& information = best.information;
-  if (auto open = axis_open_at_start(*solved, starts.front())) {
+  if (auto open = axis_open_at_start(*solved, starts.axes_icrf.front())) {
     return Unexpected{*std::move(open)};
   }
   if (information.outlier_share() > kMostOutliers) {
@@ -224,8 +224,7 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
 }  // namespace
 
 Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit,
-                                    std::span<const PassEdge> edges,
-                                    std::span<const Eigen::Vector3d> starts) {
+                                    std::span<const PassEdge> edges, const StartingAxes& starts) {
   auto as_stated = solve_with_noise(config, orbit, edges, starts, 1.0);
   if (!as_stated) {
     return Unexpected{std::move(as_stated).error()};

@@ -17,22 +17,20 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/batch/pass_model.h"
+#include "pipelines/spin/batch/starting_axes.h"
 #include "pipelines/spin/config.h"
 
 namespace spindrift {
 
 /// @param edges In order of time.
-/// @param starts Axes to begin at, unit, ICRF, likeliest first.
 /// @return Unobservable where edges or starts do not suffice, with what is missing; NoCoverage.
 Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit,
-                                    std::span<const PassEdge> edges,
-                                    std::span<const Eigen::Vector3d> starts);
+                                    std::span<const PassEdge> edges, const StartingAxes& starts);
 
 }  // namespace spindrift

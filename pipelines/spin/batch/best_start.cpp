@@ -14,6 +14,7 @@ namespace {
 
 // Two ends of two starts are one solution within this.
 constexpr double kSameAxis_rad = 0.1 * std::numbers::pi / 180.0;
+constexpr double kPriorSigmas = 3.0;
 // Stated sigmas: a body that nutates, or noise not as stated.
 constexpr double kScattered = 1.3;
 constexpr std::size_t kFew = 6000;
@@ -94,6 +95,20 @@ Expected<std::vector<SpinState>> ends_of(const PassModel& model, std::span<const
   return ends;
 }
 
+/// Of those that the edges leave possible, the ones that the mission expects; all, where it expects
+/// none of them.
+std::vector<Explained> expected_of(std::vector<Explained> possible,
+                                   const std::optional<SpinPrior>& prior) {
+  const auto is_unexpected = [&](const Explained& one) {
+    return prior && angle_between_rad(one.fit.state.axis_icrf(), prior->axis_icrf) >
+                        kPriorSigmas * prior->sigma_rad;
+  };
+  if (!std::all_of(possible.begin(), possible.end(), is_unexpected)) {
+    std::erase_if(possible, is_unexpected);
+  }
+  return possible;
+}
+
 }  // namespace
 
 Expected<Best> best_of(const PassModel& model, std::span<const PassEdge> edges,
@@ -116,14 +131,17 @@ Expected<Best> best_of(const PassModel& model, std::span<const PassEdge> edges,
     return Unexpected{*reason};
   }
   std::stable_sort(all.begin(), all.end(), likelier);
-  const Explained& best = all.front();
-  const double settled = kSettled * best.excess_noise();
-  const auto other = std::find_if(all.begin() + 1, all.end(), [&](const Explained& one) {
-    return !same_axis(one.fit.state, best.fit.state) && one.misfit() < best.misfit() + settled;
+  const double settled = all.front().misfit() + kSettled * all.front().excess_noise();
+  std::erase_if(all, [&](const Explained& one) { return one.misfit() > settled; });
+  const auto possible = expected_of(std::move(all), model.config().prior);
+  const Explained& best = possible.front();
+  const auto other = std::find_if(possible.begin(), possible.end(), [&](const Explained& one) {
+    return !same_axis(one.fit.state, best.fit.state);
   });
   return Best{.best = best,
-              .or_axis_icrf =
-                  other == all.end() ? std::nullopt : std::optional{other->fit.state.axis_icrf()}};
+              .or_axis_icrf = other == possible.end()
+                                  ? std::nullopt
+                                  : std::optional{other->fit.state.axis_icrf()}};
 }
 
 }  // namespace spindrift

@@ -81,7 +81,7 @@ std::vector<PassEdge> PassEdges::edges() && {
   return sorted;
 }
 
-std::vector<Eigen::Vector3d> PassEdges::starts(const std::optional<SpinPrior>& prior) const {
+StartingAxes PassEdges::starts(const std::optional<SpinPrior>& prior) const {
   std::vector<Eigen::Vector3d> all;
   const auto add = [&all](const Eigen::Vector3d& axis_icrf) {
     const bool known = std::any_of(all.begin(), all.end(), [&](const Eigen::Vector3d& other) {
@@ -106,7 +106,7 @@ std::vector<Eigen::Vector3d> PassEdges::starts(const std::optional<SpinPrior>& p
   if (all.empty() && prior) {
     add(prior->axis_icrf);
   }
-  return all;
+  return {.axes_icrf = std::move(all), .settled = settled};
 }
 
 }  // namespace spindrift

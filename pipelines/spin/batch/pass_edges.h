@@ -3,12 +3,12 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "pipelines/spin/batch/pass_model.h"
+#include "pipelines/spin/batch/starting_axes.h"
 #include "pipelines/spin/config.h"
 #include "pipelines/spin/products.h"
 
@@ -31,9 +31,9 @@ class PassEdges {
   /// their test, as an angle rests on several edges and the fit finds the one.
   std::vector<PassEdge> edges() &&;
 
-  /// Axes to begin at: of the other estimators, and where these are not OK all that are left.
-  /// Without any, where the mission expects the axis.
-  std::vector<Eigen::Vector3d> starts(const std::optional<SpinPrior>& prior) const;
+  /// Axes of the other estimators, which settle it where `sequential` is OK; where it is not, all
+  /// that the last fix leaves. Without any, where the mission expects the axis.
+  StartingAxes starts(const std::optional<SpinPrior>& prior) const;
 
  private:
   void take(const PulseUse& use);

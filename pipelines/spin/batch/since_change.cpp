@@ -86,14 +86,15 @@ bool fits(const Expected<OneAttitude>& one) {
          one->of.best.excess_noise() <= 1.0;
 }
 
-/// A false axis needs two attitudes where the true one needs no change: before one is believed, the
-/// sky is searched.
-/// @param axes To begin at; those found are added.
+/// A false axis may explain the edges as well as the true one, or need two attitudes where that
+/// needs no change: before either is believed, the sky is searched.
+/// @param from The axes found are added.
 Expected<OneAttitude> solve_pass(const SpinConfig& config, const Orbit& orbit,
-                                 std::span<const PassEdge> edges,
-                                 std::vector<Eigen::Vector3d>& axes, BiasSet estimated) {
+                                 std::span<const PassEdge> edges, StartingAxes& from,
+                                 BiasSet estimated) {
+  std::vector<Eigen::Vector3d>& axes = from.axes_icrf;
   auto one = solve_as_one(config, orbit, edges, axes, estimated);
-  if (!one || !one->change) {
+  if (!one || (from.settled && !one->change)) {
     return one;
   }
   const auto rivals = rivals_of(one->of.best.fit.state, one->model, edges, estimated);
@@ -107,11 +108,11 @@ Expected<OneAttitude> solve_pass(const SpinConfig& config, const Orbit& orbit,
 }  // namespace
 
 Expected<Solved> solve_since_change(const SpinConfig& config, const Orbit& orbit,
-                                    std::span<const PassEdge> edges,
-                                    std::span<const Eigen::Vector3d> starts, BiasSet estimated) {
-  std::vector<Eigen::Vector3d> axes{starts.begin(), starts.end()};
+                                    std::span<const PassEdge> edges, const StartingAxes& starts,
+                                    BiasSet estimated) {
+  StartingAxes from = starts;
   std::span<const PassEdge> since = edges;
-  auto one = solve_pass(config, orbit, edges, axes, estimated);
+  auto one = solve_pass(config, orbit, edges, from, estimated);
   std::optional<TaiTime> changed;
   for (int changes = 1; one && one->change; ++changes) {
     changed = one->change->t;
@@ -121,7 +122,7 @@ Expected<Solved> solve_since_change(const SpinConfig& config, const Orbit& orbit
           format_utc(*changed, 0)));
     }
     since = since.subspan(one->change->first_edge);
-    one = solve_as_one(config, orbit, since, axes, estimated);
+    one = solve_as_one(config, orbit, since, from.axes_icrf, estimated);
   }
   if (!one) {
     return Unexpected{one.error()};
@@ -131,7 +132,7 @@ Expected<Solved> solve_since_change(const SpinConfig& config, const Orbit& orbit
   if (changed) {
     const auto before = edges.first(edges.size() - since.size());
     const bool fit_one_attitude =
-        !suffices(before) || fits(solve_as_one(config, orbit, before, axes, estimated));
+        !suffices(before) || fits(solve_as_one(config, orbit, before, from.axes_icrf, estimated));
     solved.left_out = {
         .until = *changed, .edges = std::ssize(before), .fit_one_attitude = fit_one_attitude};
   }

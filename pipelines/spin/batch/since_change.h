@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -12,6 +11,7 @@
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/spin/batch/best_start.h"
 #include "pipelines/spin/batch/pass_model.h"
+#include "pipelines/spin/batch/starting_axes.h"
 #include "pipelines/spin/config.h"
 
 namespace spindrift {
@@ -33,7 +33,7 @@ struct Solved {
 
 /// @return Unobservable where edges do not suffice, or change all the time; NoCoverage.
 Expected<Solved> solve_since_change(const SpinConfig& config, const Orbit& orbit,
-                                    std::span<const PassEdge> edges,
-                                    std::span<const Eigen::Vector3d> starts, BiasSet estimated);
+                                    std::span<const PassEdge> edges, const StartingAxes& starts,
+                                    BiasSet estimated);
 
 }  // namespace spindrift

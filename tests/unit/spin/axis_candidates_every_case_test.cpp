@@ -123,6 +123,37 @@ TEST_P(EveryCase, HasTheTrueAxisAmongItsCandidates) {
   }
 }
 
+TEST_P(EveryCase, WithTheSunNearTheAxisIsNotLeftWithTheFalseOneByNoise) {
+  constexpr int kScenes = 300;
+  for (const Loss& loss : losses()) {
+    if (loss.geometry_case < 4 || loss.geometry_case > 6 ||
+        !loss.edges.contains(PulseChannel::Sun2)) {
+      continue;
+    }
+    SCOPED_TRACE(loss.geometry_case);
+    std::mt19937_64 rng{93};
+    int told_apart = 0;
+    for (int trial = 0; trial < kScenes; ++trial) {
+      Scene scene = random_scene(GetParam(), rng);
+      const Eigen::Vector3d across = scene.axis_icrf.unitOrthogonal();
+      const double sun_deg = std::uniform_real_distribution<double>{174.0, 179.9}(rng);
+      scene.sun_icrf = Eigen::AngleAxisd{sun_deg * kDegree_rad, across} * scene.axis_icrf;
+      scene.config.noise = {.sun_s = 1e-4, .infrared_s = 5e-4};
+      const Revolution seen = testing::noisy(scene, without(scene.seen(), loss.edges), rng);
+      const auto found = axis_candidates(
+          scene.config, testing::measured_without(scene.config, seen, loss.quantities),
+          scene.sightlines());
+      if (found && found->told_apart) {
+        ++told_apart;
+        EXPECT_LT(angle_between_rad(found->candidates.front().axis_icrf, scene.axis_icrf),
+                  6.0 * std::sqrt(found->candidates.front().covariance_rad2.trace()))
+            << "Sun at " << sun_deg << " deg";
+      }
+    }
+    RecordProperty("told_apart", told_apart);
+  }
+}
+
 TEST_P(EveryCase, HasTheCovariancesOfCentralDifferences) {
   for (const Loss& loss : losses()) {
     std::mt19937_64 rng{93};

@@ -140,7 +140,7 @@ TEST(BatchEstimator, NoiseBeyondWhatIsStatedIsDoubtedAndCovered) {
 TEST(BatchEstimator, BeginsAtThePriorWhereThePassHasNoFix) {
   Scene scene;
   PassEdges pass;
-  for (const PassEdge& edge : scene.pass(600.0)) {
+  for (const PassEdge& edge : scene.pass(1200.0)) {
     if (edge.pulse.channel == PulseChannel::Sun1 || edge.pulse.channel == PulseChannel::Sun2 ||
         edge.pulse.channel == PulseChannel::NorthIn) {
       pass.note(SpinProduct{
@@ -148,7 +148,9 @@ TEST(BatchEstimator, BeginsAtThePriorWhereThePassHasNoFix) {
     }
   }
   const auto solved = [&](const std::optional<SpinPrior>& prior) {
-    return solve_batch(scene.body.config, scene.orbit, PassEdges{pass}.edges(), pass.starts(prior));
+    SpinConfig config = scene.body.config;
+    config.prior = prior;
+    return solve_batch(config, scene.orbit, PassEdges{pass}.edges(), pass.starts(prior));
   };
   const auto without = solved(std::nullopt);
   ASSERT_FALSE(without);

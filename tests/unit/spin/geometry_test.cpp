@@ -170,6 +170,21 @@ TEST(SpinGeometry, ARootOutsideTheSphereIsNoRoot) {
   EXPECT_NEAR(roots[0], 8.0 * kDegree_rad, 100.0 * kRounding);
 }
 
+TEST(SpinGeometry, ARootOutsideSolvesTheEquationToo) {
+  for (const double a : {-0.9, -0.3, 0.4, 0.95}) {
+    for (const double b : {-0.8, -0.1, 0.2, 0.7}) {
+      for (const double c : {-0.2, 0.1}) {
+        const auto roots = cone_roots(a, b, c);
+        ASSERT_EQ(roots.angles_rad.size() + roots.outside_rad.size(), 2U);
+        for (const double root : roots.outside_rad) {
+          EXPECT_NEAR(a * std::cos(root) + b * std::sin(root), c, 10.0 * kRounding);
+          EXPECT_LE(std::sin(root), kRounding);
+        }
+      }
+    }
+  }
+}
+
 TEST(SpinGeometry, AChordWiderThanTheDiscHasNoRootAndSaysByHowMuch) {
   const auto roots = cone_roots(std::cos(1.4), std::sin(1.4) * std::cos(0.4), std::cos(0.2));
   EXPECT_TRUE(roots.angles_rad.empty());

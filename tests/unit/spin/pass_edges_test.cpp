@@ -90,16 +90,16 @@ TEST(PassEdges, BeginAtTheEstimatesAndWhereTheseAreAmbiguousAtAllCandidates) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
   const SpinPrior prior{.axis_icrf = -z, .sigma_rad = 0.1};
   PassEdges pass;
-  EXPECT_TRUE(pass.starts({}).empty());
-  EXPECT_EQ(pass.starts(prior), std::vector<Eigen::Vector3d>{-z});
+  EXPECT_TRUE(pass.starts({}).axes_icrf.empty());
+  EXPECT_EQ(pass.starts(prior).axes_icrf, std::vector<Eigen::Vector3d>{-z});
   pass.note(fix(x, y));
-  EXPECT_EQ(pass.starts(prior).size(), 2U);
+  EXPECT_EQ(pass.starts(prior).axes_icrf.size(), 2U);
   pass.note(estimate(SpinEstimator::Sequential, x, "AMBIGUOUS, or ra 90 dec 0 deg"));
-  EXPECT_EQ(pass.starts(prior).size(), 2U);
+  EXPECT_EQ(pass.starts(prior).axes_icrf.size(), 2U);
   pass.note(estimate(SpinEstimator::Mean, z, "OK, 20 fixes"));
-  EXPECT_EQ(pass.starts(prior).size(), 3U);
+  EXPECT_EQ(pass.starts(prior).axes_icrf.size(), 3U);
   pass.note(estimate(SpinEstimator::Sequential, x, "OK, 20 revolutions"));
-  const auto starts = pass.starts(prior);
+  const auto starts = pass.starts(prior).axes_icrf;
   ASSERT_EQ(starts.size(), 2U);
   EXPECT_EQ(starts[0], x);
   EXPECT_EQ(starts[1], z);
@@ -111,9 +111,9 @@ TEST(PassEdges, BeginAtEstimatesThatDifferByADegree) {
   PassEdges pass;
   pass.note(estimate(SpinEstimator::Sequential, x, "DOUBTFUL"));
   pass.note(estimate(SpinEstimator::Mean, {std::cos(0.01), std::sin(0.01), 0.0}, "OK"));
-  EXPECT_EQ(pass.starts({}).size(), 2U);
+  EXPECT_EQ(pass.starts({}).axes_icrf.size(), 2U);
   pass.note(estimate(SpinEstimator::Mean, {std::cos(0.001), std::sin(0.001), 0.0}, "OK"));
-  EXPECT_EQ(pass.starts({}).size(), 1U);
+  EXPECT_EQ(pass.starts({}).axes_icrf.size(), 1U);
 }
 
 }  // namespace
