@@ -285,15 +285,19 @@ TEST(SpinPassDirt, InterferenceSpoilsBothEdges) {
   body.config.screening.interference_s = 0.002;
   const auto pulses = scene.seen(body, 0.0, 150.0, rng);
   const auto uses = all_of<PulseUse>(scene.run(body, pulses));
+  int met = 0;
   for (std::size_t i = 1; i < pulses.size(); ++i) {
     if (seconds_between(pulses[i - 1].t, pulses[i].t) < 0.002) {
+      ++met;
       for (const Pulse& pulse : {pulses[i - 1], pulses[i]}) {
         const auto use = std::find_if(uses.begin(), uses.end(),
                                       [&](const PulseUse& u) { return u.pulse == pulse; });
+        ASSERT_NE(use, uses.end());
         ASSERT_EQ(use->rejected_by, Rejection::Interference);
       }
     }
   }
+  EXPECT_GT(met, 10);
 }
 
 TEST(SpinPassDirt, SwappedBeamsGiveNoConfidentAxis) {
