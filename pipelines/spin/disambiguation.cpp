@@ -106,19 +106,15 @@ SpinFix fix_of(std::int64_t revolution, TaiTime t, const AxisCandidates& found, 
               .geometry_case = found.geometry_case,
               .axis_icrf = candidate.axis_icrf,
               .covariance_rad2 = candidate.covariance_rad2,
-              .alternate_axes_icrf = {},
+              .alternates = {},
               .resolution = resolution,
               .norm = candidate.norm,
               .accepted = candidate.consistent && resolution != Resolution::Ambiguous,
-              .grazing = found.grazing,
-              .alternate_covariances_rad2 = {},
-              .alternate_model_shifts_icrf = {},
-              .model_shift_icrf = candidate.model_shift_icrf};
+              .grazing = found.grazing};
   for (std::size_t i = 0; i < found.candidates.size(); ++i) {
     if (i != chosen) {
-      fix.alternate_axes_icrf.push_back(found.candidates[i].axis_icrf);
-      fix.alternate_covariances_rad2.push_back(found.candidates[i].covariance_rad2);
-      fix.alternate_model_shifts_icrf.push_back(found.candidates[i].model_shift_icrf);
+      fix.alternates.push_back({.axis_icrf = found.candidates[i].axis_icrf,
+                                .covariance_rad2 = found.candidates[i].covariance_rad2});
     }
   }
   return fix;

@@ -11,7 +11,6 @@
 #include <variant>
 #include <vector>
 
-#include "pipelines/spin/model_allowance.h"
 #include "pipelines/spin/pulse.h"
 #include "pipelines/time/tai_time.h"
 
@@ -75,14 +74,21 @@ struct SpinMeasurement {
 enum class Resolution { Geometry, Constraint, Prior, Dispersion, Ambiguous };
 std::string_view name_of(Resolution resolution);
 
+/// Another axis that the same revolution leaves possible.
+struct SpinAlternate {
+  Eigen::Vector3d axis_icrf;  ///< Unit.
+  /// Tangent plane at this axis: east, north. Zero where it was not kept.
+  Eigen::Matrix2d covariance_rad2 = Eigen::Matrix2d::Zero();
+};
+
 /// Spin axis from one revolution alone.
 struct SpinFix {
   std::int64_t revolution;
   TaiTime t;  ///< Its sun1 edge.
   int geometry_case;
   Eigen::Vector3d axis_icrf;
-  Eigen::Matrix2d covariance_rad2;                   ///< Tangent plane at the axis: east, north.
-  std::vector<Eigen::Vector3d> alternate_axes_icrf;  ///< The other candidates, best first; unit.
+  Eigen::Matrix2d covariance_rad2;        ///< Tangent plane at the axis: east, north.
+  std::vector<SpinAlternate> alternates;  ///< The other candidates, best first.
   Resolution resolution;
   double norm;  ///< |P| before normalising: 1 for measurements that agree.
   /// Neither AMBIGUOUS nor from measurements that contradict each other, in this revolution or in
@@ -91,13 +97,6 @@ struct SpinFix {
   /// The candidates lie where they come together and vanish, within the noise: the covariance is
   /// too small, and the true one may be missing.
   bool grazing = false;
-  /// Of the alternates, each in its own tangent plane.
-  std::vector<Eigen::Matrix2d> alternate_covariances_rad2 = {};
-  /// Likewise what the following is for the fix's own axis.
-  std::vector<Eigen::Matrix<double, 3, kModelErrors>> alternate_model_shifts_icrf = {};
-  /// What each error of the model moves the axis by, for every radian of it; in ICRF.
-  Eigen::Matrix<double, 3, kModelErrors> model_shift_icrf =
-      Eigen::Matrix<double, 3, kModelErrors>::Zero();
 };
 
 enum class SpinEstimator { Mean, Sequential, Batch };

@@ -30,8 +30,8 @@ bool leaves_open(const SpinFix& fix) {
 std::vector<StartingPoint> candidates_of(const SpinFix& fix) {
   std::vector<StartingPoint> candidates{{fix.axis_icrf, fix.covariance_rad2}};
   if (leaves_open(fix)) {
-    for (std::size_t i = 0; i < fix.alternate_axes_icrf.size(); ++i) {
-      candidates.push_back({fix.alternate_axes_icrf[i], fix.alternate_covariances_rad2[i]});
+    for (const SpinAlternate& alternate : fix.alternates) {
+      candidates.push_back({alternate.axis_icrf, alternate.covariance_rad2});
     }
   }
   return candidates;

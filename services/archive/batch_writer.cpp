@@ -310,8 +310,8 @@ void BatchWriter::insert(const ArchiveBatch& batch, const SpinFix& fix) {
   const CovarianceColumns covariance = columns_of(fix.covariance_rad2);
   std::optional<double> alternate_ra_deg;
   std::optional<double> alternate_dec_deg;
-  if (!fix.alternate_axes_icrf.empty()) {
-    const PlaceDeg alternate = place_deg(fix.alternate_axes_icrf.front());
+  if (!fix.alternates.empty()) {
+    const PlaceDeg alternate = place_deg(fix.alternates.front().axis_icrf);
     alternate_ra_deg = alternate.ra_deg;
     alternate_dec_deg = alternate.dec_deg;
   }
@@ -325,12 +325,12 @@ void BatchWriter::insert(const ArchiveBatch& batch, const SpinFix& fix) {
 void BatchWriter::insert_candidates(const ArchiveBatch& batch, const SpinFix& fix) {
   // The fix may take the place of one that had others.
   execute(spin_fix_candidates_gone_, batch.run_id, fix.revolution);
-  if (fix.alternate_axes_icrf.size() < 2) {
+  if (fix.alternates.size() < 2) {
     return;
   }
   std::int64_t candidate = 0;
-  for (const Eigen::Vector3d& axis_icrf : fix.alternate_axes_icrf) {
-    const auto [ra_deg, dec_deg] = place_deg(axis_icrf);
+  for (const SpinAlternate& alternate : fix.alternates) {
+    const auto [ra_deg, dec_deg] = place_deg(alternate.axis_icrf);
     execute(spin_fix_candidate_, batch.run_id, fix.revolution, ++candidate, ra_deg, dec_deg);
   }
 }

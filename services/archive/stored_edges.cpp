@@ -77,14 +77,14 @@ void read_last_fix(SQLite::Database& database, StoredEdges& stored) {
   std::optional<SpinFix> fix;
   while (query.executeStep()) {
     if (fix) {
-      fix->alternate_axes_icrf.push_back(axis_of(query));
+      fix->alternates.push_back({.axis_icrf = axis_of(query)});
     } else {
       fix = SpinFix{.revolution = 0,
                     .t = {},
                     .geometry_case = 0,
                     .axis_icrf = axis_of(query),
                     .covariance_rad2 = Eigen::Matrix2d::Zero(),
-                    .alternate_axes_icrf = {},
+                    .alternates = {},
                     .resolution = Resolution::Ambiguous,
                     .norm = 1.0,
                     .accepted = false};

@@ -45,12 +45,12 @@ void read_last_fix(const SQLite::Database& database, const std::string& run_id,
               .geometry_case = row.getColumn(2).getInt(),
               .axis_icrf = axis_of(row, 3),
               .covariance_rad2 = covariance_of(row, 5),
-              .alternate_axes_icrf = {},
+              .alternates = {},
               .resolution = named(row.getColumn(8).getText(), Resolution::Ambiguous),
               .norm = row.getColumn(9).getDouble(),
               .accepted = row.getColumn(10).getInt() != 0};
   if (!row.getColumn(11).isNull()) {
-    fix.alternate_axes_icrf = {axis_of(row, 11)};
+    fix.alternates = {{.axis_icrf = axis_of(row, 11)}};
   }
   stored.in_force.emplace_back(std::move(fix));
 }

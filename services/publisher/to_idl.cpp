@@ -86,8 +86,8 @@ Expected<spindrift_SpinFix> to_idl(std::string_view spacecraft, const SpinFix& f
                         .alternate_ra_deg = kNotAvailable,
                         .alternate_dec_deg = kNotAvailable,
                         .resolution = static_cast<spindrift_Resolution>(fix.resolution)};
-  if (!fix.alternate_axes_icrf.empty()) {
-    const PlaceDeg alternate = place_deg(fix.alternate_axes_icrf.front());
+  if (!fix.alternates.empty()) {
+    const PlaceDeg alternate = place_deg(fix.alternates.front().axis_icrf);
     out.alternate_ra_deg = alternate.ra_deg;
     out.alternate_dec_deg = alternate.dec_deg;
   }

@@ -39,7 +39,7 @@ SpinFix fix_at(double ra_deg, double dec_deg) {
       .covariance_rad2 =
           Eigen::Vector2d{east_sigma_rad * east_sigma_rad, north_sigma_rad * north_sigma_rad}
               .asDiagonal(),
-      .alternate_axes_icrf = {},
+      .alternates = {},
       .resolution = Resolution::Geometry,
       .norm = 1.0,
       .accepted = true};
@@ -86,7 +86,7 @@ TEST_F(ArchiveProducts, SpinFixIsStoredInDegreesWithItsCovariance) {
 
 TEST_F(ArchiveProducts, AmbiguousFixKeepsBothCandidates) {
   SpinFix fix = fix_at(100.0, -55.0);
-  fix.alternate_axes_icrf = {fix_at(310.0, 20.0).axis_icrf};
+  fix.alternates = {{.axis_icrf = fix_at(310.0, 20.0).axis_icrf}};
   fix.resolution = Resolution::Ambiguous;
   ArchiveBatch batch = start_of("run-1");
   batch.products = {fix};

@@ -247,14 +247,15 @@ SpinFix fix_with_alternates(std::size_t alternates) {
               .geometry_case = 5,
               .axis_icrf = Eigen::Vector3d::UnitX(),
               .covariance_rad2 = Eigen::Matrix2d::Identity(),
-              .alternate_axes_icrf = {},
+              .alternates = {},
               .resolution = Resolution::Ambiguous,
               .norm = 1.0,
               .accepted = false};
   const std::vector<Eigen::Vector3d> axes = {Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitX(),
                                              -Eigen::Vector3d::UnitY()};
-  fix.alternate_axes_icrf.assign(axes.begin(),
-                                 axes.begin() + static_cast<std::ptrdiff_t>(alternates));
+  for (std::size_t i = 0; i < alternates; ++i) {
+    fix.alternates.push_back({.axis_icrf = axes.at(i)});
+  }
   return fix;
 }
 
@@ -296,7 +297,7 @@ TEST_F(ArchiveRestart, ResultsInForceComeBackAsTheyWereGiven) {
   EXPECT_TRUE(again.accepted);
   EXPECT_TRUE(again.axis_icrf.isApprox(fix.axis_icrf, 1e-14));
   EXPECT_TRUE(again.covariance_rad2.isApprox(fix.covariance_rad2, 1e-14));
-  EXPECT_TRUE(again.alternate_axes_icrf.at(0).isApprox(fix.alternate_axes_icrf.at(0), 1e-14));
+  EXPECT_TRUE(again.alternates.at(0).axis_icrf.isApprox(fix.alternates.at(0).axis_icrf, 1e-14));
   const auto& estimate = std::get<SpinEstimate>(stored.in_force.at(2));
   EXPECT_EQ(estimate.t, last.t);
   EXPECT_EQ(estimate.estimator, Sequential);

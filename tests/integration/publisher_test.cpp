@@ -40,7 +40,7 @@ SpinFix a_fix() {
           .geometry_case = 3,
           .axis_icrf = axis_deg(310.0, -64.0),
           .covariance_rad2 = Eigen::Vector2d{9.0, 16.0}.asDiagonal() * (kRad_deg * kRad_deg),
-          .alternate_axes_icrf = {},
+          .alternates = {},
           .resolution = Resolution::Geometry,
           .norm = 1.0,
           .accepted = true};
@@ -75,7 +75,7 @@ TEST(ResultPublisher, PublishesAFixInDegrees) {
   const auto participant = Participant::create(bus_of_its_own()).value();
   const auto publisher = ResultPublisher::create(participant).value();
   SpinFix fix = a_fix();
-  fix.alternate_axes_icrf = {axis_deg(130.0, 20.0)};
+  fix.alternates = {{.axis_icrf = axis_deg(130.0, 20.0)}};
   ASSERT_TRUE(publisher.publish("SPINNER", fix));
   const auto taken = take_samples(results_reader(participant, bus::kSpinFixTopic), 1);
   ASSERT_EQ(taken.size(), 1U);

@@ -33,9 +33,9 @@ bool is_near(const Eigen::Vector3d& axis_icrf, double sigma_rad, const Eigen::Ve
 /// The axis of the fix, or one of its alternates.
 bool lists(const SpinFix& fix, const Eigen::Vector3d& true_icrf) {
   bool found = is_near(fix.axis_icrf, std::sqrt(fix.covariance_rad2.trace()), true_icrf);
-  for (std::size_t i = 0; i < fix.alternate_axes_icrf.size(); ++i) {
-    found = found || is_near(fix.alternate_axes_icrf[i],
-                             std::sqrt(fix.alternate_covariances_rad2[i].trace()), true_icrf);
+  for (const SpinAlternate& alternate : fix.alternates) {
+    found = found ||
+            is_near(alternate.axis_icrf, std::sqrt(alternate.covariance_rad2.trace()), true_icrf);
   }
   return found;
 }

@@ -171,12 +171,13 @@ Outcome outcome_of(Passes& passes, const Pass& pass, const std::set<SpinQuantity
     }
     ++outcome.chosen;
     const double off_rad = angle_between_rad(fix.axis_icrf, pass.axis_icrf);
-    outcome.wrong += std::any_of(fix.alternate_axes_icrf.begin(), fix.alternate_axes_icrf.end(),
-                                 [&](const Eigen::Vector3d& other) {
-                                   return angle_between_rad(other, pass.axis_icrf) < off_rad;
-                                 })
-                         ? 1
-                         : 0;
+    outcome.wrong +=
+        std::any_of(fix.alternates.begin(), fix.alternates.end(),
+                    [&](const SpinAlternate& other) {
+                      return angle_between_rad(other.axis_icrf, pass.axis_icrf) < off_rad;
+                    })
+            ? 1
+            : 0;
   }
   return outcome;
 }

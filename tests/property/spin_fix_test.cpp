@@ -112,7 +112,7 @@ TEST(SpinFixProperty, RecoversTheAxisFromOneChordWhereTheDeterminantIsUsable) {
       const Scene scene = scenes.next();
       const auto fix =
           testing::lone_fix(scene.body.config, scene.seen(), {left_out}, scene.sightlines());
-      if (!fix || !fix->alternate_axes_icrf.empty() || nearly_in_line(scene)) {
+      if (!fix || !fix->alternates.empty() || nearly_in_line(scene)) {
         continue;
       }
       ASSERT_LT(angle_between_rad(fix->axis_icrf, scene.body.axis_icrf), 1e-6);

@@ -193,8 +193,10 @@ std::optional<Eigen::Vector3d> false_axis(const testing::SpinningBody& body, con
   if (fixes.empty()) {
     return std::nullopt;
   }
-  std::vector<Eigen::Vector3d> axes_icrf = fixes.front().alternate_axes_icrf;
-  axes_icrf.push_back(fixes.front().axis_icrf);
+  std::vector<Eigen::Vector3d> axes_icrf = {fixes.front().axis_icrf};
+  for (const SpinAlternate& alternate : fixes.front().alternates) {
+    axes_icrf.push_back(alternate.axis_icrf);
+  }
   const auto farthest = *std::max_element(axes_icrf.begin(), axes_icrf.end(),
                                           [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
                                             return a.dot(body.axis_icrf) > b.dot(body.axis_icrf);

@@ -115,7 +115,7 @@ SpinFix drawn_fix(const Eigen::Vector3d& axis_icrf, double sigma_rad, std::mt199
           .geometry_case = 1,
           .axis_icrf = (axis_icrf + tangent_basis(axis_icrf) * off).normalized(),
           .covariance_rad2 = sigma_rad * sigma_rad * Eigen::Matrix2d::Identity(),
-          .alternate_axes_icrf = {},
+          .alternates = {},
           .resolution = Resolution::Geometry,
           .norm = 1.0,
           .accepted = true};

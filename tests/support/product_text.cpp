@@ -29,9 +29,9 @@ class Line {
   }
   Line& operator<<(SpinQuantity quantity) { return *this << name_of(quantity); }
   Line& operator<<(Rejection rejection) { return *this << name_of(rejection); }
-  Line& operator<<(const std::vector<Eigen::Vector3d>& vectors) {
-    for (const Eigen::Vector3d& vector : vectors) {
-      *this << vector;
+  Line& operator<<(const std::vector<SpinAlternate>& alternates) {
+    for (const SpinAlternate& alternate : alternates) {
+      *this << alternate.axis_icrf << alternate.covariance_rad2;
     }
     return *this;
   }
@@ -69,8 +69,7 @@ Line line_of(const SpinMeasurement& measurement) {
 Line line_of(const SpinFix& fix) {
   Line line;
   line << "fix" << fix.revolution << fix.t << fix.geometry_case << fix.axis_icrf
-       << fix.covariance_rad2 << fix.alternate_axes_icrf << fix.resolution << fix.norm
-       << fix.accepted;
+       << fix.covariance_rad2 << fix.alternates << fix.resolution << fix.norm << fix.accepted;
   return line;
 }
 

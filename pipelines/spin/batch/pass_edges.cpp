@@ -99,8 +99,8 @@ StartingAxes PassEdges::starts(const std::optional<SpinPrior>& prior) const {
   const bool settled = sequential_ && sequential_->status.starts_with("OK");
   if (last_fix_ && !settled) {
     add(last_fix_->axis_icrf);
-    for (const Eigen::Vector3d& alternate : last_fix_->alternate_axes_icrf) {
-      add(alternate);
+    for (const SpinAlternate& alternate : last_fix_->alternates) {
+      add(alternate.axis_icrf);
     }
   }
   if (all.empty() && prior) {

@@ -11,7 +11,7 @@ SpinProduct fix(std::int64_t revolution, bool accepted, Resolution resolution) {
                  .geometry_case = 3,
                  .axis_icrf = Eigen::Vector3d::UnitZ(),
                  .covariance_rad2 = Eigen::Matrix2d::Identity(),
-                 .alternate_axes_icrf = {},
+                 .alternates = {},
                  .resolution = resolution,
                  .norm = 1.0,
                  .accepted = accepted};

@@ -34,7 +34,7 @@ TEST(AxisCandidates, ALargeDeterminantLeavesNoAlternate) {
   for (const double delta : {0.0302, 0.05, -0.0302, -0.05}) {
     const Scene scene = scene_of_determinant(delta);
     const SpinFix fix = scene.fix().value();
-    EXPECT_TRUE(fix.alternate_axes_icrf.empty()) << delta;
+    EXPECT_TRUE(fix.alternates.empty()) << delta;
     EXPECT_EQ(fix.resolution, Resolution::Geometry);
     EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
   }
@@ -48,8 +48,8 @@ TEST(AxisCandidates, ASmallDeterminantLeavesTheOtherRootAsAlternate) {
     EXPECT_EQ(fix.resolution, Resolution::Geometry) << delta;
     EXPECT_TRUE(fix.accepted);
     EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
-    ASSERT_EQ(fix.alternate_axes_icrf.size(), 1);
-    EXPECT_GT(angle_between_rad(fix.alternate_axes_icrf.front(), scene.axis_icrf), kDegree_rad);
+    ASSERT_EQ(fix.alternates.size(), 1);
+    EXPECT_GT(angle_between_rad(fix.alternates.front().axis_icrf, scene.axis_icrf), kDegree_rad);
   }
 }
 
@@ -58,7 +58,7 @@ TEST(AxisCandidates, RootsThatTheModelMayExchangeAreAmbiguous) {
   for (const double delta : {0.0298, 0.02, -0.02, -0.0298}) {
     const SpinFix fix = scene_of_determinant(delta).fix().value();
     EXPECT_EQ(fix.resolution, Resolution::Ambiguous) << delta;
-    EXPECT_EQ(fix.alternate_axes_icrf.size(), 1);
+    EXPECT_EQ(fix.alternates.size(), 1);
   }
 }
 
@@ -69,10 +69,10 @@ TEST(AxisCandidates, AVanishingDeterminantIsAmbiguousAndNotAccepted) {
     EXPECT_EQ(fix.resolution, Resolution::Ambiguous) << delta;
     EXPECT_FALSE(fix.accepted);
     EXPECT_EQ(fix.geometry_case, 2);
-    ASSERT_EQ(fix.alternate_axes_icrf.size(), 1);
+    ASSERT_EQ(fix.alternates.size(), 1);
     const double off_rad = angle_between_rad(fix.axis_icrf, scene.axis_icrf);
     const double alternate_off_rad =
-        angle_between_rad(fix.alternate_axes_icrf.front(), scene.axis_icrf);
+        angle_between_rad(fix.alternates.front().axis_icrf, scene.axis_icrf);
     EXPECT_LT(std::min(off_rad, alternate_off_rad), kExact_rad);
     EXPECT_GT(std::max(off_rad, alternate_off_rad), kDegree_rad);
   }
@@ -129,9 +129,9 @@ TEST(AxisCandidates, LimitsOfTheDeterminantAreThoseOfTheMission) {
   scene.config.geometry = {.determinant_usable = 0.08, .determinant_ambiguous = 0.06};
   EXPECT_EQ(scene.fix().value().resolution, Resolution::Ambiguous);
   scene.config.geometry = {.determinant_usable = 0.08, .determinant_ambiguous = 0.04};
-  EXPECT_FALSE(scene.fix().value().alternate_axes_icrf.empty());
+  EXPECT_FALSE(scene.fix().value().alternates.empty());
   scene.config.geometry = {.determinant_usable = 0.04, .determinant_ambiguous = 0.01};
-  EXPECT_TRUE(scene.fix().value().alternate_axes_icrf.empty());
+  EXPECT_TRUE(scene.fix().value().alternates.empty());
 }
 
 TEST(AxisCandidates, AChordWiderThanTheDiscIsRefusedWithItsMeasure) {

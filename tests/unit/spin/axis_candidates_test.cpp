@@ -27,7 +27,7 @@ TEST(AxisCandidates, CaseOneHasBothChords) {
   EXPECT_EQ(fix.geometry_case, 1);
   EXPECT_EQ(fix.resolution, Resolution::Geometry);
   EXPECT_TRUE(fix.accepted);
-  EXPECT_TRUE(fix.alternate_axes_icrf.empty());
+  EXPECT_TRUE(fix.alternates.empty());
   EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
   EXPECT_NEAR(fix.norm, 1.0, kExact_rad);
   EXPECT_EQ(fix.t, scene.seen().edge(PulseChannel::Sun1));

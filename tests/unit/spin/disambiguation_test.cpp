@@ -78,7 +78,7 @@ TEST(Disambiguation, WithNothingToGoByItIsAmbiguousWithAllCandidates) {
   const SpinFix fix = settled(scene, scene.seen(), kDihedrals);
   EXPECT_EQ(fix.resolution, Resolution::Ambiguous);
   EXPECT_FALSE(fix.accepted);
-  EXPECT_EQ(fix.alternate_axes_icrf.size(), 1U);
+  EXPECT_EQ(fix.alternates.size(), 1U);
 }
 
 TEST(Disambiguation, ThePriorOfTheMissionChoosesTheNearest) {

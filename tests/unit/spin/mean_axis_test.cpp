@@ -23,7 +23,7 @@ SpinFix fix_at(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& covarian
           .geometry_case = 1,
           .axis_icrf = axis_icrf,
           .covariance_rad2 = covariance_rad2,
-          .alternate_axes_icrf = {},
+          .alternates = {},
           .resolution = Resolution::Geometry,
           .norm = 1.0,
           .accepted = true};

@@ -36,7 +36,7 @@ SpinFix fix(const Eigen::Vector3d& axis_icrf, const Eigen::Vector3d& alternate_i
           .geometry_case = 2,
           .axis_icrf = axis_icrf,
           .covariance_rad2 = Eigen::Matrix2d::Identity(),
-          .alternate_axes_icrf = {alternate_icrf},
+          .alternates = {{.axis_icrf = alternate_icrf}},
           .resolution = Resolution::Ambiguous,
           .norm = 1.0,
           .accepted = false};

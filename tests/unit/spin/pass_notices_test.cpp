@@ -51,7 +51,7 @@ SpinFix fix_of(int geometry_case, Resolution resolution, bool grazing = false) {
           .geometry_case = geometry_case,
           .axis_icrf = Eigen::Vector3d::UnitX(),
           .covariance_rad2 = Eigen::Matrix2d::Identity() * 1e-6,
-          .alternate_axes_icrf = {},
+          .alternates = {},
           .resolution = resolution,
           .norm = 1.0,
           .accepted = resolution != Resolution::Ambiguous,

@@ -30,8 +30,7 @@ using testing::without_sun;
 
 SpinFix ambiguous(SpinFix fix, const Eigen::Vector3d& first, const Eigen::Vector3d& second) {
   fix.axis_icrf = first;
-  fix.alternate_axes_icrf = {second};
-  fix.alternate_covariances_rad2 = {fix.covariance_rad2};
+  fix.alternates = {{.axis_icrf = second, .covariance_rad2 = fix.covariance_rad2}};
   fix.resolution = Resolution::Ambiguous;
   fix.accepted = false;
   return fix;
@@ -50,8 +49,8 @@ TEST(Sequential, AFixThatComesNearABranchOfAlternatesDoesNotStartThere) {
     if (i < kByPrior) {
       // The candidate itself is known worse, so that it does not start a filter before.
       fix.covariance_rad2 *= 4.0;
-      fix.alternate_axes_icrf = {testing::drawn_fix(elsewhere, kPoor_rad, scene.rng).axis_icrf};
-      fix.alternate_covariances_rad2 = {kPoor_rad * kPoor_rad * Eigen::Matrix2d::Identity()};
+      fix.alternates = {{.axis_icrf = testing::drawn_fix(elsewhere, kPoor_rad, scene.rng).axis_icrf,
+                         .covariance_rad2 = kPoor_rad * kPoor_rad * Eigen::Matrix2d::Identity()}};
       fix.resolution = Resolution::Prior;
     } else if (i == kByPrior) {
       fix.axis_icrf = scene.turned_about_earth(22.0);
@@ -138,10 +137,10 @@ TEST(Sequential, NamesTheAlternativeThatItDoesNotPublish) {
   SpinFix start = ambiguous(scene.fix(), direction_icrf({.ra_rad = 0.0, .dec_rad = 0.0}),
                             direction_icrf({.ra_rad = 0.0, .dec_rad = 0.0}));
   start.axis_icrf = scene.body.axis_icrf;
-  start.alternate_axes_icrf = {scene.turned_about_earth(10.0)};
-  start.alternate_covariances_rad2 = {start.covariance_rad2};
+  start.alternates = {
+      {.axis_icrf = scene.turned_about_earth(10.0), .covariance_rad2 = start.covariance_rad2}};
   const auto all = estimates(scene.body.config, {seen.front()}, at_first(start));
-  const RaDec other = ra_dec_of(start.alternate_axes_icrf.front());
+  const RaDec other = ra_dec_of(start.alternates.front().axis_icrf);
   std::array<char, 64> named{};
   std::snprintf(named.data(), named.size(), "AMBIGUOUS, or ra %.2f dec %.2f deg",
                 other.ra_rad / kDegree_rad, other.dec_rad / kDegree_rad);

@@ -266,8 +266,8 @@ SpinFix noisy_fix(Scene& scene, std::size_t i) {
   fix.axis_icrf =
       testing::drawn_fix(scene.body.axis_icrf, kTimes * kFixSigma_rad, scene.rng).axis_icrf;
   if (i % 10 == 9) {
-    fix.alternate_axes_icrf = {scene.turned_about_earth(40.0)};
-    fix.alternate_covariances_rad2 = {fix.covariance_rad2};
+    fix.alternates = {
+        {.axis_icrf = scene.turned_about_earth(40.0), .covariance_rad2 = fix.covariance_rad2}};
     fix.resolution = Resolution::Prior;
   }
   return fix;
