@@ -171,7 +171,8 @@ std::optional<Comb> find_comb(std::span<const TaiTime> edges, double noise_s, st
     return std::abs(point.phase - line->at(point.turn)) <= limit;
   });
   if (static_cast<std::size_t>(on_it) < fewest ||
-      static_cast<double>(on_it) < kLeastShare * static_cast<double>(edges.size())) {
+      static_cast<double>(on_it) < kLeastShare * static_cast<double>(edges.size()) ||
+      static_cast<double>(on_it) < kLeastFilled * turns_heard(teeth)) {
     return std::nullopt;
   }
   return Comb{.t = later_by_s(edges.front(), teeth.front().phase + line->at(0.0) * period_s),
