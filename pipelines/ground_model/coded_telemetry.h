@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pipelines/ground_model/pulse_link.h"
-#include "pipelines/spin/coded_frame.h"
+#include "pipelines/spin/types/coded_frame.h"
 
 namespace spindrift {
 

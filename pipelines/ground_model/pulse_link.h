@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "pipelines/ground_model/spin_edges.h"
-#include "pipelines/spin/config.h"
-#include "pipelines/spin/pulse.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/pulse.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {

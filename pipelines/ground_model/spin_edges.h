@@ -25,8 +25,8 @@
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/ground_model/spin_motion.h"
-#include "pipelines/spin/config.h"
-#include "pipelines/spin/pulse.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/pulse.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
-#include "pipelines/spin/products.h"
+#include "pipelines/spin/types/products.h"
 
 namespace spindrift {
 

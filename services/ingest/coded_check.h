@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <string>
 
-#include "pipelines/spin/coded_frame.h"
+#include "pipelines/spin/types/coded_frame.h"
 
 namespace spindrift {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string>
 
-#include "pipelines/spin/coded_frame.h"
-#include "pipelines/spin/pulse.h"
+#include "pipelines/spin/types/coded_frame.h"
+#include "pipelines/spin/types/pulse.h"
 
 namespace spindrift {
 

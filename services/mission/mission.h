@@ -11,7 +11,7 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
-#include "pipelines/spin/config.h"
+#include "pipelines/spin/types/config.h"
 
 namespace spindrift {
 

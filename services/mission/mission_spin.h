@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "pipelines/spin/config.h"
+#include "pipelines/spin/types/config.h"
 #include "services/toml_schema/scalar.h"
 
 namespace spindrift {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pipelines/spin/batch/pass_edges.h"
-#include "pipelines/spin/config.h"
+#include "pipelines/spin/types/config.h"
 #include "services/archive/records.h"
 
 namespace spindrift {

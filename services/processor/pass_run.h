@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "pipelines/spin/spin_pass.h"
+#include "pipelines/spin/pass/spin_pass.h"
 #include "services/archive/records.h"
 #include "services/mission/mission.h"
 #include "services/processor/batch_task.h"

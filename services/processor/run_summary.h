@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "pipelines/spin/batch/batch_solution.h"
-#include "pipelines/spin/products.h"
+#include "pipelines/spin/types/products.h"
 #include "services/archive/disagreement.h"
 
 namespace spindrift {

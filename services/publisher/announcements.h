@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "pipelines/spin/products.h"
+#include "pipelines/spin/types/products.h"
 
 namespace spindrift {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pipelines/spin/products.h"
+#include "pipelines/spin/types/products.h"
 #include "services/bus/writer.h"
 #include "services/publisher/health.h"
 

@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "pipelines/core/expected.h"
-#include "pipelines/spin/products.h"
+#include "pipelines/spin/types/products.h"
 #include "services/ingest/sample.h"
 #include "services/publisher/health.h"
 

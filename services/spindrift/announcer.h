@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "pipelines/spin/products.h"
+#include "pipelines/spin/types/products.h"
 #include "services/archive/records.h"
 #include "services/archive/stored_results.h"
 #include "services/publisher/announcements.h"

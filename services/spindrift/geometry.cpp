@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/time_span.h"
+#include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
 #include "services/mission/mission.h"
 #include "services/plot/scale.h"

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "pipelines/spin/geometry.h"
-#include "pipelines/spin/measurement.h"
+#include "pipelines/spin/measurement/measurement.h"
+#include "pipelines/spin/sensor_model/geometry.h"
 #include "services/plot/time_page.h"
 #include "services/spindrift/geometry_text.h"
 #include "services/units/degrees.h"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "pipelines/spin/measurement.h"
+#include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/time/utc.h"
 #include "services/units/degrees.h"
 

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "pipelines/spin/config.h"
-#include "pipelines/spin/pass_plan.h"
+#include "pipelines/spin/planning/pass_plan.h"
+#include "pipelines/spin/types/config.h"
 
 namespace spindrift {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "pipelines/core/expected.h"
-#include "pipelines/spin/coded_frame.h"
-#include "pipelines/spin/pulse.h"
+#include "pipelines/spin/types/coded_frame.h"
+#include "pipelines/spin/types/pulse.h"
 
 namespace spindrift {
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
-#include "pipelines/spin/coded_frame.h"
-#include "pipelines/spin/pulse.h"
+#include "pipelines/spin/types/coded_frame.h"
+#include "pipelines/spin/types/pulse.h"
 #include "services/ingest/rejected_input.h"
 #include "services/telemetry_files/csv.h"
 #include "services/telemetry_files/telemetry_kind.h"

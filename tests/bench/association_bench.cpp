@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "pipelines/spin/association.h"
+#include "pipelines/spin/association/association.h"
 #include "tests/support/spinning_body.h"
 
 namespace spindrift {

@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipelines/spin/spin_pass.h"
+#include "pipelines/spin/pass/spin_pass.h"
 #include "services/bus/participant.h"
 #include "services/bus/reader.h"
 #include "services/bus/wait_set.h"

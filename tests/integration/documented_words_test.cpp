@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "pipelines/spin/products.h"
+#include "pipelines/spin/types/products.h"
 #include "tests/support/text_of.h"
 
 namespace spindrift {

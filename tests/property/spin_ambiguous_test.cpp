@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/model_allowance.h"
-#include "pipelines/spin/spin_pass.h"
+#include "pipelines/spin/pass/spin_pass.h"
+#include "pipelines/spin/types/model_allowance.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/random_pass.h"

@@ -15,7 +15,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "pipelines/spin/batch/pass_edges.h"
-#include "pipelines/spin/spin_pass.h"
+#include "pipelines/spin/pass/spin_pass.h"
 #include "tests/support/batch_pass.h"
 #include "tests/support/dirt.h"
 #include "tests/support/product_text.h"

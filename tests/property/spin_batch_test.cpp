@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "pipelines/spin/pass_plan.h"
-#include "pipelines/spin/time_span.h"
+#include "pipelines/spin/planning/pass_plan.h"
+#include "pipelines/time/time_span.h"
 #include "tests/support/batch_statistics.h"
 #include "tests/support/information_limit.h"
 

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/coning.h"
+#include "pipelines/spin/sensor_model/coning.h"
 #include "tests/support/steady_residuals.h"
 
 namespace spindrift {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/spin/sequential.h"
+#include "pipelines/spin/sequential/sequential.h"
 #include "tests/support/information_limit.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/spinning_body.h"

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/geometry.h"
+#include "pipelines/spin/sensor_model/geometry.h"
 #include "tests/support/lone_fix.h"
 #include "tests/support/spinning_body.h"
 

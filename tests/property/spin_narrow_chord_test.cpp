@@ -19,7 +19,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "pipelines/spin/batch/pass_edges.h"
-#include "pipelines/spin/spin_pass.h"
+#include "pipelines/spin/pass/spin_pass.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 

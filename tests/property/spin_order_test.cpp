@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "pipelines/spin/reorder_window.h"
-#include "pipelines/spin/spin_pass.h"
+#include "pipelines/spin/pass/spin_pass.h"
+#include "pipelines/spin/telemetry_order/reorder_window.h"
 #include "tests/support/product_text.h"
 #include "tests/support/recorded_pass.h"
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/spin_pass.h"
+#include "pipelines/spin/pass/spin_pass.h"
 #include "tests/support/dirt.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"

@@ -17,7 +17,7 @@
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/spin_pass.h"
+#include "pipelines/spin/pass/spin_pass.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"

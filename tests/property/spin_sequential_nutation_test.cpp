@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/spin/spin_pass.h"
+#include "pipelines/spin/pass/spin_pass.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/wobbling_pass.h"

@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "pipelines/spin/spin_pass.h"
+#include "pipelines/spin/pass/spin_pass.h"
 #include "tests/support/information_limit.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"

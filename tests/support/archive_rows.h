@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/spin/pulse.h"
+#include "pipelines/spin/types/pulse.h"
 
 namespace spindrift {
 

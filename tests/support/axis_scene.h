@@ -10,8 +10,8 @@
 #include <set>
 
 #include "pipelines/core/expected.h"
-#include "pipelines/spin/products.h"
-#include "pipelines/spin/sightlines.h"
+#include "pipelines/spin/types/products.h"
+#include "pipelines/spin/types/sightlines.h"
 #include "tests/support/lone_fix.h"
 #include "tests/support/spinning_body.h"
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "pipelines/spin/pulse.h"
+#include "pipelines/spin/types/pulse.h"
 
 namespace spindrift::testing {
 

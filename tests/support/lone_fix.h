@@ -7,9 +7,9 @@
 #include <set>
 
 #include "pipelines/core/expected.h"
-#include "pipelines/spin/axis_candidates.h"
-#include "pipelines/spin/disambiguation.h"
-#include "pipelines/spin/measurement.h"
+#include "pipelines/spin/disambiguation/disambiguation.h"
+#include "pipelines/spin/fix/axis_candidates.h"
+#include "pipelines/spin/measurement/measurement.h"
 
 namespace spindrift::testing {
 

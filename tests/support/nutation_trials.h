@@ -8,7 +8,7 @@
 #include <string>
 
 #include "pipelines/ground_model/spin_motion.h"
-#include "pipelines/spin/nutation.h"
+#include "pipelines/spin/nutation/nutation.h"
 #include "tests/support/steady_residuals.h"
 
 namespace spindrift::testing {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "pipelines/ephemeris/orbit.h"
-#include "pipelines/spin/association.h"
-#include "pipelines/spin/config.h"
-#include "pipelines/spin/products.h"
-#include "pipelines/spin/pulse.h"
-#include "pipelines/spin/sky.h"
+#include "pipelines/spin/association/association.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/products.h"
+#include "pipelines/spin/types/pulse.h"
+#include "pipelines/spin/types/sky.h"
 #include "tests/support/spinning_body.h"
 
 namespace spindrift::testing {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipelines/spin/products.h"
+#include "pipelines/spin/types/products.h"
 
 namespace spindrift::testing {
 namespace {

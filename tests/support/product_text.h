@@ -8,10 +8,10 @@
 #include <variant>
 #include <vector>
 
-#include "pipelines/spin/coded_frame.h"
-#include "pipelines/spin/products.h"
-#include "pipelines/spin/pulse.h"
-#include "pipelines/spin/spin_pass.h"
+#include "pipelines/spin/pass/spin_pass.h"
+#include "pipelines/spin/types/coded_frame.h"
+#include "pipelines/spin/types/products.h"
+#include "pipelines/spin/types/pulse.h"
 #include "tests/support/recorded_pass.h"
 
 namespace spindrift::testing {

@@ -10,7 +10,7 @@
 
 #include "pipelines/ephemeris/earth_pole.h"
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/geometry.h"
+#include "pipelines/spin/sensor_model/geometry.h"
 #include "tests/support/observed_spin.h"
 
 namespace spindrift::testing {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "pipelines/ephemeris/orbit.h"
-#include "pipelines/spin/pulse.h"
+#include "pipelines/spin/types/pulse.h"
 #include "tests/support/spinning_body.h"
 
 namespace spindrift::testing {

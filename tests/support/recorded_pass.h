@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "pipelines/ephemeris/orbit.h"
-#include "pipelines/spin/coded_frame.h"
-#include "pipelines/spin/config.h"
-#include "pipelines/spin/pulse.h"
+#include "pipelines/spin/types/coded_frame.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/pulse.h"
 
 namespace spindrift::testing {
 

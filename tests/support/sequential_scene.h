@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/sequential.h"
+#include "pipelines/spin/sequential/sequential.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/spinning_body.h"
 

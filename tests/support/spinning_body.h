@@ -10,9 +10,9 @@
 #include <random>
 #include <vector>
 
-#include "pipelines/spin/association.h"
-#include "pipelines/spin/config.h"
-#include "pipelines/spin/pulse.h"
+#include "pipelines/spin/association/association.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/pulse.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift::testing {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/coning.h"
+#include "pipelines/spin/sensor_model/coning.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/spin_truth.h"
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "pipelines/ground_model/spin_edges.h"
-#include "pipelines/spin/config.h"
-#include "pipelines/spin/steady_residual.h"
+#include "pipelines/spin/nutation/steady_residual.h"
+#include "pipelines/spin/types/config.h"
 
 namespace spindrift::testing {
 

@@ -17,7 +17,7 @@
 #include "pipelines/spin/batch/observability.h"
 #include "pipelines/spin/batch/pass_nutation.h"
 #include "pipelines/spin/batch/since_change.h"
-#include "pipelines/spin/time_span.h"
+#include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift {

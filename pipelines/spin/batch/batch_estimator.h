@@ -24,7 +24,7 @@
 #include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/batch/pass_model.h"
 #include "pipelines/spin/batch/starting_axes.h"
-#include "pipelines/spin/config.h"
+#include "pipelines/spin/types/config.h"
 
 namespace spindrift {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/spin/coning.h"
-#include "pipelines/spin/nutation.h"
-#include "pipelines/spin/products.h"
-#include "pipelines/spin/sensor_biases.h"
+#include "pipelines/spin/nutation/nutation.h"
+#include "pipelines/spin/sensor_model/coning.h"
+#include "pipelines/spin/types/products.h"
+#include "pipelines/spin/types/sensor_biases.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <vector>
 
-#include "pipelines/spin/time_span.h"
+#include "pipelines/time/time_span.h"
 
 namespace spindrift {
 namespace {

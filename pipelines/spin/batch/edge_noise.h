@@ -6,7 +6,7 @@
 #include <span>
 
 #include "pipelines/spin/batch/pass_model.h"
-#include "pipelines/spin/config.h"
+#include "pipelines/spin/types/config.h"
 
 namespace spindrift {
 

@@ -10,7 +10,7 @@
 #include "pipelines/spin/batch/batch_fit.h"
 #include "pipelines/spin/batch/pass_information.h"
 #include "pipelines/spin/batch/pass_model.h"
-#include "pipelines/spin/nutation.h"
+#include "pipelines/spin/nutation/nutation.h"
 
 namespace spindrift {
 

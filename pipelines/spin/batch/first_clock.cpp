@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/edge_prediction.h"
+#include "pipelines/spin/sensor_model/edge_prediction.h"
 
 namespace spindrift {
 namespace {

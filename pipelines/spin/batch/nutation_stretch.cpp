@@ -3,7 +3,7 @@
 #include <cmath>
 #include <complex>
 
-#include "pipelines/spin/time_span.h"
+#include "pipelines/time/time_span.h"
 
 namespace spindrift {
 

@@ -9,8 +9,8 @@
 
 #include "pipelines/spin/batch/pass_model.h"
 #include "pipelines/spin/batch/starting_axes.h"
-#include "pipelines/spin/config.h"
-#include "pipelines/spin/products.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/products.h"
 
 namespace spindrift {
 

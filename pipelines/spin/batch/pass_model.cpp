@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/small_rotation.h"
-#include "pipelines/spin/surroundings.h"
-#include "pipelines/spin/time_span.h"
+#include "pipelines/frames/small_rotation.h"
+#include "pipelines/spin/measurement/surroundings.h"
+#include "pipelines/time/time_span.h"
 
 namespace spindrift {
 namespace {

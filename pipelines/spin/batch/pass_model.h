@@ -22,11 +22,11 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/spin/batch/nutation_stretch.h"
-#include "pipelines/spin/config.h"
-#include "pipelines/spin/edge_prediction.h"
-#include "pipelines/spin/pulse.h"
-#include "pipelines/spin/sensor_biases.h"
-#include "pipelines/spin/sky.h"
+#include "pipelines/spin/sensor_model/edge_prediction.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/pulse.h"
+#include "pipelines/spin/types/sensor_biases.h"
+#include "pipelines/spin/types/sky.h"
 
 namespace spindrift {
 

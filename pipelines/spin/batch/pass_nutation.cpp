@@ -8,7 +8,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/steady_residuals.h"
-#include "pipelines/spin/time_span.h"
+#include "pipelines/time/time_span.h"
 
 namespace spindrift {
 namespace {

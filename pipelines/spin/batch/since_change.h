@@ -12,7 +12,7 @@
 #include "pipelines/spin/batch/best_start.h"
 #include "pipelines/spin/batch/pass_model.h"
 #include "pipelines/spin/batch/starting_axes.h"
-#include "pipelines/spin/config.h"
+#include "pipelines/spin/types/config.h"
 
 namespace spindrift {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "pipelines/spin/batch/pass_model.h"
-#include "pipelines/spin/steady_residual.h"
+#include "pipelines/spin/nutation/steady_residual.h"
 
 namespace spindrift {
 

@@ -1,4 +1,4 @@
-#include "pipelines/spin/angle_equations.h"
+#include "pipelines/spin/mean/angle_equations.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipelines/spin/association.h"
+#include "pipelines/spin/association/association.h"
 #include "tests/support/edge_train.h"
 
 namespace spindrift {

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
-#include "pipelines/spin/association.h"
+#include "pipelines/spin/association/association.h"
 #include "tests/support/recorded_pass.h"
 #include "tests/support/spinning_body.h"
 

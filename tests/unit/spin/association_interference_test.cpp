@@ -11,8 +11,8 @@
 #include <random>
 #include <vector>
 
-#include "pipelines/spin/association.h"
-#include "pipelines/spin/interference.h"
+#include "pipelines/spin/association/association.h"
+#include "pipelines/spin/telemetry_order/interference.h"
 #include "tests/support/spinning_body.h"
 
 namespace spindrift {

@@ -1,4 +1,4 @@
-#include "pipelines/spin/association.h"
+#include "pipelines/spin/association/association.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "pipelines/spin/batch/batch_fit.h"
-#include "pipelines/spin/time_span.h"
+#include "pipelines/time/time_span.h"
 #include "tests/support/batch_pass.h"
 
 namespace spindrift {

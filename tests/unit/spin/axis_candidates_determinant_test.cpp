@@ -6,7 +6,7 @@
 #include <random>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/axis_candidates.h"
+#include "pipelines/spin/fix/axis_candidates.h"
 #include "tests/support/axis_scene.h"
 
 namespace spindrift {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/axis_candidates.h"
+#include "pipelines/spin/fix/axis_candidates.h"
 #include "tests/support/axis_scene.h"
 
 namespace spindrift {

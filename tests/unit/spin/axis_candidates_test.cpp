@@ -1,4 +1,4 @@
-#include "pipelines/spin/axis_candidates.h"
+#include "pipelines/spin/fix/axis_candidates.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/geometry.h"
+#include "pipelines/spin/sensor_model/geometry.h"
 #include "tests/support/axis_scene.h"
 
 namespace spindrift {

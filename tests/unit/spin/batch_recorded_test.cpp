@@ -10,7 +10,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "pipelines/spin/batch/pass_edges.h"
-#include "pipelines/spin/spin_pass.h"
+#include "pipelines/spin/pass/spin_pass.h"
 #include "tests/support/recorded_pass.h"
 
 namespace spindrift {

@@ -1,11 +1,11 @@
-#include "pipelines/spin/beam_view.h"
+#include "pipelines/spin/measurement/beam_view.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/geometry.h"
+#include "pipelines/spin/sensor_model/geometry.h"
 #include "tests/support/axis_scene.h"
 
 namespace spindrift {

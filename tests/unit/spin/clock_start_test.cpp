@@ -1,4 +1,4 @@
-#include "pipelines/spin/clock_start.h"
+#include "pipelines/spin/association/clock_start.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipelines/spin/coded_frame.h"
+#include "pipelines/spin/types/coded_frame.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "pipelines/spin/association.h"
-#include "pipelines/spin/reorder_window.h"
+#include "pipelines/spin/association/association.h"
+#include "pipelines/spin/telemetry_order/reorder_window.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"

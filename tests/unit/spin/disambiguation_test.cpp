@@ -1,4 +1,4 @@
-#include "pipelines/spin/disambiguation.h"
+#include "pipelines/spin/disambiguation/disambiguation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipelines/spin/dispersion.h"
+#include "pipelines/spin/disambiguation/dispersion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// What edges say of the axis, against the figures of spin.md and against how the oracle's edges
 /// move when its body is moved.
 
-#include "pipelines/spin/edge_information.h"
+#include "pipelines/spin/sensor_model/edge_information.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// What errors of the model do to an edge, against finite differences and the formulas that
 /// measure angles. (The edges themselves are tested with the filter, against the oracle.)
 
-#include "pipelines/spin/edge_prediction.h"
+#include "pipelines/spin/sensor_model/edge_prediction.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/wgs84.h"
-#include "pipelines/spin/measurement.h"
+#include "pipelines/spin/measurement/measurement.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/spinning_body.h"
 

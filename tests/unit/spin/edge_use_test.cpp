@@ -1,4 +1,4 @@
-#include "pipelines/spin/edge_use.h"
+#include "pipelines/spin/measurement/edge_use.h"
 
 #include <gtest/gtest.h>
 

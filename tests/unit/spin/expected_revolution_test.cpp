@@ -1,6 +1,6 @@
 /// The turn that is to be expected, against the oracle's.
 
-#include "pipelines/spin/expected_revolution.h"
+#include "pipelines/spin/planning/expected_revolution.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/measurement.h"
+#include "pipelines/spin/measurement/measurement.h"
 #include "tests/support/observed_spin.h"
 
 namespace spindrift {

@@ -1,4 +1,4 @@
-#include "pipelines/spin/fixes_by_case.h"
+#include "pipelines/spin/mean/fixes_by_case.h"
 
 #include <gtest/gtest.h>
 

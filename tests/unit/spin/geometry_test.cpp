@@ -1,4 +1,4 @@
-#include "pipelines/spin/geometry.h"
+#include "pipelines/spin/sensor_model/geometry.h"
 
 #include <gtest/gtest.h>
 

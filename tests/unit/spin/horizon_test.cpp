@@ -1,6 +1,6 @@
 /// The predicted edges against the spinning body, which searches for them and knows no formula.
 
-#include "pipelines/spin/horizon.h"
+#include "pipelines/spin/sensor_model/horizon.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <random>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/edge_prediction.h"
+#include "pipelines/spin/sensor_model/edge_prediction.h"
 #include "tests/support/spinning_body.h"
 
 namespace spindrift {

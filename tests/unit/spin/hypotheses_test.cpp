@@ -1,6 +1,6 @@
 /// Candidates that compete by the likelihood of the same edges.
 
-#include "pipelines/spin/hypotheses.h"
+#include "pipelines/spin/sequential/hypotheses.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipelines/spin/interference.h"
+#include "pipelines/spin/telemetry_order/interference.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

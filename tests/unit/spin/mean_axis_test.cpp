@@ -1,4 +1,4 @@
-#include "pipelines/spin/mean_axis.h"
+#include "pipelines/spin/mean/mean_axis.h"
 
 #include <gtest/gtest.h>
 

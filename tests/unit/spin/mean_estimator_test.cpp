@@ -1,4 +1,4 @@
-#include "pipelines/spin/mean_estimator.h"
+#include "pipelines/spin/mean/mean_estimator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipelines/spin/measurement.h"
+#include "pipelines/spin/measurement/measurement.h"
 
 #include <gtest/gtest.h>
 

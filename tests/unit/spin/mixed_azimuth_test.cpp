@@ -1,4 +1,4 @@
-#include "pipelines/spin/mixed_azimuth.h"
+#include "pipelines/spin/measurement/mixed_azimuth.h"
 
 #include <gtest/gtest.h>
 

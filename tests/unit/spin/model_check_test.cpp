@@ -1,4 +1,4 @@
-#include "pipelines/spin/model_check.h"
+#include "pipelines/spin/mean/model_check.h"
 
 #include <gtest/gtest.h>
 

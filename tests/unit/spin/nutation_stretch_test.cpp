@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipelines/spin/time_span.h"
+#include "pipelines/time/time_span.h"
 #include "tests/support/wobbling_pass.h"
 
 namespace spindrift {

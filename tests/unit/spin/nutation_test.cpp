@@ -1,6 +1,6 @@
 /// Against tilts put together from their formula.
 
-#include "pipelines/spin/nutation.h"
+#include "pipelines/spin/nutation/nutation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

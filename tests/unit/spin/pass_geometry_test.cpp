@@ -1,6 +1,6 @@
 /// What an instant of a pass holds, against the closed forms of spin.md and its figures.
 
-#include "pipelines/spin/pass_geometry.h"
+#include "pipelines/spin/planning/pass_geometry.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/measurement.h"
-#include "pipelines/spin/pass_conditions.h"
+#include "pipelines/spin/measurement/measurement.h"
+#include "pipelines/spin/planning/pass_conditions.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/recorded_pass.h"
 

@@ -1,4 +1,4 @@
-#include "pipelines/spin/pass_notices.h"
+#include "pipelines/spin/pass/pass_notices.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

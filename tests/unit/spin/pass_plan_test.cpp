@@ -1,6 +1,6 @@
 /// The plan of a pass, against the limits of spin.md and of the oracle, and against closed forms.
 
-#include "pipelines/spin/pass_plan.h"
+#include "pipelines/spin/planning/pass_plan.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/measurement.h"
+#include "pipelines/spin/measurement/measurement.h"
 #include "tests/support/information_limit.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/recorded_pass.h"

@@ -1,8 +1,8 @@
-#include "pipelines/spin/period_intervals.h"
+#include "pipelines/spin/association/period_intervals.h"
 
 #include <gtest/gtest.h>
 
-#include "pipelines/spin/time_span.h"
+#include "pipelines/time/time_span.h"
 
 namespace spindrift {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipelines/spin/poor_start.h"
+#include "pipelines/spin/sequential/poor_start.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipelines/spin/products.h"
+#include "pipelines/spin/types/products.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "pipelines/spin/rate_step.h"
+#include "pipelines/spin/association/rate_step.h"
 
 #include <gtest/gtest.h>
 
-#include "pipelines/spin/time_span.h"
+#include "pipelines/time/time_span.h"
 
 namespace spindrift {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipelines/spin/reorder_window.h"
+#include "pipelines/spin/telemetry_order/reorder_window.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

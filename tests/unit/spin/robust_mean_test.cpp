@@ -1,4 +1,4 @@
-#include "pipelines/spin/robust_mean.h"
+#include "pipelines/statistics/robust_mean.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipelines/spin/screening.h"
+#include "pipelines/spin/screening/screening.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/sequential.h"
+#include "pipelines/spin/sequential/sequential.h"
 #include "tests/support/sequential_scene.h"
 
 namespace spindrift {

@@ -1,4 +1,4 @@
-#include "pipelines/spin/sequential.h"
+#include "pipelines/spin/sequential/sequential.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

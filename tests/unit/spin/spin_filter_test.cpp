@@ -1,4 +1,4 @@
-#include "pipelines/spin/spin_filter.h"
+#include "pipelines/spin/sequential/spin_filter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipelines/spin/spin_pass.h"
+#include "pipelines/spin/pass/spin_pass.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "pipelines/spin/starting_points.h"
+#include "pipelines/spin/sequential/starting_points.h"
 
 #include <gtest/gtest.h>
 

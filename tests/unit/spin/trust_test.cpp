@@ -1,4 +1,4 @@
-#include "pipelines/spin/trust.h"
+#include "pipelines/spin/disambiguation/trust.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipelines/spin/unsteady_channels.h"
+#include "pipelines/spin/sequential/unsteady_channels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,454 @@
+#include "pipelines/spin/association/association.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "pipelines/spin/association/clock_start.h"
+#include "pipelines/time/time_span.h"
+
+namespace spindrift {
+namespace {
+
+// Without a clock no more than this is kept: noise alone must not fill the memory.
+constexpr std::size_t kMostWaiting = 1024;
+// A revolution stays open at least this long, so that a channel seen for the first time finds it.
+constexpr double kOpen_turns = 0.75;
+constexpr double kChordGate_turns = 0.2;
+// However long the silence, an edge must lie nearer than this to a turn to be counted with it.
+constexpr double kMostReach_turns = 0.4;
+// A clock less certain than this may have miscounted the turns of a silence: it starts afresh.
+constexpr double kLost_turns = 0.2;
+// So many revolutions without a good edge of the reference, and another channel takes over.
+constexpr int kSilentReference = 10;
+// From the edges that have waited for the clock a channel is learnt when it has been seen in so
+// many turns, and in one of so many.
+constexpr std::size_t kFewestSeen = 3;
+constexpr std::size_t kMostTurnsAnEdge = 3;
+// From so many good edges in a row on a channel is fit to set the clock.
+constexpr int kFitReference = 3;
+
+constexpr std::array<PulseChannel, kPulseChannels> kChannels = {
+    PulseChannel::Sun1,     PulseChannel::Sun2,    PulseChannel::NorthIn,
+    PulseChannel::NorthOut, PulseChannel::SouthIn, PulseChannel::SouthOut};
+
+PulseUse left_over(const Pulse& pulse, std::optional<Rejection> rejected_by = {}) {
+  return {.pulse = pulse,
+          .revolution = {},
+          .rejected_by = rejected_by.value_or(Rejection::Unassociated)};
+}
+
+}  // namespace
+
+Associator::Associator(const SpinConfig& config)
+    : config_{config},
+      phases_{config},
+      crowded_{config.screening.interference_s},
+      intervals_{config.screening, config.noise.sun_s} {}
+
+void Associator::note_period(TaiTime t_sun1, double period_s) {
+  intervals_.note({.t_sun1 = t_sun1, .period_s = period_s});
+}
+
+Association Associator::push(const Pulse& pulse) {
+  Association out;
+  place_or_wait(pulse, out);
+  return out;
+}
+
+Association Associator::push_spoilt(const Pulse& pulse) {
+  Association out;
+  if (clock_ && counts(pulse.t)) {
+    place(pulse, true, out);
+  } else {
+    out.left_over.push_back(left_over(pulse, Rejection::Interference));
+  }
+  return out;
+}
+
+void Associator::place_or_wait(const Pulse& pulse, Association& out) {
+  if (clock_) {
+    const double phase = clock_->phase_turns(pulse.t);
+    if (phase > static_cast<double>(first_open_) && clock_sigma_turns(phase) > kLost_turns) {
+      give_up_clock(pulse, out);
+    }
+  }
+  if (clock_) {
+    place(pulse, false, out);
+    return;
+  }
+  waiting_.push_back(pulse);
+  try_to_start(false, out);
+  if (!clock_ && waiting_.size() > kMostWaiting) {
+    out.left_over.push_back(left_over(waiting_.front()));
+    waiting_.erase(waiting_.begin());
+  }
+}
+
+Association Associator::finish() {
+  Association out;
+  if (!clock_) {
+    try_to_start(true, out);
+  }
+  for (const Pulse& pulse : std::exchange(waiting_, {})) {
+    out.left_over.push_back(left_over(pulse));
+  }
+  while (!open_.empty()) {
+    close_front(out);
+  }
+  return out;
+}
+
+void Associator::try_to_start(bool at_end, Association& out) {
+  // The edges have to tell where the other channels are; those of the last turn, and of a chord
+  // that straddles sun1, may be still to come.
+  const auto sun1_edges = std::count_if(waiting_.begin(), waiting_.end(), [](const Pulse& pulse) {
+    return pulse.channel == PulseChannel::Sun1;
+  });
+  std::optional<ClockStart> start;
+  if (at_end || sun1_edges >= static_cast<std::ptrdiff_t>(kFewestSeen) + 2) {
+    start = start_clock(config_, intervals_.notes(), at_end);
+  }
+  if (!start) {
+    start = start_clock(config_, waiting_, at_end);
+  }
+  if (!start) {
+    return;
+  }
+  clock_ = start->clock;
+  reference_ = start->reference;
+  if (!waiting_.empty() && !counts(waiting_.back().t)) {
+    clock_.reset();
+    return;
+  }
+  sun1_known_ = reference_ == PulseChannel::Sun1;
+  intervals_.begin_anew(noise_of(config_.noise, reference_));
+  phases_.set_period(clock_->period_s());
+  phases_.set_reference(reference_);
+  if (lost_clock_) {
+    const double guess = lost_clock_->phase_turns(clock_->t_of(0.0));
+    first_open_ = std::max(first_open_, static_cast<std::int64_t>(std::llround(guess)));
+    clock_->count_on(first_open_);
+    lost_clock_.reset();
+  }
+  phases_.define(reference_, first_open_, defined_phase_turns(config_, reference_));
+  learn_phases();
+  for (const Pulse& pulse : std::exchange(waiting_, {})) {
+    place_or_wait(pulse, out);
+  }
+}
+
+/// The silence was too long: the clock cannot say for certain which turn this is.
+void Associator::give_up_clock(const Pulse& pulse, Association& out) {
+  while (!open_.empty()) {
+    close_front(out);
+  }
+  count_sigma_turns_ = clock_sigma_turns(clock_->phase_turns(pulse.t));
+  lost_clock_ = std::exchange(clock_, std::nullopt);
+  phases_ = ExpectedPhases{config_};
+  turns_without_reference_ = 0;
+  rate_step_.forget();
+  intervals_.forget_notes_before(pulse.t);
+}
+
+/// Those that have an edge in some of the turns; the others once they have.
+void Associator::learn_phases() {
+  std::array<std::vector<double>, kPulseChannels> counts;
+  std::set<double> turns;
+  for (const Pulse& pulse : waiting_) {
+    const double count = clock_->phase_turns(pulse.t);
+    counts.at(index_of(pulse.channel)).push_back(count);
+    if (pulse.channel == reference_) {
+      turns.insert(std::round(count - phases_.at(reference_, count)));
+    }
+  }
+  // The last one may still be going on.
+  const std::size_t whole = std::max<std::size_t>(turns.size(), 2) - 1;
+  const std::size_t fewest = std::max(std::min(whole, kFewestSeen), whole / kMostTurnsAnEdge);
+  for (const PulseChannel channel : kChannels) {
+    const std::vector<double>& own = counts.at(index_of(channel));
+    if (channel != reference_ && !own.empty()) {
+      phases_.learn(channel, own, fewest, clock_sigma_turns(own.back()));
+    }
+  }
+}
+
+/// After a step in the spin rate the last edges of the reference agree with one another and not
+/// with the clock: it is set by them, its count not behind the old one's.
+void Associator::restart_after_step(const Pulse& pulse) {
+  const double phase = clock_->phase_turns(pulse.t);
+  const double expected = phases_.at(reference_, phase);
+  const double turn = std::round(phase - expected);
+  const double noise_s = noise_of(config_.noise, reference_);
+  const bool good =
+      clock_->accepts(turn + phases_.at(reference_, turn), pulse.t, noise_s, reference_wander(),
+                      {.sigma = config_.screening.sigma, .most = gate_turns(reference_)});
+  rate_step_.add(pulse.t, good);
+  const auto comb = rate_step_.new_comb(clock_->scale() * noise_s, clock_->period_s());
+  if (!comb) {
+    return;
+  }
+  SpinClock::Setting setting = setting_of(*comb, noise_s);
+  const SpinClock teeth{setting};
+  auto number = std::max(static_cast<std::int64_t>(turn), first_open_);
+  if (!open_.empty() && open_.back().edge(reference_)) {
+    const double turns_behind =
+        teeth.phase_turns(pulse.t) - teeth.phase_turns(*open_.back().edge(reference_));
+    number = std::max(number, open_.back().number + std::int64_t{std::llround(turns_behind)});
+  }
+  setting.phase_turns =
+      static_cast<double>(number) + expected - std::round(teeth.phase_turns(pulse.t));
+  clock_ = SpinClock{setting};
+  // The comb's period is that of the reference's own edges: the clock keeps to them.
+  phases_.define(reference_, number, expected);
+  intervals_.begin_anew(noise_s);
+  rate_step_.forget();
+  phases_.set_period(comb->period_s);
+  phases_.forget_strays();
+}
+
+double Associator::clock_sigma_turns(double phase_turns) const {
+  return clock_->sigma_s(phase_turns, reference_wander()) / clock_->period_s();
+}
+
+/// The clock can say which turn it is.
+bool Associator::counts(TaiTime t) const {
+  return clock_sigma_turns(clock_->phase_turns(t)) <= kLost_turns;
+}
+
+double Associator::reference_wander() const {
+  return sees_the_sun(reference_) ? 0.0 : earth_wander_turns(reference_, clock_->period_s());
+}
+
+/// The clock's, which cannot tell the Earth's apparent motion from the body's.
+SpinPeriod Associator::period_at(TaiTime t) const {
+  SpinPeriod period = clock_->period_at(t, reference_wander());
+  period.sigma_s = std::hypot(period.sigma_s, apparent_motion_s(reference_, period.period_s));
+  return period;
+}
+
+/// How far from its expectation an edge is still counted with a turn: further when a silence has
+/// left the clock uncertain.
+double Associator::reach_turns(PulseChannel channel, double phase_turns) const {
+  return std::clamp(config_.screening.sigma * clock_sigma_turns(phase_turns), gate_turns(channel),
+                    kMostReach_turns);
+}
+
+void Associator::place(const Pulse& pulse, bool spoilt, Association& out) {
+  if (pulse.channel == reference_ && !spoilt) {
+    restart_after_step(pulse);
+  }
+  const double phase = clock_->phase_turns(pulse.t);
+  close_before(phase, out);
+  const bool lies_near = phases_.knows(pulse.channel) && count_of(pulse).near;
+  if (pulse.channel != reference_ && !lies_near) {
+    phases_.stray(pulse.channel, phase,
+                  spoilt ? crowded_.displacement_s() / clock_->period_s() : 0.0,
+                  clock_sigma_turns(phase));
+  }
+  const auto spoilt_by = spoilt ? std::optional{Rejection::Interference} : std::nullopt;
+  if (Revolution* const revolution = revolution_of(pulse)) {
+    put(*revolution, pulse, spoilt_by, out);
+  } else {
+    out.left_over.push_back(left_over(pulse, spoilt_by));
+  }
+}
+
+Associator::Count Associator::count_of(const Pulse& pulse) const {
+  const double phase = clock_->phase_turns(pulse.t);
+  const double count = phase - phases_.at(pulse.channel, phase);
+  const double turn = std::round(count);
+  return {.turn = static_cast<std::int64_t>(turn),
+          .near = std::abs(count - turn) <= reach_turns(pulse.channel, phase)};
+}
+
+/// Empty where the edge is too far from any turn, its revolution is closed already, or its channel
+/// is not known.
+Revolution* Associator::revolution_of(const Pulse& pulse) {
+  if (!phases_.knows(pulse.channel)) {
+    return nullptr;
+  }
+  const Count count = count_of(pulse);
+  return count.near ? open_revolution(count.turn) : nullptr;
+}
+
+/// Of two edges of one channel, the nearer to where it is expected stays.
+void Associator::put(Revolution& revolution, const Pulse& pulse, std::optional<Rejection> spoilt_by,
+                     Association& out) {
+  const auto turn = static_cast<double>(revolution.number);
+  const double expected = turn + phases_.at(pulse.channel, turn);
+  const auto off = [&](TaiTime t) { return std::abs(clock_->phase_turns(t) - expected); };
+  std::optional<TaiTime>& edge = revolution.edges.at(index_of(pulse.channel));
+  std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(pulse.channel));
+  if (edge && off(*edge) <= off(pulse.t)) {
+    out.left_over.push_back(left_over(pulse, spoilt_by));
+    return;
+  }
+  if (edge) {
+    out.left_over.push_back(left_over({.t = *edge, .channel = pulse.channel}, rejection));
+  }
+  edge = pulse.t;
+  rejection = spoilt_by;
+}
+
+/// Empty when that revolution is closed already, or precedes the first.
+Revolution* Associator::open_revolution(std::int64_t number) {
+  if (number < first_open_) {
+    return nullptr;
+  }
+  auto place = std::find_if(open_.begin(), open_.end(),
+                            [&](const Revolution& r) { return r.number >= number; });
+  if (place == open_.end() || place->number != number) {
+    place = open_.insert(
+        place, Revolution{.number = number, .edges = {}, .period_candidate = {}, .period = {}});
+  }
+  return &*place;
+}
+
+void Associator::close_before(double phase_turns, Association& out) {
+  const double reach = std::max(kOpen_turns, phases_.latest(phase_turns)) + kChordGate_turns;
+  while (!open_.empty() && phase_turns > static_cast<double>(open_.front().number) + reach) {
+    close_front(out);
+  }
+}
+
+void Associator::close_front(Association& out) {
+  Revolution& revolution = open_.front();
+  first_open_ = revolution.number + 1;
+  revolution.count_sigma_turns = std::exchange(count_sigma_turns_, std::nullopt);
+  const auto turn = static_cast<double>(revolution.number);
+  const auto began = crowded_.expect(phases_, turn, clock_sigma_turns(turn), clock_->t_of(turn));
+  out.began_to_interfere.insert(out.began_to_interfere.end(), began.begin(), began.end());
+  judge_reference(revolution);
+  judge_others(revolution);
+  revolution.t_start = t_start_of(revolution);
+  judge_neighbours(revolution);
+  revolution.period_candidate = intervals_.candidate(
+      revolution, reference_, [this](TaiTime t) { return period_at(t).period_s; });
+  revolution.period = period_at(revolution.t_start);
+  count_silence(revolution);
+  phases_.keep_chords_near();
+  phases_.end_revolution();
+  out.closed.push_back(revolution);
+  open_.pop_front();
+}
+
+/// Of all edges alike where channels are expected to interfere: with less weight for those that met
+/// the channels would seem too far from each other.
+double Associator::displaced_turns(const Revolution& revolution, PulseChannel channel) const {
+  const bool displaced =
+      crowded_.contains(channel) || revolution.edge_rejections.at(index_of(channel));
+  return displaced ? crowded_.displacement_s() / clock_->period_s() : 0.0;
+}
+
+void Associator::judge_reference(Revolution& revolution) {
+  const std::optional<TaiTime>& edge = revolution.edge(reference_);
+  if (!edge) {
+    return;
+  }
+  const auto turn = static_cast<double>(revolution.number);
+  const double noise_s = std::hypot(noise_of(config_.noise, reference_),
+                                    displaced_turns(revolution, reference_) * clock_->period_s());
+  const bool good =
+      clock_->follow(turn + phases_.at(reference_, turn), *edge, noise_s, reference_wander(),
+                     {.sigma = config_.screening.sigma, .most = reach_turns(reference_, turn)});
+  phases_.set_period(clock_->period_s());
+  std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(reference_));
+  if (!good && !rejection) {
+    rejection = Rejection::Phase;
+  }
+}
+
+void Associator::judge_others(Revolution& revolution) {
+  const auto turn = static_cast<double>(revolution.number);
+  const double clock_sigma = clock_sigma_turns(turn);
+  for (const PulseChannel channel : kChannels) {
+    const std::optional<TaiTime>& edge = revolution.edge(channel);
+    if (!edge || channel == reference_) {
+      continue;
+    }
+    const double count = clock_->phase_turns(*edge);
+    const double displaced = displaced_turns(revolution, channel);
+    // Of spoilt edges too: most of a channel's may be.
+    const bool believed =
+        (phases_.knows(channel) && phases_.follow(channel, revolution.number, count - turn,
+                                                  std::hypot(clock_sigma, displaced))) ||
+        phases_.stray(channel, count, displaced, clock_sigma);
+    std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
+    if (!believed && !rejection) {
+      rejection = Rejection::Phase;
+    }
+  }
+}
+
+/// Where channels are expected to interfere, the edges that escaped did so by their noise: all of
+/// them lie too far from each other, and their mean is wrong.
+void Associator::judge_neighbours(Revolution& revolution) const {
+  for (const PulseChannel channel : kChannels) {
+    std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
+    if (revolution.edge(channel) && !rejection && crowded_.contains(channel)) {
+      rejection = Rejection::Interference;
+    }
+  }
+}
+
+/// Hands the clock over: to sun1 as soon as it is fit, to another channel when the reference has
+/// been silent for long.
+void Associator::count_silence(const Revolution& revolution) {
+  using enum PulseChannel;
+  turns_without_reference_ = revolution.good_edge(reference_) ? 0 : turns_without_reference_ + 1;
+  const auto is_fit = [&](PulseChannel channel) {
+    return channel != reference_ && revolution.good_edge(channel) &&
+           phases_.in_a_row(channel) >= kFitReference;
+  };
+  if (is_fit(Sun1)) {
+    change_reference(Sun1, revolution.number);
+  } else if (!sees_the_sun(reference_) && is_fit(Sun2)) {
+    change_reference(Sun2, revolution.number);
+  } else if (turns_without_reference_ >= kSilentReference) {
+    const auto* const fit = std::find_if(kChannels.begin(), kChannels.end(), is_fit);
+    if (fit != kChannels.end()) {
+      change_reference(*fit, revolution.number);
+    }
+  }
+}
+
+void Associator::change_reference(PulseChannel channel, std::int64_t turn) {
+  const auto turn_d = static_cast<double>(turn);
+  const bool was_the_earth = !sees_the_sun(reference_);
+  // From here on the old one is followed again.
+  phases_.define(reference_, turn, phases_.at(reference_, turn_d));
+  reference_ = channel;
+  phases_.set_reference(channel);
+  turns_without_reference_ = 0;
+  rate_step_.forget();
+  intervals_.begin_anew(noise_of(config_.noise, channel));
+  const bool is_sun1 = channel == PulseChannel::Sun1;
+  if (is_sun1 || (channel == PulseChannel::Sun2 && !sun1_known_)) {
+    // The Sun stands still: phase and drift of its edge are the clock's errors.
+    const double late_turns = phases_.at(channel, turn_d) - defined_phase_turns(config_, channel);
+    const double drift = phases_.drift(channel);
+    clock_->shift(turn, late_turns, drift);
+    if (was_the_earth) {
+      // What was taken for the body's drift is in part the Earth's.
+      clock_->loosen(phases_.phase_sigma(channel, turn_d), phases_.drift_sigma(channel, turn_d),
+                     kEarthAcceleration_per_s2);
+    }
+    phases_.shift(turn, late_turns, drift);
+  }
+  sun1_known_ = sun1_known_ || is_sun1;
+}
+
+TaiTime Associator::t_start_of(const Revolution& revolution) const {
+  const PulseChannel channel = sun1_known_ ? PulseChannel::Sun1 : reference_;
+  if (const auto edge = revolution.good_edge(channel)) {
+    return *edge;
+  }
+  const auto turn = static_cast<double>(revolution.number);
+  return clock_->t_of(turn + (sun1_known_ ? 0.0 : phases_.at(reference_, turn)));
+}
+
+}  // namespace spindrift

@@ -1,0 +1,187 @@
+#include "pipelines/spin/association/clock_start.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "pipelines/spin/association/expected_phases.h"
+#include "pipelines/spin/association/period_search.h"
+#include "pipelines/time/time_span.h"
+
+namespace spindrift {
+namespace {
+
+using enum PulseChannel;
+
+constexpr std::array<PulseChannel, kPulseChannels> kByPreference = {Sun1,     Sun2,    NorthIn,
+                                                                    NorthOut, SouthIn, SouthOut};
+// Edges on the comb before it is believed.
+constexpr std::size_t kFewestSun1 = 7;
+constexpr std::size_t kFewestOthers = 20;
+constexpr std::size_t kFewestAtEnd = 3;
+constexpr std::size_t kNotesToAgree = 3;
+// A bend of the comb is not seen where it leaves its edges less than about this many scatters from
+// a straight line; there its ends lie off by as much, and their slope by twice that along the
+// whole.
+constexpr double kHidden_scatters = 3.0;
+constexpr double kSamePeriod = 0.01;
+// A pass begins where so many edges follow within so many turns.
+constexpr std::ptrdiff_t kFewestOfRun = 3;
+constexpr double kOneRun_turns = 10.0;
+// Slower or faster than this is no spin period.
+constexpr double kShortestNote_s = 0.1;
+constexpr double kLongestNote_s = 60.0;
+// One sigma of a rate that lies anywhere between those of a low orbit in either sense.
+constexpr double kEarthRate_rad_s = 1.2e-3 / std::numbers::sqrt3;
+
+auto same_period_as(const PeriodNote& one) {
+  return [one](const PeriodNote& note) {
+    return std::abs(note.period_s - one.period_s) <= kSamePeriod * one.period_s;
+  };
+}
+
+std::vector<TaiTime> times_of(std::span<const Pulse> pulses, PulseChannel channel) {
+  std::vector<TaiTime> times;
+  for (const Pulse& pulse : pulses) {
+    if (pulse.channel == channel) {
+      times.push_back(pulse.t);
+    }
+  }
+  return times;
+}
+
+/// A lost sun1 makes a period of several turns: of the middle period, the shortest that two notes
+/// say and that it is a multiple of.
+PeriodNote note_of_one_turn(const std::vector<PeriodNote>& notes, const PeriodNote& middle) {
+  PeriodNote shortest = middle;
+  for (const PeriodNote& note : notes) {
+    const double turns = std::round(middle.period_s / note.period_s);
+    const bool divides = turns > 1.0 && std::abs(middle.period_s - turns * note.period_s) <=
+                                            kSamePeriod * note.period_s;
+    if (divides && note.period_s < shortest.period_s &&
+        std::count_if(notes.begin(), notes.end(), same_period_as(note)) >= 2) {
+      shortest = note;
+    }
+  }
+  return shortest;
+}
+
+/// The setting with its turns counted so that the first edge near the comb is on turn 0; a stray
+/// one before, which happens to be near it as well, has few behind it.
+SpinClock counted_from(SpinClock::Setting setting, const std::vector<TaiTime>& edges,
+                       PulseChannel channel, double phase_turns) {
+  const SpinClock clock{setting};
+  std::vector<double> turns;
+  for (const TaiTime t : edges) {
+    const double count = clock.phase_turns(t) - phase_turns;
+    const double turn = std::round(count);
+    if (std::abs(count - turn) <= gate_turns(channel) && (turns.empty() || turn > turns.back())) {
+      turns.push_back(turn);
+    }
+  }
+  const auto begins_here = [&](const double& turn) {
+    const auto end = std::upper_bound(turns.begin(), turns.end(), turn + kOneRun_turns);
+    return end - (turns.begin() + (&turn - turns.data())) >= kFewestOfRun;
+  };
+  const auto first = std::find_if(turns.begin(), turns.end(), begins_here);
+  if (!turns.empty()) {
+    setting.phase_turns -= first == turns.end() ? turns.front() : *first;
+  }
+  return SpinClock{setting};
+}
+
+}  // namespace
+
+double defined_phase_turns(const SpinConfig& config, PulseChannel channel) {
+  switch (channel) {
+    case Sun1:
+      return 0.0;
+    case Sun2:
+      return config.sun_sensor.slit_separation_rad / (2.0 * std::numbers::pi);
+    default:
+      return 0.5;
+  }
+}
+
+double apparent_motion_s(PulseChannel channel, double period_s) {
+  return sees_the_sun(channel) ? 0.0
+                               : kEarthRate_rad_s * period_s * period_s / (2.0 * std::numbers::pi);
+}
+
+SpinClock::Setting setting_of(const Comb& comb, double noise_s) {
+  const double turns = std::max(1.0, comb.turns);
+  const double hidden_turns = kHidden_scatters * comb.scatter_s / comb.period_s;
+  const double span_s = turns * comb.period_s;
+  // A drift that was seen, by the middle of several parabolas, leaves between its ends twice what
+  // hides from a straight line.
+  const double drift_sigma =
+      comb.drift_per_s2 == 0.0
+          ? kFirstDrift_per_s2
+          : std::min(kFirstDrift_per_s2, 16.0 * hidden_turns / (span_s * span_s));
+  return {.t = comb.t,
+          .phase_turns = 0.0,
+          .period_s = comb.period_s,
+          .period_sigma_s = kHidden_scatters * 2.0 * comb.scatter_s / turns,
+          .sigma_s = kHidden_scatters * comb.scatter_s,
+          .drift_per_s2 = comb.drift_per_s2,
+          .drift_sigma_per_s2 = drift_sigma,
+          .scale = comb.scatter_s / noise_s};
+}
+
+std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const Pulse> waiting,
+                                      bool at_end) {
+  for (const PulseChannel channel : kByPreference) {
+    const std::vector<TaiTime> edges = times_of(waiting, channel);
+    const double noise_s = noise_of(config.noise, channel);
+    const std::size_t fewest =
+        at_end ? kFewestAtEnd : (channel == Sun1 ? kFewestSun1 : kFewestOthers);
+    const auto comb = find_comb(edges, noise_s, fewest);
+    if (!comb) {
+      continue;
+    }
+    const double phase_turns = defined_phase_turns(config, channel);
+    SpinClock::Setting setting = setting_of(*comb, noise_s);
+    setting.phase_turns = phase_turns;
+    return ClockStart{.reference = channel,
+                      .clock = counted_from(setting, edges, channel, phase_turns)};
+  }
+  return std::nullopt;
+}
+
+std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const PeriodNote> notes,
+                                      bool at_end) {
+  std::vector<PeriodNote> sane;
+  std::copy_if(notes.begin(), notes.end(), std::back_inserter(sane), [](const PeriodNote& note) {
+    return note.period_s > kShortestNote_s && note.period_s < kLongestNote_s;
+  });
+  if (sane.size() < (at_end ? 1 : kNotesToAgree)) {
+    return std::nullopt;
+  }
+  std::vector<PeriodNote> sorted = sane;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(
+      sorted.begin(), middle, sorted.end(),
+      [](const PeriodNote& a, const PeriodNote& b) { return a.period_s < b.period_s; });
+  const PeriodNote chosen = note_of_one_turn(sane, *middle);
+  const double period_s = chosen.period_s;
+  const auto agrees = same_period_as(chosen);
+  const auto agreeing = std::count_if(sane.begin(), sane.end(), agrees);
+  if (!at_end && agreeing < static_cast<std::ptrdiff_t>(kNotesToAgree)) {
+    return std::nullopt;
+  }
+  const auto first = std::find_if(sane.begin(), sane.end(), agrees);
+  // Either period is the mean of its turn, half a turn from its sun1.
+  const double apart_s = std::abs(elapsed_s(first->t_sun1, chosen.t_sun1)) + period_s;
+  const double drifted_s = period_s * period_s * kFirstDrift_per_s2 * apart_s;
+  const double sigma_s = std::hypot(std::numbers::sqrt2 * config.noise.sun_s, drifted_s);
+  return ClockStart{.reference = Sun1,
+                    .clock = SpinClock{{.t = first->t_sun1,
+                                        .phase_turns = 0.0,
+                                        .period_s = period_s,
+                                        .period_sigma_s = sigma_s,
+                                        .sigma_s = config.noise.sun_s}}};
+}
+
+}  // namespace spindrift

@@ -1,0 +1,50 @@
+/// @file
+/// Where the spin clock begins: with the first edges of which most are whole periods apart.
+
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "pipelines/spin/association/period_search.h"
+#include "pipelines/spin/association/spin_clock.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/pulse.h"
+
+namespace spindrift {
+
+/// The phase of the edges of a channel that sets the clock where there is no sun1: sun2 at the slit
+/// separation, an infrared one half way round, so that the others lie within half a turn of it.
+double defined_phase_turns(const SpinConfig& config, PulseChannel channel);
+
+struct ClockStart {
+  PulseChannel reference;  ///< The channel that sets the clock.
+  SpinClock clock;         ///< Phase 0 belongs to the first of its edges.
+};
+
+/// What a spacecraft says of its own period.
+struct PeriodNote {
+  TaiTime t_sun1;
+  double period_s;
+};
+
+/// By a comb, with phase 0 on its first tooth. Its edges are still to be followed one by one, so
+/// that the setting is left uncertain by what a drift may hide in their scatter.
+SpinClock::Setting setting_of(const Comb& comb, double noise_s);
+
+/// By sun1; by another channel, sun2 rather than an infrared one, only when that has gone on for
+/// twenty edges without sun1.
+/// @param waiting In order of time.
+/// @param at_end Nothing more will come: three edges must do.
+std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const Pulse> waiting,
+                                      bool at_end);
+
+/// By the notes: three that agree, at the end any.
+std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const PeriodNote> notes,
+                                      bool at_end);
+
+/// Of a period taken from edges of this channel: an Earth-derived one carries the apparent motion
+/// of the Earth, which association does not know, as large as in a low orbit.
+double apparent_motion_s(PulseChannel channel, double period_s);
+
+}  // namespace spindrift

@@ -1,0 +1,186 @@
+#include "pipelines/spin/association/period_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipelines/spin/association/phase_line.h"
+#include "pipelines/time/time_span.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kShortest_s = 60.0 / kFastestSearched_rpm;
+constexpr double kLongest_s = 60.0 / kSlowestSearched_rpm;
+constexpr std::size_t kMostEdges = 32;
+// An interval between edges so many places apart may be one turn: spurious ones lie between.
+constexpr std::size_t kNeighbours = 3;
+// Within this part of the period of its tooth an edge is on the comb while that is being found...
+constexpr double kNear = 0.02;
+// ...and once it is fitted this, or the stated noise where that is greater.
+constexpr double kOn = 0.005;
+constexpr double kOn_sigma = 6.0;
+// The longest period that explains this part of what any explains.
+constexpr double kNearlyAsMany = 0.8;
+constexpr double kLeastShare = 0.65;
+// Of the turns between the edges: fewer, and it is a fraction of the true period.
+constexpr double kLeastFilled = 0.45;
+// A longer gap is a silence, not lost edges.
+constexpr double kMostLost = 5.0;
+
+// 3 rpm an hour.
+constexpr double kMostDrift_per_s2 = 3.0 / 60.0 / 3600.0;
+// An uneven comb must leave this part of the scatter about an even one.
+constexpr double kFarBetter = 0.5;
+
+using Teeth = std::vector<PhasePoint>;  // The phase here is a time in seconds.
+
+/// The edges that follow one another by whole periods, from edges[first] on, on and on.
+template <class Iterator>
+void walk(Iterator edge, Iterator end, double period_s, Teeth& teeth) {
+  const PhasePoint origin = teeth.front();
+  PhasePoint last = teeth.back();
+  for (; edge != end; ++edge) {
+    const double turns = std::round((*edge - last.phase) / period_s);
+    if (turns == 0.0) {
+      continue;
+    }
+    const double known_turns = std::abs(last.turn - origin.turn);
+    const double reach = 1.0 + std::min(std::abs(turns) / std::max(1.0, known_turns), 4.0);
+    if (std::abs(*edge - last.phase - turns * period_s) <= kNear * period_s * reach) {
+      last = {.turn = last.turn + turns, .phase = *edge};
+      teeth.push_back(last);
+      period_s = (last.phase - origin.phase) / (last.turn - origin.turn);
+    }
+  }
+}
+
+Teeth teeth_from(const std::vector<double>& edges_s, std::size_t first, double period_s) {
+  const auto origin = edges_s.begin() + static_cast<std::ptrdiff_t>(first);
+  Teeth ahead{{.turn = 0.0, .phase = *origin}};
+  walk(origin + 1, edges_s.end(), period_s, ahead);
+  Teeth teeth{ahead.front()};
+  walk(std::make_reverse_iterator(origin), edges_s.rend(), period_s, teeth);
+  std::reverse(teeth.begin(), teeth.end());
+  teeth.insert(teeth.end(), ahead.begin() + 1, ahead.end());
+  return teeth;
+}
+
+/// The turns from the first tooth to the last, silences left out.
+double turns_heard(const Teeth& teeth) {
+  double turns = 1.0;
+  for (std::size_t i = 1; i < teeth.size(); ++i) {
+    turns += std::min(teeth[i].turn - teeth[i - 1].turn, kMostLost);
+  }
+  return turns;
+}
+
+struct Found {
+  double period_s;
+  Teeth teeth;
+};
+
+Found best_teeth(const std::vector<double>& edges_s) {
+  Found best{.period_s = 0.0, .teeth = {}};
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < edges_s.size(); ++i) {
+    for (std::size_t j = i + 1; j < std::min(i + 1 + kNeighbours, edges_s.size()); ++j) {
+      const double period_s = edges_s[j] - edges_s[i];
+      if (!(period_s >= kShortest_s && period_s <= kLongest_s)) {
+        continue;
+      }
+      Teeth teeth = teeth_from(edges_s, i, period_s);
+      most = std::max(most, teeth.size());
+      const auto count = static_cast<double>(teeth.size());
+      const bool explains_more = teeth.size() > best.teeth.size();
+      const bool much_longer = period_s > 1.2 * best.period_s;
+      const bool much_shorter = period_s < best.period_s / 1.2;
+      const bool better = much_longer ? count >= kNearlyAsMany * static_cast<double>(most)
+                          : much_shorter
+                              ? static_cast<double>(best.teeth.size()) < kNearlyAsMany * count
+                              : explains_more;
+      if (better) {
+        best = {.period_s = period_s, .teeth = std::move(teeth)};
+      }
+    }
+  }
+  return best;
+}
+
+void straighten(Teeth& teeth, double bend) {
+  for (PhasePoint& tooth : teeth) {
+    tooth.phase -= 0.5 * bend * tooth.turn * tooth.turn;
+  }
+}
+
+/// By how much the period changes in a turn, of itself: that of the middle one of the parabolas
+/// through three teeth far apart; 0 unless it explains the teeth far better than an even comb.
+double bend_of(const Teeth& teeth, double noise, double period_s) {
+  const std::size_t apart = teeth.size() / 3;
+  if (apart == 0) {
+    return 0.0;
+  }
+  const auto slope = [&](std::size_t from, std::size_t to) {
+    return (teeth[to].phase - teeth[from].phase) / (teeth[to].turn - teeth[from].turn);
+  };
+  std::vector<double> bends;
+  for (std::size_t i = 0; i + 2 * apart < teeth.size(); ++i) {
+    bends.push_back(2.0 * (slope(i + apart, i + 2 * apart) - slope(i, i + apart)) /
+                    (teeth[i + 2 * apart].turn - teeth[i].turn));
+  }
+  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
+  std::nth_element(bends.begin(), middle, bends.end());
+  const double bend = *middle;
+  Teeth straight = teeth;
+  straighten(straight, bend);
+  const bool better = fit_phase_line(straight, noise, kNear * 2.0)->scatter <
+                      kFarBetter * fit_phase_line(teeth, noise, kNear * 2.0)->scatter;
+  const bool possible = std::abs(bend) <= kMostDrift_per_s2 * period_s * period_s;
+  return better && possible ? bend : 0.0;
+}
+
+}  // namespace
+
+std::optional<Comb> find_comb(std::span<const TaiTime> edges, double noise_s, std::size_t fewest) {
+  edges = edges.last(std::min(edges.size(), kMostEdges));
+  if (edges.size() < fewest) {
+    return std::nullopt;
+  }
+  std::vector<double> edges_s(edges.size());
+  std::transform(edges.begin(), edges.end(), edges_s.begin(),
+                 [&](TaiTime t) { return elapsed_s(edges.front(), t); });
+  const Found found = best_teeth(edges_s);
+  const double period_s = found.period_s;
+  const Teeth& teeth = found.teeth;
+  const auto share = static_cast<double>(teeth.size()) / static_cast<double>(edges.size());
+  if (teeth.size() < fewest || share < kLeastShare ||
+      static_cast<double>(teeth.size()) < kLeastFilled * turns_heard(teeth)) {
+    return std::nullopt;
+  }
+
+  // In units of the period, about the first tooth.
+  std::vector<PhasePoint> points(teeth.size());
+  std::transform(teeth.begin(), teeth.end(), points.begin(), [&](const PhasePoint& tooth) {
+    const double turn = tooth.turn - teeth.front().turn;
+    return PhasePoint{.turn = turn, .phase = (tooth.phase - teeth.front().phase) / period_s - turn};
+  });
+  const double bend = bend_of(points, noise_s / period_s, period_s);
+  straighten(points, bend);
+  const auto line = fit_phase_line(points, noise_s / period_s, kNear * 2.0);
+  const double limit = std::max(kOn, kOn_sigma * noise_s / period_s);
+  const auto on_it = std::count_if(points.begin(), points.end(), [&](const PhasePoint& point) {
+    return std::abs(point.phase - line->at(point.turn)) <= limit;
+  });
+  if (static_cast<std::size_t>(on_it) < fewest ||
+      static_cast<double>(on_it) < kLeastShare * static_cast<double>(edges.size()) ||
+      static_cast<double>(on_it) < kLeastFilled * turns_heard(teeth)) {
+    return std::nullopt;
+  }
+  return Comb{.t = later_by_s(edges.front(), teeth.front().phase + line->at(0.0) * period_s),
+              .period_s = period_s * (1.0 + line->drift),
+              .drift_per_s2 = -bend / (period_s * period_s),
+              .scatter_s = line->scatter * period_s,
+              .edges = static_cast<std::size_t>(on_it),
+              .turns = points.back().turn};
+}
+
+}  // namespace spindrift

@@ -1,0 +1,37 @@
+/// @file
+/// Whether the spin rate has stepped: the last edges of the channel that sets the clock agree with
+/// one another and not with the clock.
+
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "pipelines/spin/association/period_search.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+class RateStepWatch {
+ public:
+  /// @param good The clock expects an edge there.
+  void add(TaiTime t, bool good);
+
+  /// The comb of the last edges, where the clock should be set by it: the last one lies on it and
+  /// is not good, and it is not the clock's own.
+  /// @param noise_s Standard deviation of an edge as it was seen so far.
+  /// @param period_s The clock's.
+  std::optional<Comb> new_comb(double noise_s, double period_s) const;
+
+  void forget() { recent_.clear(); }
+
+ private:
+  struct ReferenceEdge {
+    TaiTime t;
+    bool good;
+  };
+
+  std::deque<ReferenceEdge> recent_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,68 @@
+/// @file
+/// Counts spin phase in turns, by the edges of the channel that it is set by.
+
+#pragma once
+
+#include <cstdint>
+
+#include "pipelines/spin/association/spin_period_window.h"
+#include "pipelines/statistics/drift_filter.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// One sigma of a drift of which nothing is known, turns a second in a second: 2 rpm an hour, as in
+/// the spin filter.
+inline constexpr double kFirstDrift_per_s2 = 2.0 / 60.0 / 3600.0;
+
+/// Phase n is where the sun1 edge of turn n is expected (or whatever stands in for it). The spin
+/// rate may drift evenly, by a few rpm an hour, and wander a little about that. As long as nothing
+/// is known of the drift, turns are counted as with a small one, but the period is not stated so.
+class SpinClock {
+ public:
+  struct Setting {
+    TaiTime t;
+    double phase_turns;  ///< At t.
+    double period_s;
+    double period_sigma_s;
+    double sigma_s;             ///< Of t.
+    double drift_per_s2 = 0.0;  ///< Of the spin rate in turns a second.
+    double drift_sigma_per_s2 = kFirstDrift_per_s2;
+    double scale = 1.0;  ///< See DriftState.
+  };
+  explicit SpinClock(const Setting& setting);
+
+  double phase_turns(TaiTime t) const;
+  TaiTime t_of(double phase_turns) const;
+  double period_s() const { return 1.0 / turns_.change(); }
+  /// @param earth_turns See follow.
+  SpinPeriod period_at(TaiTime t, double earth_turns) const;
+  double scale() const { return turns_.scale(); }
+  double sigma_s(double phase_turns, double earth_turns) const;
+
+  /// @param phase_turns Where the edge at t is expected.
+  /// @param noise_s Standard deviation of t.
+  /// @param earth_turns Wander per turn of the phase of the edge's channel.
+  bool accepts(double phase_turns, TaiTime t, double noise_s, double earth_turns,
+               const DriftGate& gate_turns) const;
+  bool follow(double phase_turns, TaiTime t, double noise_s, double earth_turns,
+              const DriftGate& gate_turns);
+
+  /// Adds to the count of turns.
+  void count_on(std::int64_t turns) { epoch_turn_ += static_cast<double>(turns); }
+
+  /// Puts phase `turn` by `phase_turns` later and lengthens the period by `drift` of itself.
+  void shift(std::int64_t turn, double phase_turns, double drift);
+  /// Adds errors of one sigma each: of the phase, of the period in parts of itself, of the drift.
+  void loosen(double phase_turns, double drift, double drift_per_s2);
+
+ private:
+  DriftNoise noise(double noise_s, double earth_turns) const;
+
+  TaiTime epoch_;
+  double epoch_turn_;
+  DriftFilter turns_;  ///< Behind epoch_turn_, over the seconds behind epoch_.
+  DriftFilter usual_;  ///< The same, supposing a usual drift.
+};
+
+}  // namespace spindrift

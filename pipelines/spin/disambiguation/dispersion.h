@@ -1,0 +1,114 @@
+/// @file
+/// Which of several continuous branches of axis candidates stays where it is (spin.md, "True or
+/// false solution", 3): Sun and Earth move, the true axis does not.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pipelines/spin/fix/axis_candidates.h"
+
+namespace spindrift {
+
+/// P(F > ratio) for the ratio of two variances with 2a and 2b degrees of freedom, a, b > 0.
+/// Abramowitz and Stegun 26.5.24: for whole a and b the incomplete beta function is a sum of
+/// binomial terms.
+double variance_ratio_tail(int a, int b, double ratio);
+
+/// Squared distance between an axis and a candidate, in standard deviations of the candidate.
+/// @param mean_of How many such candidates `axis_icrf` is the mean of.
+double squared_distance(const Eigen::Vector3d& axis_icrf, const AxisCandidate& candidate,
+                        double mean_of);
+
+/// An axis that stays where it is, the mean of `count` candidates.
+struct SteadyAxis {
+  Eigen::Vector3d axis_icrf;  ///< Unit.
+  double count;
+};
+
+/// A branch that stays where it is, and what says so.
+struct SteadyBranch {
+  SteadyAxis axis;
+  /// Of the other branch that comes nearest to it: its variance over that of this one, each in
+  /// units of its noise; this one's is taken to be at least its noise.
+  double scatter_ratio;
+  /// Natural logarithm; likewise. Empty: the F-test of the scatters was enough.
+  std::optional<double> log_likelihood_ratio;
+};
+
+/// Follows the candidates of successive revolutions in branches, and sums each branch up in blocks
+/// of as many revolutions as keep their number below the window: however slowly the geometry
+/// turns, it shows in the end.
+///
+/// The scatter of a branch's blocks is taken about the best constant axis with constant errors of
+/// the model, normalised by the candidates' own covariances, so that branches of unequal noise
+/// compare. It is steady when its scatter is that of noise, and less than that of every other
+/// branch at a level of 1e-8: with some hundred looks at a pass, a false choice is one in a
+/// million. Or, where the candidates mirror each other and are known well, when its squares are so
+/// much less that it is e^30 times likelier to be constant.
+class Dispersion {
+ public:
+  /// @param window Most blocks that a branch keeps.
+  explicit Dispersion(std::size_t window);
+
+  /// One revolution's candidates. Left out where they lie too near each other to say which belongs
+  /// to which branch, or off the branches; when five follow each other like that, the branches have
+  /// crossed, or moved: what is known of them is given up.
+  /// @return The steady branch, when there is one.
+  std::optional<SteadyBranch> add(std::span<const AxisCandidate> candidates);
+
+  /// The candidates are no mirror images, or some graze and those that do not are a selection:
+  /// their noise is unlike, and only the F-test decides from here on.
+  void note_unlike() { unlike_ = true; }
+
+ private:
+  struct Block {
+    int count = 0;
+    Eigen::Vector3d axis_sum = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d covariance_sum_rad2 = Eigen::Matrix3d::Zero();
+    Eigen::Matrix<double, 3, kModelErrors> shift_sum =
+        Eigen::Matrix<double, 3, kModelErrors>::Zero();
+
+    void add(const AxisCandidate& candidate);
+    void add(const Block& later);
+  };
+  struct Branch {
+    SteadyAxis recent;
+    std::vector<Block> blocks;
+    long last_seen;
+  };
+  /// By candidate: its branch; empty for one that continues none.
+  using Links = std::vector<std::optional<std::size_t>>;
+  struct Matching {
+    Links links;
+    double cost;    ///< Squared distances, in all.
+    double margin;  ///< By which every other way to link them costs more.
+  };
+  struct Scatter {
+    double squares;
+    int half_freedom;
+  };
+
+  Matching match(std::span<const AxisCandidate> candidates) const;
+  bool skips(std::span<const AxisCandidate> candidates, const Matching& matching);
+  void extend(std::span<const AxisCandidate> candidates, const Links& links);
+  void start(const AxisCandidate& candidate);
+  void merge_blocks();
+  static Scatter scatter_of(std::span<const Block> blocks);
+  std::span<const Block> closed_blocks(const Branch& branch) const;
+  bool nearly_linear() const;
+  std::optional<SteadyBranch> steady() const;
+
+  std::size_t window_;
+  std::vector<Branch> branches_;
+  int block_length_ = 1;
+  long revolutions_ = 0;
+  int skipped_ = 0;
+  bool unlike_ = false;
+};
+
+}  // namespace spindrift

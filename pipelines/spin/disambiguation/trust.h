@@ -1,0 +1,38 @@
+/// @file
+/// Whether the measurements of a pass are to be believed at all. Where mission file or orbit are
+/// plainly wrong, most revolutions contradict themselves; a few agree all the same, by accident or
+/// because they have too few measurements to show it, and an axis out of these would be made up.
+
+#pragma once
+
+#include <algorithm>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/spin/fix/axis_candidates.h"
+
+namespace spindrift {
+
+class Trust {
+ public:
+  /// @param window Revolutions.
+  explicit Trust(double window) : window_{window} {}
+
+  /// One revolution, after its measurements were screened.
+  void count(const Expected<AxisCandidates>& found) {
+    const bool contradicts = contradicts_itself(found);
+    if (found || contradicts) {
+      counted_ = std::min(counted_ + 1.0, window_);
+      share_ += ((contradicts ? 1.0 : 0.0) - share_) / counted_;
+    }
+  }
+
+  /// Of the last revolutions that could have a fix, most do not contradict themselves.
+  bool deserved() const { return share_ < 0.5; }
+
+ private:
+  double window_;
+  double counted_ = 0.0;
+  double share_ = 0.0;  ///< Of those that contradict themselves.
+};
+
+}  // namespace spindrift

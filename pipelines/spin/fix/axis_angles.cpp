@@ -1,0 +1,268 @@
+#include "pipelines/spin/fix/axis_angles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <utility>
+
+#include "pipelines/spin/measurement/mixed_azimuth.h"
+#include "pipelines/spin/sensor_model/geometry.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kGrazingSigmas = 3.0;
+// Where roots are missing, what is left must be the true one in all of the thousands of fixes.
+constexpr double kMissingSigmas = 5.0;
+// One root fits better than another only beyond so many sigmas of noise: of the thousands of fixes
+// of a pass, none is then the wrong one. And of the model, whose errors are drawn but once.
+constexpr double kToldApartSigmas = 5.0;
+constexpr double kToldApartModelSigmas = 3.0;
+// A chord narrower than so many sigmas grazes: where noise of five sigmas changes its cosine, the
+// second order is a quarter of the first.
+constexpr double kNarrowSigmas = 10.0;
+// The linear solution divides by Delta, which must not be its own noise.
+constexpr double kDeterminantSigmas = 5.0;
+
+double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
+
+/// Cones that touch within noise and model. Where they miss each other by so little, the roots that
+/// are missing may be the true ones.
+/// @param excess By how much they miss each other; negative where they cross.
+void note_grazing(const Uncertain& excess, AxisSolutions& found) {
+  const double noise_sigmas = excess.value() > 0.0 ? kMissingSigmas : kGrazingSigmas;
+  const bool grazing =
+      std::abs(excess.value()) <=
+      std::hypot(noise_sigmas * noise_of(excess), kGrazingSigmas * model_uncertainty_of(excess));
+  found.grazing = found.grazing || grazing;
+}
+
+/// Those in (0, 180) deg, and those outside that noise and model may have put there: opposite to
+/// the Sun, say, where the axis hardly depends on the dihedral, it goes on smoothly.
+std::vector<Uncertain> possible_angles(const ConeRootsOf<Uncertain>& roots) {
+  std::vector<Uncertain> angles_rad = roots.angles_rad;
+  std::copy_if(roots.outside_rad.begin(), roots.outside_rad.end(), std::back_inserter(angles_rad),
+               [](const Uncertain& root) {
+                 return std::abs(std::remainder(root.value(), std::numbers::pi)) <=
+                        std::hypot(kMissingSigmas * noise_of(root),
+                                   kGrazingSigmas * model_uncertainty_of(root));
+               });
+  return angles_rad;
+}
+
+/// theta_e from both chords, which needs no rho; where the beams see the Earth at different
+/// half-angles, their chord equations differ by
+///
+///     (cos gN - cos gS) cos(theta_e) + b sin(theta_e) = cos(rho_N) - cos(rho_S)
+Uncertain earth_angle_from_both(const FixInput& input) {
+  const ChordOf<Uncertain>& north = *input.north();
+  const ChordOf<Uncertain>& south = *input.south();
+  const double a = std::cos(north.mount_angle_rad) - std::cos(south.mount_angle_rad);
+  const Uncertain b = std::sin(north.mount_angle_rad) * Uncertain{cos(0.5 * north.chord_rad)} -
+                      std::sin(south.mount_angle_rad) * Uncertain{cos(0.5 * south.chord_rad)};
+  const Uncertain difference =
+      Uncertain{cos(input.disc_rad(Side::North))} - Uncertain{cos(input.disc_rad(Side::South))};
+  const Uncertain sine =
+      std::copysign(1.0, a) * difference / Uncertain{sqrt(Uncertain{a * a + b * b})};
+  return earth_angle_from_two_chords(north, south) - Uncertain{asin(sine)};
+}
+
+/// The roots of theta_e by the lone chord; where there is none, the reason.
+std::vector<Uncertain> earth_angles_from_one(const FixInput& input, AxisSolutions& found) {
+  const ChordOf<Uncertain>& chord = input.lone_chord();
+  const Uncertain a = certain(std::cos(chord.mount_angle_rad));
+  const Uncertain b = std::sin(chord.mount_angle_rad) * Uncertain{cos(0.5 * chord.chord_rad)};
+  ConeRootsOf<Uncertain> roots = cone_roots(a, b, Uncertain{cos(input.lone_disc_rad())});
+  note_grazing(roots.excess, found);
+  if (chord.chord_rad.value() < kNarrowSigmas * noise_of(chord.chord_rad)) {
+    found.grazing = true;
+  }
+  if (!(roots.excess.value() < 0.0)) {
+    found.reason = fmt::format(
+        "chord {:.4f} deg is wider than the Earth's disc of half-angle {:.4f} deg allows at "
+        "mounting angle {:.4f} deg",
+        degrees(chord.chord_rad.value()), degrees(input.lone_disc_rad().value()),
+        degrees(chord.mount_angle_rad));
+  } else if (roots.angles_rad.empty()) {
+    found.reason = "no earth angle in (0, 180) deg gives the measured chord";
+  }
+  return std::move(roots.angles_rad);
+}
+
+/// How badly a place fits the angle between Sun and Earth.
+Uncertain misfit(const FixInput& input, const AxisAngles& place) {
+  const Uncertain along =
+      Uncertain{cos(place.sun_angle_rad)} * Uncertain{cos(place.earth_angle_rad)};
+  const Uncertain sines =
+      Uncertain{sin(place.sun_angle_rad)} * Uncertain{sin(place.earth_angle_rad)};
+  const Uncertain off =
+      along + sines * Uncertain{cos(place.dihedral_rad)} - std::cos(input.sun_earth_rad);
+  return off.value() < 0.0 ? Uncertain{-off} : off;
+}
+
+/// Not only does one of them fit better: beyond noise and model it does so, and the other does not
+/// fit at all. (Noise that both share drops out of the difference; it may have moved both so far
+/// that the true one fits worse.)
+bool fits_beyond_doubt(const FixInput& input, const AxisAngles& better, const AxisAngles& worse) {
+  const auto beyond_doubt = [](const Uncertain& value) {
+    return value.value() > std::hypot(kToldApartSigmas * noise_of(value),
+                                      kToldApartModelSigmas * model_uncertainty_of(value));
+  };
+  const Uncertain misfit_of_worse = misfit(input, worse);
+  return beyond_doubt(misfit_of_worse) &&
+         beyond_doubt(Uncertain{misfit_of_worse - misfit(input, better)});
+}
+
+/// Cases 2 and 3 with the dihedral.
+OneChordInput<Uncertain> one_chord(const FixInput& input) {
+  return {.chord = input.lone_chord(),
+          .sun_angle_rad = *input.sun_angle,
+          .dihedral_rad = *input.dihedral,
+          .sun_earth_rad = input.sun_earth_rad,
+          .disc_rad = input.lone_disc_rad()};
+}
+
+bool has_one_chord_with_all_else(const FixInput& input) {
+  return input.sun_angle && input.dihedral && !input.both_chords();
+}
+
+void solve_one_chord(const FixInput& input, AxisSolutions& found) {
+  const OneChordInput<Uncertain> measured = one_chord(input);
+  const Uncertain delta = determinant(measured);
+  const auto add = [&](const Uncertain& earth_angle_rad) {
+    found.places.push_back({.sun_angle_rad = *input.sun_angle,
+                            .earth_angle_rad = earth_angle_rad,
+                            .dihedral_rad = *input.dihedral});
+  };
+  if (std::abs(delta.value()) >= input.config.geometry.determinant_usable &&
+      std::abs(delta.value()) > kDeterminantSigmas * noise_of(delta)) {
+    const Uncertain earth_angle_rad = earth_angle_linear(measured);
+    if (earth_angle_rad > 0.0 && earth_angle_rad < std::numbers::pi) {
+      add(earth_angle_rad);
+    } else {
+      found.reason =
+          "the measured sun angle, chord and dihedral contradict each other: no earth angle in "
+          "(0, 180) deg fits them";
+    }
+    return;
+  }
+  for (const Uncertain& earth_angle_rad : earth_angles_from_one(input, found)) {
+    add(earth_angle_rad);
+  }
+}
+
+/// The dihedral withheld: cones about Sun and Earth meet in two axes.
+void meet(const FixInput& input, const Uncertain& earth_angle_rad, AxisSolutions& found) {
+  const Uncertain& sun_angle_rad = *input.sun_angle;
+  const Uncertain cosine =
+      (std::cos(input.sun_earth_rad) -
+       Uncertain{cos(sun_angle_rad)} * Uncertain{cos(earth_angle_rad)}) /
+      Uncertain{Uncertain{sin(sun_angle_rad)} * Uncertain{sin(earth_angle_rad)}};
+  const Uncertain excess =
+      cosine.value() < 0.0 ? Uncertain{-cosine - 1.0} : Uncertain{cosine - 1.0};
+  note_grazing(excess, found);
+  if (!(excess.value() < 0.0)) {
+    found.reason = fmt::format(
+        "the cones of {:.4f} deg about the Sun and {:.4f} deg about the Earth do not meet, which "
+        "stand {:.4f} deg apart",
+        degrees(sun_angle_rad.value()), degrees(earth_angle_rad.value()),
+        degrees(input.sun_earth_rad));
+    return;
+  }
+  const Uncertain dihedral_rad = acos(cosine);
+  found.places.push_back({sun_angle_rad, earth_angle_rad, dihedral_rad});
+  found.places.push_back({sun_angle_rad, earth_angle_rad, -dihedral_rad});
+}
+
+/// Cases 4 to 6: theta_s from the dihedral and the angle between Sun and Earth.
+void find_sun_angles(const FixInput& input, const Uncertain& earth_angle_rad,
+                     AxisSolutions& found) {
+  const Uncertain b = Uncertain{sin(earth_angle_rad)} * Uncertain{cos(*input.dihedral)};
+  const ConeRootsOf<Uncertain> roots =
+      cone_roots(Uncertain{cos(earth_angle_rad)}, b, certain(std::cos(input.sun_earth_rad)));
+  note_grazing(roots.excess, found);
+  const std::vector<Uncertain> sun_angles_rad = possible_angles(roots);
+  if (sun_angles_rad.empty()) {
+    found.reason = "no sun angle in (0, 180) deg fits the measured earth angle and dihedral";
+  }
+  for (const Uncertain& sun_angle_rad : sun_angles_rad) {
+    found.places.push_back({sun_angle_rad, earth_angle_rad, *input.dihedral});
+  }
+}
+
+/// Case 7 and its like: sun angle and dihedral from their one combination that sun2 gives. The
+/// roots are searched; their derivatives are those of an implicit function.
+void unmix(const FixInput& input, const Uncertain& earth_angle_rad, AxisSolutions& found) {
+  const MixedAzimuth mixed{.sensor = input.config.sun_sensor,
+                           .azimuth_rad = input.mixed_azimuth->value(),
+                           .earth_angle_rad = earth_angle_rad.value(),
+                           .sun_earth_rad = input.sun_earth_rad};
+  const SlitLags slit = slit_lags(mixed);
+  // Neither angle moves the misfit by more than itself.
+  Uncertain miss = certain(slit.nearest_miss);
+  miss.derivatives() =
+      earth_angle_rad.derivatives().cwiseAbs() + input.mixed_azimuth->derivatives().cwiseAbs();
+  note_grazing(miss, found);
+  if (slit.lags.empty()) {
+    found.reason = "no sun angle that sun slit 2 can see fits the measured earth angle and azimuth";
+  }
+  for (const SlitLag& lag : slit.lags) {
+    Uncertain lag_rad = certain(lag.lag_rad);
+    lag_rad.derivatives() = lag.to_earth_angle * earth_angle_rad.derivatives() +
+                            lag.to_azimuth * input.mixed_azimuth->derivatives();
+    const Uncertain sun_angle_rad = with_model_error(
+        atan2(certain(std::tan(input.config.sun_sensor.slit_cant_rad)), Uncertain{sin(lag_rad)}),
+        SunAngleError);
+    found.places.push_back(
+        {sun_angle_rad, earth_angle_rad,
+         Uncertain{*input.mixed_azimuth + lag_rad + input.config.sun_sensor.slit_separation_rad}});
+  }
+}
+
+}  // namespace
+
+AxisSolutions solve_axis_angles(const FixInput& input) {
+  AxisSolutions found;
+  if (has_one_chord_with_all_else(input)) {
+    solve_one_chord(input, found);
+  } else {
+    const std::vector<Uncertain> earth_angles = input.both_chords()
+                                                    ? std::vector{earth_angle_from_both(input)}
+                                                    : earth_angles_from_one(input, found);
+    for (const Uncertain& earth_angle_rad : earth_angles) {
+      if (input.sun_angle && input.dihedral) {
+        found.places.push_back({*input.sun_angle, earth_angle_rad, *input.dihedral});
+      } else if (input.sun_angle) {
+        meet(input, earth_angle_rad, found);
+      } else if (input.dihedral) {
+        find_sun_angles(input, earth_angle_rad, found);
+      } else {
+        unmix(input, earth_angle_rad, found);
+      }
+    }
+  }
+  for (AxisAngles& place : found.places) {
+    place.beams = input.beams;
+  }
+  return found;
+}
+
+void rank(const FixInput& input, AxisSolutions& found) {
+  found.told_apart = found.places.size() == 1 && !found.grazing;
+  if (found.places.size() < 2 || !has_one_chord_with_all_else(input)) {
+    return;
+  }
+  std::sort(found.places.begin(), found.places.end(),
+            [&](const AxisAngles& a, const AxisAngles& b) {
+              return misfit(input, a).value() < misfit(input, b).value();
+            });
+  found.told_apart = !found.grazing &&
+                     std::abs(determinant(one_chord(input)).value()) >
+                         input.config.geometry.determinant_ambiguous &&
+                     fits_beyond_doubt(input, found.places[0], found.places[1]);
+}
+
+}  // namespace spindrift

@@ -1,0 +1,182 @@
+#include "pipelines/spin/fix/axis_candidates.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/fix/axis_angles.h"
+#include "pipelines/spin/fix/fix_input.h"
+#include "pipelines/spin/fix/horizon_roots.h"
+#include "pipelines/spin/measurement/beam_view.h"
+#include "pipelines/spin/measurement/uncertain.h"
+#include "pipelines/spin/sensor_model/geometry.h"
+
+namespace spindrift {
+namespace {
+
+// What measurements may contradict each other by, beside kModelLimit_rad.
+constexpr double kContradictionSigmas = 5.0;
+
+Unexpected unobservable(std::string message) {
+  return Unexpected{{ErrorCode::Unobservable, std::move(message)}};
+}
+
+bool agrees(double contradiction, double noise) {
+  return std::abs(contradiction) <= kContradictionSigmas * noise + kModelLimit_rad;
+}
+
+/// Both chords show the disc that the orbit gives.
+bool disc_agrees(const FixInput& input, const AxisAngles& place) {
+  const Uncertain cosine = cos_disc_seen(*input.north(), place.earth_angle_rad);
+  if (!(std::abs(cosine.value()) < 1.0)) {
+    return false;
+  }
+  const Uncertain disc_rad = acos(cosine);
+  return agrees(disc_rad.value() - place.beams.at(index_of(Side::North)).disc_rad,
+                noise_of(disc_rad));
+}
+
+using Tangent = Eigen::Matrix<double, 2, kEdges + kModelErrors>;
+
+/// What the solution moves by when the axis does from which its beams see the horizon, both in the
+/// tangent plane. A beam that sees the limb farther out, or the chord's middle earlier, is as wrong
+/// as one whose limb or azimuth has that error.
+/// @param tangent What the solution moves by with each source of error, the views as they are.
+Eigen::Matrix2d moved_by_views(const BeamViews& beams, const Eigen::Matrix<double, 3, 2>& basis,
+                               const Tangent& tangent) {
+  const auto& [north, south] = beams;
+  const auto by = [&](ModelError error, const Eigen::Vector3d& per_step_icrf) -> Eigen::Matrix2d {
+    return tangent.col(kEdges + error) * (per_step_icrf.transpose() * basis);
+  };
+  return by(NorthLimb, north.disc_per_step_icrf) + by(SouthLimb, south.disc_per_step_icrf) +
+         by(NorthAzimuth, north.lead_per_step_icrf) + by(SouthAzimuth, south.lead_per_step_icrf);
+}
+
+AxisCandidate candidate_at(const FixInput& input, const AxisAngles& place) {
+  const Eigen::Matrix<Uncertain, 3, 1> axis =
+      axis_icrf(AxisInput<Uncertain>{.sun_icrf = input.sightlines.sun_icrf,
+                                     .earth_icrf = input.sightlines.earth_icrf,
+                                     .sun_angle_rad = place.sun_angle_rad,
+                                     .earth_angle_rad = place.earth_angle_rad,
+                                     .dihedral_rad = place.dihedral_rad});
+  Eigen::Vector3d solved;
+  Eigen::Matrix<double, 3, kEdges + kModelErrors> shifts;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    solved[i] = axis[i].value();
+    shifts.row(i) = axis[i].derivatives();
+  }
+  const double norm = solved.norm();
+  const Eigen::Vector3d unit = solved / norm;
+  const Eigen::Matrix<double, 3, 2> basis = tangent_basis(unit);
+  Tangent tangent = basis.transpose() * shifts / norm;
+  // Another axis sees another limb, and so on: a geometric series.
+  tangent = (Eigen::Matrix2d::Identity() - moved_by_views(place.beams, basis, tangent))
+                .partialPivLu()
+                .solve(tangent)
+                .eval();
+  const auto noise = tangent.leftCols<kEdges>();
+  const double norm_noise = (unit.transpose() * shifts.leftCols<kEdges>()).norm();
+  return {.axis_icrf = unit,
+          .covariance_rad2 = noise * noise.transpose(),
+          .norm = norm,
+          .consistent =
+              agrees(norm - 1.0, norm_noise) && (!input.both_chords() || disc_agrees(input, place)),
+          .model_shift_icrf = basis * tangent.rightCols<kModelErrors>()};
+}
+
+std::string cone_in_words(int geometry_case) {
+  switch (geometry_case) {
+    case 8:
+      return "both chords without a sun pulse: a cone about the Earth only";
+    case 9:
+      return "a sun angle without a chord: a cone about the Sun only";
+    case 10:
+      return "a chord alone: one or two cones about the Earth only";
+    default:
+      return "no measurement that an axis could be found from";
+  }
+}
+
+/// Near a double root, or where nothing fixes a direction, the linear covariance has no meaning.
+bool determined(const AxisCandidate& candidate) {
+  constexpr double kLost_rad = 0.5;
+  return candidate.covariance_rad2.trace() < kLost_rad * kLost_rad;
+}
+
+}  // namespace
+
+int geometry_case_of(const RevolutionMeasurements& measured) {
+  using enum SpinQuantity;
+  const auto has = [&](SpinQuantity quantity) {
+    return good_value_of(measured, quantity).has_value();
+  };
+  const bool north = has(NorthChord);
+  const bool south = has(SouthChord);
+  // Both, north, south: in this order of cases.
+  const int which = north && south ? 0 : (north ? 1 : 2);
+  if (!north && !south) {
+    return has(SunAngle) ? 9 : 0;
+  }
+  if (has(SunAngle)) {
+    return 1 + which;
+  }
+  if (has(NorthDihedral) || has(SouthDihedral)) {
+    return 4 + which;
+  }
+  if (has(MixedAzimuth)) {
+    return which == 0 ? 7 : 4 + which;
+  }
+  return which == 0 ? 8 : 10;
+}
+
+bool contradicts_itself(const Expected<AxisCandidates>& found) {
+  if (!found) {
+    return found.error().code == ErrorCode::InvalidInput;
+  }
+  return std::none_of(found->candidates.begin(), found->candidates.end(),
+                      [](const AxisCandidate& candidate) { return candidate.consistent; });
+}
+
+Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
+                                         const RevolutionMeasurements& measured,
+                                         const Sightlines& sightlines) {
+  AxisCandidates result{.geometry_case = geometry_case_of(measured),
+                        .candidates = {},
+                        .told_apart = false,
+                        .grazing = false};
+  if (result.geometry_case < 1 || result.geometry_case > 7) {
+    return unobservable(cone_in_words(result.geometry_case));
+  }
+  const FixInput input = fix_input(config, measured, sightlines, views_of_sphere(sightlines));
+  if (in_line(input.sun_earth_rad)) {
+    return unobservable(
+        fmt::format("Sun and Earth stand {:.3f} deg apart: the axis needs between 3 and 177 deg",
+                    input.sun_earth_rad * 180.0 / std::numbers::pi));
+  }
+  const AxisSolutions found = solve_on_horizon(input);
+  if (found.places.empty()) {
+    return found.grazing ? unobservable(found.reason)
+                         : Unexpected{{ErrorCode::InvalidInput, found.reason}};
+  }
+  for (const AxisAngles& place : found.places) {
+    result.candidates.push_back(candidate_at(input, place));
+    if (!determined(result.candidates.back())) {
+      return unobservable(
+          "the solution is lost in the noise of its edges: it exists only within "
+          "one sigma of them, or no measurement fixes one of its directions");
+    }
+  }
+  result.told_apart = found.told_apart;
+  result.grazing = found.grazing;
+  if (!input.both_chords() && result.geometry_case % 3 == 1) {
+    ++result.geometry_case;  // Both chords, of beams mounted alike: only north's is used.
+  }
+  return result;
+}
+
+}  // namespace spindrift

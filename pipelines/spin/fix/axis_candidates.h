@@ -1,0 +1,59 @@
+/// @file
+/// The spin axes that one revolution alone allows: cases 1 to 7 of spin.md, with the Delta rules.
+///
+/// Every angle is solved together with its derivatives to the sources of error, so that each
+/// candidate has its covariance, and what shares an edge is correlated. The Earth is the mission's,
+/// moving, with its horizon.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/spin/measurement/measurement.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/model_allowance.h"
+#include "pipelines/spin/types/sightlines.h"
+
+namespace spindrift {
+
+struct AxisCandidate {
+  Eigen::Vector3d axis_icrf;        ///< Unit.
+  Eigen::Matrix2d covariance_rad2;  ///< From the edges' noise. Tangent plane: east, north.
+  double norm;                      ///< Length of the axis before normalising.
+  /// The measurements agree: norm - 1 and, with both chords, the half-angle of the disc that they
+  /// show minus rho are within five of their sigmas and half a degree, which is more than the
+  /// Earth's shape and the height of its CO2 account for.
+  bool consistent;
+  /// What each error of the model moves the axis by, for every radian of it; in ICRF.
+  Eigen::Matrix<double, 3, kModelErrors> model_shift_icrf;
+};
+
+struct AxisCandidates {
+  int geometry_case;
+  std::vector<AxisCandidate> candidates;  ///< Best first, never empty.
+  bool told_apart;  ///< The geometry alone shows that the first is the true one.
+  /// Cones touch rather than cross, within noise and model: the candidates hardly differ, are not
+  /// linear in the noise, and their covariances too small.
+  bool grazing;
+};
+
+/// Which of the ten cases of spin.md the good measurements are; 0: none.
+int geometry_case_of(const RevolutionMeasurements& measured);
+
+/// From the good measurements. With the dihedral (the mean of the two, where both are there):
+/// case 1 by both chords; 2, 3 linear where |Delta| is usable, else by two roots; without it the
+/// two axes in which the cones about Sun and Earth meet. Cases 4 to 7 solve theta_s from the angle
+/// between Sun and Earth. Beams mounted alike are one beam.
+/// @return Unobservable for a cone (cases 8 to 10), Sun and Earth within 3 deg of one line, and
+///         measurements that no axis explains, within their noise; InvalidInput beyond it.
+Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
+                                         const RevolutionMeasurements& measured,
+                                         const Sightlines& sightlines);
+
+/// The measurements have enough in them for a fix, but no consistent one: sensors, orbit or edges
+/// are not what they are said to be.
+bool contradicts_itself(const Expected<AxisCandidates>& found);
+
+}  // namespace spindrift

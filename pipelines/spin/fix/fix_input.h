@@ -1,0 +1,47 @@
+/// @file
+/// What one revolution gives to solve the axis from: its good measurements with all that makes them
+/// uncertain.
+
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "pipelines/spin/measurement/beam_view.h"
+#include "pipelines/spin/measurement/measurement.h"
+#include "pipelines/spin/measurement/uncertain.h"
+#include "pipelines/spin/sensor_model/geometry.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/sightlines.h"
+
+namespace spindrift {
+
+/// Refers to what it was made of.
+struct FixInput {
+  const SpinConfig& config;
+  const RevolutionMeasurements& measured;
+  const Sightlines& sightlines;
+  BeamViews beams;  ///< That azimuths are corrected by.
+  double sun_earth_rad;
+  std::optional<Uncertain> sun_angle;
+  std::optional<Uncertain> dihedral;  ///< The mean of the two, where both are there.
+  std::optional<Uncertain> mixed_azimuth;
+  std::array<std::optional<ChordOf<Uncertain>>, 2> chords;
+
+  const std::optional<ChordOf<Uncertain>>& north() const { return chords[0]; }
+  const std::optional<ChordOf<Uncertain>>& south() const { return chords[1]; }
+  bool both_chords() const { return north() && south(); }
+  const ChordOf<Uncertain>& lone_chord() const { return north() ? *north() : *south(); }
+  /// rho, as the beam of the side sees it.
+  Uncertain disc_rad(Side side) const {
+    return with_model_error(certain(beams.at(index_of(side)).disc_rad),
+                            side == Side::North ? NorthLimb : SouthLimb);
+  }
+  Uncertain lone_disc_rad() const { return disc_rad(north() ? Side::North : Side::South); }
+};
+
+/// Beams mounted alike are one beam: north.
+FixInput fix_input(const SpinConfig& config, const RevolutionMeasurements& measured,
+                   const Sightlines& sightlines, const BeamViews& beams);
+
+}  // namespace spindrift

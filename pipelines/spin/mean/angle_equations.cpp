@@ -1,0 +1,194 @@
+#include "pipelines/spin/mean/angle_equations.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <optional>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/screening/screening.h"
+
+namespace spindrift {
+namespace {
+
+constexpr int kMostAngles = 5;
+// A chord that changes by more than so many times what the limb moves is not linear.
+constexpr double kSteepest = 10.0;
+
+using Errors = Eigen::Matrix<double, kModelErrors, 1>;
+
+/// How a measured angle moves.
+struct Slope {
+  Eigen::Vector3d by_axis;  ///< In ICRF, across the axis.
+  Errors by_errors = Errors::Zero();
+};
+
+/// A direction as the axis sees it.
+struct Seen {
+  double angle_rad;
+  Eigen::Vector3d towards;  ///< Unit, across the axis.
+  Eigen::Vector3d beside;   ///< Unit, a quarter turn about the axis further.
+
+  Seen(const Eigen::Vector3d& axis, const Eigen::Vector3d& direction)
+      : angle_rad{angle_between_rad(axis, direction)} {
+    beside = axis.cross(direction).normalized();
+    towards = beside.cross(axis);
+  }
+};
+
+class Slopes {
+ public:
+  Slopes(const SpinConfig& config, const Sightlines& sightlines, const Eigen::Vector3d& axis)
+      : config_{config},
+        disc_rad_{sightlines.disc_rad},
+        sun_{axis, sightlines.sun_icrf},
+        earth_{axis, sightlines.earth_icrf} {}
+
+  /// Empty for what is not linear.
+  std::optional<Slope> of(SpinQuantity quantity, const Measured& value,
+                          double predicted_rad) const {
+    using enum SpinQuantity;
+    switch (quantity) {
+      case SunAngle:
+        return of_sun_angle();
+      case NorthDihedral:
+      case SouthDihedral:
+        return of_dihedral(value.noise_rad);
+      case NorthChord:
+        return of_chord(config_.north->mount_angle_rad, predicted_rad, NorthLimb);
+      case SouthChord:
+        return of_chord(config_.south->mount_angle_rad, predicted_rad, SouthLimb);
+      case MixedAzimuth:
+        return of_mixed_azimuth(value.noise_rad);
+      case Period:
+        break;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  Slope of_sun_angle() const {
+    return {.by_axis = -sun_.towards, .by_errors = Errors::Unit(SunAngleError)};
+  }
+
+  /// The azimuth of each beam whose edges it rests on.
+  Slope of_dihedral(const EdgeNoise& noise_rad) const {
+    const auto rests_on = [&](PulseChannel channel) {
+      return noise_rad(static_cast<Eigen::Index>(channel)) != 0.0 ? 1.0 : 0.0;
+    };
+    const double north = rests_on(PulseChannel::NorthIn);
+    const double south = rests_on(PulseChannel::SouthIn);
+    return {.by_axis =
+                sun_.beside / std::tan(sun_.angle_rad) - earth_.beside / std::tan(earth_.angle_rad),
+            .by_errors = (north * Errors::Unit(NorthAzimuth) + south * Errors::Unit(SouthAzimuth)) /
+                         (north + south)};
+  }
+
+  /// Of what predict_mixed_azimuth_rad() gives: the dihedral less the lag of slit 2.
+  Slope of_mixed_azimuth(const EdgeNoise& noise_rad) const {
+    const double tan_cant = std::tan(config_.sun_sensor.slit_cant_rad);
+    const double sine = std::sin(sun_.angle_rad);
+    const double sin_lag = tan_cant / std::tan(sun_.angle_rad);
+    const double by_sun_angle = tan_cant / (sine * sine * std::sqrt(1.0 - sin_lag * sin_lag));
+    Slope slope = of_dihedral(noise_rad);
+    slope.by_axis -= by_sun_angle * sun_.towards;
+    slope.by_errors += by_sun_angle * Errors::Unit(SunAngleError);
+    return slope;
+  }
+
+  /// Of what predict_chord_rad() gives; an error makes the disc of the model too large.
+  std::optional<Slope> of_chord(double mount_angle_rad, double chord_rad, ModelError limb) const {
+    const double sine = std::sin(earth_.angle_rad);
+    const double steepness = 2.0 / (std::sin(mount_angle_rad) * sine * std::sin(0.5 * chord_rad));
+    const double by_limb = steepness * std::sin(disc_rad_);
+    const double by_earth_angle =
+        -steepness / sine *
+        (std::cos(mount_angle_rad) - std::cos(disc_rad_) * std::cos(earth_.angle_rad));
+    if (!(by_limb < kSteepest)) {
+      return std::nullopt;
+    }
+    return Slope{.by_axis = -by_earth_angle * earth_.towards,
+                 .by_errors = -by_limb * Errors::Unit(limb)};
+  }
+
+  const SpinConfig& config_;
+  double disc_rad_;
+  Seen sun_;
+  Seen earth_;
+};
+
+}  // namespace
+
+void AngleEquations::add(const SpinConfig& config, const RevolutionMeasurements& measured,
+                         const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf) {
+  const Eigen::Matrix<double, 3, 2> basis = tangent_basis(reference_icrf_);
+  const Slopes slopes{config, sightlines, axis_icrf};
+  Eigen::Matrix<double, kMostAngles, kUnknowns> design;
+  Eigen::Matrix<double, kMostAngles, 1> off_rad;
+  Eigen::Matrix<double, kMostAngles, kPulseChannels> noise_rad;
+  int rows = 0;
+  for (const Residual& residual : residuals(config, measured, sightlines, axis_icrf)) {
+    const Measured value = *good_value_of(measured, residual.quantity);
+    if (const auto slope =
+            slopes.of(residual.quantity, value, value.value_rad - residual.value_rad)) {
+      design.row(rows) << slope->by_axis.transpose() * basis, slope->by_errors.transpose();
+      off_rad(rows) = residual.value_rad + slope->by_axis.dot(axis_icrf - reference_icrf_);
+      noise_rad.row(rows) = value.noise_rad.transpose();
+      ++rows;
+    }
+  }
+  if (rows == 0) {
+    return;
+  }
+  // Edges are fewer than what they determine by one, the phase: the covariance has full rank.
+  const Eigen::LLT<Eigen::MatrixXd> covariance{noise_rad.topRows(rows) *
+                                               noise_rad.topRows(rows).transpose()};
+  const auto white_design = covariance.matrixL().solve(design.topRows(rows)).eval();
+  const auto white_off = covariance.matrixL().solve(off_rad.head(rows)).eval();
+  normal_ += white_design.transpose() * white_design;
+  right_ += white_design.transpose() * white_off;
+  squares_ += white_off.squaredNorm();
+  angles_ += rows;
+}
+
+AngleEquations& AngleEquations::operator+=(const AngleEquations& other) {
+  normal_ += other.normal_;
+  right_ += other.right_;
+  squares_ += other.squares_;
+  angles_ += other.angles_;
+  return *this;
+}
+
+/// What no angle fixes is known to a radian.
+Eigen::Matrix2d AngleEquations::axis_information() const {
+  return normal_.topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
+}
+
+Eigen::Vector3d AngleEquations::axis_icrf() const {
+  return (reference_icrf_ +
+          tangent_basis(reference_icrf_) * axis_information().ldlt().solve(right_.head<2>()))
+      .normalized();
+}
+
+/// Displacements in the plane at the reference into those at the axis, which near a celestial pole
+/// has another east.
+Eigen::Matrix2d AngleEquations::tangent_from_reference() const {
+  return tangent_basis(axis_icrf()).transpose() * tangent_basis(reference_icrf_);
+}
+
+Eigen::Matrix2d AngleEquations::covariance_rad2() const {
+  const Eigen::Matrix2d turned = tangent_from_reference();
+  return turned * axis_information().ldlt().solve(turned.transpose());
+}
+
+Eigen::Matrix2d AngleEquations::scatter_rad2(const Eigen::Matrix2d& of_right) const {
+  const Eigen::Matrix2d moved =
+      axis_information().ldlt().solve(tangent_from_reference().transpose()).transpose();
+  return moved * of_right * moved.transpose();
+}
+
+Eigen::Matrix<double, 2, kModelErrors> AngleEquations::model_shift() const {
+  return tangent_from_reference() *
+         axis_information().ldlt().solve(normal_.topRightCorner<2, kModelErrors>());
+}
+
+}  // namespace spindrift

@@ -1,0 +1,258 @@
+#include "pipelines/spin/mean/mean_estimator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/time/utc.h"
+
+namespace spindrift {
+namespace {
+
+// A mean that is known so well (1 deg) is near enough for angles to be linear about it.
+constexpr double kLinear_rad = std::numbers::pi / 180.0;
+// Where a pass of the first fixes moves their mean by less, they are linear about it.
+constexpr double kConverged_rad = 1e-5;
+constexpr int kMostPasses = 8;
+// Each of these moves the mean.
+constexpr std::size_t kFirstFixes = 8;
+// Where fewer of the fixes that there might be are settled, the mean is that of a selection.
+constexpr double kMostlySettled = 0.5;
+// A mean that is further from the plain average of its fixes is not theirs.
+constexpr double kFarSigmas = 5.0;
+// Of the squares: fixes that differ by more than wrong noise or model explain are not all true.
+constexpr double kScattered = 9.0;
+// Of two that differ nobody knows which is right.
+constexpr std::size_t kFewestFixes = 3;
+
+double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
+
+}  // namespace
+
+void MeanEstimator::keep(std::int64_t revolution, const RevolutionMeasurements& measured,
+                         const Sightlines& sightlines) {
+  kept_.push_back({.revolution = revolution, .measured = measured, .sightlines = sightlines});
+  if (kept_.size() > static_cast<std::size_t>(config_.screening.window) + 1) {
+    kept_.pop_front();
+  }
+}
+
+bool MeanEstimator::take(const SpinFix& fix) {
+  const auto kept = std::find_if(kept_.rbegin(), kept_.rend(), [&](const Kept& candidate) {
+    return candidate.revolution == fix.revolution;
+  });
+  if (kept == kept_.rend() || (began_ && fix.t < *began_)) {
+    return false;
+  }
+  const bool settled = fix.accepted && !fix.grazing;
+  if (settled && kept->fate != Fate::Settled) {
+    settle(*kept, fix);
+  } else if (!settled) {
+    leave_out(*kept, fix);
+  }
+  return settled;
+}
+
+/// Revolutions without a root at all are missing besides: next to those that graze hardly any, as
+/// long as one of twenty is settled, and as many where one of a thousand is. As long as nothing
+/// tells branches apart it is not the noise that leaves their fixes open.
+void MeanEstimator::leave_out(Kept& kept, const SpinFix& fix) {
+  const bool by_noise = fix.grazing ? fix.accepted || fix.resolution == Resolution::Ambiguous
+                                    : mean_ && fix.resolution == Resolution::Ambiguous;
+  if (by_noise && kept.fate == Fate::Open) {
+    kept.fate = Fate::LeftOut;
+    kept.geometry_case = fix.geometry_case;
+    kept.stretch = fixes_.next_stretch(fix.geometry_case);
+    fixes_.leave_out(kept.geometry_case, kept.stretch);
+    if (mean_) {
+      mean_ = fixes_.mean();
+    }
+  }
+}
+
+void MeanEstimator::settle(Kept& kept, const SpinFix& fix) {
+  if (!mean_) {
+    fixes_.begin_at(fix.axis_icrf);
+  }
+  if (kept.fate == Fate::LeftOut) {
+    fixes_.take_back(kept.geometry_case, kept.stretch);
+  } else {
+    kept.geometry_case = fix.geometry_case;
+    kept.stretch = fixes_.next_stretch(fix.geometry_case);
+  }
+  kept.fate = Fate::Settled;
+  average_.add(fix);
+  add(kept, mean_ ? axis_icrf() : fix.axis_icrf);
+  mean_ = fixes_.mean();
+  ++settled_;
+  if (settled_ < kFirstFixes || std::has_single_bit(settled_)) {
+    linearise_anew();
+  }
+  if (mean_->covariance_rad2.trace() < kLinear_rad * kLinear_rad) {
+    verdict_ = judge_model(mean_->equations, 0.0);
+  }
+}
+
+void MeanEstimator::add(const Kept& kept, const Eigen::Vector3d& axis_icrf) {
+  fixes_.add(kept.geometry_case, kept.stretch, config_, kept.measured, kept.sightlines, axis_icrf);
+}
+
+/// The first are added about a mean that rests on few. While all are kept, they are linear about
+/// what they have in common; afterwards the mean hardly moves. What does not converge among the
+/// fixes stays linear about their plain average.
+void MeanEstimator::linearise_anew() {
+  const auto settled = std::count_if(kept_.begin(), kept_.end(),
+                                     [](const Kept& kept) { return kept.fate == Fate::Settled; });
+  if (static_cast<std::size_t>(settled) != settled_) {
+    return;
+  }
+  Eigen::Vector3d axis = average_.axis_icrf();
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    linearise_about(axis);
+    const Eigen::Vector3d next = mean_->equations.axis_icrf();
+    if (angle_between_rad(axis, next) < kConverged_rad) {
+      return;
+    }
+    if (!fits_the_fixes()) {
+      break;
+    }
+    axis = next;
+  }
+  linearise_about(average_.axis_icrf());
+}
+
+void MeanEstimator::linearise_about(const Eigen::Vector3d& axis_icrf) {
+  fixes_.begin_at(axis_icrf);
+  for (const Kept& kept : kept_) {
+    if (kept.fate == Fate::Settled) {
+      add(kept, axis_icrf);
+    }
+  }
+  mean_ = fixes_.mean();
+}
+
+void MeanEstimator::begin_anew(TaiTime t) {
+  const std::optional<Eigen::Vector3d> given_up =
+      mean_ ? std::optional{axis_icrf()} : given_up_icrf_;
+  *this = MeanEstimator{config_};
+  began_ = t;
+  given_up_icrf_ = given_up;
+}
+
+Eigen::Vector3d MeanEstimator::axis_icrf() const {
+  return fits_the_fixes() ? mean_->equations.axis_icrf() : average_.axis_icrf();
+}
+
+/// What may be wrong with a plain average does not average out: it is known as one fix is, and as
+/// well as it agrees with the least squares where these know the axis.
+Eigen::Matrix2d MeanEstimator::covariance_rad2() const {
+  if (fits_the_fixes()) {
+    return least_squares_covariance_rad2();
+  }
+  const double off_rad = tells_less_than_a_fix() ? 0.0 : off_the_fixes_rad();
+  return average_.covariance_rad2() * average_.excess_scatter() *
+             static_cast<double>(average_.count()) +
+         0.5 * off_rad * off_rad * Eigen::Matrix2d::Identity();
+}
+
+Eigen::Matrix2d MeanEstimator::least_squares_covariance_rad2() const {
+  const Eigen::Matrix<double, 2, kModelErrors> shift = mean_->equations.model_shift();
+  return mean_->covariance_rad2 * excess_noise() + shift * verdict_.errors_rad2 * shift.transpose();
+}
+
+/// By the residuals; or by the fixes themselves, where these differ and no error of the model
+/// explains it.
+double MeanEstimator::excess_noise() const {
+  const double scatter = average_.excess_scatter();
+  return scatter > kScattered && verdict_.error_rad == 0.0
+             ? std::max(scatter, verdict_.excess_noise)
+             : verdict_.excess_noise;
+}
+
+/// Mean square of the error of one of the fixes, by what they state and how they scatter.
+double MeanEstimator::fix_rad2() const {
+  return average_.covariance_rad2().trace() * average_.excess_scatter() *
+         static_cast<double>(average_.count());
+}
+
+/// Short chords are not linear; without them the angles that are left may not fix an axis.
+bool MeanEstimator::tells_less_than_a_fix() const {
+  return mean_->equations.covariance_rad2().trace() > fix_rad2();
+}
+
+double MeanEstimator::off_the_fixes_rad() const {
+  return angle_between_rad(mean_->equations.axis_icrf(), average_.axis_icrf());
+}
+
+/// Besides noise that averages out, the plain average is off by less than a fix's own.
+bool MeanEstimator::fits_the_fixes() const {
+  const double noise_rad2 =
+      fix_rad2() / static_cast<double>(average_.count()) + least_squares_covariance_rad2().trace();
+  return !tells_less_than_a_fix() &&
+         off_the_fixes_rad() < std::sqrt(fix_rad2() + kFarSigmas * kFarSigmas * noise_rad2);
+}
+
+Eigen::Matrix2d MeanEstimator::covariance_if_moved_rad2() const {
+  if (!fits_the_fixes()) {
+    return average_.covariance_rad2() * static_cast<double>(average_.count());
+  }
+  return excess_noise() > 1.0 ? mean_->covariance_rad2 : covariance_rad2();
+}
+
+SpinEstimate MeanEstimator::estimate(const Revolution& revolution) const {
+  const double rate_rad_s = 2.0 * std::numbers::pi / revolution.period.period_s;
+  return {
+      .t = revolution.t_start,
+      .estimator = SpinEstimator::Mean,
+      .axis_icrf = mean_ ? axis_icrf() : *given_up_icrf_,
+      .covariance_rad2 = mean_ ? covariance_rad2() : anywhere_covariance_rad2(),
+      .spin_rate_rad_s = rate_rad_s,
+      .spin_rate_sigma_rad_s = rate_rad_s / revolution.period.period_s * revolution.period.sigma_s,
+      .status = status()};
+}
+
+/// Empty where nothing speaks against it but its residuals.
+std::string MeanEstimator::doubt() const {
+  if (mean_->count < kFewestFixes) {
+    return fmt::format("fewer than {}", kFewestFixes);
+  }
+  if (tells_less_than_a_fix()) {
+    return "plain average: beams too near the limb";
+  }
+  if (!fits_the_fixes()) {
+    return fmt::format("plain average: least squares {:.2g} deg off", degrees(off_the_fixes_rad()));
+  }
+  if (excess_noise() > verdict_.excess_noise) {
+    return fmt::format("fixes scatter {:.1f} x their noise", std::sqrt(excess_noise()));
+  }
+  if (mean_->settled_share < kMostlySettled) {
+    return fmt::format("{:.0f} % of such graze or are ambiguous",
+                       100.0 * (1.0 - mean_->settled_share));
+  }
+  return {};
+}
+
+std::string MeanEstimator::status() const {
+  if (!mean_) {
+    return "LOST, awaiting a fix";
+  }
+  const std::string fixes = fmt::format("{} {}", mean_->count, mean_->count == 1 ? "fix" : "fixes");
+  if (const std::string doubted = doubt(); !doubted.empty()) {
+    return fmt::format("DOUBTFUL, {}, {}", fixes, doubted);
+  }
+  const bool noisy = verdict_.excess_noise > 1.0;
+  const bool off = verdict_.error_rad > 0.0;
+  if (!noisy && !off) {
+    return fmt::format("OK, {}{}", fixes, began_ ? " since " + format_utc(*began_, 0) : "");
+  }
+  return fmt::format(
+      "{}{}{}{}", verdict_.beyond_allowance || noisy ? "DOUBTFUL, " : "OK, ", fixes,
+      off ? fmt::format(", model off by {:.2g} deg", degrees(verdict_.error_rad)) : "",
+      noisy ? fmt::format(", noise x {:.1f}", std::sqrt(verdict_.excess_noise)) : "");
+}
+
+}  // namespace spindrift

@@ -1,0 +1,188 @@
+#include "pipelines/spin/mean/model_check.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace spindrift {
+namespace {
+
+using Errors = Eigen::Matrix<double, kModelErrors, 1>;
+using ErrorMatrix = Eigen::Matrix<double, kModelErrors, kModelErrors>;
+using SomeErrors = Eigen::VectorXd;
+using SomeErrorsMatrix = Eigen::MatrixXd;
+using Normal = Eigen::Matrix<double, AngleEquations::kUnknowns, AngleEquations::kUnknowns>;
+
+// Chances as sigmas of a normal variable: that right models are called wrong, one in ten thousand,
+// since a pass asks a thousand times;
+// that the errors are greater than said, one in ten.
+constexpr double kSignificant = 3.72;
+constexpr double kUpperEnd = 1.28;
+// A combination of errors that is known no better than this is not seen.
+constexpr double kUnseen_rad = 0.1;
+// The noise is judged by so many angles at most, lest a little more than stated be called wrong.
+constexpr double kNoiseAngles = 300.0;
+constexpr double kNoiseSigmas = 5.0;
+
+/// By Wilson and Hilferty.
+double chi_square_quantile(double freedom, double sigmas) {
+  const double variance = 2.0 / (9.0 * freedom);
+  return freedom * std::pow(std::max(0.0, 1.0 - variance + sigmas * std::sqrt(variance)), 3);
+}
+
+/// Some of the errors, the axis eliminated and the others zero, along the axes of their
+/// information.
+class Spectrum {
+ public:
+  Spectrum(const SomeErrorsMatrix& information, const SomeErrors& score, double noise)
+      : noise_{noise}, solver_{information}, scores_{solver_.eigenvectors().transpose() * score} {}
+
+  double freedom() const { return static_cast<double>(seen().count()); }
+
+  /// Where each error has this variance besides the noise.
+  double chi_square(double error_rad2) const {
+    const auto& informations = solver_.eigenvalues().array();
+    return seen()
+        .select(scores_.array().square() / (informations * (noise_ + informations * error_rad2)),
+                0.0)
+        .sum();
+  }
+
+  /// The greatest variance of the errors that is not unlikely.
+  double upper_end_rad2() const {
+    const double least = chi_square_quantile(freedom(), -kUpperEnd);
+    double low_rad = 0.0;
+    double high_rad = 1.0;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle_rad = 0.5 * (low_rad + high_rad);
+      (chi_square(middle_rad * middle_rad) > least ? low_rad : high_rad) = middle_rad;
+    }
+    return high_rad * high_rad;
+  }
+
+  /// Mean products of errors that had this variance before they were seen.
+  SomeErrorsMatrix mean_products_rad2(double error_rad2) const {
+    const SomeErrors gain = gain_rad2(error_rad2);
+    const SomeErrors seen_rad = gain.cwiseProduct(scores_);
+    const SomeErrorsMatrix rest_rad2 = (noise_ * gain).asDiagonal();
+    return solver_.eigenvectors() * (rest_rad2 + seen_rad * seen_rad.transpose()) *
+           solver_.eigenvectors().transpose();
+  }
+
+  /// How much less the chi-square of the pass is with such errors than with none.
+  double explained(double error_rad2) const {
+    const SomeErrors seen_rad = gain_rad2(error_rad2).cwiseProduct(scores_);
+    return (2.0 * seen_rad.dot(scores_) -
+            seen_rad.cwiseAbs2().dot(solver_.eigenvalues().cwiseMax(0.0))) /
+           noise_;
+  }
+
+ private:
+  static constexpr int kHalvings = 30;
+
+  Eigen::Array<bool, Eigen::Dynamic, 1> seen() const {
+    return solver_.eigenvalues().array() > 1.0 / (kUnseen_rad * kUnseen_rad);
+  }
+  SomeErrors gain_rad2(double error_rad2) const {
+    return error_rad2 / (noise_ + error_rad2 * solver_.eigenvalues().array().max(0.0));
+  }
+
+  double noise_;
+  Eigen::SelfAdjointEigenSolver<SomeErrorsMatrix> solver_;
+  SomeErrors scores_;
+};
+
+/// What may be wrong together: one thing in the mission file, both mounting angles or the height of
+/// the horizon, the azimuth of the sun sensor; or everything.
+const std::array<std::vector<int>, 8> kMistakes = {
+    {{NorthLimb},
+     {SouthLimb},
+     {SunAngleError},
+     {NorthAzimuth},
+     {SouthAzimuth},
+     {NorthLimb, SouthLimb},
+     {NorthAzimuth, SouthAzimuth},
+     {NorthLimb, SouthLimb, SunAngleError, NorthAzimuth, SouthAzimuth}}};
+
+/// Mean products of the errors over all mistakes, each as likely as it explains the residuals. An
+/// error of which little is seen, as it moves the axis instead, is so found in its whole size where
+/// nothing else explains what is seen of it.
+void explain(const ErrorMatrix& information, const Errors& score, ModelVerdict& verdict) {
+  struct Explanation {
+    double log_weight;
+    ErrorMatrix errors_rad2;
+  };
+  std::vector<Explanation> explanations;
+  for (const std::vector<int>& mistake : kMistakes) {
+    const Spectrum spectrum{information(mistake, mistake), score(mistake), verdict.excess_noise};
+    if (spectrum.freedom() > 0.0) {
+      const double error_rad2 = spectrum.upper_end_rad2();
+      ErrorMatrix errors_rad2 = ErrorMatrix::Zero();
+      errors_rad2(mistake, mistake) = spectrum.mean_products_rad2(error_rad2);
+      // By Akaike: a parameter must explain more than its own noise does.
+      explanations.push_back(
+          {.log_weight = 0.5 * spectrum.explained(error_rad2) - static_cast<double>(mistake.size()),
+           .errors_rad2 = errors_rad2});
+    }
+  }
+  const double most =
+      std::max_element(explanations.begin(), explanations.end(), [](const auto& a, const auto& b) {
+        return a.log_weight < b.log_weight;
+      })->log_weight;
+  double weights = 0.0;
+  for (const Explanation& explanation : explanations) {
+    const double weight = std::exp(explanation.log_weight - most);
+    weights += weight;
+    verdict.errors_rad2 += weight * explanation.errors_rad2;
+  }
+  verdict.errors_rad2 /= weights;
+  verdict.error_rad = std::sqrt(verdict.errors_rad2.diagonal().maxCoeff());
+}
+
+double excess_noise(const AngleEquations& equations) {
+  // What no angle fixes stays where it is.
+  const auto normal = (equations.normal() + Normal::Identity()).eval();
+  const double fitted = equations.right().dot(normal.ldlt().solve(equations.right()));
+  const double freedom = equations.angles() - AngleEquations::kUnknowns;
+  if (!(freedom > 0.0)) {
+    return 1.0;
+  }
+  const double excess = (equations.squares() - fitted) / freedom;
+  const double scatter = std::sqrt(2.0 / std::min(freedom, kNoiseAngles));
+  return excess > 1.0 + kNoiseSigmas * scatter ? excess : 1.0;
+}
+
+}  // namespace
+
+ModelVerdict judge_model(const AngleEquations& equations, double allowed_rad) {
+  const Normal& normal = equations.normal();
+  const auto axis = (normal.topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity()).ldlt();
+  const Eigen::Matrix<double, 2, kModelErrors> coupling = normal.topRightCorner<2, kModelErrors>();
+  const ErrorMatrix information = normal.bottomRightCorner<kModelErrors, kModelErrors>() -
+                                  coupling.transpose() * axis.solve(coupling);
+  const Errors score = equations.right().tail<kModelErrors>() -
+                       coupling.transpose() * axis.solve(equations.right().head<2>());
+  return verdict_on({.information = information, .score = score}, excess_noise(equations),
+                    allowed_rad);
+}
+
+ModelVerdict verdict_on(const ErrorInformation& errors, double excess_noise, double allowed_rad) {
+  ModelVerdict verdict{.excess_noise = excess_noise};
+  const Spectrum spectrum{errors.information, errors.score, excess_noise};
+  if (spectrum.freedom() == 0.0) {
+    return verdict;
+  }
+  const double significant = chi_square_quantile(spectrum.freedom(), kSignificant);
+  const double allowed_rad2 = allowed_rad * allowed_rad;
+  if (!(spectrum.chi_square(allowed_rad2) > significant)) {
+    return verdict;
+  }
+  explain(errors.information, errors.score, verdict);
+  verdict.beyond_allowance =
+      spectrum.chi_square(allowed_rad2 + kModelError_rad * kModelError_rad) > significant;
+  return verdict;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,42 @@
+/// @file
+/// An angle, or a function of angles, with its derivatives to the sources of its error.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <unsupported/Eigen/AutoDiff>
+
+#include "pipelines/spin/measurement/measurement.h"
+#include "pipelines/spin/types/model_allowance.h"
+#include "pipelines/spin/types/pulse.h"
+
+namespace spindrift {
+
+inline constexpr int kEdges = static_cast<int>(kPulseChannels);
+
+/// Derivatives to each edge for one standard deviation of its time, then to each error of the model
+/// for a radian of it.
+using Uncertain = Eigen::AutoDiffScalar<Eigen::Matrix<double, kEdges + kModelErrors, 1>>;
+
+/// One standard deviation of what the noise of the edges makes of it.
+inline double noise_of(const Uncertain& value) { return value.derivatives().head<kEdges>().norm(); }
+
+/// One standard deviation of what the errors of the model make of it.
+inline double model_uncertainty_of(const Uncertain& value) {
+  return value.derivatives().tail<kModelErrors>().norm() * kModelError_rad;
+}
+
+inline Uncertain certain(double value) { return {value, Uncertain::DerType::Zero()}; }
+
+inline Uncertain uncertain(const Measured& measured) {
+  Uncertain value = certain(measured.value_rad);
+  value.derivatives().head<kEdges>() = measured.noise_rad;
+  return value;
+}
+
+inline Uncertain with_model_error(Uncertain value, ModelError error) {
+  value.derivatives()(kEdges + error) += 1.0;
+  return value;
+}
+
+}  // namespace spindrift

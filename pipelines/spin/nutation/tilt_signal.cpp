@@ -1,0 +1,183 @@
+#include "pipelines/spin/nutation/tilt_signal.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <iterator>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+
+namespace spindrift {
+namespace {
+
+// Sun and Earth turn by a parabola in this time, even on low orbits.
+constexpr double kStretch_s = 600.0;
+constexpr int kSlowUnknowns = 4;
+// Fewer say little beside their own parabola.
+constexpr std::size_t kFewestEdges = 12;
+// Residuals without any noise are no reason to trust them without bound.
+constexpr double kLeastScatter = 1e-3;
+
+using Residuals = std::vector<const SteadyResidual*>;
+
+Residuals by_channel_and_time(std::span<const SteadyResidual> residuals) {
+  Residuals sorted(residuals.size());
+  std::transform(residuals.begin(), residuals.end(), sorted.begin(),
+                 [](const SteadyResidual& residual) { return &residual; });
+  std::sort(sorted.begin(), sorted.end(), [](const SteadyResidual* a, const SteadyResidual* b) {
+    return std::tie(a->channel, a->t_s) < std::tie(b->channel, b->t_s);
+  });
+  return sorted;
+}
+
+using Edges = std::span<const SteadyResidual* const>;
+
+/// Each of one channel and a part of its time.
+std::vector<Edges> stretches_of(const Residuals& sorted) {
+  std::vector<Edges> stretches;
+  for (auto first = sorted.begin(); first != sorted.end();) {
+    const auto channel_end = std::find_if(first, sorted.end(), [&](const SteadyResidual* edge) {
+      return edge->channel != (*first)->channel;
+    });
+    const double begin_s = (*first)->t_s;
+    const double span_s = (*(channel_end - 1))->t_s - begin_s;
+    const double count = std::max(1.0, std::ceil(span_s / kStretch_s));
+    const auto number_of = [&](const SteadyResidual* edge) {
+      return span_s > 0.0
+                 ? std::min(count - 1.0, std::floor((edge->t_s - begin_s) / span_s * count))
+                 : 0.0;
+    };
+    while (first != channel_end) {
+      const double number = number_of(*first);
+      const auto end = std::find_if(first, channel_end, [&](const SteadyResidual* edge) {
+        return number_of(edge) != number;
+      });
+      const Edges stretch{first, end};
+      if (stretch.size() >= kFewestEdges) {
+        stretches.push_back(stretch);
+      }
+      first = end;
+    }
+  }
+  return stretches;
+}
+
+/// An orthonormal basis of whitened parabolas and of what errors of the model do; where the latter
+/// are like the former, of any direction besides.
+Eigen::MatrixX4d parabolas(Edges stretch) {
+  const double begin_s = stretch.front()->t_s;
+  const double half_s = std::max(0.5 * (stretch.back()->t_s - begin_s), 1e-9);
+  Eigen::MatrixX4d columns(stretch.size(), kSlowUnknowns);
+  for (std::size_t i = 0; i < stretch.size(); ++i) {
+    const double x = (stretch[i]->t_s - begin_s) / half_s - 1.0;
+    columns.row(static_cast<Eigen::Index>(i)) =
+        Eigen::RowVector4d{1.0, x, x * x, stretch[i]->expected.phase_per_error.sum()} /
+        stretch[i]->sigma_rad;
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixX4d> qr{columns};
+  return qr.householderQ() * Eigen::MatrixX4d::Identity(columns.rows(), kSlowUnknowns);
+}
+
+}  // namespace
+
+TiltSignal::TiltSignal(std::span<const SteadyResidual> residuals) {
+  const Residuals sorted = by_channel_and_time(residuals);
+  const std::vector<Edges> stretches = stretches_of(sorted);
+  if (stretches.empty()) {
+    return;
+  }
+  const auto edges =
+      std::accumulate(stretches.begin(), stretches.end(), Eigen::Index{0},
+                      [](Eigen::Index sum, Edges stretch) { return sum + std::ssize(stretch); });
+  reserve(edges);
+  Eigen::Index first = 0;
+  for (const Edges stretch : stretches) {
+    add_stretch(stretch, first);
+    first += std::ssize(stretch);
+  }
+  count_from_the_middle(stretches);
+  take_out_slow_changes(off_);
+}
+
+void TiltSignal::reserve(Eigen::Index edges) {
+  turns_.resize(edges);
+  off_.resize(edges);
+  per_tilt_.resize(edges);
+  slow_.resize(edges, kSlowUnknowns);
+}
+
+void TiltSignal::add_stretch(Edges stretch, Eigen::Index first) {
+  const auto edges = static_cast<Eigen::Index>(stretch.size());
+  for (Eigen::Index i = 0; i < edges; ++i) {
+    const SteadyResidual& residual = *stretch[static_cast<std::size_t>(i)];
+    const Eigen::Vector3d& per_rotation = residual.expected.phase_per_rotation;
+    turns_[first + i] = residual.turns;
+    off_[first + i] = residual.off_rad / residual.sigma_rad;
+    per_tilt_[first + i] = std::complex{per_rotation.x(), per_rotation.y()} / residual.sigma_rad;
+  }
+  slow_.middleRows(first, edges) = parabolas(stretch);
+  turns_in_stretch_ = std::max(turns_in_stretch_, stretch.back()->turns - stretch.front()->turns);
+  stretches_.push_back({.channel = stretch.front()->channel, .first = first, .edges = edges});
+}
+
+void TiltSignal::count_from_the_middle(const std::vector<Edges>& stretches) {
+  const double mean = turns_.mean();
+  const SteadyResidual* first = stretches.front().front();
+  const SteadyResidual* middle = first;
+  const SteadyResidual* last = first;
+  for (const Edges stretch : stretches) {
+    for (const SteadyResidual* edge : stretch) {
+      first = edge->turns < first->turns ? edge : first;
+      last = edge->turns > last->turns ? edge : last;
+      const bool nearer = std::abs(edge->turns - mean) < std::abs(middle->turns - mean);
+      middle = nearer ? edge : middle;
+    }
+  }
+  middle_s_ = middle->t_s;
+  spin_period_s_ = (last->t_s - first->t_s) / (last->turns - first->turns);
+  turns_.array() -= middle->turns;
+}
+
+double TiltSignal::freedom() const {
+  return static_cast<double>(edges()) - kSlowUnknowns * static_cast<double>(stretches_.size());
+}
+
+Eigen::MatrixX2d TiltSignal::pattern(double per_turn) const {
+  Eigen::MatrixX2d columns(edges(), 2);
+  for (Eigen::Index i = 0; i < edges(); ++i) {
+    const std::complex<double> q =
+        per_tilt_[i] * std::polar(1.0, -2.0 * std::numbers::pi * per_turn * turns_[i]);
+    columns.row(i) << q.real(), q.imag();
+  }
+  return columns;
+}
+
+void TiltSignal::take_out_slow_changes(Eigen::Ref<Eigen::MatrixXd> columns) const {
+  for (const Stretch& stretch : stretches_) {
+    const auto slow = slow_.middleRows(stretch.first, stretch.edges);
+    auto rows = columns.middleRows(stretch.first, stretch.edges);
+    const Eigen::MatrixXd parts = slow.transpose() * rows;
+    rows -= slow * parts;
+  }
+}
+
+void TiltSignal::weigh_by(const Eigen::VectorXd& rest) {
+  std::array<double, kPulseChannels> squares{};
+  std::array<double, kPulseChannels> freedom{};
+  for (const Stretch& stretch : stretches_) {
+    const std::size_t channel = index_of(stretch.channel);
+    squares.at(channel) += rest.segment(stretch.first, stretch.edges).squaredNorm();
+    freedom.at(channel) += static_cast<double>(stretch.edges - kSlowUnknowns);
+  }
+  for (const Stretch& stretch : stretches_) {
+    const std::size_t channel = index_of(stretch.channel);
+    const double scatter =
+        std::max(std::sqrt(squares.at(channel) / freedom.at(channel)), kLeastScatter);
+    off_.segment(stretch.first, stretch.edges) /= scatter;
+    per_tilt_.segment(stretch.first, stretch.edges) /= scatter;
+  }
+}
+
+}  // namespace spindrift

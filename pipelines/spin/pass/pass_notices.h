@@ -1,0 +1,97 @@
+/// @file
+/// What a person should know of a pass, in words: as it happens, each thing once, and at the end
+/// what is known for certain only then.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/spin/association/association.h"
+#include "pipelines/spin/disambiguation/disambiguation.h"
+#include "pipelines/spin/disambiguation/dispersion.h"
+#include "pipelines/spin/measurement/measurement.h"
+#include "pipelines/spin/sequential/sequential.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/products.h"
+#include "pipelines/spin/types/pulse.h"
+
+namespace spindrift {
+
+class PassNotices {
+ public:
+  explicit PassNotices(SpinConfig config) : config_{std::move(config)} {}
+
+  // As it happens.
+  void edge_came(PulseChannel channel) { heard_.at(index_of(channel)) = true; }
+  /// What became of all edges among them.
+  void used(std::span<const SpinProduct> products);
+  void edge_came_late();
+  void edge_out_of_time();
+  void associated(const Association& association);
+  void counted_on(const Revolution& revolution);
+  void outside_orbit(const Error& error);
+  void without_fix(std::int64_t revolution, const Error& error);
+  /// @param fix Of the revolution itself.
+  /// @param prior On its candidates, or on the last that it was asked about.
+  void has_fix(const SpinFix& fix, std::optional<PriorVerdict> prior);
+  void settled_by_dispersion(TaiTime t, const SteadyBranch& branch);
+  void mean_began() { mean_began_ = true; }
+  void most_contradict_themselves();
+  void silent_where_it_must_see(Side side);
+  void fix_contradicts_itself();
+  void prior_contradicted(TaiTime t);
+  void axis_moved(TaiTime t, double apart_rad);
+  /// By `sequential`.
+  void estimated(const SpinEstimate& estimate);
+
+  /// @param interfering In the whole pass.
+  void pass_ended(std::span<const InterferingChannels> interfering,
+                  const SequentialEstimator& sequential);
+
+  /// Those since the last call.
+  std::vector<std::string> take() { return std::exchange(pending_, {}); }
+
+ private:
+  void say(std::string notice) { pending_.push_back(std::move(notice)); }
+  void say_once(const std::string& notice) { say_first(notice, notice); }
+  void say_first(std::string_view kind, const std::string& notice);
+  /// Those that brought edges or none, and that the mission describes or not.
+  std::string channels_where(bool heard, bool described) const;
+  void say_what_was_left_out();
+  void say_why_no_mean();
+  std::string why_ambiguous() const;
+  void say_what_the_axis_lacks(const SequentialEstimator& sequential);
+
+  SpinConfig config_;
+  std::vector<std::string> pending_;
+  std::set<std::string, std::less<>> said_;
+  std::array<bool, kPulseChannels> heard_{};
+  std::int64_t edges_ = 0;
+  std::map<Rejection, std::int64_t> left_out_;  ///< Of them.
+  bool closed_any_ = false;                     ///< Revolution.
+  bool left_over_any_ = false;                  ///< Edge of none.
+  std::string last_status_;                     ///< Of `sequential`; empty: it never began.
+  int last_case_ = 0;                           ///< Of the last fix.
+  std::optional<PriorVerdict> prior_verdict_;
+  bool prior_contradicted_ = false;
+  bool mean_began_ = false;
+  std::int64_t grazing_ = 0;    ///< Fixes.
+  std::int64_t ambiguous_ = 0;  ///< Of the others; likewise the following.
+  std::int64_t otherwise_not_accepted_ = 0;
+  std::int64_t without_fix_ = 0;    ///< Revolutions.
+  std::string last_without_fix_;    ///< Why the last of them has none.
+  std::int64_t outside_orbit_ = 0;  ///< Revolutions.
+  std::string last_outside_orbit_;  ///< Why the last of them has none.
+};
+
+}  // namespace spindrift

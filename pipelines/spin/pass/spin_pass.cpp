@@ -1,0 +1,388 @@
+#include "pipelines/spin/pass/spin_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/fix/axis_candidates.h"
+#include "pipelines/spin/pass/revolution_products.h"
+#include "pipelines/spin/types/model_allowance.h"
+#include "pipelines/time/time_span.h"
+
+namespace spindrift {
+namespace {
+
+// So many fixes must agree on an axis before it speaks for or against a candidate.
+constexpr std::size_t kEstablishedFixes = 10;
+// Beyond so many sigmas, and the model's limit, the axis is another one than before.
+constexpr double kMovedSigmas = 5.0;
+
+Eigen::Vector3d median_axis(const std::vector<Eigen::Vector3d>& axes) {
+  Eigen::Vector3d median;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    std::vector<double> components(axes.size());
+    std::transform(axes.begin(), axes.end(), components.begin(),
+                   [i](const Eigen::Vector3d& axis) { return axis[i]; });
+    const auto middle = components.begin() + static_cast<std::ptrdiff_t>(components.size() / 2);
+    std::nth_element(components.begin(), middle, components.end());
+    median[i] = *middle;
+  }
+  return median.normalized();
+}
+
+}  // namespace
+
+SpinPass::SpinPass(const SpinConfig& config, Orbit orbit)
+    : config_{config},
+      notices_{config},
+      surroundings_{std::move(orbit), config.horizon.co2_altitude_km},
+      interference_{config.screening.interference_s},
+      associator_{config},
+      screening_{config.screening},
+      recent_axes_{static_cast<std::size_t>(config.screening.window)},
+      disambiguator_{config},
+      mean_{config},
+      trust_{static_cast<double>(config.screening.window)},
+      sequential_{config} {}
+
+SpinOutput SpinPass::push(const Pulse& pulse) {
+  SpinOutput out;
+  take(pulse, out);
+  notices_.used(out.products);
+  out.notices = notices_.take();
+  return out;
+}
+
+SpinOutput SpinPass::push(const CodedFrame& frame) {
+  SpinOutput out;
+  switch (frames_.add(frame)) {
+    case FrameReorderWindow::Verdict::Held:
+      for (const CodedFrame& due : frames_.release()) {
+        take(due, out);
+      }
+      break;
+    case FrameReorderWindow::Verdict::Late:
+    case FrameReorderWindow::Verdict::OutOfTime:
+      // As edges they are late or out of time as well, and are left out as such.
+      for (const Pulse& edge : edges_of(frame)) {
+        take(edge, out);
+      }
+      break;
+    case FrameReorderWindow::Verdict::Duplicate:
+      break;
+  }
+  notices_.used(out.products);
+  out.notices = notices_.take();
+  return out;
+}
+
+SpinOutput SpinPass::finish() {
+  SpinOutput out;
+  const FrameReorderWindow::Rest frames = frames_.release_all();
+  for (const std::vector<CodedFrame>& some : {frames.in_time, frames.out_of_time}) {
+    for (const CodedFrame& frame : some) {
+      take(frame, out);
+    }
+  }
+  const ReorderWindow::Rest rest = reorder_.release_all();
+  sort_out(rest.in_time, out);
+  associate(interference_.finish(), out);
+  collect(associator_.finish(), out);
+  if (!started_) {
+    settle_first(out);
+  }
+  for (const Pulse& pulse : rest.out_of_time) {
+    leave_out(pulse, Rejection::OutOfTime, out);
+    notices_.edge_out_of_time();
+  }
+  notices_.used(out.products);
+  notices_.pass_ended(associator_.interfering(), sequential_);
+  out.notices = notices_.take();
+  return out;
+}
+
+void SpinPass::take(const CodedFrame& frame, SpinOutput& out) {
+  if (frame.period_s) {
+    associator_.note_period(frame.t, *frame.period_s);
+  }
+  for (const Pulse& edge : edges_of(frame)) {
+    take(edge, out);
+  }
+}
+
+void SpinPass::take(const Pulse& pulse, SpinOutput& out) {
+  notices_.edge_came(pulse.channel);
+  switch (reorder_.add(pulse)) {
+    case ReorderWindow::Verdict::Held:
+      sort_out(reorder_.release(), out);
+      break;
+    case ReorderWindow::Verdict::Late:
+      leave_out(pulse, Rejection::Late, out);
+      notices_.edge_came_late();
+      break;
+    case ReorderWindow::Verdict::OutOfTime:
+      leave_out(pulse, Rejection::OutOfTime, out);
+      break;
+    case ReorderWindow::Verdict::Duplicate:
+      break;  // The same edge once more: what becomes of it is said once.
+  }
+}
+
+void SpinPass::leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out) {
+  out.products.emplace_back(PulseUse{.pulse = pulse, .revolution = {}, .rejected_by = rejected_by});
+}
+
+void SpinPass::sort_out(const std::vector<Pulse>& in_time, SpinOutput& out) {
+  for (const Pulse& pulse : in_time) {
+    associate(interference_.push(pulse), out);
+  }
+}
+
+void SpinPass::associate(const std::vector<InterferenceWindow::Judged>& pulses, SpinOutput& out) {
+  for (const auto& [pulse, spoilt] : pulses) {
+    collect(spoilt ? associator_.push_spoilt(pulse) : associator_.push(pulse), out);
+  }
+}
+
+void SpinPass::collect(Association association, SpinOutput& out) {
+  notices_.associated(association);
+  std::move(association.left_over.begin(), association.left_over.end(),
+            std::back_inserter(out.products));
+  for (const Revolution& revolution : association.closed) {
+    consider(revolution, out);
+  }
+}
+
+void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
+  notices_.counted_on(revolution);
+  Candidate candidate{.revolution = revolution,
+                      .measured = measure(config_, revolution),
+                      .sightlines = {},
+                      .residuals = {}};
+  if (const auto sightlines = surroundings_.sightlines(candidate.measured, revolution.t_start)) {
+    candidate.sightlines = *sightlines;
+  } else {
+    notices_.outside_orbit(sightlines.error());
+  }
+  if (!started_) {
+    first_.push_back(std::move(candidate));
+    if (first_.size() >= kFirstRevolutions) {
+      settle_first(out);
+    }
+    return;
+  }
+  if (predicted_from_) {
+    predict(candidate, predicted_from_->axis_icrf);
+  }
+  settle(candidate, out);
+  recent_.push_back(std::move(candidate));
+  if (recent_.size() > static_cast<std::size_t>(config_.screening.window)) {
+    recent_.pop_front();
+  }
+  predict_anew_where_better_known();
+}
+
+void SpinPass::settle_first(SpinOutput& out) {
+  started_ = true;
+  std::vector<Eigen::Vector3d> axes_icrf;
+  for (const Candidate& candidate : first_) {
+    if (!candidate.sightlines) {
+      continue;
+    }
+    const auto found = axis_candidates(config_, candidate.measured, *candidate.sightlines);
+    if (found && found->told_apart) {
+      axes_icrf.push_back(found->candidates.front().axis_icrf);
+    }
+  }
+  if (!axes_icrf.empty()) {
+    const Eigen::Vector3d axis_icrf = median_axis(axes_icrf);
+    for (Candidate& candidate : first_) {
+      predict(candidate, axis_icrf);
+    }
+  }
+  // Beforehand, so that all of them judge the first.
+  for (Candidate& candidate : first_) {
+    screen(candidate);
+    if (candidate.sightlines) {
+      trust_.count(axis_candidates(config_, candidate.measured, *candidate.sightlines));
+    }
+  }
+  for (Candidate& candidate : first_) {
+    settle(candidate, out);
+  }
+  recent_.assign(std::make_move_iterator(first_.begin()), std::make_move_iterator(first_.end()));
+  first_.clear();
+  predict_anew_where_better_known();
+}
+
+/// Residuals are comparable when all are against one axis: whenever twice as many fixes know it
+/// better, all are predicted anew.
+void SpinPass::predict_anew_where_better_known() {
+  const auto axis_icrf = recent_axes_.axis_icrf();
+  if (!axis_icrf || (predicted_from_ && mean_.count() < 2 * predicted_from_->fixes)) {
+    return;
+  }
+  predicted_from_ = {.axis_icrf = *axis_icrf, .fixes = mean_.count()};
+  screening_ = ScreeningWindow{config_.screening};
+  for (Candidate& candidate : recent_) {
+    predict(candidate, *axis_icrf);
+  }
+}
+
+void SpinPass::predict(Candidate& candidate, const Eigen::Vector3d& axis_icrf) {
+  if (candidate.sightlines) {
+    candidate.residuals = residuals(config_, candidate.measured, *candidate.sightlines, axis_icrf);
+    for (const Residual& residual : candidate.residuals) {
+      screening_.add(residual);
+    }
+  }
+}
+
+void SpinPass::screen(Candidate& candidate) const {
+  for (const Residual& residual : candidate.residuals) {
+    if (!screening_.keeps(residual)) {
+      reject(candidate.measured, residual.quantity, rejection_of(residual.quantity));
+    }
+  }
+  if (!candidate.sightlines) {
+    for (const SpinQuantity quantity : kMeasuredAngles) {
+      reject(candidate.measured, quantity, Rejection::NoOrbit);
+    }
+  }
+}
+
+void SpinPass::settle(Candidate& candidate, SpinOutput& out) {
+  screen(candidate);
+  auto products = revolution_products(config_, candidate.revolution, candidate.measured);
+  std::move(products.begin(), products.end(), std::back_inserter(out.products));
+  if (candidate.sightlines) {
+    announce_axis(candidate, out);
+  }
+}
+
+std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate) {
+  const Revolution& revolution = candidate.revolution;
+  const auto found = axis_candidates(config_, candidate.measured, *candidate.sightlines);
+  trust_.count(found);
+  if (!found) {
+    // The measurements stand; this revolution alone gives no axis.
+    notices_.without_fix(revolution.number, found.error());
+    return {};
+  }
+  auto fixes = disambiguator_.settle(revolution.number, revolution.t_start, candidate.measured,
+                                     *candidate.sightlines, *found, established_axis());
+  for (SpinFix& fix : fixes) {
+    fix.accepted = fix.accepted && trust_.deserved();
+  }
+  if (const auto& steady = disambiguator_.newly_steady()) {
+    notices_.settled_by_dispersion(revolution.t_start, *steady);
+  }
+  notices_.has_fix(fixes.back(), disambiguator_.prior_verdict());
+  return fixes;
+}
+
+void SpinPass::say_why_not_accepted(const SpinFix& fix) {
+  if (!trust_.deserved()) {
+    notices_.most_contradict_themselves();
+  } else if (const auto side = disambiguator_.silent_where_seen()) {
+    notices_.silent_where_it_must_see(*side);
+  } else if (!fix.accepted && fix.resolution != Resolution::Ambiguous) {
+    notices_.fix_contradicts_itself();
+  }
+}
+
+void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
+  const Revolution& revolution = candidate.revolution;
+  const std::vector<SpinFix> fixes = find_fixes(candidate);
+  const bool had_mean = mean_.count() > 0;
+  std::optional<SpinEstimate> sequential;
+  if (const auto sky = surroundings_.sky(revolution.t_start)) {
+    sequential = sequential_.update(
+        revolution, *sky, trust_.deserved() ? std::span{fixes} : std::span<const SpinFix>{});
+    if (sequential_.prior_refuted() && config_.prior) {
+      forget_prior(revolution.t_start);
+    }
+    if (sequential && (sequential_.restarts() > restarts_heeded_ ||
+                       recent_fixes_left_the_mean_for(sequential->axis_icrf))) {
+      start_again_where_moved(*sequential);
+    }
+  }
+  std::copy(fixes.begin(), fixes.end(), std::back_inserter(out.products));
+  const bool mean_given_up = had_mean && mean_.count() == 0;
+  bool mean_moved = false;
+  mean_.keep(revolution.number, candidate.measured, *candidate.sightlines);
+  for (const SpinFix& fix : fixes) {
+    say_why_not_accepted(fix);
+    if (mean_.take(fix)) {
+      recent_axes_.add(fix);
+      mean_moved = true;
+    }
+  }
+  if (mean_moved || mean_given_up) {
+    out.products.emplace_back(mean_.estimate(revolution));
+    notices_.mean_began();
+  }
+  if (sequential) {
+    notices_.estimated(*sequential);
+    out.products.emplace_back(std::move(*sequential));
+  }
+}
+
+void SpinPass::forget_prior(TaiTime t) {
+  config_.prior.reset();
+  begin_anew(t);
+  notices_.prior_contradicted(t);
+}
+
+void SpinPass::begin_anew(TaiTime t) {
+  mean_.begin_anew(t);
+  recent_axes_ = AxisWindow{static_cast<std::size_t>(config_.screening.window)};
+  screening_ = ScreeningWindow{config_.screening};
+  predicted_from_.reset();
+  recent_.clear();
+  disambiguator_ = Disambiguator{config_};
+}
+
+/// They share what is wrong with the model, so that a difference is the axis's own.
+bool SpinPass::recent_fixes_left_the_mean_for(const Eigen::Vector3d& axis_icrf) const {
+  const auto recent_icrf = recent_axes_.axis_icrf();
+  if (!recent_icrf || mean_.count() == 0) {
+    return false;
+  }
+  const double apart_rad = angle_between_rad(*recent_icrf, mean_.axis_icrf());
+  return apart_rad > kModelLimit_rad && angle_between_rad(*recent_icrf, axis_icrf) < apart_rad;
+}
+
+/// A restart of `sequential`, or recent fixes that lie elsewhere, raise the question; it may take
+/// some revolutions until its axis is known so well that the answer is clear.
+void SpinPass::start_again_where_moved(const SpinEstimate& sequential) {
+  if (mean_.count() == 0) {
+    return;
+  }
+  const double apart_rad = angle_between_rad(mean_.axis_icrf(), sequential.axis_icrf);
+  const double sigma_rad =
+      std::sqrt(mean_.covariance_if_moved_rad2().trace() + sequential.covariance_rad2.trace());
+  if (apart_rad <= std::hypot(kMovedSigmas * sigma_rad, kModelLimit_rad)) {
+    return;
+  }
+  restarts_heeded_ = sequential_.restarts();
+  begin_anew(sequential.t);
+  notices_.axis_moved(sequential.t, apart_rad);
+}
+
+/// By the mean, or by the edges where these know it better.
+std::optional<KnownAxis> SpinPass::established_axis() const {
+  std::optional<KnownAxis> by_edges = sequential_.settled_by_edges();
+  if (mean_.count() < kEstablishedFixes) {
+    return by_edges;
+  }
+  const KnownAxis by_mean{
+      .axis_icrf = mean_.axis_icrf(),
+      .sigma_rad = std::hypot(std::sqrt(mean_.covariance_rad2().trace()), kModelLimit_rad)};
+  return by_edges && by_edges->sigma_rad < by_mean.sigma_rad ? by_edges : by_mean;
+}
+
+}  // namespace spindrift

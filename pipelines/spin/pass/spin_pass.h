@@ -1,0 +1,116 @@
+/// @file
+/// The pass of one spin-stabilised satellite: samples in, products out. The one composition of the
+/// spin pipeline, run alike live, offline and in replay.
+///
+///     frame -> order of time -> its edges -+
+///     pulse -------------------------------+-> order of time -> interference -> revolution, period
+///       -> measurements -> screening -> candidates for the axis -> fix -> mean
+///                                    -> good edges -------------------> sequential
+///
+/// The first revolutions are held back until there are enough of them to tell an outlier from a
+/// level (kFirstRevolutions); from then on each is settled as it closes. When the axis has moved,
+/// screening and mean begin anew.
+
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/ephemeris/orbit.h"
+#include "pipelines/spin/association/association.h"
+#include "pipelines/spin/disambiguation/disambiguation.h"
+#include "pipelines/spin/disambiguation/trust.h"
+#include "pipelines/spin/mean/mean_axis.h"
+#include "pipelines/spin/mean/mean_estimator.h"
+#include "pipelines/spin/measurement/measurement.h"
+#include "pipelines/spin/measurement/surroundings.h"
+#include "pipelines/spin/pass/pass_notices.h"
+#include "pipelines/spin/screening/screening.h"
+#include "pipelines/spin/sequential/sequential.h"
+#include "pipelines/spin/telemetry_order/interference.h"
+#include "pipelines/spin/telemetry_order/reorder_window.h"
+#include "pipelines/spin/types/coded_frame.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/products.h"
+
+namespace spindrift {
+
+struct SpinOutput {
+  std::vector<SpinProduct> products;  ///< In the order they arose.
+  std::vector<std::string> notices;   ///< What a person should know; each said once a pass.
+};
+
+class SpinPass {
+ public:
+  static constexpr std::size_t kFirstRevolutions = 10;
+
+  SpinPass(const SpinConfig& config, Orbit orbit);
+
+  SpinOutput push(const Pulse& pulse);
+
+  /// The same edges, timed on board.
+  SpinOutput push(const CodedFrame& frame);
+
+  /// The pass has ended: settles all that is still held.
+  SpinOutput finish();
+
+ private:
+  /// A revolution with all that is needed to settle it.
+  struct Candidate {
+    Revolution revolution;
+    RevolutionMeasurements measured;
+    std::optional<Sightlines> sightlines;  ///< Empty where the orbit does not reach.
+    std::vector<Residual> residuals;
+  };
+
+  void take(const Pulse& pulse, SpinOutput& out);
+  void take(const CodedFrame& frame, SpinOutput& out);
+  void sort_out(const std::vector<Pulse>& in_time, SpinOutput& out);
+  void associate(const std::vector<InterferenceWindow::Judged>& pulses, SpinOutput& out);
+  void collect(Association association, SpinOutput& out);
+  void consider(const Revolution& revolution, SpinOutput& out);
+  void settle_first(SpinOutput& out);
+  void settle(Candidate& candidate, SpinOutput& out);
+  void predict_anew_where_better_known();
+  void predict(Candidate& candidate, const Eigen::Vector3d& axis_icrf);
+  void screen(Candidate& candidate) const;
+  std::vector<SpinFix> find_fixes(const Candidate& candidate);
+  void say_why_not_accepted(const SpinFix& fix);
+  void announce_axis(const Candidate& candidate, SpinOutput& out);
+  std::optional<KnownAxis> established_axis() const;
+  bool recent_fixes_left_the_mean_for(const Eigen::Vector3d& axis_icrf) const;
+  void start_again_where_moved(const SpinEstimate& sequential);
+  void forget_prior(TaiTime t);
+  void begin_anew(TaiTime t);
+  static void leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out);
+
+  SpinConfig config_;
+  PassNotices notices_;
+  Surroundings surroundings_;
+  FrameReorderWindow frames_;
+  ReorderWindow reorder_;
+  InterferenceWindow interference_;
+  Associator associator_;
+  std::vector<Candidate> first_;  ///< Held back; empty once settled.
+  bool started_ = false;
+  /// The mean attitude that measurements are compared with.
+  struct Prediction {
+    Eigen::Vector3d axis_icrf;
+    std::size_t fixes;  ///< That it rested on.
+  };
+
+  ScreeningWindow screening_;
+  std::optional<Prediction> predicted_from_;
+  std::deque<Candidate> recent_;  ///< As many as the window of the screening has.
+  AxisWindow recent_axes_;
+  Disambiguator disambiguator_;
+  MeanEstimator mean_;
+  Trust trust_;
+  SequentialEstimator sequential_;
+  int restarts_heeded_ = 0;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,40 @@
+/// @file
+/// One turn of the body as its sensors should see it, about an axis and at a rate that are known.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "pipelines/spin/sensor_model/edge_prediction.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/pulse.h"
+#include "pipelines/spin/types/revolution.h"
+#include "pipelines/spin/types/sky.h"
+
+namespace spindrift {
+
+/// Channels whose edges come so near to each other that they spoil each other.
+struct MeetingChannels {
+  PulseChannel one;
+  PulseChannel other;
+};
+
+struct ExpectedRevolution {
+  /// Without noise, to the nearest nanosecond; edges that meet are rejected as `Interference`.
+  Revolution revolution;
+  /// Of each edge that is there.
+  std::array<std::optional<PredictedEdge>, kPulseChannels> predicted;
+  std::vector<MeetingChannels> meeting;
+};
+
+/// The turn that begins with slit 1 at the Sun at the time of the sky; chords begin in it.
+/// @param R_spin_icrf To a frame `spin` (edge_prediction.h).
+/// @param sun_hidden The Earth stands before the Sun: there are no sun edges.
+ExpectedRevolution expected_revolution(const SpinConfig& config, const Sky& sky,
+                                       const Eigen::Matrix3d& R_spin_icrf, double rate_rad_s,
+                                       bool sun_hidden);
+
+}  // namespace spindrift

@@ -1,0 +1,136 @@
+#include "pipelines/spin/planning/pass_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+
+#include "pipelines/spin/planning/pass_conditions.h"
+#include "pipelines/spin/sensor_model/edge_information.h"
+#include "pipelines/spin/sensor_model/edge_prediction.h"
+#include "pipelines/time/time_span.h"
+
+namespace spindrift {
+namespace {
+
+// The information of many turns is an integral, by Gauss and Legendre over so short stretches.
+constexpr double kStretch_s = 10.0;
+// And so often it is looked what holds: channels that meet may part within seconds, and no function
+// that a search could follow says beforehand when.
+constexpr double kLook_s = 1.0;
+
+struct Node {
+  double place;  ///< Share of the stretch.
+  double weight;
+};
+const std::array<Node, 3> kNodes = {{{0.5 - 0.5 * std::sqrt(0.6), 5.0 / 18.0},
+                                     {0.5, 8.0 / 18.0},
+                                     {0.5 + 0.5 * std::sqrt(0.6), 5.0 / 18.0}}};
+
+/// Goes through the pass.
+class Planner {
+ public:
+  Planner(PassScene scene, TaiTime start) : scene_{std::move(scene)}, start_{start}, t_{start} {}
+
+  /// On to a later time, or to the start itself.
+  Expected<PassStep> step_to(TaiTime t) {
+    const auto stretches =
+        static_cast<std::int64_t>(std::ceil(seconds_between(t_, t) / kStretch_s));
+    const double length_s = seconds_between(t_, t) / static_cast<double>(stretches);
+    const TaiTime from = t_;
+    for (std::int64_t i = 1; i < stretches; ++i) {
+      const auto passed = stretch_to(shifted(from, static_cast<double>(i) * length_s));
+      if (!passed) {
+        return Unexpected{passed.error()};
+      }
+    }
+    return stretch_to(t).map([this](PassGeometry geometry) {
+      return PassStep{.geometry = std::move(geometry), .sigma_rad = sigma_rad()};
+    });
+  }
+
+  std::vector<PassEvent> finish() { return events_.finish(); }
+
+ private:
+  Expected<PassGeometry> stretch_to(TaiTime t) {
+    const double length_s = seconds_between(t_, t);
+    for (const Node& node : kNodes) {
+      const auto geometry = scene_.at(shifted(t_, node.place * length_s));
+      if (!geometry) {
+        return Unexpected{geometry.error()};
+      }
+      add_turns(geometry->expected,
+                node.weight * length_s * scene_.rate_rad_s() / (2.0 * std::numbers::pi));
+    }
+    for (double after_s = kLook_s; after_s < length_s; after_s += kLook_s) {
+      if (const auto looked = look_at(shifted(t_, after_s)); !looked) {
+        return Unexpected{looked.error()};
+      }
+    }
+    t_ = t;
+    return look_at(t);
+  }
+
+  Expected<PassGeometry> look_at(TaiTime t) {
+    auto geometry = scene_.at(t);
+    if (geometry) {
+      events_.add(t, conditions_of(scene_.config(), *geometry));
+    }
+    return geometry;
+  }
+
+  /// So many turns alike.
+  void add_turns(const ExpectedRevolution& turn, double turns) {
+    for (std::size_t i = 0; i < kPulseChannels; ++i) {
+      const auto channel = static_cast<PulseChannel>(i);
+      if (const auto t = turn.revolution.good_edge(channel)) {
+        information_.add(*turn.predicted.at(i), seconds_between(start_, *t),
+                         scene_.rate_rad_s() * edge_sigma_s(scene_.config().noise, channel), turns);
+      }
+    }
+  }
+
+  std::optional<double> sigma_rad() const {
+    const auto covariance_rad2 = information_.axis_covariance_rad2();
+    return covariance_rad2 ? std::optional{std::sqrt(covariance_rad2->trace())} : std::nullopt;
+  }
+
+  PassScene scene_;
+  TaiTime start_;
+  TaiTime t_;
+  EdgeInformation information_;
+  PassEvents events_;
+};
+
+}  // namespace
+
+Expected<PassPlan> plan_pass(const SpinConfig& config, const Orbit& orbit,
+                             const PassRequest& request) {
+  PassScene scene{config, orbit, request.axis_icrf, request.rate_rad_s};
+  // The error shall say how much of the pass the orbit does not reach.
+  for (const TaiTime end : {request.from, request.to}) {
+    if (const auto geometry = scene.at(end); !geometry) {
+      return Unexpected{geometry.error()};
+    }
+  }
+  Planner planner{std::move(scene), request.from};
+  PassPlan plan;
+  TaiTime t = request.from;
+  for (std::int64_t i = 1;; ++i) {
+    auto step = planner.step_to(t);
+    if (!step) {
+      return Unexpected{step.error()};
+    }
+    plan.steps.push_back(std::move(*step));
+    if (t == request.to) {
+      break;
+    }
+    t = std::min(later_by_s(request.from, static_cast<double>(i) * request.step_s), request.to);
+  }
+  plan.events = planner.finish();
+  return plan;
+}
+
+}  // namespace spindrift

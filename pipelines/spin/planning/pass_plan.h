@@ -1,0 +1,49 @@
+/// @file
+/// A coming pass: what each sensor will see, when a fix is possible, how well the axis can be known
+/// after a while.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/orbit.h"
+#include "pipelines/spin/planning/pass_events.h"
+#include "pipelines/spin/planning/pass_geometry.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+struct PassRequest {
+  TaiTime from;
+  TaiTime to;                 ///< Later than `from`.
+  double step_s;              ///< Positive.
+  Eigen::Vector3d axis_icrf;  ///< Unit.
+  double rate_rad_s;          ///< Positive.
+};
+
+struct PassStep {
+  PassGeometry geometry;
+  /// One standard deviation of the axis, both directions together, that all edges since the
+  /// beginning of the pass allow (Cramer-Rao bound with phase, rate and drift unknown). Empty: they
+  /// do not determine it.
+  std::optional<double> sigma_rad;
+};
+
+struct PassPlan {
+  std::vector<PassStep> steps;    ///< At `from`, then every step, and at `to`.
+  std::vector<PassEvent> events;  ///< By beginning.
+};
+
+/// Edges are as many and as noisy as the mission file says: none is lost. Where channels interfere
+/// their edges are left out. Events, which are looked for every second, and sigma do not depend on
+/// the step.
+/// @return NoCoverage where the orbit does not reach from `from` to `to`; Unobservable where it
+///         dips below the horizon's height.
+Expected<PassPlan> plan_pass(const SpinConfig& config, const Orbit& orbit,
+                             const PassRequest& request);
+
+}  // namespace spindrift

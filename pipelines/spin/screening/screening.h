@@ -1,0 +1,52 @@
+/// @file
+/// Rationality test of the measurements: each against what the mean attitude predicts.
+
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "pipelines/spin/measurement/measurement.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/products.h"
+#include "pipelines/spin/types/sightlines.h"
+#include "pipelines/statistics/robust_mean.h"
+
+namespace spindrift {
+
+/// Measured minus predicted, of one quantity of one revolution.
+struct Residual {
+  SpinQuantity quantity;
+  double value_rad;
+  double sigma_rad;
+};
+
+/// One residual per good measurement. One that the axis says is impossible (a chord of a beam that
+/// misses the Earth, a pulse of a slit that cannot see the Sun) has none: it is left to the other
+/// quantities to decide. Chords and dihedrals are those of the mission's horizon.
+std::vector<Residual> residuals(const SpinConfig& config, const RevolutionMeasurements& measured,
+                                const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf);
+
+/// A sliding window of residuals for every quantity. Deviations count from the window's mean, not
+/// from zero: an error that all share (a misplaced sensor, the Earth's oblateness) is not an
+/// outlier. Rejected residuals stay in the window, so the test follows when the attitude really
+/// changes.
+class ScreeningWindow {
+ public:
+  explicit ScreeningWindow(const SpinScreening& screening);
+
+  void add(const Residual& residual);
+  /// Of a residual that was added.
+  bool keeps(const Residual& residual) const;
+
+ private:
+  struct Channel {
+    SlidingRobustMean values_rad;
+    std::optional<RobustMean> mean = {};  ///< After the last value.
+  };
+
+  double sigma_;
+  std::vector<Channel> channels_;  ///< By SpinQuantity.
+};
+
+}  // namespace spindrift

@@ -1,0 +1,217 @@
+#include "pipelines/spin/sensor_model/edge_prediction.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/sensor_model/coning.h"
+#include "pipelines/spin/sensor_model/horizon.h"
+#include "pipelines/spin/types/side.h"
+
+namespace spindrift {
+namespace {
+
+// The Sun so near to the axis (0.6 deg) has no azimuth.
+constexpr double kNearestAxis = 0.01;
+// So near (6 deg) to the end of slit 2 an edge is no measure of the axis.
+constexpr double kLeastSlope = 0.1;
+
+// Half a chord is taken for no narrower than so many times the noise of its edges.
+constexpr double kNarrowestSigmas = 2.0;
+
+using PerError = Eigen::Matrix<double, 1, kModelErrors>;
+using PerBias = Eigen::Matrix<double, 1, kSensorBiases>;
+
+/// Where the Sun stands: the azimuth of a slit in a meridian when it sees it.
+struct SunView {
+  double azimuth_rad;
+  double angle_rad;  ///< theta_s, from the axis.
+  Eigen::Vector3d azimuth_per_rotation;
+  Eigen::Vector3d angle_per_rotation;
+};
+
+std::optional<SunView> view_of_sun(const Eigen::Vector3d& sun_spin) {
+  const double across = std::hypot(sun_spin.x(), sun_spin.y());
+  if (!(across > kNearestAxis)) {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d towards{sun_spin.x() / across, sun_spin.y() / across, 0.0};
+  const double cotangent = sun_spin.z() / across;
+  return SunView{.azimuth_rad = std::atan2(sun_spin.y(), sun_spin.x()),
+                 .angle_rad = std::atan2(across, sun_spin.z()),
+                 .azimuth_per_rotation = {cotangent * towards.x(), cotangent * towards.y(), -1.0},
+                 .angle_per_rotation = {towards.y(), -towards.x(), 0.0}};
+}
+
+/// When a slit sees the Sun.
+struct SlitView {
+  double phase_rad;
+  Eigen::Vector3d phase_per_rotation;
+  double phase_per_sun_angle;
+  double phase_per_cant;
+};
+
+std::optional<SlitView> view_of_slit(const SunSensor& slit, const Eigen::Vector3d& sun_spin,
+                                     double sun_angle_bias_rad) {
+  const auto sun = view_of_sun(sun_spin);
+  if (!sun) {
+    return std::nullopt;
+  }
+  const double measured_rad = sun->angle_rad + sun_angle_bias_rad;
+  const double tan_cant = std::tan(slit.slit_cant_rad);
+  const double sin_lag = tan_cant / std::tan(measured_rad);
+  const double cos_lag = std::sqrt(1.0 - sin_lag * sin_lag);
+  // Also where the slit ends: sin_lag of more than 1 leaves no number.
+  if (!(cos_lag > kLeastSlope)) {
+    return std::nullopt;
+  }
+  const double sine = std::sin(measured_rad);
+  const double by_sun_angle = -tan_cant / (sine * sine * cos_lag);
+  return SlitView{
+      .phase_rad = sun->azimuth_rad + std::asin(sin_lag) + slit.slit_separation_rad,
+      .phase_per_rotation = sun->azimuth_per_rotation + by_sun_angle * sun->angle_per_rotation,
+      .phase_per_sun_angle = by_sun_angle,
+      .phase_per_cant = (1.0 + tan_cant * tan_cant) / (std::tan(measured_rad) * cos_lag)};
+}
+
+Eigen::Vector2d coning_of(const SensorBiases& biases) { return {biases[ConingX], biases[ConingY]}; }
+
+PerBias per_coning(const Eigen::RowVector2d& slopes) {
+  return slopes.x() * PerBias::Unit(ConingX) + slopes.y() * PerBias::Unit(ConingY);
+}
+
+PerBias per_coning(const SlitView& view, const LeaningSlit& leaning) {
+  return per_coning(view.phase_per_cant * leaning.cant_per_coning + leaning.separation_per_coning);
+}
+
+std::optional<PredictedEdge> sun1_edge(const Eigen::Vector3d& sun_spin,
+                                       const SensorBiases& biases) {
+  const LeaningSlit slit =
+      leaning(SunSensor{.slit_cant_rad = 0.0, .slit_separation_rad = 0.0}, coning_of(biases));
+  const auto view = view_of_slit(slit.slit, sun_spin, 0.0);
+  if (!view) {
+    return std::nullopt;
+  }
+  return PredictedEdge{.phase_rad = wrapped_rad(view->phase_rad),
+                       .phase_per_rotation = view->phase_per_rotation,
+                       .phase_per_error = PerError::Zero(),
+                       .phase_per_bias = per_coning(*view, slit)};
+}
+
+std::optional<PredictedEdge> sun2_edge(const SunSensor& sensor, const Eigen::Vector3d& sun_spin,
+                                       const SensorBiases& biases) {
+  const LeaningSlit slit = leaning(sensor, coning_of(biases));
+  const auto view = view_of_slit(slit.slit, sun_spin, biases[SunAngleBias]);
+  if (!view) {
+    return std::nullopt;
+  }
+  return PredictedEdge{.phase_rad = wrapped_rad(view->phase_rad + biases[SlitSeparationBias]),
+                       .phase_per_rotation = view->phase_per_rotation,
+                       .phase_per_error = view->phase_per_sun_angle * PerError::Unit(SunAngleError),
+                       .phase_per_bias = view->phase_per_sun_angle * PerBias::Unit(SunAngleBias) +
+                                         PerBias::Unit(SlitSeparationBias) +
+                                         per_coning(*view, slit)};
+}
+
+struct Beam {
+  Side side;
+  Crossing crossing;
+};
+
+/// Of any channel but a slit's.
+Beam beam_of(PulseChannel channel) {
+  const bool north = channel == PulseChannel::NorthIn || channel == PulseChannel::NorthOut;
+  const bool in = channel == PulseChannel::NorthIn || channel == PulseChannel::SouthIn;
+  return {.side = north ? Side::North : Side::South, .crossing = in ? Crossing::In : Crossing::Out};
+}
+
+EarthView earth_view(const Sky& sky, const Eigen::Matrix3d& R_spin_icrf, TaiTime t) {
+  return {.spacecraft_spin_km = R_spin_icrf * spacecraft_icrf_km(sky, t),
+          .pole_spin = R_spin_icrf * sky.earth_pole_icrf};
+}
+
+struct BeamBiases {
+  SensorBias mount_angle;
+  SensorBias chord;
+};
+
+BeamBiases biases_of(Side side) {
+  return side == Side::North ? BeamBiases{NorthMountAngleBias, NorthChordBias}
+                             : BeamBiases{SouthMountAngleBias, SouthChordBias};
+}
+
+std::optional<PredictedEdge> beam_edge(const SpinConfig& config, Beam beam, const EarthView& earth,
+                                       const SensorBiases& biases) {
+  const auto [side, crossing] = beam;
+  if (!sensor_of(config, side)) {
+    return std::nullopt;
+  }
+  const auto [sensor, mount_angle_per_coning, azimuth_per_coning] =
+      leaning(*sensor_of(config, side), coning_of(biases));
+  const auto [mount_angle, chord] = biases_of(side);
+  Horizon horizon = config.horizon;
+  horizon.co2_altitude_km += biases[Co2HeightBias];
+  const auto limb = limb_crossing(horizon_axes(horizon), earth,
+                                  sensor.mount_angle_rad + biases[mount_angle], crossing);
+  if (!limb) {
+    return std::nullopt;
+  }
+  const bool north = side == Side::North;
+  const ModelError limb_error = north ? NorthLimb : SouthLimb;
+  const ModelError azimuth_error = north ? NorthAzimuth : SouthAzimuth;
+  const double half_chord = crossing == Crossing::In ? -0.5 : 0.5;
+  return PredictedEdge{
+      .phase_rad = wrapped_rad(limb->azimuth_rad + sensor.azimuth_rad + biases[DihedralBias] +
+                               half_chord * biases[chord]),
+      .phase_per_rotation = limb->azimuth_per_rotation,
+      .phase_per_error =
+          limb->azimuth_per_limb * PerError::Unit(limb_error) + PerError::Unit(azimuth_error),
+      .phase_per_bias =
+          limb->azimuth_per_mount * PerBias::Unit(mount_angle) + half_chord * PerBias::Unit(chord) +
+          PerBias::Unit(DihedralBias) + limb->azimuth_per_height_km * PerBias::Unit(Co2HeightBias) +
+          per_coning(limb->azimuth_per_mount * mount_angle_per_coning + azimuth_per_coning)};
+}
+
+}  // namespace
+
+std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& sky,
+                                          const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge,
+                                          const SensorBiases& biases) {
+  const Eigen::Vector3d sun_spin = R_spin_icrf * sky.sun_icrf;
+  if (edge.channel == PulseChannel::Sun1) {
+    return sun1_edge(sun_spin, biases);
+  }
+  if (edge.channel == PulseChannel::Sun2) {
+    return sun2_edge(config.sun_sensor, sun_spin, biases);
+  }
+  return beam_edge(config, beam_of(edge.channel), earth_view(sky, R_spin_icrf, edge.t), biases);
+}
+
+std::optional<PredictedEdge> edge_nearby(const SpinConfig& config, const Sky& sky,
+                                         const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge,
+                                         double phase_rad, double sigma_rad) {
+  if (edge.channel == PulseChannel::Sun1 || edge.channel == PulseChannel::Sun2) {
+    return std::nullopt;
+  }
+  const auto [side, crossing] = beam_of(edge.channel);
+  if (!sensor_of(config, side)) {
+    return std::nullopt;
+  }
+  const InfraredSensor& sensor = *sensor_of(config, side);
+  const auto limb =
+      limb_distance(horizon_axes(config.horizon), earth_view(sky, R_spin_icrf, edge.t),
+                    sensor.mount_angle_rad, phase_rad - sensor.azimuth_rad);
+  if (!limb) {
+    return std::nullopt;
+  }
+  const double slope = std::max(std::abs(limb->depth_per_rotation.z()),
+                                kNarrowestSigmas * sigma_rad * std::abs(limb->depth_bend));
+  const double scale = crossing == Crossing::In ? slope : -slope;
+  return PredictedEdge{.phase_rad = wrapped_rad(phase_rad - limb->depth / scale),
+                       .phase_per_rotation = -limb->depth_per_rotation / scale,
+                       .phase_per_error = PerError::Zero(),
+                       .phase_per_bias = PerBias::Zero()};
+}
+
+}  // namespace spindrift

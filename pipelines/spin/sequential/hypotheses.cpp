@@ -1,0 +1,176 @@
+#include "pipelines/spin/sequential/hypotheses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/types/model_allowance.h"
+
+namespace spindrift {
+namespace {
+
+// Across a silence in which the phase became this uncertain, whole turns can no longer be counted:
+// phase and rate start anew.
+constexpr double kPhaseLost_rad = 0.3;
+constexpr double kBeyondDoubt = 20.0;
+// The edges are e^5 times likelier under another candidate: were this one true, that would happen
+// in one pass of 150 at most (Ville's inequality).
+constexpr double kUnlikely = 5.0;
+// A hypothesis fits when the sum of its squared innovations, chi-square of one degree of freedom
+// each, is within so many of its sigmas.
+constexpr double kFitSigmas = 5.0;
+
+// A stray edge may make a fix, and may do so twice.
+constexpr int kFewestFixes = 5;
+
+StartingPoint place_of(const Hypothesis& hypothesis) {
+  return {.axis_icrf = hypothesis.filter.axis_icrf(),
+          .covariance_rad2 = hypothesis.filter.axis_covariance_rad2()};
+}
+
+/// Both filters have come to one axis.
+bool agree(const SpinFilter& a, const SpinFilter& b) {
+  const double apart_rad = angle_between_rad(a.axis_icrf(), b.axis_icrf());
+  return apart_rad < kModelLimit_rad &&
+         apart_rad * apart_rad <
+             std::min(a.axis_covariance_rad2().trace(), b.axis_covariance_rad2().trace());
+}
+
+bool fits(const Hypothesis& hypothesis) {
+  return hypothesis.edges >= kFewestEdgesToFit &&
+         hypothesis.squared_innovations <
+             hypothesis.edges + kFitSigmas * std::sqrt(2.0 * hypothesis.edges);
+}
+
+}  // namespace
+
+bool Hypotheses::contradicted_by(const StartingPoint& point) const {
+  return std::all_of(all_.begin(), all_.end(), [&](const Hypothesis& hypothesis) {
+    return contradict(point, place_of(hypothesis));
+  });
+}
+
+bool Hypotheses::closed() const {
+  return !all_.empty() && !provisional_ && published().has_beaten &&
+         published().fixes >= kFewestFixes &&
+         std::all_of(all_.begin() + 1, all_.end(),
+                     [](const Hypothesis& other) { return other.late; });
+}
+
+/// Nor where all fixes graze: filters that began to one side of the axis need not come to it.
+bool Hypotheses::prior_stands() const {
+  return published().favoured && !provisional_ &&
+         std::all_of(all_.begin() + 1, all_.end(), [&](const Hypothesis& other) {
+           return other.log_likelihood - published().log_likelihood < kUnlikely;
+         });
+}
+
+bool Hypotheses::add(const StartingPoint& point, const SpinConfig& config,
+                     const Revolution& revolution, const Sky& sky) {
+  const auto filter =
+      SpinFilter::about(point.axis_icrf, point.covariance_rad2, config, revolution, sky);
+  if (!filter) {
+    return false;
+  }
+  Hypothesis added{.filter = *filter};
+  if (!all_.empty()) {
+    Hypothesis& published = all_.front();
+    published.has_beaten = published.has_beaten && !settled() && !closed();
+    added.log_likelihood = published.log_likelihood;
+    added.late = published.has_beaten;
+  }
+  all_.push_back(std::move(added));
+  settled_ = false;
+  return true;
+}
+
+void Hypotheses::note(const StartingPoints::Known& said) {
+  for (Hypothesis& hypothesis : all_) {
+    const bool named = std::any_of(
+        said.points.begin(), said.points.end(),
+        [&](const StartingPoint& point) { return !contradict(point, place_of(hypothesis)); });
+    hypothesis.fixes += named ? said.fixes : 0;
+  }
+}
+
+/// The nearest; the end where that is contradicted.
+std::vector<Hypothesis>::iterator Hypotheses::at(const StartingPoint& point) {
+  const auto nearest =
+      std::max_element(all_.begin(), all_.end(), [&](const Hypothesis& a, const Hypothesis& b) {
+        return a.filter.axis_icrf().dot(point.axis_icrf) <
+               b.filter.axis_icrf().dot(point.axis_icrf);
+      });
+  return contradict(point, place_of(*nearest)) ? all_.end() : nearest;
+}
+
+void Hypotheses::settle_at(const StartingPoint& point) {
+  if (const auto chosen = at(point); chosen != all_.end()) {
+    std::swap(all_.front(), *chosen);
+    all_.erase(all_.begin() + 1, all_.end());
+    settled_ = true;
+  }
+}
+
+void Hypotheses::favour_at(const StartingPoint& point) {
+  if (const auto chosen = at(point); chosen != all_.end()) {
+    for (Hypothesis& hypothesis : all_) {
+      hypothesis.favoured = &hypothesis == &*chosen;
+    }
+  }
+}
+
+bool Hypotheses::work_in(const SpinConfig& config, const Revolution& revolution, const Sky& sky,
+                         const ChannelNoise& noise) {
+  const GoodEdges edges{config, revolution};
+  for (Hypothesis& hypothesis : all_) {
+    SpinFilter& filter = hypothesis.filter;
+    filter.predict(revolution.t_start);
+    if (filter.phase_sigma_rad() > kPhaseLost_rad) {
+      filter = SpinFilter::about(filter.axis_icrf(), filter.axis_covariance_rad2(), config,
+                                 revolution, sky)
+                   .value_or(filter);
+      hypothesis.tally = {};
+    } else {
+      hypothesis.tally = filter.update(config, sky, edges.span(), noise);
+    }
+    const EdgeTally& tally = hypothesis.tally;
+    const bool was_new = hypothesis.edges < kFewestEdgesToFit;
+    hypothesis.edges += static_cast<double>(tally.accepted.count() + tally.gated.count());
+    hypothesis.log_likelihood += tally.log_likelihood;
+    hypothesis.squared_innovations += tally.squared_innovations;
+    // A filter knows little at first, and its edges are unlikely for that: one that came late is
+    // held against the others, which have this behind them, from here on.
+    if (hypothesis.late && was_new && hypothesis.edges >= kFewestEdgesToFit) {
+      hypothesis.log_likelihood = std::max(hypothesis.log_likelihood, published().log_likelihood);
+    }
+  }
+  return drop_the_beaten();
+}
+
+bool Hypotheses::drop_the_beaten() {
+  std::stable_sort(all_.begin(), all_.end(), [](const Hypothesis& a, const Hypothesis& b) {
+    return a.log_likelihood > b.log_likelihood;
+  });
+  Hypothesis& best = all_.front();
+  const bool best_fits = fits(best);
+  bool prior_beaten = false;
+  const auto beaten = [&](const Hypothesis& other) {
+    const bool judged = other.late && other.edges >= kFewestEdgesToFit && best.has_beaten;
+    const double enough = judged ? kUnlikely : kBeyondDoubt;
+    const bool same = agree(best.filter, other.filter);
+    const bool out = best_fits && best.log_likelihood - other.log_likelihood > enough;
+    best.favoured = best.favoured || (same && other.favoured);
+    prior_beaten = prior_beaten || (!same && out && other.favoured);
+    return same || out;
+  };
+  const auto left = std::remove_if(all_.begin() + 1, all_.end(), beaten);
+  best.has_beaten = best.has_beaten || (best_fits && left != all_.end());
+  all_.erase(left, all_.end());
+  // Unbeaten, the prior's candidate stands before likelier ones.
+  std::stable_partition(all_.begin(), all_.end(),
+                        [](const Hypothesis& hypothesis) { return hypothesis.favoured; });
+  return prior_beaten;
+}
+
+}  // namespace spindrift

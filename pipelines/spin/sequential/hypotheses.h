@@ -1,0 +1,91 @@
+/// @file
+/// Candidates for the axis, each with a filter that sees the same edges. They compete by the
+/// likelihood of these: a candidate is out when the edges are e^20 times likelier under another one
+/// that fits them, or when both filters have come to one axis. Of those that come when one is
+/// out, e^5 is enough, once they are as well known as the others.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "pipelines/spin/association/association.h"
+#include "pipelines/spin/sequential/spin_filter.h"
+#include "pipelines/spin/sequential/starting_points.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/sky.h"
+
+namespace spindrift {
+
+struct Hypothesis {
+  SpinFilter filter;
+  bool favoured = false;  ///< By a prior.
+  double edges = 0.0;
+  double log_likelihood = 0.0;       ///< Of them.
+  double squared_innovations = 0.0;  ///< Normalised, their sum: as many as edges when all is well.
+  EdgeTally tally = {};              ///< Of the last revolution.
+  int fixes = 0;                     ///< That have it among their candidates.
+  bool has_beaten = false;           ///< Another, by the edges.
+  bool late = false;                 ///< Came when the one then published had beaten another.
+};
+
+/// So many edges say whether a hypothesis fits them.
+inline constexpr double kFewestEdgesToFit = 60.0;
+
+class Hypotheses {
+ public:
+  /// @param provisional The true axis may be missing: then the edges settle nothing.
+  explicit Hypotheses(bool provisional = false) : provisional_{provisional} {}
+
+  bool empty() const { return all_.empty(); }
+  std::size_t count() const { return all_.size(); }
+  bool provisional() const { return provisional_; }
+  /// By a fix, which leaves one, or by the edges beyond doubt.
+  bool settled() const { return (settled_ || closed()) && all_.size() == 1; }
+  /// Of candidates that are no accident of one fix: the likeliest of false ones is false.
+  bool settled_by_edges() const { return closed() && all_.size() == 1; }
+
+  /// The one published has beaten all that came before it had beaten any: those that are left are
+  /// the last to be judged. False ones of later fixes would come and go for ever.
+  bool closed() const;
+
+  /// The likeliest first, but before it the prior's, until the edges beat that; likewise
+  /// `published`, of which there must be one.
+  const std::vector<Hypothesis>& all() const { return all_; }
+  const Hypothesis& published() const { return all_.front(); }
+
+  /// No filter may have this axis.
+  bool contradicted_by(const StartingPoint& point) const;
+
+  /// Nothing but a prior chose the one published, and the edges do not speak against it.
+  bool prior_stands() const;
+
+  /// Another candidate, with the benefit of the doubt: as likely so far as the one published,
+  /// which, where it was settled or the list closed, stands no higher than it from now on.
+  /// @return False where none of the revolution's edges can tell its phase.
+  bool add(const StartingPoint& point, const SpinConfig& config, const Revolution& revolution,
+           const Sky& sky);
+
+  /// Fixes have said this.
+  void note(const StartingPoints::Known& said);
+
+  /// A fix settles which of them is true, unless it contradicts them all.
+  void settle_at(const StartingPoint& point);
+  /// Likewise a prior, but the others stay until the edges settle it.
+  void favour_at(const StartingPoint& point);
+
+  /// @param noise Of the filters' update.
+  /// @return Whether the edges have beaten the candidate that a prior had chosen.
+  bool work_in(const SpinConfig& config, const Revolution& revolution, const Sky& sky,
+               const ChannelNoise& noise);
+
+ private:
+  std::vector<Hypothesis>::iterator at(const StartingPoint& point);
+  bool drop_the_beaten();
+
+  std::vector<Hypothesis> all_;
+  bool provisional_;
+  bool settled_ = false;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,302 @@
+#include "pipelines/spin/sequential/sequential.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/types/model_allowance.h"
+
+namespace spindrift {
+namespace {
+
+constexpr std::size_t kMostHypotheses = 8;
+// So many fixes that graze, and none that does not: there will be no better ones.
+constexpr int kFewestGrazing = 20;
+// Weight of one fix in the share of those that graze.
+constexpr double kRecentFix = 0.02;
+constexpr double kNearlyAll = 0.8;
+
+double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
+
+}  // namespace
+
+SequentialEstimator::SequentialEstimator(SpinConfig config)
+    : config_{std::move(config)}, grazing_starts_{kFewestGrazing} {}
+
+std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolution,
+                                                        const Sky& sky,
+                                                        std::span<const SpinFix> settled) {
+  bool began = false;
+  for (const SpinFix& fix : settled) {
+    began = heed(fix, revolution, sky) || began;
+  }
+  if (hypotheses_.empty()) {
+    unheard_ += settled.empty() ? 0 : 1;
+    return std::nullopt;
+  }
+  if (!began) {
+    work_in(revolution, sky);
+  }
+  const SpinFilter& best = hypotheses_.published().filter;
+  return SpinEstimate{
+      .t = revolution.t_start,
+      .estimator = SpinEstimator::Sequential,
+      .axis_icrf = best.axis_icrf(),
+      .covariance_rad2 = covariance_rad2(),
+      .spin_rate_rad_s = best.rate_rad_s(),
+      .spin_rate_sigma_rad_s = best.rate_sigma_rad_s() * std::sqrt(verdict_.excess_noise),
+      .status = status()};
+}
+
+/// @return Whether filters began here.
+bool SequentialEstimator::heed(const SpinFix& fix, const Revolution& revolution, const Sky& sky) {
+  note_grazing(fix);
+  if (poor_start_.unconfirmed()) {
+    const SpinFilter& filter = hypotheses_.published().filter;
+    poor_start_.note(
+        fix, {.axis_icrf = filter.axis_icrf(), .covariance_rad2 = filter.axis_covariance_rad2()});
+  }
+  StartingPoints* const starts = starting_points_for(fix);
+  const auto said = starts != nullptr ? starts->add(candidates_of(fix)) : std::nullopt;
+  if (!said) {
+    return false;
+  }
+  // Afresh: what fixes have in common to one side does not average out.
+  starts->forget();
+  if (!hypotheses_.empty() && !counts_as_grazing(fix)) {
+    contradiction_.note(hypotheses_, *said);
+    hypotheses_.note(*said);
+  }
+  if (gives_way_to(fix)) {
+    return begin(fix, said->points, revolution, sky);
+  }
+  if (fix.accepted) {
+    take_side(fix, said->points.front());
+  }
+  if (leaves_open(fix)) {
+    join(said->points, revolution, sky);
+  }
+  return false;
+}
+
+void SequentialEstimator::note_grazing(const SpinFix& fix) {
+  ++fixes_;
+  const double weight = std::max(kRecentFix, 1.0 / static_cast<double>(fixes_));
+  grazing_share_ += weight * ((fix.grazing ? 1.0 : 0.0) - grazing_share_);
+}
+
+/// Where nearly all graze it is noise that keeps some from it, and their candidates are no better.
+bool SequentialEstimator::counts_as_grazing(const SpinFix& fix) const {
+  return fix.grazing || (leaves_open(fix) && grazing_share_ > kNearlyAll);
+}
+
+/// A branch that only alternates have made is not confirmed by a settled fix that comes near it.
+/// Where there are fixes that do not graze, the others say nothing.
+StartingPoints* SequentialEstimator::starting_points_for(const SpinFix& fix) {
+  if (counts_as_grazing(fix)) {
+    const bool no_others = hypotheses_.empty() || hypotheses_.provisional();
+    return leaves_open(fix) && no_others ? &grazing_starts_ : nullptr;
+  }
+  if (leaves_open(fix)) {
+    return &open_starts_;
+  }
+  return fix.accepted ? &settled_starts_ : nullptr;
+}
+
+/// Only an accepted fix may start the filter again; of those that all graze, any.
+bool SequentialEstimator::gives_way_to(const SpinFix& fix) const {
+  if (hypotheses_.empty()) {
+    return true;
+  }
+  if (hypotheses_.provisional()) {
+    return !counts_as_grazing(fix) || gates_.most_gated();
+  }
+  return fix.accepted && (gates_.most_gated() || fixes_contradict());
+}
+
+bool SequentialEstimator::fixes_contradict() const {
+  return contradiction_.stands(
+      hypotheses_, verdict_.excess_noise > 1.0 || gates_.channel_mostly_gated().has_value());
+}
+
+/// At all points: without one of them the true one may be missing. What was counted since the last
+/// start is forgotten.
+bool SequentialEstimator::begin(const SpinFix& fix, std::span<const StartingPoint> points,
+                                const Revolution& revolution, const Sky& sky) {
+  Hypotheses started{counts_as_grazing(fix)};
+  for (const StartingPoint& point : points) {
+    if (!started.add(point, config_, revolution, sky)) {
+      return false;
+    }
+  }
+  if (!hypotheses_.empty() && !hypotheses_.provisional()) {
+    ++restarts_;
+    restarted_ = gates_.most_gated() ? "edges gated" : "fixes differ";
+  }
+  hypotheses_ = std::move(started);
+  poor_start_.begin(points.front());
+  if (fix.accepted) {
+    take_side(fix, points.front());
+  }
+  noise_at_restart_ = verdict_.excess_noise;
+  watch_.fade();
+  verdict_ = watch_.verdict();
+  gates_ = {};
+  unsteady_ = {};
+  contradiction_ = {};
+  settled_starts_.forget();
+  open_starts_.forget();
+  grazing_starts_.forget();
+  unfollowed_.forget();
+  return true;
+}
+
+void SequentialEstimator::take_side(const SpinFix& fix, const StartingPoint& axis) {
+  if (hypotheses_.settled()) {
+    return;
+  }
+  if (fix.resolution != Resolution::Prior) {
+    hypotheses_.settle_at(axis);
+  } else if (!prior_refuted_) {
+    hypotheses_.favour_at(axis);
+  }
+}
+
+/// Filters begin where all fixes together have their branches: false candidates move on, and are
+/// told from the true one by it. What is settled is asked again only where fixes contradict it.
+void SequentialEstimator::join(std::span<const StartingPoint> points, const Revolution& revolution,
+                               const Sky& sky) {
+  if ((hypotheses_.settled() || hypotheses_.closed()) && !fixes_contradict()) {
+    return;
+  }
+  std::vector<StartingPoint> unfollowed;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(unfollowed),
+               [&](const StartingPoint& point) { return hypotheses_.contradicted_by(point); });
+  if (const auto known = unfollowed_.add(unfollowed)) {
+    for (const StartingPoint& point : known->points) {
+      if (hypotheses_.count() < kMostHypotheses) {
+        hypotheses_.add(point, config_, revolution, sky);
+      }
+    }
+  }
+}
+
+ChannelNoise SequentialEstimator::gate_noise() const {
+  ChannelNoise noise = unsteady_.noise();
+  const double of_all = std::min(verdict_.excess_noise, noise_at_restart_);
+  std::transform(noise.begin(), noise.end(), noise.begin(),
+                 [of_all](double of_channel) { return std::max(of_channel, of_all); });
+  return noise;
+}
+
+void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) {
+  if (hypotheses_.work_in(config_, revolution, sky, gate_noise())) {
+    prior_refuted_ = true;
+    ++restarts_;
+  }
+  const Hypothesis& published = hypotheses_.published();
+  gates_.note(published.tally);
+  unsteady_.note(published.tally);
+  watch_.note(published.tally);
+  verdict_ = watch_.verdict();
+  // The first edges pull the filter from its start to where they fit.
+  const auto edges =
+      static_cast<double>(published.tally.accepted.count() + published.tally.gated.count());
+  if (published.edges - edges < kFewestEdgesToFit && published.edges >= kFewestEdgesToFit) {
+    watch_.forget_the_start();
+    unsteady_ = {};
+  }
+}
+
+Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
+  if (gates_.most_gated()) {
+    return anywhere_covariance_rad2();
+  }
+  const SpinFilter& filter = hypotheses_.published().filter;
+  const Eigen::Matrix<double, 2, kModelErrors> moved = filter.axis_of_errors();
+  return filter.axis_covariance_rad2() * verdict_.excess_noise +
+         moved * verdict_.errors_rad2 * moved.transpose();
+}
+
+double SequentialEstimator::model_leverage() const {
+  return hypotheses_.published().filter.axis_of_errors().norm();
+}
+
+std::optional<KnownAxis> SequentialEstimator::settled_by_edges() const {
+  if (!hypotheses_.settled_by_edges() || gates_.most_gated() || model_contradicts()) {
+    return std::nullopt;
+  }
+  return KnownAxis{.axis_icrf = hypotheses_.published().filter.axis_icrf(),
+                   .sigma_rad = std::hypot(std::sqrt(covariance_rad2().trace()), kModelLimit_rad)};
+}
+
+/// No sensor is misplaced so far: it is the axis that is wrong, however well the rest fits.
+bool SequentialEstimator::model_contradicts() const {
+  return verdict_.beyond_allowance || verdict_.error_rad > kModelLimit_rad;
+}
+
+std::string SequentialEstimator::ambiguous_status() const {
+  const std::size_t count = hypotheses_.count();
+  const std::string_view none = ", or none: fixes graze";
+  if (count == 1) {
+    return hypotheses_.provisional()
+               ? fmt::format("AMBIGUOUS{}", none)
+               : fmt::format("AMBIGUOUS, no fix has settled it, {} revolutions",
+                             gates_.revolutions());
+  }
+  const RaDec other = ra_dec_of(hypotheses_.all()[1].filter.axis_icrf());
+  const std::string named = fmt::format("AMBIGUOUS, or ra {:.2f} dec {:.2f} deg",
+                                        degrees(other.ra_rad), degrees(other.dec_rad));
+  if (hypotheses_.provisional()) {
+    return fmt::format("{}{}", named, none);
+  }
+  return count > 2 ? fmt::format("{}, or {} more", named, count - 2)
+                   : fmt::format("{}, {} revolutions", named, gates_.revolutions());
+}
+
+std::string SequentialEstimator::status() const {
+  const std::int64_t revolutions = gates_.revolutions();
+  if (gates_.most_gated()) {
+    return fmt::format("LOST, {} edges gated, awaiting a fix", gates_.gated());
+  }
+  // What passed before the filters began might have contradicted the prior: until they have seen as
+  // much, nothing is said.
+  if (!hypotheses_.settled() && !(hypotheses_.prior_stands() && revolutions >= unheard_)) {
+    return ambiguous_status();
+  }
+  if (const auto channel = gates_.channel_mostly_gated()) {
+    return fmt::format("DOUBTFUL, most {} edges gated, {} revolutions", name_of(*channel),
+                       revolutions);
+  }
+  if (gates_.many_gated()) {
+    return fmt::format("DOUBTFUL, many edges gated, {} revolutions", revolutions);
+  }
+  if (verdict_.excess_noise > 1.0) {
+    return fmt::format("DOUBTFUL, residuals {:.1f} x stated noise, {} revolutions",
+                       std::sqrt(verdict_.excess_noise), revolutions);
+  }
+  if (verdict_.error_rad > 0.0) {
+    return fmt::format("{}, model off by {:.2g} deg, {} revolutions",
+                       model_contradicts() ? "DOUBTFUL" : "OK", degrees(verdict_.error_rad),
+                       revolutions);
+  }
+  // Filters that began at several places and were beaten have searched more than one.
+  if (poor_start_.unconfirmed() && !hypotheses_.settled_by_edges()) {
+    return fmt::format("DOUBTFUL, poor fixes to confirm it yet, {} revolutions", revolutions);
+  }
+  const std::string counts =
+      fmt::format("OK, {} revolutions, {} edges gated{}", revolutions, gates_.gated(),
+                  model_leverage() > kPoorLeverage ? ", poor leverage" : "");
+  if (prior_refuted_) {
+    return counts + ", prior refuted";
+  }
+  return restarted_.empty() ? counts : fmt::format("{}, restart: {}", counts, restarted_);
+}
+
+}  // namespace spindrift

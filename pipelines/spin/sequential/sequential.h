@@ -1,0 +1,125 @@
+/// @file
+/// The estimator `sequential`: axis and rate after every revolution, from all its good edges.
+///
+/// A fix starts it. Where the fix is AMBIGUOUS one filter starts at each of its candidates, and at
+/// those of later ones that are near none of them; all see the same edges, the likeliest is
+/// published, and the others are dropped when a later fix settles the matter or the edges
+/// themselves do (hypotheses.h). Likewise where only a PRIOR settled the fix: its candidate is
+/// published, and the others stay until the edges beat them; where they beat the prior's, the axis
+/// is theirs, and the status says so. Candidates known badly are averaged with those of the
+/// following fixes, until all are known well enough (starting_points.h); grazing ones start filters
+/// only where there are no others for long, and then nothing but an accepted fix settles it. A
+/// filter that finds most edges where it does not expect them, or whose fixes name another axis
+/// (contradiction.h), starts again at the next accepted fix, and says so; where the fixes name
+/// several, it is AMBIGUOUS again.
+///
+/// The status begins with
+///     OK         all is well
+///     AMBIGUOUS  another axis, named, fits as well or nearly so, or nothing has settled it; the
+///                covariance is that of the candidate published, were it true. "or 2 more": so many
+///                others do, which the fixes list among their alternates. "or none: fixes graze",
+///                nearly all of them: where two branches touch, candidates are off by more than
+///                their covariances and many fixes lack the true one, so that no filter may follow
+///                it
+///     DOUBTFUL   the edges scatter more than their noise, or show errors of the model beyond its
+///                allowance, or of half a degree whatever they may be: the covariance is raised to
+///                cover it (below that likewise, and the status is OK, "model off by"); or most
+///                edges of the channel named are not where this axis has them
+///     LOST       most edges are not: the axis is no longer, or never was, the true one; the
+///                covariance is that of an axis which may point anywhere
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "pipelines/spin/association/association.h"
+#include "pipelines/spin/mean/model_check.h"
+#include "pipelines/spin/sequential/contradiction.h"
+#include "pipelines/spin/sequential/gate_watch.h"
+#include "pipelines/spin/sequential/hypotheses.h"
+#include "pipelines/spin/sequential/innovation_watch.h"
+#include "pipelines/spin/sequential/poor_start.h"
+#include "pipelines/spin/sequential/starting_points.h"
+#include "pipelines/spin/sequential/unsteady_channels.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/known_axis.h"
+#include "pipelines/spin/types/products.h"
+#include "pipelines/spin/types/sky.h"
+
+namespace spindrift {
+
+class SequentialEstimator {
+ public:
+  explicit SequentialEstimator(SpinConfig config);
+
+  /// @param revolution Not earlier than the one before; only its good edges are used.
+  /// @param settled The fixes that were settled since the revolution before, in any order.
+  /// @return The estimate at the revolution's start; empty until the first fix.
+  std::optional<SpinEstimate> update(const Revolution& revolution, const Sky& sky,
+                                     std::span<const SpinFix> settled);
+
+  /// How often it gave up its axis for another.
+  int restarts() const { return restarts_; }
+
+  /// The edges have beaten the candidate that a prior had chosen.
+  bool prior_refuted() const { return prior_refuted_; }
+
+  /// What errors of the model, one radian each, move the axis by, all ways together, rad: of the
+  /// geometry alone. Estimates include only what the edges show of such errors. There must be one.
+  double model_leverage() const;
+  /// Beyond it the status says so. Where beams cross the Earth well apart, an axis moves by three
+  /// or four times the errors of the model; where both look across the same middle of it, by ten.
+  static constexpr double kPoorLeverage = 6.0;
+
+  /// The axis that the edges settled beyond doubt among several.
+  std::optional<KnownAxis> settled_by_edges() const;
+
+ private:
+  bool heed(const SpinFix& fix, const Revolution& revolution, const Sky& sky);
+  void note_grazing(const SpinFix& fix);
+  bool counts_as_grazing(const SpinFix& fix) const;
+  StartingPoints* starting_points_for(const SpinFix& fix);
+  bool gives_way_to(const SpinFix& fix) const;
+  bool begin(const SpinFix& fix, std::span<const StartingPoint> points,
+             const Revolution& revolution, const Sky& sky);
+  void take_side(const SpinFix& fix, const StartingPoint& axis);
+  void join(std::span<const StartingPoint> points, const Revolution& revolution, const Sky& sky);
+  bool fixes_contradict() const;
+  ChannelNoise gate_noise() const;
+  void work_in(const Revolution& revolution, const Sky& sky);
+  Eigen::Matrix2d covariance_rad2() const;
+  bool model_contradicts() const;
+  std::string ambiguous_status() const;
+  std::string status() const;
+
+  SpinConfig config_;
+  Hypotheses hypotheses_;  ///< None before the first fix.
+
+  StartingPoints settled_starts_;  ///< Of fixes that are settled.
+  StartingPoints open_starts_;     ///< Of those that leave several candidates open.
+  StartingPoints grazing_starts_;
+  std::int64_t fixes_ = 0;
+  double grazing_share_ = 0.0;   ///< Of the recent fixes.
+  StartingPoints unfollowed_;    ///< Candidates that no filter follows, since the start.
+  Contradiction contradiction_;  ///< By fixes, since the start.
+  PoorStart poor_start_;
+
+  GateWatch gates_;            ///< Since the start.
+  UnsteadyChannels unsteady_;  ///< Since the start.
+  InnovationWatch watch_;      ///< Over the restarts: noise and model stay what they are.
+  ModelVerdict verdict_;       ///< Of the watch.
+  /// The gate opens for noise that made the filter begin anew before: then it was not the axis.
+  double noise_at_restart_ = 1.0;
+
+  std::int64_t unheard_ = 0;  ///< Revolutions with fixes before the first that could start it.
+  int restarts_ = 0;
+  bool prior_refuted_ = false;
+  std::string_view restarted_;  ///< Why; empty: never.
+};
+
+}  // namespace spindrift

@@ -1,0 +1,241 @@
+#include "pipelines/spin/sequential/spin_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/measurement/edge_use.h"
+#include "pipelines/spin/sensor_model/edge_prediction.h"
+
+namespace spindrift {
+namespace {
+
+enum Component : Eigen::Index { kTiltX, kTiltY, kPhase, kRate, kDrift };
+
+// Torques on a satellite turn its axis by up to a tenth of a degree a day; this random walk makes
+// 0.02 deg of it, and 3e-6 deg a second, which no pulse can tell from rest.
+constexpr double kAxisWander_rad_sqrt_s = 1e-6;
+// What is left beside an even drift. A rate that is constant is known better than the filter says;
+// the axis hardly depends on it.
+constexpr double kRateWander_rad_s_sqrt_s = 3e-6;
+// 2 rpm an hour: eddy currents, warming and leaks do less.
+constexpr double kFirstDrift_rad_s2 = 2.0 * (2.0 * std::numbers::pi / 60.0) / 3600.0;
+// A day makes 0.02 rpm/h of it.
+constexpr double kDriftWander_rad_s2_sqrt_s = 2e-9;
+// One edge in a thousand is spurious and anywhere on the circle.
+const double kLogSpurious = std::log(1e-3 / (2.0 * std::numbers::pi));
+// A correction of the axis beyond this (0.06 deg) is linearised anew where it ends, up to so many
+// times: what two linearisations disagree on would count as knowledge of what no edge measures. The
+// narrower a chord, the steeper its edges and, squared, the more curved.
+constexpr double kFarFromLinear_rad = 1e-3;
+constexpr int kMostPasses = 8;
+// The first phase comes from an edge that the axis may rest on too: known so badly, it is free.
+constexpr double kFirstPhase_rad = 0.1;
+// The first rate comes from the period: ten of its sigmas leave the filter a hundredth of its
+// weight. Its own sigma says nothing of a drift.
+constexpr double kFirstRateSigmas = 10.0;
+constexpr double kFirstRateShare = 1e-4;
+
+double square(double x) { return x * x; }
+
+double log_normal_density(double squared_innovation, double variance) {
+  return -0.5 * (squared_innovation + std::log(2.0 * std::numbers::pi * variance));
+}
+
+}  // namespace
+
+GoodEdges::GoodEdges(const SpinConfig& config, const Revolution& revolution) {
+  for (std::size_t i = 0; i < kPulseChannels; ++i) {
+    const auto channel = static_cast<PulseChannel>(i);
+    const auto t = revolution.good_edge(channel);
+    if (t && has_sensor(config, channel)) {
+      edges_.at(count_++) = {.t = *t, .channel = channel};
+    }
+  }
+}
+
+std::optional<SpinFilter> SpinFilter::about(const Eigen::Vector3d& axis_icrf,
+                                            const Eigen::Matrix2d& covariance_rad2,
+                                            const SpinConfig& config, const Revolution& revolution,
+                                            const Sky& sky) {
+  const auto q_icrf_spin = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis_icrf);
+  const Eigen::Matrix3d R_spin_icrf = q_icrf_spin.conjugate().toRotationMatrix();
+  const double rate_rad_s = 2.0 * std::numbers::pi / revolution.period.period_s;
+  const GoodEdges edges{config, revolution};
+  for (const Pulse& edge : edges.span()) {
+    const auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
+    if (!predicted) {
+      continue;
+    }
+    SpinFilter filter{edge.t, q_icrf_spin, predicted->phase_rad, rate_rad_s};
+    // Rotations and reflections: the inverse is the transpose.
+    const Eigen::Matrix2d turned = tangent_from_tilts(q_icrf_spin);
+    filter.covariance_.topLeftCorner<2, 2>() = turned.transpose() * covariance_rad2 * turned;
+    filter.covariance_(kPhase, kPhase) = square(kFirstPhase_rad);
+    filter.covariance_(kRate, kRate) = square(
+        rate_rad_s * (kFirstRateSigmas * revolution.period.sigma_s / revolution.period.period_s +
+                      kFirstRateShare));
+    filter.covariance_(kDrift, kDrift) = square(kFirstDrift_rad_s2);
+    return filter;
+  }
+  return std::nullopt;
+}
+
+void SpinFilter::predict(TaiTime t) {
+  const double dt_s = seconds_between(t_, t);
+  if (!(dt_s > 0.0)) {
+    return;
+  }
+  phase_rad_ = wrapped_rad(phase_rad_ + (rate_rad_s_ + 0.5 * drift_rad_s2_ * dt_s) * dt_s);
+  rate_rad_s_ += drift_rad_s2_ * dt_s;
+  of_errors_.row(kPhase) += dt_s * (of_errors_.row(kRate) + 0.5 * dt_s * of_errors_.row(kDrift));
+  of_errors_.row(kRate) += dt_s * of_errors_.row(kDrift);
+  covariance_.row(kPhase) += dt_s * (covariance_.row(kRate) + 0.5 * dt_s * covariance_.row(kDrift));
+  covariance_.col(kPhase) += dt_s * (covariance_.col(kRate) + 0.5 * dt_s * covariance_.col(kDrift));
+  covariance_.row(kRate) += dt_s * covariance_.row(kDrift);
+  covariance_.col(kRate) += dt_s * covariance_.col(kDrift);
+
+  const double axis_rad2 = square(kAxisWander_rad_sqrt_s) * dt_s;
+  const double rate_rad2_s2 = square(kRateWander_rad_s_sqrt_s) * dt_s;
+  const double drift_rad2_s4 = square(kDriftWander_rad_s2_sqrt_s) * dt_s;
+  covariance_(kTiltX, kTiltX) += axis_rad2;
+  covariance_(kTiltY, kTiltY) += axis_rad2;
+  // Integrated over the interval: of the drift, the rate it makes and the phase that this makes.
+  Eigen::Matrix3d wander;
+  wander << square(dt_s) * (rate_rad2_s2 / 3.0 + drift_rad2_s4 * square(dt_s) / 20.0),
+      dt_s * (rate_rad2_s2 / 2.0 + drift_rad2_s4 * square(dt_s) / 8.0),
+      drift_rad2_s4 * square(dt_s) / 6.0, 0.0, rate_rad2_s2 + drift_rad2_s4 * square(dt_s) / 3.0,
+      drift_rad2_s4 * dt_s / 2.0, 0.0, 0.0, drift_rad2_s4;
+  covariance_.bottomRightCorner<3, 3>() += wander.selfadjointView<Eigen::Upper>();
+  t_ = t;
+}
+
+EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges,
+                             const ChannelNoise& noise) {
+  const SpinFilter prior = *this;
+  const Revolved seen{.config = config, .sky = sky, .edges = edges, .noise = noise};
+  EdgeTally tally;
+  // There may be no state near with all these edges: then those that are missing pull no more.
+  for (const Missing missing : {Missing::Approached, Missing::LeftOut}) {
+    *this = prior;
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      const Linearised here = update_linearised_here(prior, seen, missing, tally);
+      if (!here.approached && here.moved_rad * square(here.steepest) < kFarFromLinear_rad) {
+        return tally;
+      }
+    }
+  }
+  return tally;
+}
+
+/// All edges are linearised at the present state: then their order has no weight, and sun edges,
+/// the sharper, come first to the gate.
+SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prior,
+                                                          const Revolved& seen, Missing missing,
+                                                          EdgeTally& tally) {
+  const auto& [config, sky, edges, noise] = seen;
+  const Eigen::Matrix3d R_spin_icrf = q_icrf_spin_.conjugate().toRotationMatrix();
+  Linearised here;
+  tally = {};
+  covariance_ = prior.covariance_;
+  of_errors_ = prior.of_errors_;
+  Error error = error_of(prior);
+  const auto gate_of = [&noise = noise](PulseChannel channel) {
+    return square(kGateSigmas) * noise.at(index_of(channel));
+  };
+  const auto leave_out = [&](const Pulse& edge) {
+    tally.gated.set(index_of(edge.channel));
+    tally.log_likelihood += kLogSpurious;
+    tally.squared_innovations += gate_of(edge.channel);
+    tally.squared_gates += gate_of(edge.channel);
+  };
+  for (const Pulse& edge : edges) {
+    const double dt_s = seconds_between(t_, edge.t);
+    const double phase_rad = phase_rad_ + (rate_rad_s_ + 0.5 * drift_rad_s2_ * dt_s) * dt_s;
+    const double sigma_rad = rate_rad_s_ * edge_sigma_s(config.noise, edge.channel);
+    auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
+    const bool exists = predicted.has_value();
+    if (!exists && missing == Missing::Approached) {
+      predicted = edge_nearby(config, sky, R_spin_icrf, edge, phase_rad, sigma_rad);
+    }
+    if (!predicted) {
+      leave_out(edge);
+      continue;
+    }
+    const double by_phase = predicted->phase_per_rotation.z();
+    const Measured measured{
+        .channel = edge.channel,
+        .residual_rad = phase_rad - predicted->phase_rad,
+        .sigma_rad = sigma_rad,
+        .slope = Error{predicted->phase_per_rotation.x(), predicted->phase_per_rotation.y(),
+                       by_phase, by_phase * dt_s, by_phase * 0.5 * square(dt_s)},
+        .per_error = predicted->phase_per_error};
+    if (!work_in(measured, gate_of(edge.channel), error, tally)) {
+      leave_out(edge);
+      continue;
+    }
+    here.approached = here.approached || !exists;
+    here.steepest = std::max(here.steepest, predicted->phase_per_rotation.head<2>().norm());
+    tally.accepted.set(index_of(edge.channel));
+  }
+  correct(error);
+  here.moved_rad = error.head<2>().norm();
+  return here;
+}
+
+/// @return Whether it is within the gate; if not nothing is done.
+bool SpinFilter::work_in(const Measured& measured, double gate, Error& error, EdgeTally& tally) {
+  const Error gain_unscaled = covariance_ * measured.slope;
+  const double variance = measured.slope.dot(gain_unscaled) + square(measured.sigma_rad);
+  const double innovation = wrapped_rad(measured.residual_rad - measured.slope.dot(error));
+  const double squared_innovation = square(innovation) / variance;
+  tally.innovations.at(index_of(measured.channel)) = innovation / std::sqrt(variance);
+  if (squared_innovation > gate) {
+    return false;
+  }
+  // An edge that is late by an angle looks as if the phase were ahead by it.
+  const Eigen::Matrix<double, 1, kModelErrors> innovation_of_errors =
+      measured.slope.transpose() * of_errors_ + measured.per_error;
+  of_errors_ -= gain_unscaled * innovation_of_errors / variance;
+  tally.errors.information += innovation_of_errors.transpose() * innovation_of_errors / variance;
+  tally.errors.score += innovation_of_errors.transpose() * (innovation / variance);
+  error += gain_unscaled * (innovation / variance);
+  covariance_ -= gain_unscaled * gain_unscaled.transpose() / variance;
+  tally.log_likelihood += log_normal_density(squared_innovation, variance);
+  tally.squared_innovations += squared_innovation;
+  return true;
+}
+
+/// Of this state, were `truth` true.
+SpinFilter::Error SpinFilter::error_of(const SpinFilter& truth) const {
+  const Eigen::AngleAxisd turn{q_icrf_spin_.conjugate() * truth.q_icrf_spin_};
+  const Eigen::Vector3d turn_rad = turn.angle() * turn.axis();
+  return Error{turn_rad.x(), turn_rad.y(), wrapped_rad(truth.phase_rad_ - phase_rad_),
+               truth.rate_rad_s_ - rate_rad_s_, truth.drift_rad_s2_ - drift_rad_s2_};
+}
+
+void SpinFilter::correct(const Error& error) {
+  const Eigen::Vector3d tilt_rad{error[kTiltX], error[kTiltY], 0.0};
+  const double angle_rad = tilt_rad.norm();
+  if (angle_rad > 0.0) {
+    q_icrf_spin_ = (q_icrf_spin_ * Eigen::AngleAxisd{angle_rad, tilt_rad / angle_rad}).normalized();
+  }
+  phase_rad_ = wrapped_rad(phase_rad_ + error[kPhase]);
+  rate_rad_s_ += error[kRate];
+  drift_rad_s2_ += error[kDrift];
+}
+
+Eigen::Matrix2d SpinFilter::axis_covariance_rad2() const {
+  const Eigen::Matrix2d turned = tangent_from_tilts(q_icrf_spin_);
+  return turned * covariance_.topLeftCorner<2, 2>() * turned.transpose();
+}
+
+Eigen::Matrix<double, 2, kModelErrors> SpinFilter::axis_of_errors() const {
+  return tangent_from_tilts(q_icrf_spin_) * of_errors_.topRows<2>();
+}
+
+double SpinFilter::rate_sigma_rad_s() const { return std::sqrt(covariance_(kRate, kRate)); }
+double SpinFilter::phase_sigma_rad() const { return std::sqrt(covariance_(kPhase, kPhase)); }
+
+}  // namespace spindrift

@@ -1,0 +1,147 @@
+/// @file
+/// Kalman filter on the sphere: spin axis, phase and rate from single edge times.
+///
+/// The state is a frame `spin` (edge_prediction.h) whose third axis is the spin axis, the phase of
+/// the body in it at the reference time, the spin rate and its drift. Its error is small and has no
+/// singularity anywhere: tilts of the axis about the frame's first and second axes, phase, rate,
+/// drift. Each edge is one scalar measurement with its own noise,
+///
+///     phase + rate dt + drift dt^2/2 - predicted phase = 0 +/- rate sigma_t        (round the
+///     circle)
+///
+/// with dt = t - t_ref, so any subset of the channels will do. Assumes a body that turns about a
+/// fixed axis at a rate that drifts evenly, but for a slow random walk of all three.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <bitset>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/model_allowance.h"
+#include "pipelines/spin/types/pulse.h"
+#include "pipelines/spin/types/revolution.h"
+#include "pipelines/spin/types/sky.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+using ChannelSet = std::bitset<kPulseChannels>;
+
+/// How many times the variance of a channel's edges is what their stated noise makes it.
+using ChannelNoise = std::array<double, kPulseChannels>;
+inline constexpr ChannelNoise kStatedNoise = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+
+/// What became of the edges of one revolution.
+struct EdgeTally {
+  ChannelSet accepted;
+  ChannelSet gated;  ///< Too far from where they were predicted, or predicted not to be.
+  /// Natural logarithm of the edges' probability density, 1/rad each, gated ones as spurious.
+  double log_likelihood = 0.0;
+  double squared_innovations = 0.0;  ///< Normalised, their sum; gated ones as at the gate.
+  double squared_gates = 0.0;        ///< The share of gated ones in that.
+  /// Normalised, of each channel that was expected to have an edge, gated or not.
+  std::array<std::optional<double>, kPulseChannels> innovations = {};
+  /// What the innovations of the accepted edges say of the model. The filter has eliminated axis,
+  /// phase and rate from them, and made them independent (Friedland's separate-bias estimation).
+  ErrorInformation errors = {};
+};
+
+class SpinFilter {
+ public:
+  /// Four in a hundred thousand good edges lie farther out.
+  static constexpr double kGateSigmas = 4.1;
+
+  /// A filter about a known axis, its phase and rate from one revolution: so widely that the
+  /// revolution's edges, which the axis may rest on, do not count twice.
+  /// @param covariance_rad2 Of the axis, in the tangent plane: east, north.
+  /// @return Empty when none of the revolution's edges can tell the phase.
+  static std::optional<SpinFilter> about(const Eigen::Vector3d& axis_icrf,
+                                         const Eigen::Matrix2d& covariance_rad2,
+                                         const SpinConfig& config, const Revolution& revolution,
+                                         const Sky& sky);
+
+  /// Moves the reference time on; never back.
+  void predict(TaiTime t);
+
+  /// Works in the edges of about one revolution near the reference time.
+  /// @param noise The gate opens by so much, the weights stay.
+  EdgeTally update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges,
+                   const ChannelNoise& noise = kStatedNoise);
+
+  TaiTime t() const { return t_; }
+  Eigen::Vector3d axis_icrf() const { return q_icrf_spin_ * Eigen::Vector3d::UnitZ(); }
+  /// Tangent plane at the axis: east, north.
+  Eigen::Matrix2d axis_covariance_rad2() const;
+  /// What each error of the model has moved the axis by, rad/rad; likewise.
+  Eigen::Matrix<double, 2, kModelErrors> axis_of_errors() const;
+  double rate_rad_s() const { return rate_rad_s_; }
+  double rate_sigma_rad_s() const;
+  double phase_sigma_rad() const;
+
+ private:
+  SpinFilter(TaiTime t, Eigen::Quaterniond q_icrf_spin, double phase_rad, double rate_rad_s)
+      : t_{t},
+        q_icrf_spin_{std::move(q_icrf_spin)},
+        phase_rad_{phase_rad},
+        rate_rad_s_{rate_rad_s} {}
+
+  /// Tilt about the frame's first and second axes, phase, rate, drift.
+  using Error = Eigen::Matrix<double, 5, 1>;
+
+  struct Revolved {
+    const SpinConfig& config;
+    const Sky& sky;
+    std::span<const Pulse> edges;
+    const ChannelNoise& noise;
+  };
+  /// What is done with edges that the state does not have.
+  enum class Missing { Approached, LeftOut };
+  struct Linearised {
+    double moved_rad = 0.0;   ///< The axis, by the update.
+    double steepest = 1.0;    ///< Change of an edge's phase with the axis, rad/rad.
+    bool approached = false;  ///< The update used edges that the state does not have.
+  };
+  /// An edge as the present state predicts it.
+  struct Measured {
+    PulseChannel channel;
+    double residual_rad;  ///< Of the phase; by any number of turns more.
+    double sigma_rad;
+    Error slope;
+    Eigen::Matrix<double, 1, kModelErrors> per_error;
+  };
+  Linearised update_linearised_here(const SpinFilter& prior, const Revolved& seen, Missing missing,
+                                    EdgeTally& tally);
+  bool work_in(const Measured& measured, double gate, Error& error, EdgeTally& tally);
+  Error error_of(const SpinFilter& truth) const;
+  void correct(const Error& error);
+
+  TaiTime t_;
+  Eigen::Quaterniond q_icrf_spin_;
+  double phase_rad_;  ///< Of slit 1 at `t_`.
+  double rate_rad_s_;
+  double drift_rad_s2_ = 0.0;
+  Eigen::Matrix<double, 5, 5> covariance_ = Eigen::Matrix<double, 5, 5>::Zero();  ///< Of the error.
+  /// The error that each error of the model has made, per rad of it.
+  Eigen::Matrix<double, 5, kModelErrors> of_errors_ =
+      Eigen::Matrix<double, 5, kModelErrors>::Zero();
+};
+
+/// The good edges of a revolution; of channels without a sensor none are.
+class GoodEdges {
+ public:
+  GoodEdges(const SpinConfig& config, const Revolution& revolution);
+  std::span<const Pulse> span() const { return {edges_.data(), count_}; }
+
+ private:
+  std::array<Pulse, kPulseChannels> edges_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,160 @@
+#include "pipelines/spin/telemetry_order/reorder_window.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "pipelines/time/time_span.h"
+
+namespace spindrift {
+namespace {
+
+constexpr std::chrono::nanoseconds kPulseHorizon{std::chrono::seconds{1}};
+constexpr double kFrameHorizon_turns = 2.5;
+constexpr double kSlowestTurn_s = 12.0;
+
+}  // namespace
+
+std::chrono::nanoseconds reorder_horizon(const Pulse& /*pulse*/) { return kPulseHorizon; }
+
+std::chrono::nanoseconds reorder_horizon(const CodedFrame& frame) {
+  const double turn_s = std::clamp(frame.period_s.value_or(kSlowestTurn_s), 0.0, kSlowestTurn_s);
+  return std::chrono::nanoseconds{static_cast<std::int64_t>(kFrameHorizon_turns * turn_s * 1e9)};
+}
+
+/// A duplicate changes nothing, since it is not among the samples that a restarted service reads
+/// back.
+template <class Sample>
+typename BasicReorderWindow<Sample>::Verdict BasicReorderWindow<Sample>::add(const Sample& sample) {
+  if (!released_.empty() && sample <= released_.back()) {
+    const bool known = std::binary_search(released_.begin(), released_.end(), sample);
+    return known ? Verdict::Duplicate : Verdict::Late;
+  }
+  if (!is_far_ahead(sample)) {
+    if (!held_.insert(sample).second) {
+      return Verdict::Duplicate;
+    }
+    far_in_a_row_ = 0;
+    return Verdict::Held;
+  }
+  if (far_ahead_.size() >= kMostFarAhead) {
+    return Verdict::OutOfTime;
+  }
+  if (!far_ahead_.insert(sample).second) {
+    return Verdict::Duplicate;
+  }
+  if (++far_in_a_row_ >= kBelieved) {
+    believe();
+  }
+  return Verdict::Held;
+}
+
+template <class Sample>
+bool BasicReorderWindow<Sample>::is_far_ahead(const Sample& sample) const {
+  if (!released_.empty()) {
+    const TaiTime newest = held_.empty() ? released_.back().t : held_.rbegin()->t;
+    return span_between(newest, sample.t) > kFarAhead;
+  }
+  return !held_.empty() && span_between(held_.rbegin()->t, sample.t) > kFarAhead;
+}
+
+/// Time has jumped: what was held before is due, or was never to be believed itself.
+template <class Sample>
+void BasicReorderWindow<Sample>::believe() {
+  if (released_.empty() && held_.size() < kBelieved) {
+    early_.insert(early_.end(), held_.begin(), held_.end());
+    held_.clear();
+  }
+  for (const Sample& sample : std::exchange(held_, std::exchange(far_ahead_, {}))) {
+    due_.push_back(sample);
+    remember(sample);
+  }
+  far_in_a_row_ = 0;
+}
+
+/// Nothing is believed yet, and the first few are far before enough others to be.
+/// @return Whether any were set aside.
+template <class Sample>
+bool BasicReorderWindow<Sample>::set_aside_early() {
+  if (!released_.empty() || held_.size() <= kBelieved) {
+    return false;
+  }
+  auto end = std::next(held_.begin());
+  std::size_t before = 1;
+  while (end != held_.end() && before < kBelieved &&
+         span_between(std::prev(end)->t, end->t) <= kFarAhead) {
+    ++end;
+    ++before;
+  }
+  if (before >= kBelieved || held_.size() - before < kBelieved) {
+    return false;
+  }
+  early_.insert(early_.end(), held_.begin(), end);
+  held_.erase(held_.begin(), end);
+  return true;
+}
+
+template <class Sample>
+std::vector<Sample> BasicReorderWindow<Sample>::release() {
+  std::vector<Sample> due = std::exchange(due_, {});
+  while (!held_.empty()) {
+    const Sample first = *held_.begin();
+    Sample due_by{};
+    due_by.t = later_by(first.t, reorder_horizon(first));
+    const auto younger = held_.lower_bound(due_by);
+    // A sample of a bad clock that was there first does not count either.
+    if (younger == held_.end() || span_between(first.t, younger->t) > kFarAhead) {
+      if (set_aside_early()) {
+        continue;
+      }
+      break;
+    }
+    due.push_back(first);
+    remember(first);
+    held_.erase(held_.begin());
+  }
+  return due;
+}
+
+template <class Sample>
+typename BasicReorderWindow<Sample>::Rest BasicReorderWindow<Sample>::release_all() {
+  Rest rest{.in_time = std::exchange(due_, {}), .out_of_time = {}};
+  held_.merge(far_ahead_);
+  while (set_aside_early()) {
+  }
+  std::vector<Sample> samples{held_.begin(), held_.end()};
+  held_.clear();
+  far_ahead_.clear();
+  auto end = samples.end();
+  for (auto sample = samples.begin(); sample != samples.end(); ++sample) {
+    const bool is_first = sample == samples.begin();
+    if (is_first && released_.empty()) {
+      continue;
+    }
+    const TaiTime before = is_first ? released_.back().t : std::prev(sample)->t;
+    if (span_between(before, sample->t) > kFarAhead &&
+        samples.end() - sample < static_cast<std::ptrdiff_t>(kBelieved)) {
+      end = sample;
+      break;
+    }
+  }
+  rest.in_time.insert(rest.in_time.end(), samples.begin(), end);
+  rest.out_of_time = std::exchange(early_, {});
+  rest.out_of_time.insert(rest.out_of_time.end(), end, samples.end());
+  for (auto sample = samples.begin(); sample != end; ++sample) {
+    remember(*sample);
+  }
+  return rest;
+}
+
+template <class Sample>
+void BasicReorderWindow<Sample>::remember(const Sample& sample) {
+  released_.push_back(sample);
+  while (span_between(released_.front().t, sample.t) > kRemembered) {
+    released_.pop_front();
+  }
+}
+
+template class BasicReorderWindow<Pulse>;
+template class BasicReorderWindow<CodedFrame>;
+
+}  // namespace spindrift

@@ -1,0 +1,34 @@
+/// @file
+/// Coded telemetry: what a spin-stabilised satellite times itself, one frame a revolution.
+
+#pragma once
+
+#include <array>
+#include <compare>
+#include <optional>
+#include <vector>
+
+#include "pipelines/spin/types/pulse.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// Between two sun1. One revolution a minute, far slower than what is stabilised by its spin.
+inline constexpr double kLongestPeriod_s = 60.0;
+
+/// The six leading edges as intervals measured on board. Empty: not received.
+struct CodedFrame {
+  TaiTime t;                       ///< Of its sun1 edge.
+  std::optional<double> period_s;  ///< T12, between this sun1 and its neighbour.
+  /// Behind sun1, modulo the period, by channel; that of sun1 itself is empty.
+  std::array<std::optional<double>, kPulseChannels> delay_s;
+
+  friend auto operator<=>(const CodedFrame&, const CodedFrame&) = default;
+};
+
+/// Its edges in order of time: sun1, and the others within the period behind it, as the counter on
+/// board sees them. So the end of a chord that straddles sun1 is in the frame behind that of its
+/// beginning. Without a period, or with one that is none, the delays are taken as they are.
+std::vector<Pulse> edges_of(const CodedFrame& frame);
+
+}  // namespace spindrift

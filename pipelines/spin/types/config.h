@@ -1,0 +1,82 @@
+/// @file
+/// What the spin pipeline must know of a spacecraft: its sensors, their noise, its limits.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "pipelines/spin/types/pulse.h"
+#include "pipelines/spin/types/sensor_biases.h"
+
+namespace spindrift {
+
+/// A pair of slits, the second canted against the first, which lies in a meridian.
+struct SunSensor {
+  double slit_cant_rad;        ///< I, (0, pi/2).
+  double slit_separation_rad;  ///< psi0, of slit 2 behind slit 1 at the sensor's equator.
+};
+
+/// A pencil beam that sees the Earth's infrared disc.
+struct InfraredSensor {
+  double mount_angle_rad;  ///< gamma, from the spin axis, (0, pi).
+  double azimuth_rad;      ///< Behind sun slit 1: positive is crossed later.
+  bool healthy = false;    ///< Its silence counts against an axis that it should have seen.
+};
+
+/// One standard deviation of the time of an edge.
+struct PulseNoise {
+  double sun_s;
+  double infrared_s;
+};
+
+inline double edge_sigma_s(const PulseNoise& noise, PulseChannel channel) {
+  const bool sun = channel == PulseChannel::Sun1 || channel == PulseChannel::Sun2;
+  return sun ? noise.sun_s : noise.infrared_s;
+}
+
+enum class HorizonModel { Sphere, Ellipsoid };
+
+struct Horizon {
+  HorizonModel model;
+  double co2_altitude_km;  ///< Of the infrared horizon above the Earth's surface.
+};
+
+/// Rationality tests.
+struct SpinScreening {
+  int window = 100;             ///< Revolutions.
+  double sigma = 3.0;           ///< Limit in standard deviations.
+  double interference_s = 0.0;  ///< Edges of different channels closer than this spoil each other.
+};
+
+/// Limits on |Delta|, the determinant of the one-chord solution.
+struct SpinGeometry {
+  double determinant_usable = 0.03;     ///< From here on the linear solution holds.
+  double determinant_ambiguous = 0.01;  ///< Down from here the two roots cannot be told apart.
+};
+
+/// Where the axis was expected to be.
+struct SpinPrior {
+  Eigen::Vector3d axis_icrf;  ///< Unit length.
+  double sigma_rad;
+};
+
+/// What the estimator `batch` determines beside axis and rate.
+struct SpinBatch {
+  std::optional<BiasSet> biases = {};  ///< Empty: those that the edges ask for.
+};
+
+// No sensor has a default: written as a whole, never default-constructed.
+struct SpinConfig {
+  SunSensor sun_sensor;
+  std::optional<InfraredSensor> north;
+  std::optional<InfraredSensor> south;
+  PulseNoise noise;
+  Horizon horizon;
+  SpinScreening screening;
+  SpinGeometry geometry;
+  std::optional<SpinPrior> prior;
+  SpinBatch batch = {};
+};
+
+}  // namespace spindrift

@@ -1,0 +1,56 @@
+#include "pipelines/spin/types/sensor_biases.h"
+
+#include <array>
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = 0.017453292519943295;
+// Twice what alignments are good to (model_allowance.h): a bias that is asked for is suspected.
+constexpr double kAngle_rad = 0.3 * kDegree_rad;
+constexpr double kMostAngle_rad = 3.0 * kDegree_rad;
+// Seasons and latitude move the 14 to 16 um horizon by a few km (WGS-84 surface + 40 km nominal).
+constexpr double kHeight_km = 4.0;
+constexpr double kMostHeight_km = 30.0;
+// Balancing leaves some tenths of a degree between the sensors' axis and the principal axis.
+constexpr double kConing_rad = 0.5 * kDegree_rad;
+constexpr double kMostConing_rad = 5.0 * kDegree_rad;
+constexpr BiasPrior kConing{.name = "coning",
+                            .words = "coning",
+                            .is_angle = true,
+                            .sigma = kConing_rad,
+                            .bound = kMostConing_rad};
+
+constexpr BiasPrior angle(std::string_view name, std::string_view words) {
+  return {
+      .name = name, .words = words, .is_angle = true, .sigma = kAngle_rad, .bound = kMostAngle_rad};
+}
+
+// By SensorBias.
+constexpr std::array<BiasPrior, kSensorBiases> kPriors{
+    angle("sun_angle", "sun angle"),
+    angle("slit_separation", "separation of the sun slits"),
+    angle("north_chord", "north chord"),
+    angle("south_chord", "south chord"),
+    angle("north_mount_angle", "north mounting angle"),
+    angle("south_mount_angle", "south mounting angle"),
+    angle("dihedral", "azimuth between sun sensor and beams"),
+    BiasPrior{.name = "co2_height",
+              .words = "height of the infrared horizon",
+              .is_angle = false,
+              .sigma = kHeight_km,
+              .bound = kMostHeight_km},
+    kConing,
+    kConing};
+
+}  // namespace
+
+const BiasPrior& prior_of(SensorBias bias) { return kPriors.at(static_cast<std::size_t>(bias)); }
+
+BiasSet unknowns_of(SensorBias bias) {
+  const bool is_coning = bias == ConingX || bias == ConingY;
+  return is_coning ? BiasSet{}.set(ConingX).set(ConingY)
+                   : BiasSet{}.set(static_cast<std::size_t>(bias));
+}
+
+}  // namespace spindrift

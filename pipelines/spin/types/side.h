@@ -1,0 +1,33 @@
+/// @file
+/// The two infrared sensors, north and south, and what belongs to each.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/products.h"
+#include "pipelines/spin/types/pulse.h"
+
+namespace spindrift {
+
+enum class Side { North, South };
+inline constexpr std::array<Side, 2> kSides = {Side::North, Side::South};
+inline constexpr std::array<SpinQuantity, 2> kChords = {SpinQuantity::NorthChord,
+                                                        SpinQuantity::SouthChord};
+inline constexpr std::array<SpinQuantity, 2> kDihedrals = {SpinQuantity::NorthDihedral,
+                                                           SpinQuantity::SouthDihedral};
+inline constexpr std::array<PulseChannel, 2> kInChannels = {PulseChannel::NorthIn,
+                                                            PulseChannel::SouthIn};
+inline constexpr std::array<PulseChannel, 2> kOutChannels = {PulseChannel::NorthOut,
+                                                             PulseChannel::SouthOut};
+constexpr std::size_t index_of(Side side) { return static_cast<std::size_t>(side); }
+
+/// The sensor of a side; empty when the mission has none.
+inline const std::optional<InfraredSensor>& sensor_of(const SpinConfig& config, Side side) {
+  return side == Side::North ? config.north : config.south;
+}
+
+}  // namespace spindrift

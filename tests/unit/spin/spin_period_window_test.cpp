@@ -1,0 +1,88 @@
+#include "pipelines/spin/association/spin_period_window.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace spindrift {
+namespace {
+
+constexpr double kEdgeSigma_s = 1e-4;
+constexpr double kCandidateSigma_s = std::numbers::sqrt2 * kEdgeSigma_s;
+// An edge is rounded to 1 ns.
+constexpr double kRounding_s = 1e-9;
+const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+
+TaiTime after(double t_s) { return shifted(kStart, t_s); }
+
+SpinPeriodWindow window_of(int length) {
+  return SpinPeriodWindow{{.window = length, .sigma = 3.0, .interference_s = 0.0}, kEdgeSigma_s};
+}
+
+TEST(SpinPeriodWindow, AGapOfSeveralTurnsIsDividedByThem) {
+  SpinPeriodWindow window = window_of(100);
+  const PeriodCandidate candidate = window.add(after(0.0), after(3.0), 4, 0.75);
+  EXPECT_TRUE(candidate.accepted);
+  EXPECT_NEAR(candidate.period_s, 0.75, kRounding_s);
+  EXPECT_DOUBLE_EQ(candidate.sigma_s, kCandidateSigma_s / 4.0);
+  const PeriodCandidate refused = window.refused(after(0.0), after(3.0), 4);
+  EXPECT_FALSE(refused.accepted);
+  EXPECT_NEAR(refused.period_s, 0.75, kRounding_s);
+  EXPECT_DOUBLE_EQ(refused.sigma_s, kCandidateSigma_s / 4.0);
+  EXPECT_EQ(window.size(), 1U);
+}
+
+TEST(SpinPeriodWindow, RefusesAWrongInterval) {
+  SpinPeriodWindow window = window_of(100);
+  for (int turn = 0; turn < 30; ++turn) {
+    EXPECT_TRUE(window.add(after(turn), after(turn + 1), 1, 1.0).accepted);
+  }
+  const PeriodCandidate candidate = window.add(after(30.0), after(31.004), 1, 1.0);
+  EXPECT_FALSE(candidate.accepted);
+  EXPECT_NEAR(candidate.period_s, 1.004, kRounding_s);
+}
+
+TEST(SpinPeriodWindow, ADriftOfTheRateHidesNoWrongInterval) {
+  SpinPeriodWindow window = window_of(100);
+  // Turn k takes 1 + 1e-3 k seconds: the window spans a tenth of the period.
+  const auto edge = [](double turn) { return after(turn + 0.5e-3 * turn * turn); };
+  const auto expected_s = [](double turn) { return 1.0 + 1e-3 * (turn + 0.5); };
+  for (int turn = 0; turn < 150; ++turn) {
+    EXPECT_TRUE(window.add(edge(turn), edge(turn + 1), 1, expected_s(turn)).accepted);
+  }
+  const TaiTime late = shifted(edge(151), 0.004);
+  EXPECT_FALSE(window.add(edge(150), late, 1, expected_s(150)).accepted);
+}
+
+TEST(SpinPeriodWindow, WhatAllIntervalsShareRefusesNone) {
+  SpinPeriodWindow window = window_of(100);
+  for (int turn = 0; turn < 30; ++turn) {
+    EXPECT_TRUE(window.add(1.0, 1.02).accepted || turn == 0);
+  }
+}
+
+TEST(SpinPeriodWindow, ForgetsWhatLiesBeforeTheWindow) {
+  SpinPeriodWindow window = window_of(20);
+  for (int turn = 0; turn < 60; ++turn) {
+    window.add(after(turn), after(turn + 1), 1, 1.0);
+  }
+  EXPECT_EQ(window.size(), 20U);
+}
+
+TEST(SpinPeriodWindow, FollowsAChangeOfRateOnceItIsTheMajority) {
+  SpinPeriodWindow window = window_of(20);
+  double t_s = 0.0;
+  for (int turn = 0; turn < 20; ++turn, t_s += 1.0) {
+    window.add(after(t_s), after(t_s + 1.0), 1, 1.0);
+  }
+  EXPECT_FALSE(window.add(after(t_s), after(t_s + 1.1), 1, 1.0).accepted);
+  PeriodCandidate last{};
+  for (int turn = 0; turn < 11; ++turn) {
+    t_s += 1.1;
+    last = window.add(after(t_s), after(t_s + 1.1), 1, 1.0);
+  }
+  EXPECT_TRUE(last.accepted);
+}
+
+}  // namespace
+}  // namespace spindrift
