@@ -10,7 +10,7 @@ namespace spindrift::doctor {
 namespace {
 
 // A revolution with all six edges in an archive of this version: measured 2260 bytes with
-// scenarios/gto-nominal.toml, 2090 with geo-day.toml.
+// deploy/scenarios/gto-nominal.toml, 2090 with geo-day.toml.
 constexpr double kBytesPerRevolution = 2300.0;
 constexpr double kFastSpin_rpm = 100.0;
 constexpr double kLongPass_h = 24.0;

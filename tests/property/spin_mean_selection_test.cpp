@@ -22,8 +22,9 @@
 namespace spindrift {
 namespace {
 
-/// Sun angle and Earth as scenarios/gto-nominal.toml has them: where sun2 is missing (case 4) the
-/// two roots of the sun angle come together within the noise, and one fix of a hundred escapes.
+/// Sun angle and Earth as deploy/scenarios/gto-nominal.toml has them: where sun2 is missing (case
+/// 4) the two roots of the sun angle come together within the noise, and one fix of a hundred
+/// escapes.
 struct Scene {
   Orbit orbit = testing::orbit_across_the_earth();
   testing::SpinningBody body = testing::body_across_the_earth();

@@ -18,8 +18,8 @@ namespace {
 using namespace std::chrono_literals;
 
 const std::filesystem::path kScenario =
-    std::filesystem::path{SPINDRIFT_TEST_DATA}.parent_path().parent_path() / "scenarios" /
-    "geo-day.toml";
+    std::filesystem::path{SPINDRIFT_TEST_DATA}.parent_path().parent_path() / "deploy" /
+    "scenarios" / "geo-day.toml";
 
 /// Looks every second, for five minutes at most.
 template <class Condition>

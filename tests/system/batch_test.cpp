@@ -203,7 +203,8 @@ struct WobblingRun {
   nlohmann::json truth;
 
   explicit WobblingRun(const std::string& attitude, const std::string& told = {}) {
-    const auto scenarios = std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios";
+    const auto scenarios =
+        std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "deploy" / "scenarios";
     std::string text = text_of(scenarios / "gto-nominal.toml");
     text.insert(text.find("[spin.sun_sensor]"), attitude);
     const auto scenario = folder.write("scenario.toml", text).string();

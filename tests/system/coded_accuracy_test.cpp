@@ -23,8 +23,8 @@ namespace {
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kDuration_s = 600.0;
 constexpr int kPasses = 40;
-const std::filesystem::path kScenario =
-    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios" / "gto-nominal.toml";
+const std::filesystem::path kScenario = std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." /
+                                        "deploy" / "scenarios" / "gto-nominal.toml";
 
 /// Of the scenario, like the orbit and the sensors of the limit.
 Eigen::Vector3d true_axis_icrf() {

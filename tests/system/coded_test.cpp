@@ -21,7 +21,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 const std::filesystem::path kPass = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin" / "coded";
 const std::string kMission = (kPass / "mission.toml").string();
 const std::filesystem::path kScenarios =
-    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios";
+    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "deploy" / "scenarios";
 const std::string kScenario = (kScenarios / "gto-nominal.toml").string();
 const std::string kDirty = (kScenarios / "gto-dirty.toml").string();
 

@@ -20,7 +20,7 @@ using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
 const std::filesystem::path kScenarios =
-    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios";
+    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "deploy" / "scenarios";
 const std::filesystem::path kMissions = std::filesystem::path{SPINDRIFT_TEST_DATA} / "mission";
 const std::string kNominal = (kPasses / "nominal" / "mission.toml").string();
 

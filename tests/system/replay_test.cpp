@@ -23,7 +23,8 @@ using ::testing::HasSubstr;
 const std::filesystem::path kData{SPINDRIFT_TEST_DATA};
 const std::string kPass = (kData / "spin" / "nominal").string();
 const std::string kMission = kPass + "/mission.toml";
-const std::string kScenario = (kData / ".." / ".." / "scenarios" / "gto-nominal.toml").string();
+const std::string kScenario =
+    (kData / ".." / ".." / "deploy" / "scenarios" / "gto-nominal.toml").string();
 
 /// Ways to put ten minutes of telemetry on the bus in ten minutes.
 const std::vector<std::vector<std::string>> kSenders = {

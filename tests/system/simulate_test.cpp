@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 const std::filesystem::path kScenarios =
-    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios";
+    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "deploy" / "scenarios";
 const std::string kNominal = (kScenarios / "gto-nominal.toml").string();
 const std::string kDirty = (kScenarios / "gto-dirty.toml").string();
 const std::string kLastMean =

@@ -25,7 +25,7 @@ using ::testing::Not;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 const std::filesystem::path kScenarios =
-    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "scenarios";
+    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "deploy" / "scenarios";
 
 const std::string kSpacecraft = R"([spacecraft]
 id = "SPINNER"
