@@ -59,7 +59,7 @@ class Archive {
  public:
   /// @return Unavailable when another process (or this one) writes it, or it cannot be opened;
   ///         InvalidConfiguration when the path cannot be that of a file, or the file is not an
-  ///         archive, is damaged or needs a newer program.
+  ///         archive or has another schema than this program's.
   static Expected<std::unique_ptr<Archive>> open(const std::filesystem::path& path,
                                                  ArchiveOptions options);
 

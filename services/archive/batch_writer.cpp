@@ -1,12 +1,10 @@
 #include "services/archive/batch_writer.h"
 
 #include <SQLiteCpp/Transaction.h>
-#include <fmt/format.h>
 
 #include <array>
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,8 +56,14 @@ std::optional<std::string_view> name_of(const std::optional<Rejection>& rejected
 // What is stored already stays as it is, but for its place in the order of the run that takes it
 // now: of ?8, where ?7 is its arrival.
 constexpr const char* kTakenByALaterRun =
-    " ON CONFLICT DO UPDATE SET arrival = excluded.arrival WHERE arrival IS NULL"
-    " OR arrival < (SELECT first_arrival FROM run WHERE run_id = ?8)";
+    " ON CONFLICT DO UPDATE SET arrival = excluded.arrival"
+    " WHERE arrival < (SELECT first_arrival FROM run WHERE run_id = ?8)";
+
+// The first word of the status.
+std::string quality_of(const SpinEstimate& estimate) {
+  const std::string& status = estimate.status;
+  return status.substr(0, status.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ"));
+}
 
 struct CovarianceColumns {
   double sigma_deg;
@@ -85,8 +89,10 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                   " ON CONFLICT DO UPDATE SET kind = excluded.kind"},
       run_{database,
            "INSERT INTO run (run_id, spacecraft_id, mode, software_version, config_toml,"
-           " config_sha256, orbit_sha256, telemetry, started_utc, first_arrival)"
-           " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+           " config_sha256, orbit_sha256, started_utc, first_arrival)"
+           " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+      run_telemetry_{database,
+                     "INSERT INTO run_telemetry (run_id, position, telemetry) VALUES (?, ?, ?)"},
       run_finished_{database, "UPDATE run SET finished_utc = ? WHERE run_id = ?"},
       run_earliest_{database,
                     "UPDATE run SET first_tai_ns = min(ifnull(first_tai_ns, ?1), ?1)"
@@ -133,13 +139,18 @@ BatchWriter::BatchWriter(SQLite::Database& database)
       spin_estimate_{database,
                      "INSERT OR REPLACE INTO spin_estimate (run_id, t_tai_ns, estimator, ra_deg,"
                      " dec_deg, sigma_deg, cov_east_east_deg2, cov_east_north_deg2,"
-                     " cov_north_north_deg2, spin_rate_rpm, sigma_rpm, status)"
-                     " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+                     " cov_north_north_deg2, spin_rate_rpm, sigma_rpm, quality, reasons, status)"
+                     " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
       spin_batch_{database,
                   "INSERT OR REPLACE INTO spin_batch (run_id, t_tai_ns, bound_deg, edges, outliers,"
-                  " noise, iterations, singular_values, undetermined, changed_tai_ns,"
-                  " consider_sigma_deg, rate_drift_rpm_h, rate_drift_sigma_rpm_h)"
-                  " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+                  " noise, iterations, changed_tai_ns, consider_sigma_deg, rate_drift_rpm_h,"
+                  " rate_drift_sigma_rpm_h) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+      spin_batch_singular_value_{database,
+                                 "INSERT INTO spin_batch_singular_value (run_id, t_tai_ns,"
+                                 " position, value) VALUES (?, ?, ?, ?)"},
+      spin_batch_undetermined_{database,
+                               "INSERT INTO spin_batch_undetermined (run_id, t_tai_ns, position,"
+                               " direction) VALUES (?, ?, ?, ?)"},
       // Those of a later solution stay.
       spin_biases_gone_{database,
                         "DELETE FROM spin_bias WHERE run_id = ?1 AND estimator = 'batch' AND NOT"
@@ -220,8 +231,12 @@ void BatchWriter::insert_latest_counts(std::span<const ArchiveBatch> batches) {
 void BatchWriter::insert(const ArchiveBatch& batch, const RunStart& start) {
   execute(spacecraft_, batch.spacecraft_id, start.spacecraft_kind);
   execute(run_, batch.run_id, batch.spacecraft_id, start.mode, start.software_version,
-          start.config_toml, start.config_sha256, start.orbit_sha256, start.telemetry,
-          start.started_utc, start.first_arrival);
+          start.config_toml, start.config_sha256, start.orbit_sha256, start.started_utc,
+          start.first_arrival);
+  std::int64_t position = 0;
+  for (const std::string& telemetry : start.telemetry) {
+    execute(run_telemetry_, batch.run_id, ++position, telemetry);
+  }
 }
 
 void BatchWriter::withdraw(const ArchiveBatch& batch, TaiTime from) {
@@ -236,7 +251,7 @@ void BatchWriter::withdraw(const ArchiveBatch& batch, TaiTime from) {
       " (SELECT revolution FROM revolution WHERE run_id = ?1 AND t_tai_ns >= ?2"
       // A revolution without sun1 is known by its edges and its fix only.
       "  UNION ALL SELECT revolution FROM spin_fix WHERE run_id = ?1 AND t_tai_ns >= ?2"
-      "  UNION ALL SELECT revolution FROM pulse_use JOIN run USING (run_id, spacecraft_id)"
+      "  UNION ALL SELECT revolution FROM pulse_use"
       "   WHERE run_id = ?1 AND t_tai_ns >= ?2))");
   execute_for_run(
       "DELETE FROM spin_fix_candidate WHERE run_id = ?1 AND revolution IN"
@@ -251,9 +266,7 @@ void BatchWriter::withdraw(const ArchiveBatch& batch, TaiTime from) {
       "DELETE FROM spin_bias WHERE run_id = ?1 AND estimator = 'batch' AND EXISTS"
       " (SELECT 1 FROM spin_batch WHERE run_id = ?1 AND t_tai_ns >= ?2)");
   execute_for_run("DELETE FROM spin_batch WHERE run_id = ?1 AND t_tai_ns >= ?2");
-  execute_for_run(
-      "DELETE FROM pulse_use WHERE run_id = ?1 AND t_tai_ns >= ?2 AND spacecraft_id ="
-      " (SELECT spacecraft_id FROM run WHERE run_id = ?1)");
+  execute_for_run("DELETE FROM pulse_use WHERE run_id = ?1 AND t_tai_ns >= ?2");
 }
 
 void BatchWriter::insert(const ArchiveBatch& batch, const PulseSample& sample,
@@ -342,7 +355,7 @@ void BatchWriter::insert(const ArchiveBatch& batch, const SpinEstimate& estimate
           ra_deg, dec_deg, covariance.sigma_deg, covariance.east_east_deg2,
           covariance.east_north_deg2, covariance.north_north_deg2,
           estimate.spin_rate_rad_s * kRpmPerRad_s, estimate.spin_rate_sigma_rad_s * kRpmPerRad_s,
-          estimate.status);
+          quality_of(estimate), std::string_view{"[]"}, estimate.status);
 }
 
 void BatchWriter::insert(const std::string& run_id, const BatchSolution& solution) {
@@ -352,15 +365,27 @@ void BatchWriter::insert(const std::string& run_id, const BatchSolution& solutio
   }
   execute(spin_batch_, run_id, tai_ns(solution.estimate.t), solution.bound_rad * kDegPerRad,
           solution.edges, solution.outliers, solution.noise, std::int64_t{solution.iterations},
-          nlohmann::json(solution.singular_values).dump(),
-          fmt::format("{}", fmt::join(solution.undetermined, "\n")), changed_tai_ns,
-          solution.consider_sigma_rad * kDegPerRad, solution.drift_rad_s2 * kRpmPerHourPerRad_s2,
+          changed_tai_ns, solution.consider_sigma_rad * kDegPerRad,
+          solution.drift_rad_s2 * kRpmPerHourPerRad_s2,
           solution.drift_sigma_rad_s2 * kRpmPerHourPerRad_s2);
+  insert_observability(run_id, solution);
   insert_biases(run_id, solution);
   if (solution.nutation) {
     insert(run_id, solution, *solution.nutation);
   }
   insert(run_id, solution.estimate.t, solution.coning);
+}
+
+void BatchWriter::insert_observability(const std::string& run_id, const BatchSolution& solution) {
+  const std::int64_t t_tai_ns = tai_ns(solution.estimate.t);
+  std::int64_t position = 0;
+  for (const double value : solution.singular_values) {
+    execute(spin_batch_singular_value_, run_id, t_tai_ns, ++position, value);
+  }
+  position = 0;
+  for (const std::string& direction : solution.undetermined) {
+    execute(spin_batch_undetermined_, run_id, t_tai_ns, ++position, direction);
+  }
 }
 
 void BatchWriter::insert_biases(const std::string& run_id, const BatchSolution& solution) {

@@ -41,6 +41,7 @@ class BatchWriter {
   void insert_candidates(const ArchiveBatch& batch, const SpinFix& fix);
   void insert(const ArchiveBatch& batch, const SpinEstimate& estimate);
   void insert(const std::string& run_id, const BatchSolution& solution);
+  void insert_observability(const std::string& run_id, const BatchSolution& solution);
   void insert_biases(const std::string& run_id, const BatchSolution& solution);
   void insert(const std::string& run_id, const BatchSolution& solution,
               const NutationSearch& search);
@@ -49,6 +50,7 @@ class BatchWriter {
   SQLite::Database& database_;
   SQLite::Statement spacecraft_;
   SQLite::Statement run_;
+  SQLite::Statement run_telemetry_;
   SQLite::Statement run_finished_;
   SQLite::Statement run_earliest_;
   SQLite::Statement pulse_;
@@ -63,6 +65,8 @@ class BatchWriter {
   SQLite::Statement spin_fix_candidate_;
   SQLite::Statement spin_estimate_;
   SQLite::Statement spin_batch_;
+  SQLite::Statement spin_batch_singular_value_;
+  SQLite::Statement spin_batch_undetermined_;
   SQLite::Statement spin_biases_gone_;
   SQLite::Statement spin_bias_;
   SQLite::Statement spin_nutation_;

@@ -18,12 +18,13 @@ constexpr int kBusyTimeout_ms = 5000;
 
 // Layout of the header: https://www.sqlite.org/fileformat.html section 1.3.
 constexpr std::string_view kMagic{"SQLite format 3\0", 16};
+constexpr std::size_t kUserVersionOffset = 60;
 constexpr std::size_t kApplicationIdOffset = 68;
 constexpr int kHeaderRead = kApplicationIdOffset + 4;
 
-std::int32_t big_endian(std::string_view bytes) {
+std::int32_t number_at(std::string_view header, std::size_t offset) {
   std::uint32_t value = 0;
-  for (const char byte : bytes) {
+  for (const char byte : header.substr(offset, 4)) {
     value = value << 8U | static_cast<unsigned char>(byte);
   }
   return static_cast<std::int32_t>(value);
@@ -97,13 +98,21 @@ Expected<void> refuse_foreign_file(const std::filesystem::path& path) {
                                    "untouched",
                                    path.string())}};
   }
-  const std::int32_t application_id =
-      big_endian(std::string_view{*header}.substr(kApplicationIdOffset));
+  const std::int32_t application_id = number_at(*header, kApplicationIdOffset);
   if (application_id != kArchiveApplicationId) {
     return Unexpected{{ErrorCode::InvalidConfiguration,
                        fmt::format("{} is not an archive: it is an SQLite file with application_id "
                                    "{}, an archive has {}; it was left untouched",
                                    path.string(), application_id, kArchiveApplicationId)}};
+  }
+  const std::int32_t version = number_at(*header, kUserVersionOffset);
+  if (version != kArchiveSchemaVersion) {
+    return Unexpected{
+        {ErrorCode::InvalidConfiguration,
+         fmt::format("archive {} has schema version {}, this program reads and writes version {} "
+                     "only: keep the file for the program that made it, and process its telemetry "
+                     "again into a new one",
+                     path.string(), version, kArchiveSchemaVersion)}};
   }
   return {};
 }
@@ -129,9 +138,7 @@ Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path) {
     distrust(database);
     // While the journal is still a rollback journal: so the application id of a new archive stands
     // in the file itself, and not only in the WAL.
-    if (const auto migrated = migrate(database); !migrated) {
-      return Unexpected{migrated.error()};
-    }
+    make_schema(database);
     const std::string journal = database.execAndGet("PRAGMA journal_mode = WAL").getString();
     if (journal != "wal") {
       return Unexpected{{ErrorCode::Unavailable,

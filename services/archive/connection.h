@@ -16,18 +16,19 @@ namespace spindrift {
 
 /// Looks at the head of the file and touches nothing. A file that is absent or empty may become
 /// an archive.
-/// @return InvalidConfiguration when `path` is not an archive.
+/// @return InvalidConfiguration when `path` is not an archive, or one with other tables than this
+///         program's, saying what to do.
 Expected<void> refuse_foreign_file(const std::filesystem::path& path);
 
-/// The one connection that writes: made if absent, brought to this program's schema, WAL with a
-/// sync at every commit. Its caller holds the archive's WriteLock.
-/// @return InvalidConfiguration when the file is not an archive, which leaves it untouched, a newer
-///         one or damaged; Unavailable when it cannot be opened.
+/// The one connection that writes: made if absent, WAL with a sync at every commit. Its caller
+/// holds the archive's WriteLock.
+/// @return InvalidConfiguration when the file is not an archive or has another schema, which leaves
+///         it untouched; Unavailable when it cannot be opened.
 Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path);
 
 /// A connection that cannot write, for one thread.
-/// @return InvalidConfiguration when there is no such file or it is not an archive; Unavailable
-///         when it cannot be opened.
+/// @return InvalidConfiguration when there is no such file, it is not an archive or has another
+///         schema; Unavailable when it cannot be opened.
 Expected<SQLite::Database> open_for_reading(const std::filesystem::path& path);
 
 /// InvalidInput when a row breaks a rule of the schema and trying again is no use; Unavailable

@@ -6,6 +6,20 @@
 #include "services/archive/connection.h"
 
 namespace spindrift {
+namespace {
+
+std::vector<std::string> telemetry_of(const SQLite::Database& database, const std::string& run_id) {
+  SQLite::Statement query{database,
+                          "SELECT telemetry FROM run_telemetry WHERE run_id = ? ORDER BY position"};
+  query.bind(1, run_id);
+  std::vector<std::string> telemetry;
+  while (query.executeStep()) {
+    telemetry.push_back(query.getColumn(0).getString());
+  }
+  return telemetry;
+}
+
+}  // namespace
 
 Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& archive,
                                                const std::string& spacecraft_id,
@@ -13,7 +27,7 @@ Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& arch
   return read_archive(archive, [&](SQLite::Database& database) -> std::optional<LastRun> {
     SQLite::Statement query{
         database,
-        "SELECT run_id, telemetry, software_version, config_sha256, orbit_sha256 FROM run"
+        "SELECT run_id, software_version, config_sha256, orbit_sha256 FROM run"
         " WHERE spacecraft_id = ? AND mode = ? ORDER BY first_arrival DESC, started_utc DESC"
         " LIMIT 1"};
     query.bind(1, spacecraft_id);
@@ -21,12 +35,13 @@ Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& arch
     if (!query.executeStep()) {
       return std::nullopt;
     }
-    const SQLite::Column orbit = query.getColumn(4);
+    const std::string run_id = query.getColumn(0).getString();
+    const SQLite::Column orbit = query.getColumn(3);
     return LastRun{
-        .run_id = query.getColumn(0).getString(),
-        .telemetry = query.getColumn(1).getString(),
-        .software_version = query.getColumn(2).getString(),
-        .config_sha256 = query.getColumn(3).getString(),
+        .run_id = run_id,
+        .telemetry = telemetry_of(database, run_id),
+        .software_version = query.getColumn(1).getString(),
+        .config_sha256 = query.getColumn(2).getString(),
         .orbit_sha256 = orbit.isNull() ? std::nullopt : std::optional{orbit.getString()}};
   });
 }

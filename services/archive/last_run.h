@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pipelines/core/expected.h"
 
@@ -13,7 +14,7 @@ namespace spindrift {
 
 struct LastRun {
   std::string run_id;
-  std::string telemetry;
+  std::vector<std::string> telemetry;  ///< As RunStart.
   std::string software_version;
   std::string config_sha256;
   std::optional<std::string> orbit_sha256;  ///< Empty: the mission names no file.

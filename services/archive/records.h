@@ -25,9 +25,9 @@ struct RunStart {
   std::string config_toml;
   std::string config_sha256;
   std::optional<std::string> orbit_sha256;  ///< Of the mission's orbit file, if it names one.
-  std::string telemetry;           ///< File paths, one a line, or DDS domain and partition.
-  std::string started_utc;         ///< ISO 8601, ending in Z.
-  std::int64_t first_arrival = 0;  ///< Later than that of any sample of an earlier run.
+  std::vector<std::string> telemetry;       ///< File paths, or DDS domain and partition.
+  std::string started_utc;                  ///< ISO 8601, ending in Z.
+  std::int64_t first_arrival = 0;           ///< Later than that of any sample of an earlier run.
 };
 
 /// A run that goes on. What it has stored from `t` on is withdrawn, to be made again.

@@ -1,5 +1,5 @@
 /// @file
-/// The archive's tables: which version a file has, and bringing it forward to this program's.
+/// The archive's tables and views: made once, when the file is new.
 
 #pragma once
 
@@ -7,22 +7,17 @@
 
 #include <cstdint>
 
-#include "pipelines/core/expected.h"
-
 namespace spindrift {
 
 /// Stands in the header of every archive: "spdr".
 inline constexpr std::int32_t kArchiveApplicationId = 0x73706472;
 
-/// The version that this program writes: how many migrations it carries.
-int archive_schema_version();
+/// PRAGMA user_version of the archives of this program. Whoever changes a table or view raises it.
+inline constexpr int kArchiveSchemaVersion = 13;
 
-/// Applies the migrations that `database`, an archive or empty, lacks, each in a transaction of its
-/// own. The first one makes it an archive.
-/// @return InvalidConfiguration, with its version, when the archive is newer than this program or
-///         has a version that none can have.
+/// Makes `database` an archive, all of it or nothing, unless it is one already.
 /// @throws SQLite::Exception
-Expected<void> migrate(SQLite::Database& database);
+void make_schema(SQLite::Database& database);
 
 /// Writes the leap seconds this program knows, for the views in UTC.
 /// @throws SQLite::Exception

@@ -17,7 +17,7 @@ std::optional<std::string> find_run(SQLite::Database& database, const std::strin
       "SELECT run_id FROM run WHERE spacecraft_id = ?1 AND ifnull(run_id = ?2, 1)"
       // Without sun1 a run has no rows in `revolution`.
       " AND EXISTS (SELECT 1 FROM pulse_use AS one WHERE one.run_id = run.run_id"
-      "  AND one.spacecraft_id = ?1 AND revolution IS NOT NULL)"
+      "  AND revolution IS NOT NULL)"
       " ORDER BY first_arrival DESC, started_utc DESC LIMIT 1"};
   query.bind(1, spacecraft_id);
   if (run_id) {

@@ -2,6 +2,7 @@
 
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -28,13 +29,14 @@ constexpr const char* kFindRuns =
     "   ORDER BY revolution DESC LIMIT 1),"
     // One that no revolution had a place for may have any time.
     "  (SELECT t_tai_ns FROM pulse_use AS one WHERE one.run_id = same.run_id"
-    "   AND one.spacecraft_id = same.spacecraft_id AND revolution IS NOT NULL"
-    "   ORDER BY t_tai_ns DESC LIMIT 1)),"
+    "   AND revolution IS NOT NULL ORDER BY t_tai_ns DESC LIMIT 1)),"
     " (SELECT count(*) FROM rejected_input WHERE rejected_input.run_id = same.run_id)"
     " FROM (SELECT *, lead(first_arrival) OVER following AS next_arrival,"
     "  lead(first_tai_ns) OVER following AS next_tai_ns"
-    "  FROM run WHERE spacecraft_id = ? AND mode = ? AND telemetry = ? AND software_version = ?"
-    "  AND config_sha256 = ? AND orbit_sha256 IS ? AND first_arrival IS NOT NULL"
+    "  FROM run WHERE spacecraft_id = ? AND mode = ? AND software_version = ?"
+    "  AND config_sha256 = ? AND orbit_sha256 IS ?"
+    "  AND ? = (SELECT group_concat(telemetry, char(10)) FROM (SELECT telemetry FROM run_telemetry"
+    "   WHERE run_telemetry.run_id = run.run_id ORDER BY position))"
     "  WINDOW following AS (ORDER BY first_arrival)) AS same"
     " WHERE finished_utc IS NULL OR next_arrival IS NULL ORDER BY first_arrival";
 
@@ -51,12 +53,12 @@ std::vector<StoredPass> find_runs(const SQLite::Database& database,
   SQLite::Statement query{database, kFindRuns};
   query.bind(1, spacecraft_id);
   query.bind(2, start.mode);
-  query.bind(3, start.telemetry);
-  query.bind(4, start.software_version);
-  query.bind(5, start.config_sha256);
+  query.bind(3, start.software_version);
+  query.bind(4, start.config_sha256);
   if (start.orbit_sha256) {
-    query.bind(6, *start.orbit_sha256);
+    query.bind(5, *start.orbit_sha256);
   }
+  query.bind(6, fmt::format("{}", fmt::join(start.telemetry, "\n")));
   std::vector<StoredPass> runs;
   while (query.executeStep()) {
     runs.push_back({.run_id = query.getColumn(0).getString(),

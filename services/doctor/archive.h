@@ -16,10 +16,9 @@ namespace spindrift::doctor {
 
 /// What its tables say.
 struct ArchiveContent {
-  int schema_version = 0;
-  std::vector<std::string> damages;  ///< The first ten, in SQLite's words.
-  bool looked_at_everything = true;  ///< Not only at the structure of each table.
-  std::int64_t orphans = 0;          ///< Rows that name a row which is not there.
+  std::vector<std::string> damages = {};  ///< The first ten, in SQLite's words.
+  bool looked_at_everything = true;       ///< Not only at the structure of each table.
+  std::int64_t orphans = 0;               ///< Rows that name a row which is not there.
   std::int64_t unfinished_runs = 0;
   int tai_minus_utc_s = 0;  ///< The last offset of its leap seconds; 0: it has none.
 };
@@ -36,12 +35,7 @@ struct ArchiveFacts {
 /// Reads only, and takes no lock that a writer would feel.
 ArchiveFacts archive_facts(const std::filesystem::path& path);
 
-/// The program's own numbers, to compare with.
-struct ProgramVersions {
-  int schema;
-  int tai_minus_utc_s;
-};
-
-std::vector<Check> check_archive(const ArchiveFacts& facts, const ProgramVersions& program);
+/// @param program_tai_minus_utc_s The last offset of the leap seconds that this program knows.
+std::vector<Check> check_archive(const ArchiveFacts& facts, int program_tai_minus_utc_s);
 
 }  // namespace spindrift::doctor

@@ -9,21 +9,6 @@ namespace {
 // The service cuts the log to 64 MiB when it has moved it into the archive.
 constexpr std::uint64_t kLongLog_bytes = 256ULL << 20U;
 
-Check check_schema(const ArchiveFacts& facts, int program_version) {
-  const int version = facts.content->schema_version;
-  const std::string found = fmt::format("{}, {} MiB, schema version {}; this program's is {}",
-                                        facts.path, facts.bytes >> 20U, version, program_version);
-  if (version < 1 || version > program_version) {
-    return failure("archive", found,
-                   version < 1 ? "no archive has this version: restore a copy"
-                               : "use the newer program, or another archive");
-  }
-  return version < program_version
-             ? ok("archive", found,
-                  "the next run brings it forward; keep a copy for older programs")
-             : ok("archive", found);
-}
-
 Check check_integrity(const ArchiveContent& content) {
   const std::string name = "integrity";
   if (!content.damages.empty()) {
@@ -79,20 +64,21 @@ Check check_leap_table(int archive_s, int program_s) {
 
 }  // namespace
 
-std::vector<Check> check_archive(const ArchiveFacts& facts, const ProgramVersions& program) {
+std::vector<Check> check_archive(const ArchiveFacts& facts, int program_tai_minus_utc_s) {
   if (!facts.exists) {
     return {ok("archive", fmt::format("{} is not there: it will be made", facts.path))};
   }
   if (!facts.content) {
     return {failure("archive", facts.content.error().message,
-                    "restore a copy of it, or take another file for the pass"),
+                    "take another file for the pass, or restore a copy of this one"),
             check_writer(facts)};
   }
-  std::vector<Check> checks{check_schema(facts, program.schema), check_integrity(*facts.content),
-                            check_log(facts.wal_bytes), check_writer(facts)};
+  std::vector<Check> checks{
+      ok("archive", fmt::format("{}, {} MiB", facts.path, facts.bytes >> 20U)),
+      check_integrity(*facts.content), check_log(facts.wal_bytes), check_writer(facts)};
   if (facts.content->damages.empty()) {
     checks.push_back(check_runs(facts));
-    checks.push_back(check_leap_table(facts.content->tai_minus_utc_s, program.tai_minus_utc_s));
+    checks.push_back(check_leap_table(facts.content->tai_minus_utc_s, program_tai_minus_utc_s));
   }
   return checks;
 }

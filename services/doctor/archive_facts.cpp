@@ -61,8 +61,7 @@ std::vector<std::string> damages_of(SQLite::Database& database, bool everything)
 /// @throws SQLite::Exception
 ArchiveContent read_content(SQLite::Database& database, bool everything) {
   const auto number = [&](const char* query) { return database.execAndGet(query).getInt64(); };
-  ArchiveContent content{.schema_version = static_cast<int>(number("PRAGMA user_version")),
-                         .damages = damages_of(database, everything),
+  ArchiveContent content{.damages = damages_of(database, everything),
                          .looked_at_everything = everything};
   // The rest would stumble over what is damaged.
   if (content.damages.empty()) {

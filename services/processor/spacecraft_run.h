@@ -24,8 +24,8 @@ namespace spindrift {
 
 /// Where the samples of a run come from, kept with it.
 struct TelemetrySource {
-  std::string mode;       ///< live, process or replay.
-  std::string telemetry;  ///< File paths, one a line, or DDS domain and partition.
+  std::string mode;                    ///< live, process or replay.
+  std::vector<std::string> telemetry;  ///< File paths, or DDS domain and partition.
 };
 
 /// What arrived of a run.

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "pipelines/time/utc.h"
-#include "services/archive/schema.h"
 #include "services/clock/wall_clock.h"
 #include "services/doctor/archive.h"
 #include "services/doctor/disk.h"
@@ -65,9 +64,8 @@ std::vector<Check> check_bus(const bus::BusConfig& bus) {
 
 std::vector<Check> check_storage(const std::filesystem::path& db, std::size_t spacecraft) {
   std::vector<Check> checks = doctor::check_disk(doctor::disk_facts(db), spacecraft);
-  append(checks, doctor::check_archive(doctor::archive_facts(db),
-                                       {.schema = archive_schema_version(),
-                                        .tai_minus_utc_s = leap_seconds().back().tai_minus_utc_s}));
+  append(checks,
+         doctor::check_archive(doctor::archive_facts(db), leap_seconds().back().tai_minus_utc_s));
   return checks;
 }
 

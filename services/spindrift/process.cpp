@@ -22,12 +22,8 @@
 namespace spindrift {
 namespace {
 
-std::string one_a_line(const std::vector<std::filesystem::path>& paths) {
-  std::string lines;
-  for (const std::filesystem::path& path : paths) {
-    lines += (lines.empty() ? "" : "\n") + path.string();
-  }
-  return lines;
+std::vector<std::string> texts_of(const std::vector<std::filesystem::path>& paths) {
+  return {paths.begin(), paths.end()};
 }
 
 Expected<void> run(Processor& processor, TelemetryInput& telemetry, Archive& archive) {
@@ -75,7 +71,7 @@ Expected<void> process(const ProcessOptions& options) {
   }
   warn_of_orbit(options.mission, *mission);
   auto processor =
-      Processor::make({*mission}, {.mode = "process", .telemetry = one_a_line(options.telemetry)});
+      Processor::make({*mission}, {.mode = "process", .telemetry = texts_of(options.telemetry)});
   if (!processor) {
     return Unexpected{processor.error()};
   }

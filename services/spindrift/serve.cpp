@@ -179,9 +179,10 @@ Expected<Processor> make_processor(const ServeOptions& options) {
   if (!missions) {
     return Unexpected{missions.error()};
   }
-  return Processor::make(*missions, {.mode = options.partition == "replay" ? "replay" : "live",
-                                     .telemetry = fmt::format("DDS domain {}, partition {}",
-                                                              options.domain, options.partition)});
+  return Processor::make(*missions,
+                         {.mode = options.partition == "replay" ? "replay" : "live",
+                          .telemetry = {fmt::format("DDS domain {}, partition {}", options.domain,
+                                                    options.partition)}});
 }
 
 Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db,

@@ -20,10 +20,6 @@
 
 namespace spindrift {
 
-namespace embedded {
-extern const char* const schema_0001_tables;
-}
-
 namespace {
 
 using ::testing::HasSubstr;
@@ -109,27 +105,21 @@ TEST_F(ArchiveFile, DatabaseOfAnotherProgramIsRefusedAndLeftUntouched) {
   EXPECT_EQ(files_in(directory()), 1U);
 }
 
-TEST_F(ArchiveFile, NewerSchemaIsRefusedWithBothVersions) {
+TEST_F(ArchiveFile, ArchiveWithOtherTablesIsRefusedByWritersAndReadersAndLeftUntouched) {
   ASSERT_TRUE(open()->close());
-  SQLite::Database{path().string(), SQLite::OPEN_READWRITE}.exec("PRAGMA user_version = 99");
-
-  const auto archive = Archive::open(path(), {});
-  ASSERT_FALSE(archive);
-  EXPECT_EQ(archive.error().code, ErrorCode::InvalidConfiguration);
-  EXPECT_THAT(archive.error().message, HasSubstr("schema version 99"));
-  EXPECT_THAT(archive.error().message,
-              HasSubstr("writes version " + std::to_string(archive_schema_version())));
-}
-
-TEST_F(ArchiveFile, SchemaVersionThatNoArchiveHasIsRefused) {
-  ASSERT_TRUE(open()->close());
-  for (const std::string version : {"0", "-1", "-2147483648"}) {
+  std::filesystem::remove(path().string() + ".lock");
+  for (const std::string version : {"12", "99", "0", "-1", "-2147483648"}) {
     SQLite::Database{path().string(), SQLite::OPEN_READWRITE}.exec("PRAGMA user_version = " +
                                                                    version);
-    const auto archive = Archive::open(path(), {});
-    ASSERT_FALSE(archive);
-    EXPECT_EQ(archive.error().code, ErrorCode::InvalidConfiguration);
-    EXPECT_THAT(archive.error().message, HasSubstr("schema version " + version + ", which no"));
+    const std::string before = bytes_of(path());
+    for (const auto& error :
+         {Archive::open(path(), {}).error(), open_for_reading(path()).error()}) {
+      EXPECT_EQ(error.code, ErrorCode::InvalidConfiguration);
+      EXPECT_THAT(error.message, HasSubstr("schema version " + version + ", this program"));
+      EXPECT_THAT(error.message, HasSubstr("process its telemetry again into a new one"));
+    }
+    EXPECT_EQ(bytes_of(path()), before);
+    EXPECT_EQ(files_in(directory()), 1U);
   }
 }
 
@@ -139,31 +129,12 @@ TEST_F(ArchiveFile, EmptyFileBecomesAnArchive) {
   EXPECT_EQ(number("PRAGMA application_id"), kArchiveApplicationId);
 }
 
-TEST_F(ArchiveFile, OlderSchemaIsBroughtForwardWithItsRows) {
-  {
-    SQLite::Database old{path().string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE};
-    old.exec("PRAGMA application_id = " + std::to_string(kArchiveApplicationId));
-    old.exec(embedded::schema_0001_tables);
-    old.exec(
-        "PRAGMA user_version = 1; INSERT INTO spacecraft VALUES ('OLD', 'Old', 'spin');"
-        "INSERT INTO pulse VALUES ('OLD', 1000000000, 'sun2', 'station', 7, 3)");
-  }
-  ASSERT_TRUE(open()->close());
-
-  EXPECT_EQ(number("PRAGMA user_version"), archive_schema_version());
-  EXPECT_EQ(text("SELECT name FROM spacecraft"), "Old");
-  EXPECT_EQ(text("SELECT spacecraft_id || channel || source || session || seq FROM pulse"),
-            "OLDsun2station73");
-  EXPECT_EQ(number("SELECT count(*) FROM pulse_utc WHERE arrival IS NULL"), 1);
-  EXPECT_EQ(number("SELECT count(*) FROM pass_answer"), 0);
-}
-
 TEST_F(ArchiveFile, TablesOfEveryEdgeTakeNoOtherNamesThanThoseOfTheContract) {
   ASSERT_TRUE(open()->close());
   SQLite::Database raw{path().string(), SQLite::OPEN_READWRITE};
   raw.exec("INSERT INTO spacecraft VALUES ('A', 'A', 'spin')");
   const std::string run =
-      "INSERT INTO run VALUES ('r', 'A', 'live', '', '', '', NULL, '', '', NULL, 0, 0)";
+      "INSERT INTO run VALUES ('r', 'A', 'live', '', '', '', NULL, '', NULL, 0, 0)";
   raw.exec(run);
   const auto takes = [&raw](const std::string& values) {
     return raw.tryExec("INSERT INTO " + values) == SQLite::OK;
@@ -180,8 +151,12 @@ TEST_F(ArchiveFile, TablesOfEveryEdgeTakeNoOtherNamesThanThoseOfTheContract) {
   EXPECT_TRUE(
       takes("spin_fix VALUES ('r', 1, 1, 1, 1, 1, 1, 1, 0, 1, NULL, NULL, 'AMBIGUOUS', 1, 1)"));
   EXPECT_FALSE(takes("spin_fix VALUES ('r', 2, 1, 1, 1, 1, 1, 1, 0, 1, NULL, NULL, 'NONE', 1, 1)"));
-  EXPECT_TRUE(takes("spin_estimate VALUES ('r', 1, 'batch', 1, 1, 1, 1, 0, 1, 1, 1, 'OK')"));
-  EXPECT_FALSE(takes("spin_estimate VALUES ('r', 1, 'mode', 1, 1, 1, 1, 0, 1, 1, 1, 'OK')"));
+  EXPECT_TRUE(
+      takes("spin_estimate VALUES ('r', 1, 'batch', 1, 1, 1, 1, 0, 1, 1, 1, 'OK', '[]', 'OK')"));
+  EXPECT_FALSE(
+      takes("spin_estimate VALUES ('r', 2, 'batch', 1, 1, 1, 1, 0, 1, 1, 1, 'GOOD', '[]', '')"));
+  EXPECT_FALSE(
+      takes("spin_estimate VALUES ('r', 1, 'mode', 1, 1, 1, 1, 0, 1, 1, 1, 'OK', '[]', 'OK')"));
 }
 
 TEST_F(ArchiveFile, PathThatCannotBeThatOfAFileIsRefusedAndLeavesNoLock) {

@@ -27,7 +27,7 @@ inline const RunStart kRunStart{.spacecraft_kind = "spin",
                                 .config_toml = "[spacecraft]\nid = \"SPINNER\"\n",
                                 .config_sha256 = "00ff",
                                 .orbit_sha256 = "0ff0",
-                                .telemetry = "a/pulses.csv\nb/pulses.csv",
+                                .telemetry = {"a/pulses.csv", "b/pulses.csv"},
                                 .started_utc = "2026-11-20T03:00:00Z"};
 
 inline ArchiveBatch batch_of(const std::string& run_id) {

@@ -143,14 +143,17 @@ TEST_F(ArchiveRestart, OnlyARunThatWasMadeTheSameWayIsContinued) {
   ASSERT_TRUE(archive->flush());
   ASSERT_TRUE(stored());
   EXPECT_FALSE(stored()->earliest);
-  for (std::string RunStart::*part : {&RunStart::mode, &RunStart::telemetry,
-                                      &RunStart::software_version, &RunStart::config_sha256}) {
+  for (std::string RunStart::*part :
+       {&RunStart::mode, &RunStart::software_version, &RunStart::config_sha256}) {
     RunStart other = kRunStart;
     other.*part += "x";
     EXPECT_FALSE(stored(other));
   }
   RunStart other = kRunStart;
   other.orbit_sha256.reset();
+  EXPECT_FALSE(stored(other));
+  other = kRunStart;
+  other.telemetry.pop_back();
   EXPECT_FALSE(stored(other));
   EXPECT_TRUE(find_stored_passes(path(), "OTHER", kRunStart).value().empty());
 }

@@ -23,16 +23,24 @@ using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 using testing::pulse_at;
 using testing::start_of;
+using ::testing::UnorderedElementsAreArray;
 
 class ArchiveTest : public testing::ArchiveFixture {};
 using Archive = spindrift::Archive;
+
+/// How SQLite looks for the rows.
+std::string plan_of(SQLite::Database& database, const std::string& query) {
+  SQLite::Statement plan{database, "EXPLAIN QUERY PLAN " + query};
+  plan.executeStep();
+  return plan.getColumn(3).getString();
+}
 
 TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
   const std::map<std::string, std::vector<std::string>> contract = {
       {"spacecraft", {"spacecraft_id", "name", "kind"}},
       {"run",
        {"run_id", "spacecraft_id", "mode", "software_version", "config_toml", "config_sha256",
-        "orbit_sha256", "telemetry", "started_utc", "finished_utc"}},
+        "orbit_sha256", "started_utc", "finished_utc"}},
       {"pulse", {"spacecraft_id", "t_tai_ns", "channel"}},
       {"coded_frame",
        {"spacecraft_id", "t_tai_ns", "period_s", "sun2_s", "north_in_s", "north_out_s",
@@ -41,6 +49,8 @@ TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
       {"star_sample", {"spacecraft_id", "t_tai_ns", "qx", "qy", "qz", "qw"}},
       {"sun_sample", {"spacecraft_id", "t_tai_ns", "sx", "sy", "sz"}},
       {"magnetometer_sample", {"spacecraft_id", "t_tai_ns", "bx_nt", "by_nt", "bz_nt"}},
+      {"orbit_state_sample",
+       {"spacecraft_id", "t_tai_ns", "x_km", "y_km", "z_km", "vx_km_s", "vy_km_s", "vz_km_s"}},
       {"rejected_input", {"run_id", "source", "session", "line", "reason"}},
       {"pulse_use",
        {"run_id", "spacecraft_id", "t_tai_ns", "channel", "revolution", "accepted", "rejected_by"}},
@@ -52,10 +62,12 @@ TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
         "alternate_ra_deg", "alternate_dec_deg", "resolution", "accepted"}},
       {"spin_estimate",
        {"run_id", "t_tai_ns", "estimator", "ra_deg", "dec_deg", "sigma_deg", "spin_rate_rpm",
-        "sigma_rpm", "status"}},
+        "sigma_rpm", "quality", "reasons", "status"}},
       {"spin_bias",
        {"run_id", "estimator", "name", "value", "unit", "sigma", "observable", "estimated"}},
-      {"attitude", {"run_id", "t_tai_ns", "source", "qx", "qy", "qz", "qw", "sigma_deg"}},
+      {"attitude",
+       {"run_id", "t_tai_ns", "source", "qx", "qy", "qz", "qw", "rate_x_rad_s", "rate_y_rad_s",
+        "rate_z_rad_s", "sigma_deg", "quality", "reasons", "status"}},
       {"reconstruction_event",
        {"run_id", "method", "event", "t_tai_ns", "qx", "qy", "qz", "qw", "euler312_icrf_deg_1",
         "euler312_icrf_deg_2", "euler312_icrf_deg_3", "euler312_orbit_deg_1",
@@ -63,7 +75,12 @@ TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
       {"alert",
        {"alert_id", "spacecraft_id", "key", "severity", "state", "raised_tai_ns", "updated_tai_ns",
         "cleared_tai_ns", "count", "message", "evidence"}},
-      {"alert_transition", {"alert_id", "t_tai_ns", "from_state", "to_state", "by", "note"}}};
+      {"alert_transition", {"alert_id", "t_tai_ns", "from_state", "to_state", "by", "note"}},
+      {"operator_action",
+       {"action_id", "spacecraft_id", "t_tai_ns", "made_utc", "by", "action", "arguments"}},
+      {"pass_verdict",
+       {"run_id", "spacecraft_id", "started_utc", "finished", "estimator", "quality", "ra_deg",
+        "dec_deg", "qx", "qy", "qz", "qw", "sigma_deg", "why"}}};
   const auto archive = open();
 
   SQLite::Database database = reader();
@@ -76,10 +93,42 @@ TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
                      "SELECT name FROM pragma_table_list"
                      " WHERE type = 'table' AND NOT strict AND name NOT LIKE 'sqlite_%'"),
               ElementsAre());
-  EXPECT_EQ(number("PRAGMA user_version"), archive_schema_version());
+  EXPECT_EQ(number("PRAGMA user_version"), kArchiveSchemaVersion);
   EXPECT_EQ(text("PRAGMA journal_mode"), "wal");
   EXPECT_EQ(static_cast<std::size_t>(number("SELECT count(*) FROM leap_second")),
             leap_seconds().size());
+}
+
+TEST_F(ArchiveTest, SamplesOfEveryKindSayWhereTheyCameFromAndLieBySpacecraftAndTime) {
+  const auto archive = open();
+  SQLite::Database database = reader();
+  for (const std::string table : {"pulse", "coded_frame", "gyro_sample", "star_sample",
+                                  "sun_sample", "magnetometer_sample", "orbit_state_sample"}) {
+    EXPECT_THAT(column(database, "SELECT name FROM pragma_table_info('" + table + "')"),
+                IsSupersetOf({"source", "session", "seq", "arrival"}))
+        << table;
+    EXPECT_THAT(plan_of(database, "SELECT * FROM " + table +
+                                      " WHERE spacecraft_id = 'A' AND t_tai_ns BETWEEN 1 AND 2"),
+                HasSubstr("(spacecraft_id=? AND t_tai_ns>? AND t_tai_ns<?)"));
+  }
+}
+
+TEST_F(ArchiveTest, EdgesOfARevolutionAreFoundByAnIndex) {
+  const auto archive = open();
+  SQLite::Database database = reader();
+  EXPECT_THAT(plan_of(database, "SELECT * FROM pulse_use WHERE run_id = 'r' AND revolution = 7"),
+              HasSubstr("(run_id=? AND revolution=?)"));
+}
+
+TEST_F(ArchiveTest, TheVocabularyOfRejectionsIsThatOfThePipeline) {
+  const auto archive = open();
+  std::vector<std::string> names;
+  for (int i = 0; i <= static_cast<int>(Rejection::MixedAzimuth); ++i) {
+    names.emplace_back(name_of(static_cast<Rejection>(i)));
+  }
+  SQLite::Database database = reader();
+  EXPECT_THAT(column(database, "SELECT rejected_by FROM rejection"),
+              UnorderedElementsAreArray(names));
 }
 
 TEST_F(ArchiveTest, RunIsKeptWithItsProvenance) {
@@ -99,7 +148,9 @@ TEST_F(ArchiveTest, RunIsKeptWithItsProvenance) {
             "run-1|SPINNER|spin|process|0.1.0|00ff|2026-11-20T03:00:00Z|2026-11-20T04:00:00Z");
   EXPECT_EQ(text("SELECT config_toml FROM run"), testing::kRunStart.config_toml);
   EXPECT_EQ(text("SELECT orbit_sha256 FROM run"), testing::kRunStart.orbit_sha256);
-  EXPECT_EQ(text("SELECT telemetry FROM run"), testing::kRunStart.telemetry);
+  SQLite::Database database = reader();
+  EXPECT_EQ(column(database, "SELECT telemetry FROM run_telemetry ORDER BY position"),
+            testing::kRunStart.telemetry);
 }
 
 TEST_F(ArchiveTest, RunWithoutAnOrbitFileHasNoDigestOfOne) {

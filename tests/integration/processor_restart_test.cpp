@@ -48,7 +48,7 @@ std::vector<PulseSample> two_passes() {
 
 Processor new_processor() {
   return Processor::make({load_mission(kPass / "mission.toml").value()},
-                         {.mode = "live", .telemetry = "DDS domain 0, partition live"})
+                         {.mode = "live", .telemetry = {"DDS domain 0, partition live"}})
       .value();
 }
 

@@ -75,8 +75,12 @@ inline std::vector<std::string> last_batch_rows(const std::filesystem::path& db)
            "SELECT t_tai_ns, ra_deg, dec_deg, sigma_deg, spin_rate_rpm, sigma_rpm, status"
            " FROM spin_estimate WHERE estimator = 'batch' ORDER BY 1 DESC LIMIT 1",
            "SELECT t_tai_ns, bound_deg, consider_sigma_deg, rate_drift_rpm_h, "
-           "rate_drift_sigma_rpm_h, edges, outliers, noise, iterations,"
-           " singular_values, undetermined, changed_tai_ns FROM spin_batch ORDER BY 1 DESC LIMIT 1",
+           "rate_drift_sigma_rpm_h, edges, outliers, noise, iterations, changed_tai_ns"
+           " FROM spin_batch ORDER BY 1 DESC LIMIT 1",
+           "SELECT t_tai_ns, position, value FROM spin_batch_singular_value"
+           " WHERE t_tai_ns = (SELECT max(t_tai_ns) FROM spin_batch) ORDER BY 2",
+           "SELECT t_tai_ns, position, direction FROM spin_batch_undetermined"
+           " WHERE t_tai_ns = (SELECT max(t_tai_ns) FROM spin_batch) ORDER BY 2",
            "SELECT t_tai_ns, detected, detectable_deg FROM spin_nutation ORDER BY 1 DESC LIMIT 1",
            "SELECT name, value, sigma, unit, observable, estimated FROM spin_bias ORDER BY 1"}) {
     for (std::string& row : rows_of(db, query)) {

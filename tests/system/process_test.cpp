@@ -140,7 +140,8 @@ TEST(Process, KeepsWhereTheTelemetryCameFrom) {
   const auto db = folder.path() / "out.db";
   Program program{arguments("nominal", db)};
   ASSERT_EQ(program.exit_status(), 0) << program.log();
-  EXPECT_EQ(rows_of(db, "SELECT telemetry FROM run").at(0), (kPasses / "nominal").string() + "|");
+  EXPECT_EQ(rows_of(db, "SELECT telemetry FROM run_telemetry").at(0),
+            (kPasses / "nominal").string() + "|");
   EXPECT_EQ(number_of(db, "SELECT length(orbit_sha256) FROM run"), 64);
 }
 

@@ -219,9 +219,10 @@ TEST(Serve, CallsItsRunAReplayInThatPartition) {
   Service service{"nominal", "replay"};
   ASSERT_TRUE(service.ready()) << service.program().log();
   ASSERT_EQ(service.stop(), 0) << service.program().log();
-  EXPECT_EQ(rows_of(service.db(), "SELECT mode, telemetry FROM run"),
-            std::vector<std::string>{"replay|DDS domain " + std::to_string(service.bus().domain) +
-                                     ", partition replay|"});
+  EXPECT_EQ(
+      rows_of(service.db(), "SELECT mode, telemetry FROM run JOIN run_telemetry USING (run_id)"),
+      std::vector<std::string>{"replay|DDS domain " + std::to_string(service.bus().domain) +
+                               ", partition replay|"});
 }
 
 TEST(Serve, RefusesASecondWriterAndNamesTheHolder) {

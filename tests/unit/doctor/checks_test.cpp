@@ -219,7 +219,7 @@ TEST(DoctorDisk, FailsWhereNothingCanBeWritten) {
 
 // --- archive
 
-constexpr ProgramVersions kProgram{.schema = 2, .tai_minus_utc_s = 37};
+constexpr int kTaiMinusUtc_s = 37;
 
 ArchiveFacts good_archive() {
   return {.path = "a.db",
@@ -227,61 +227,52 @@ ArchiveFacts good_archive() {
           .bytes = 1 << 20,
           .wal_bytes = 0,
           .writer = {},
-          .content = ArchiveContent{.schema_version = 2, .damages = {}, .tai_minus_utc_s = 37}};
+          .content = ArchiveContent{.damages = {}, .tai_minus_utc_s = 37}};
 }
 
 TEST(DoctorArchive, IsContentWithAWholeOneAndWithNone) {
-  EXPECT_EQ(worst_of(check_archive(good_archive(), kProgram)), Verdict::Ok);
+  EXPECT_EQ(worst_of(check_archive(good_archive(), kTaiMinusUtc_s)), Verdict::Ok);
   ArchiveFacts none = good_archive();
   none.exists = false;
-  EXPECT_EQ(worst_of(check_archive(none, kProgram)), Verdict::Ok);
+  EXPECT_EQ(worst_of(check_archive(none, kTaiMinusUtc_s)), Verdict::Ok);
 }
 
 TEST(DoctorArchive, FailsOnOneThatCannotBeOpened) {
   ArchiveFacts facts = good_archive();
   facts.content = Unexpected{{ErrorCode::InvalidConfiguration, "a.db is not an archive"}};
-  const auto checks = check_archive(facts, kProgram);
+  const auto checks = check_archive(facts, kTaiMinusUtc_s);
   EXPECT_EQ(worst_of(checks), Verdict::Failure);
   EXPECT_THAT(checks.front().found, HasSubstr("not an archive"));
   expect_advice(checks);
 }
 
-TEST(DoctorArchive, ComparesTheVersions) {
-  ArchiveFacts facts = good_archive();
-  facts.content->schema_version = 1;
-  EXPECT_EQ(named(check_archive(facts, kProgram), "archive").verdict, Verdict::Ok);
-  facts.content->schema_version = 3;
-  EXPECT_EQ(named(check_archive(facts, kProgram), "archive").verdict, Verdict::Failure);
-  facts.content->schema_version = 0;
-  EXPECT_EQ(named(check_archive(facts, kProgram), "archive").verdict, Verdict::Failure);
-}
-
 TEST(DoctorArchive, FailsOnDamageInTheWordsOfSqlite) {
   ArchiveFacts facts = good_archive();
   facts.content->damages = {"Tree 7 page 9: btreeInitPage() returns error code 11"};
-  const auto checks = check_archive(facts, kProgram);
+  const auto checks = check_archive(facts, kTaiMinusUtc_s);
   EXPECT_EQ(named(checks, "integrity").verdict, Verdict::Failure);
   EXPECT_THAT(named(checks, "integrity").found, HasSubstr("page 9"));
   expect_advice(checks);
   facts = good_archive();
   facts.content->orphans = 5;
-  EXPECT_EQ(named(check_archive(facts, kProgram), "integrity").verdict, Verdict::Failure);
+  EXPECT_EQ(named(check_archive(facts, kTaiMinusUtc_s), "integrity").verdict, Verdict::Failure);
 }
 
 TEST(DoctorArchive, WarnsOfALogThatIsNotMoved) {
   ArchiveFacts facts = good_archive();
   facts.wal_bytes = 256ULL << 20U;
-  EXPECT_EQ(named(check_archive(facts, kProgram), "write-ahead log").verdict, Verdict::Ok);
+  EXPECT_EQ(named(check_archive(facts, kTaiMinusUtc_s), "write-ahead log").verdict, Verdict::Ok);
   ++facts.wal_bytes;
-  EXPECT_EQ(named(check_archive(facts, kProgram), "write-ahead log").verdict, Verdict::Warning);
+  EXPECT_EQ(named(check_archive(facts, kTaiMinusUtc_s), "write-ahead log").verdict,
+            Verdict::Warning);
 }
 
 TEST(DoctorArchive, WarnsOfUnfinishedRunsUnlessOneIsWriting) {
   ArchiveFacts facts = good_archive();
   facts.content->unfinished_runs = 2;
-  EXPECT_EQ(named(check_archive(facts, kProgram), "runs").verdict, Verdict::Warning);
+  EXPECT_EQ(named(check_archive(facts, kTaiMinusUtc_s), "runs").verdict, Verdict::Warning);
   facts.writer = "pid 12 (spindrift serve) on ant";
-  const auto checks = check_archive(facts, kProgram);
+  const auto checks = check_archive(facts, kTaiMinusUtc_s);
   EXPECT_EQ(named(checks, "runs").verdict, Verdict::Ok);
   EXPECT_THAT(named(checks, "writer").found, HasSubstr("pid 12"));
 }
@@ -290,7 +281,7 @@ TEST(DoctorArchive, ComparesTheLeapSeconds) {
   ArchiveFacts facts = good_archive();
   for (const int archive_s : {36, 38}) {
     facts.content->tai_minus_utc_s = archive_s;
-    EXPECT_EQ(named(check_archive(facts, kProgram), "leap seconds of the archive").verdict,
+    EXPECT_EQ(named(check_archive(facts, kTaiMinusUtc_s), "leap seconds of the archive").verdict,
               Verdict::Warning);
   }
 }

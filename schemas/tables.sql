@@ -1,0 +1,471 @@
+-- The tables of an archive. Instants: t_tai_ns, integer nanoseconds of TAI since 1970-01-01T00:00:00 TAI.
+-- Angles: degrees. Flags: 0 or 1.
+--
+-- Where a table grows with every edge or revolution, a list of allowed texts is written as a chain of OR:
+-- of an IN list of more than two texts SQLite makes a table of its own for every row that it checks, which
+-- costs more than storing the row.
+
+-- From start_tai_ns on, TAI - UTC = tai_minus_utc_s. Rewritten whenever a writer opens the archive.
+CREATE TABLE leap_second (
+  start_tai_ns    INTEGER PRIMARY KEY,
+  tai_minus_utc_s INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE spacecraft (
+  spacecraft_id TEXT PRIMARY KEY,
+  name          TEXT NOT NULL,
+  kind          TEXT NOT NULL CHECK (kind IN ('spin', 'three_axis'))
+) STRICT, WITHOUT ROWID;
+
+-- Few and wide rows, for which an ordinary table is the better one; so is alert.
+CREATE TABLE run (
+  run_id           TEXT PRIMARY KEY NOT NULL,
+  spacecraft_id    TEXT NOT NULL REFERENCES spacecraft,
+  mode             TEXT NOT NULL CHECK (mode IN ('live', 'process', 'replay')),
+  software_version TEXT NOT NULL,
+  config_toml      TEXT NOT NULL,
+  config_sha256    TEXT NOT NULL,
+  orbit_sha256     TEXT,              -- of the orbit file; NULL: the mission names none
+  started_utc      TEXT NOT NULL,
+  finished_utc     TEXT,              -- NULL: running, interrupted or killed
+  first_arrival    INTEGER NOT NULL,  -- no sample of the run has an earlier one
+  first_tai_ns     INTEGER            -- the earliest of the run's samples; NULL: none yet
+) STRICT;
+
+-- Where its telemetry came from, in the order of the command line.
+CREATE TABLE run_telemetry (
+  run_id    TEXT NOT NULL REFERENCES run,
+  position  INTEGER NOT NULL CHECK (position >= 1),
+  telemetry TEXT NOT NULL,  -- the path of a file or folder, or 'DDS domain N, partition P'
+  PRIMARY KEY (run_id, position)
+) STRICT, WITHOUT ROWID;
+
+-- Telemetry: of the spacecraft, not of a run; stored once however often it arrives.
+-- source, session, seq: which sample of which sender came first with it. session and seq are the bus's
+-- unsigned 64 bits in SQLite's signed ones. arrival: order of arrival in the run that took the sample
+-- last; larger is later. The keys begin with the spacecraft, so that its samples in a span lie together.
+
+CREATE TABLE pulse (
+  spacecraft_id TEXT NOT NULL REFERENCES spacecraft,
+  t_tai_ns      INTEGER NOT NULL,
+  channel       TEXT NOT NULL CHECK (
+    channel = 'sun1' OR channel = 'sun2' OR channel = 'north_in' OR channel = 'north_out'
+    OR channel = 'south_in' OR channel = 'south_out'),
+  source        TEXT NOT NULL,
+  session       INTEGER NOT NULL,
+  seq           INTEGER NOT NULL,
+  arrival       INTEGER NOT NULL,
+  PRIMARY KEY (spacecraft_id, t_tai_ns, channel)
+) STRICT, WITHOUT ROWID;
+
+-- NULL: not received.
+CREATE TABLE coded_frame (
+  spacecraft_id TEXT NOT NULL REFERENCES spacecraft,
+  t_tai_ns      INTEGER NOT NULL,
+  period_s      REAL,
+  sun2_s        REAL,
+  north_in_s    REAL,
+  north_out_s   REAL,
+  south_in_s    REAL,
+  south_out_s   REAL,
+  source        TEXT NOT NULL,
+  session       INTEGER NOT NULL,
+  seq           INTEGER NOT NULL,
+  arrival       INTEGER NOT NULL,
+  PRIMARY KEY (spacecraft_id, t_tai_ns)
+) STRICT, WITHOUT ROWID;
+
+-- Body axes.
+CREATE TABLE gyro_sample (
+  spacecraft_id TEXT NOT NULL REFERENCES spacecraft,
+  t_tai_ns      INTEGER NOT NULL,
+  wx_rad_s      REAL NOT NULL,
+  wy_rad_s      REAL NOT NULL,
+  wz_rad_s      REAL NOT NULL,
+  source        TEXT NOT NULL,
+  session       INTEGER NOT NULL,
+  seq           INTEGER NOT NULL,
+  arrival       INTEGER NOT NULL,
+  PRIMARY KEY (spacecraft_id, t_tai_ns)
+) STRICT, WITHOUT ROWID;
+
+-- q_icrf_sensor, as received: its norm is 1 within 0.001.
+CREATE TABLE star_sample (
+  spacecraft_id TEXT NOT NULL REFERENCES spacecraft,
+  t_tai_ns      INTEGER NOT NULL,
+  qx            REAL NOT NULL,
+  qy            REAL NOT NULL,
+  qz            REAL NOT NULL,
+  qw            REAL NOT NULL,
+  source        TEXT NOT NULL,
+  session       INTEGER NOT NULL,
+  seq           INTEGER NOT NULL,
+  arrival       INTEGER NOT NULL,
+  PRIMARY KEY (spacecraft_id, t_tai_ns)
+) STRICT, WITHOUT ROWID;
+
+-- Vector to the Sun, body axes.
+CREATE TABLE sun_sample (
+  spacecraft_id TEXT NOT NULL REFERENCES spacecraft,
+  t_tai_ns      INTEGER NOT NULL,
+  sx            REAL NOT NULL,
+  sy            REAL NOT NULL,
+  sz            REAL NOT NULL,
+  source        TEXT NOT NULL,
+  session       INTEGER NOT NULL,
+  seq           INTEGER NOT NULL,
+  arrival       INTEGER NOT NULL,
+  PRIMARY KEY (spacecraft_id, t_tai_ns)
+) STRICT, WITHOUT ROWID;
+
+-- Body axes.
+CREATE TABLE magnetometer_sample (
+  spacecraft_id TEXT NOT NULL REFERENCES spacecraft,
+  t_tai_ns      INTEGER NOT NULL,
+  bx_nt         REAL NOT NULL,
+  by_nt         REAL NOT NULL,
+  bz_nt         REAL NOT NULL,
+  source        TEXT NOT NULL,
+  session       INTEGER NOT NULL,
+  seq           INTEGER NOT NULL,
+  arrival       INTEGER NOT NULL,
+  PRIMARY KEY (spacecraft_id, t_tai_ns)
+) STRICT, WITHOUT ROWID;
+
+-- EME2000.
+CREATE TABLE orbit_state_sample (
+  spacecraft_id TEXT NOT NULL REFERENCES spacecraft,
+  t_tai_ns      INTEGER NOT NULL,
+  x_km          REAL NOT NULL,
+  y_km          REAL NOT NULL,
+  z_km          REAL NOT NULL,
+  vx_km_s       REAL NOT NULL,
+  vy_km_s       REAL NOT NULL,
+  vz_km_s       REAL NOT NULL,
+  source        TEXT NOT NULL,
+  session       INTEGER NOT NULL,
+  seq           INTEGER NOT NULL,
+  arrival       INTEGER NOT NULL,
+  PRIMARY KEY (spacecraft_id, t_tai_ns)
+) STRICT, WITHOUT ROWID;
+
+-- What came in and what became of it, by run.
+
+-- Rows that could not be read or are impossible.
+CREATE TABLE rejected_input (
+  run_id  TEXT NOT NULL REFERENCES run,
+  source  TEXT NOT NULL,     -- the file's path as it was given; on the bus the sample's source
+  session INTEGER NOT NULL,  -- 0 for a file
+  line    INTEGER NOT NULL,  -- of the file, from 1; on the bus the sample's seq
+  reason  TEXT NOT NULL,
+  PRIMARY KEY (run_id, source, session, line, reason)
+) STRICT, WITHOUT ROWID;
+
+-- seq counts all spacecraft of a source, and so do these counts: what is missing belongs to none of them.
+-- They stand, like the rejected rows of the bus, under the run of the first spacecraft of the service.
+CREATE TABLE source_count (
+  run_id     TEXT NOT NULL REFERENCES run,
+  source     TEXT NOT NULL,
+  received   INTEGER NOT NULL,
+  gaps       INTEGER NOT NULL,  -- samples that are missing
+  duplicates INTEGER NOT NULL,
+  disordered INTEGER NOT NULL,
+  PRIMARY KEY (run_id, source)
+) STRICT, WITHOUT ROWID;
+
+-- Why an edge or a measurement was left out. The last six are the test of the quantity of that name; an
+-- edge has that of the first measurement with it, when all of them failed.
+CREATE TABLE rejection (
+  rejected_by TEXT PRIMARY KEY,
+  says        TEXT NOT NULL
+) STRICT, WITHOUT ROWID;
+INSERT INTO rejection VALUES
+  ('unassociated', 'no revolution had a place for the edge: spurious, doubled, or ahead of the first spin period'),
+  ('late', 'it arrived after its time had been processed'),
+  ('out_of_time', 'far from all others in time: a sender''s clock is wrong'),
+  ('interference', 'an edge of another channel was, or is expected, so near that both may be spoilt'),
+  ('phase', 'not where the edges of its channel lie, or the measurement rests on such an edge'),
+  ('geometry', 'the measurement has no meaning: a chord of a whole turn, a slit lag out of range'),
+  ('no_sensor', 'the mission file describes no such sensor'),
+  ('no_orbit', 'the orbit does not reach: not testable, not wrong'),
+  ('period', 'it failed the test of the spin period'),
+  ('sun_angle', 'it failed the test of the sun angle'),
+  ('north_chord', 'it failed the test of the north chord'),
+  ('south_chord', 'it failed the test of the south chord'),
+  ('north_dihedral', 'it failed the test of the north dihedral angle'),
+  ('south_dihedral', 'it failed the test of the south dihedral angle'),
+  ('mixed_azimuth', 'it failed the test of the mixed azimuth');
+
+-- Not a reference to pulse: edges of coded telemetry have no row there.
+CREATE TABLE pulse_use (
+  run_id        TEXT NOT NULL REFERENCES run,
+  spacecraft_id TEXT NOT NULL,
+  t_tai_ns      INTEGER NOT NULL,
+  channel       TEXT NOT NULL CHECK (
+    channel = 'sun1' OR channel = 'sun2' OR channel = 'north_in' OR channel = 'north_out'
+    OR channel = 'south_in' OR channel = 'south_out'),
+  revolution    INTEGER,  -- NULL: no revolution had a place for the edge
+  accepted      INTEGER NOT NULL CHECK (accepted IN (0, 1)),
+  rejected_by   TEXT REFERENCES rejection,
+  PRIMARY KEY (run_id, t_tai_ns, channel),  -- a run has one spacecraft
+  CHECK (accepted = (rejected_by IS NULL))
+) STRICT, WITHOUT ROWID;
+
+CREATE INDEX pulse_use_of_revolution ON pulse_use (run_id, revolution) WHERE revolution IS NOT NULL;
+
+-- Products: of a run, so that a reprocessing never overwrites an earlier one. Measurements and fixes do
+-- not refer to revolution, which their run may store later.
+
+CREATE TABLE revolution (
+  run_id     TEXT NOT NULL REFERENCES run,
+  revolution INTEGER NOT NULL,
+  t_tai_ns   INTEGER NOT NULL,  -- sun1
+  period_s   REAL NOT NULL CHECK (period_s > 0),
+  PRIMARY KEY (run_id, revolution)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE spin_measurement (
+  run_id      TEXT NOT NULL REFERENCES run,
+  revolution  INTEGER NOT NULL,
+  quantity    TEXT NOT NULL CHECK (
+    quantity = 'period' OR quantity = 'sun_angle' OR quantity = 'north_chord'
+    OR quantity = 'south_chord' OR quantity = 'north_dihedral' OR quantity = 'south_dihedral'
+    OR quantity = 'mixed_azimuth'),
+  value       REAL NOT NULL,
+  unit        TEXT NOT NULL CHECK (unit = CASE quantity WHEN 'period' THEN 's' ELSE 'deg' END),
+  sigma       REAL NOT NULL CHECK (sigma >= 0),
+  accepted    INTEGER NOT NULL CHECK (accepted IN (0, 1)),
+  rejected_by TEXT REFERENCES rejection,
+  PRIMARY KEY (run_id, revolution, quantity),
+  CHECK (accepted = (rejected_by IS NULL))
+) STRICT, WITHOUT ROWID;
+
+-- cov_*: tangent plane at the axis, east and north; sigma_deg is the square root of its trace.
+CREATE TABLE spin_fix (
+  run_id               TEXT NOT NULL REFERENCES run,
+  revolution           INTEGER NOT NULL,
+  t_tai_ns             INTEGER NOT NULL,
+  geometry_case        INTEGER NOT NULL CHECK (geometry_case BETWEEN 1 AND 10),
+  ra_deg               REAL NOT NULL CHECK (ra_deg >= 0 AND ra_deg < 360),
+  dec_deg              REAL NOT NULL CHECK (dec_deg BETWEEN -90 AND 90),
+  sigma_deg            REAL NOT NULL CHECK (sigma_deg >= 0),
+  cov_east_east_deg2   REAL NOT NULL,
+  cov_east_north_deg2  REAL NOT NULL,
+  cov_north_north_deg2 REAL NOT NULL,
+  alternate_ra_deg     REAL CHECK (alternate_ra_deg >= 0 AND alternate_ra_deg < 360),
+  alternate_dec_deg    REAL CHECK (alternate_dec_deg BETWEEN -90 AND 90),
+  resolution           TEXT NOT NULL CHECK (
+    resolution = 'GEOMETRY' OR resolution = 'CONSTRAINT' OR resolution = 'PRIOR'
+    OR resolution = 'DISPERSION' OR resolution = 'AMBIGUOUS'),
+  norm                 REAL NOT NULL,  -- |P| before normalising: 1 for measurements that agree
+  accepted             INTEGER NOT NULL CHECK (accepted IN (0, 1)),
+  PRIMARY KEY (run_id, revolution),
+  CHECK ((alternate_ra_deg IS NULL) = (alternate_dec_deg IS NULL))
+) STRICT, WITHOUT ROWID;
+
+-- All other axes of a fix that has more than one; the first of them stands in spin_fix too.
+CREATE TABLE spin_fix_candidate (
+  run_id     TEXT NOT NULL REFERENCES run,
+  revolution INTEGER NOT NULL,
+  candidate  INTEGER NOT NULL CHECK (candidate >= 1),  -- in the order of the pipeline
+  ra_deg     REAL NOT NULL CHECK (ra_deg >= 0 AND ra_deg < 360),
+  dec_deg    REAL NOT NULL CHECK (dec_deg BETWEEN -90 AND 90),
+  PRIMARY KEY (run_id, revolution, candidate)
+) STRICT, WITHOUT ROWID;
+
+-- cov_* as in spin_fix.
+CREATE TABLE spin_estimate (
+  run_id               TEXT NOT NULL REFERENCES run,
+  t_tai_ns             INTEGER NOT NULL,
+  estimator            TEXT NOT NULL CHECK (
+    estimator = 'mean' OR estimator = 'sequential' OR estimator = 'batch'),
+  ra_deg               REAL NOT NULL CHECK (ra_deg >= 0 AND ra_deg < 360),
+  dec_deg              REAL NOT NULL CHECK (dec_deg BETWEEN -90 AND 90),
+  sigma_deg            REAL NOT NULL CHECK (sigma_deg >= 0),
+  cov_east_east_deg2   REAL NOT NULL,
+  cov_east_north_deg2  REAL NOT NULL,
+  cov_north_north_deg2 REAL NOT NULL,
+  spin_rate_rpm        REAL NOT NULL,
+  sigma_rpm            REAL NOT NULL CHECK (sigma_rpm >= 0),
+  quality              TEXT NOT NULL CHECK (
+    quality = 'OK' OR quality = 'CONVERGING' OR quality = 'AMBIGUOUS' OR quality = 'DOUBTFUL'
+    OR quality = 'LOST'),
+  reasons              TEXT NOT NULL,  -- JSON: array of objects with `code` and values
+  status               TEXT NOT NULL,  -- a sentence for people made of the two
+  PRIMARY KEY (run_id, t_tai_ns, estimator)
+) STRICT, WITHOUT ROWID;
+
+-- Of the last solution of the run and estimator: the next one replaces all its rows, so that a channel
+-- that fell silent leaves none.
+CREATE TABLE spin_bias (
+  run_id     TEXT NOT NULL REFERENCES run,
+  estimator  TEXT NOT NULL CHECK (estimator IN ('mean', 'sequential', 'batch')),
+  name       TEXT NOT NULL,
+  value      REAL NOT NULL,  -- measured minus true
+  unit       TEXT NOT NULL,
+  sigma      REAL NOT NULL CHECK (sigma >= 0),
+  observable INTEGER NOT NULL CHECK (observable IN (0, 1)),
+  -- 1: estimated with the axis; 0: held at zero, and the row is what the edges would say of all biases
+  -- together, a hint where to look.
+  estimated  INTEGER NOT NULL CHECK (estimated IN (0, 1)),
+  PRIMARY KEY (run_id, estimator, name)
+) STRICT, WITHOUT ROWID;
+
+-- What `batch` found out beside its row of spin_estimate, whose t_tai_ns these rows have.
+
+CREATE TABLE spin_batch (
+  run_id                 TEXT NOT NULL REFERENCES run,
+  t_tai_ns               INTEGER NOT NULL,
+  bound_deg              REAL NOT NULL CHECK (bound_deg >= 0),  -- Cramer-Rao, both axes together
+  edges                  INTEGER NOT NULL CHECK (edges > 0),
+  outliers               INTEGER NOT NULL CHECK (outliers >= 0),
+  noise                  REAL NOT NULL CHECK (noise >= 1),  -- times the stated one
+  iterations             INTEGER NOT NULL,
+  changed_tai_ns         INTEGER,  -- attitude or rate did, and only edges after it count; NULL: did not
+  -- Root mean square error of the axis, both directions together, were no bias known better than by its
+  -- prior, those held at zero included.
+  consider_sigma_deg     REAL NOT NULL CHECK (consider_sigma_deg >= 0),
+  rate_drift_rpm_h       REAL NOT NULL,  -- of the spin rate, even over the pass
+  rate_drift_sigma_rpm_h REAL NOT NULL CHECK (rate_drift_sigma_rpm_h >= 0),
+  PRIMARY KEY (run_id, t_tai_ns)
+) STRICT, WITHOUT ROWID;
+
+-- Of the whitened equations of what is estimated, largest first.
+CREATE TABLE spin_batch_singular_value (
+  run_id   TEXT NOT NULL,
+  t_tai_ns INTEGER NOT NULL,
+  position INTEGER NOT NULL CHECK (position >= 1),
+  value    REAL NOT NULL CHECK (value >= 0),
+  PRIMARY KEY (run_id, t_tai_ns, position),
+  FOREIGN KEY (run_id, t_tai_ns) REFERENCES spin_batch ON DELETE CASCADE
+) STRICT, WITHOUT ROWID;
+
+-- Directions of the biases that the edges leave open, in words.
+CREATE TABLE spin_batch_undetermined (
+  run_id    TEXT NOT NULL,
+  t_tai_ns  INTEGER NOT NULL,
+  position  INTEGER NOT NULL CHECK (position >= 1),
+  direction TEXT NOT NULL,
+  PRIMARY KEY (run_id, t_tai_ns, position),
+  FOREIGN KEY (run_id, t_tai_ns) REFERENCES spin_batch ON DELETE CASCADE
+) STRICT, WITHOUT ROWID;
+
+-- The search for free nutation in what an even spin left of the edges. NULL from half_angle_deg on: none
+-- was detected.
+CREATE TABLE spin_nutation (
+  run_id                 TEXT NOT NULL REFERENCES run,
+  t_tai_ns               INTEGER NOT NULL,
+  detected               INTEGER NOT NULL CHECK (detected IN (0, 1)),
+  false_alarm            REAL NOT NULL,  -- chance that noise alone shows as much
+  detectable_deg         REAL NOT NULL,  -- half-angle that is found in 95 of 100 such passes
+  half_angle_deg         REAL,
+  half_angle_sigma_deg   REAL,
+  period_s               REAL,  -- of the axis round the angular momentum, as seen from outside
+  period_sigma_s         REAL,
+  growth_per_h           REAL,  -- of the half-angle, as a share of it
+  growth_sigma_per_h     REAL,
+  lean_azimuth_deg       REAL,  -- where the axis leans at at_tai_ns
+  lean_azimuth_sigma_deg REAL,
+  at_tai_ns              INTEGER,  -- of half_angle_deg and lean_azimuth_deg
+  PRIMARY KEY (run_id, t_tai_ns)
+) STRICT, WITHOUT ROWID;
+
+-- The sensors' axis leans away from the principal axis that the body spins about. NULL from tilt_deg on:
+-- none was detected, and none is in the axis.
+CREATE TABLE spin_coning (
+  run_id            TEXT NOT NULL REFERENCES run,
+  t_tai_ns          INTEGER NOT NULL,
+  detected          INTEGER NOT NULL CHECK (detected IN (0, 1)),
+  detectable_deg    REAL NOT NULL,  -- tilt that is found in 95 of 100 such passes, wherever it leans
+  tilt_deg          REAL,
+  tilt_sigma_deg    REAL,
+  azimuth_deg       REAL,  -- to which the sensors' axis leans in the body, behind sun slit 1
+  azimuth_sigma_deg REAL,
+  PRIMARY KEY (run_id, t_tai_ns)
+) STRICT, WITHOUT ROWID;
+
+-- q_icrf_body; rates in body axes, NULL where they are not estimated.
+CREATE TABLE attitude (
+  run_id       TEXT NOT NULL REFERENCES run,
+  t_tai_ns     INTEGER NOT NULL,
+  source       TEXT NOT NULL CHECK (
+    source = 'sequential' OR source = 'batch' OR source = 'mekf' OR source = 'usque'
+    OR source = 'gukf' OR source = 'triad' OR source = 'quest'),
+  qx           REAL NOT NULL,
+  qy           REAL NOT NULL,
+  qz           REAL NOT NULL,
+  qw           REAL NOT NULL,
+  rate_x_rad_s REAL,
+  rate_y_rad_s REAL,
+  rate_z_rad_s REAL,
+  sigma_deg    REAL NOT NULL CHECK (sigma_deg >= 0),
+  quality      TEXT NOT NULL CHECK (
+    quality = 'OK' OR quality = 'CONVERGING' OR quality = 'AMBIGUOUS' OR quality = 'DOUBTFUL'
+    OR quality = 'LOST'),
+  reasons      TEXT NOT NULL,  -- as in spin_estimate
+  status       TEXT NOT NULL,
+  PRIMARY KEY (run_id, t_tai_ns, source)
+) STRICT, WITHOUT ROWID;
+
+-- q_icrf_body; Euler 3-1-2: 1 phi, 2 theta, 3 psi. NULL: the mission has no orbit.
+CREATE TABLE reconstruction_event (
+  run_id               TEXT NOT NULL REFERENCES run,
+  method               TEXT NOT NULL CHECK (method IN ('batch', 'sequential')),
+  event                TEXT NOT NULL CHECK (event IN ('T1', 'T2', 'T3', 'T4')),
+  t_tai_ns             INTEGER NOT NULL,
+  qx                   REAL NOT NULL,
+  qy                   REAL NOT NULL,
+  qz                   REAL NOT NULL,
+  qw                   REAL NOT NULL,
+  euler312_icrf_deg_1  REAL NOT NULL,
+  euler312_icrf_deg_2  REAL NOT NULL,
+  euler312_icrf_deg_3  REAL NOT NULL,
+  euler312_orbit_deg_1 REAL,
+  euler312_orbit_deg_2 REAL,
+  euler312_orbit_deg_3 REAL,
+  sigma_deg            REAL NOT NULL CHECK (sigma_deg >= 0),
+  PRIMARY KEY (run_id, method, event)
+) STRICT, WITHOUT ROWID;
+
+-- What an operator asked for: input, stored like telemetry, so that a replay repeats it.
+CREATE TABLE operator_action (
+  action_id     TEXT PRIMARY KEY NOT NULL,
+  spacecraft_id TEXT NOT NULL REFERENCES spacecraft,
+  t_tai_ns      INTEGER NOT NULL,  -- telemetry time from which it applies
+  made_utc      TEXT NOT NULL,
+  by            TEXT NOT NULL,
+  action        TEXT NOT NULL,
+  arguments     TEXT NOT NULL  -- JSON: an object
+) STRICT;
+
+-- key: what the alert is about; one alert per key is open at a time.
+CREATE TABLE alert (
+  alert_id       TEXT PRIMARY KEY NOT NULL,
+  spacecraft_id  TEXT NOT NULL REFERENCES spacecraft,
+  key            TEXT NOT NULL,
+  severity       TEXT NOT NULL CHECK (severity IN ('info', 'warning', 'critical')),
+  state          TEXT NOT NULL CHECK (state IN ('active', 'acknowledged', 'shelved', 'cleared')),
+  raised_tai_ns  INTEGER NOT NULL,
+  updated_tai_ns INTEGER NOT NULL,
+  cleared_tai_ns INTEGER,
+  count          INTEGER NOT NULL CHECK (count > 0),
+  message        TEXT NOT NULL,
+  evidence       TEXT NOT NULL  -- JSON; json_valid() may not stand in a schema with trusted_schema off
+) STRICT;
+
+CREATE TABLE alert_transition (
+  alert_id   TEXT NOT NULL REFERENCES alert,
+  t_tai_ns   INTEGER NOT NULL,
+  from_state TEXT CHECK (from_state IN ('active', 'acknowledged', 'shelved', 'cleared')),
+  to_state   TEXT NOT NULL CHECK (to_state IN ('active', 'acknowledged', 'shelved', 'cleared')),
+  by         TEXT NOT NULL,
+  note       TEXT NOT NULL,
+  PRIMARY KEY (alert_id, t_tai_ns, to_state)
+) STRICT, WITHOUT ROWID;
+
+-- SQLite has no other way to know that a revolution is a small part of a run, and would look for its edges
+-- among all of the run's: rows, rows of a run, rows of a revolution.
+ANALYZE;
+INSERT INTO sqlite_stat1 VALUES
+  ('pulse_use', 'pulse_use_of_revolution', '1000000 100000 6'),
+  ('pulse_use', 'pulse_use', '1000000 100000 2 1');

@@ -1,0 +1,122 @@
+-- Views for people: UTC as ISO 8601 text, milliseconds cut off, not rounded.
+--
+-- The text is built from whole seconds and whole milliseconds, so no floating point is involved.
+-- The row of leap_second in force one second *later* is asked for: within a leap second it is the
+-- new offset, with which the second counts as 23:59:59 again; start_tai_ns > t_tai_ns then makes
+-- it 23:59:60. NULL before 1972, where UTC was not whole seconds from TAI. SQL has no function to
+-- share the expression by, hence its copies: one for each table that other views do not build on.
+
+CREATE VIEW pulse_utc AS
+SELECT
+  (SELECT strftime('%Y-%m-%dT%H:%M:', t_tai_ns / 1000000000 - tai_minus_utc_s, 'unixepoch')
+     || format('%02d.%03dZ',
+               (t_tai_ns / 1000000000 - tai_minus_utc_s) % 60 + (start_tai_ns > t_tai_ns),
+               t_tai_ns / 1000000 % 1000)
+   FROM leap_second WHERE start_tai_ns <= t_tai_ns + 1000000000
+   ORDER BY start_tai_ns DESC LIMIT 1) AS utc,
+  *
+FROM pulse;
+
+CREATE VIEW revolution_utc AS
+SELECT
+  (SELECT strftime('%Y-%m-%dT%H:%M:', t_tai_ns / 1000000000 - tai_minus_utc_s, 'unixepoch')
+     || format('%02d.%03dZ',
+               (t_tai_ns / 1000000000 - tai_minus_utc_s) % 60 + (start_tai_ns > t_tai_ns),
+               t_tai_ns / 1000000 % 1000)
+   FROM leap_second WHERE start_tai_ns <= t_tai_ns + 1000000000
+   ORDER BY start_tai_ns DESC LIMIT 1) AS utc,
+  *,
+  60.0 / period_s AS spin_rate_rpm
+FROM revolution;
+
+CREATE VIEW spin_fix_utc AS
+SELECT
+  (SELECT strftime('%Y-%m-%dT%H:%M:', t_tai_ns / 1000000000 - tai_minus_utc_s, 'unixepoch')
+     || format('%02d.%03dZ',
+               (t_tai_ns / 1000000000 - tai_minus_utc_s) % 60 + (start_tai_ns > t_tai_ns),
+               t_tai_ns / 1000000 % 1000)
+   FROM leap_second WHERE start_tai_ns <= t_tai_ns + 1000000000
+   ORDER BY start_tai_ns DESC LIMIT 1) AS utc,
+  *
+FROM spin_fix;
+
+CREATE VIEW spin_estimate_utc AS
+SELECT
+  (SELECT strftime('%Y-%m-%dT%H:%M:', t_tai_ns / 1000000000 - tai_minus_utc_s, 'unixepoch')
+     || format('%02d.%03dZ',
+               (t_tai_ns / 1000000000 - tai_minus_utc_s) % 60 + (start_tai_ns > t_tai_ns),
+               t_tai_ns / 1000000 % 1000)
+   FROM leap_second WHERE start_tai_ns <= t_tai_ns + 1000000000
+   ORDER BY start_tai_ns DESC LIMIT 1) AS utc,
+  *
+FROM spin_estimate;
+
+CREATE VIEW spin_measurement_utc AS
+SELECT revolution_utc.utc, spin_measurement.*
+FROM spin_measurement LEFT JOIN revolution_utc USING (run_id, revolution);
+
+-- Every edge that a run left out, the test that did, and in words.
+CREATE VIEW rejected_pulse AS
+SELECT run_id, utc, spacecraft_id, t_tai_ns, channel, revolution, rejected_by, says,
+  source, session, seq
+FROM pulse_use JOIN rejection USING (rejected_by)
+  LEFT JOIN pulse_utc USING (spacecraft_id, t_tai_ns, channel)
+WHERE accepted = 0;
+
+-- How many edges, measurements and input rows were left out, by reason.
+CREATE VIEW rejection_summary AS
+SELECT run_id, 'pulse' AS what, channel AS name, rejected_by, count(*) AS rejected
+FROM pulse_use WHERE accepted = 0 GROUP BY run_id, channel, rejected_by
+UNION ALL
+SELECT run_id, 'measurement', quantity, rejected_by, count(*)
+FROM spin_measurement WHERE accepted = 0 GROUP BY run_id, quantity, rejected_by
+UNION ALL
+SELECT run_id, 'input', source, reason, count(*)
+FROM rejected_input GROUP BY run_id, source, reason;
+
+-- The answer of a pass: the last estimate of each estimator of each run; finished = 0: of a run that goes
+-- on, or was interrupted. Each is looked for from the end of its run: all estimates of a day take most of a
+-- second.
+CREATE VIEW pass_answer AS
+WITH last AS (
+  SELECT run_id, one.estimator,
+    (SELECT t_tai_ns FROM spin_estimate
+     WHERE spin_estimate.run_id = run.run_id AND spin_estimate.estimator = one.estimator
+     ORDER BY t_tai_ns DESC LIMIT 1) AS t_tai_ns
+  FROM run, (SELECT 'mean' AS estimator UNION ALL SELECT 'sequential' UNION ALL SELECT 'batch') AS one
+)
+SELECT spacecraft_id, finished_utc IS NOT NULL AS finished, spin_estimate_utc.*
+FROM last JOIN spin_estimate_utc USING (run_id, estimator, t_tai_ns) JOIN run USING (run_id);
+
+-- The answers of a run two by two: apart in degrees and in the larger sigma of the two, since estimators of
+-- the same edges differ by no more than the worse of them errs (Hausman 1978: the variance of the difference
+-- from an efficient one is the difference of the variances).
+CREATE VIEW spin_comparison AS
+WITH pair AS (
+  SELECT a.run_id, a.spacecraft_id, a.finished, a.estimator AS one, b.estimator AS other,
+    a.ra_deg AS one_ra_deg, a.dec_deg AS one_dec_deg, a.sigma_deg AS one_sigma_deg,
+    b.ra_deg AS other_ra_deg, b.dec_deg AS other_dec_deg, b.sigma_deg AS other_sigma_deg,
+    degrees(2 * asin(min(1, sqrt(
+      pow(sin(radians(a.dec_deg - b.dec_deg) / 2), 2)
+      + cos(radians(a.dec_deg)) * cos(radians(b.dec_deg))
+        * pow(sin(radians(a.ra_deg - b.ra_deg) / 2), 2))))) AS apart_deg,
+    max(a.sigma_deg, b.sigma_deg) AS sigma_deg
+  FROM pass_answer AS a JOIN pass_answer AS b USING (run_id)
+  WHERE (a.estimator = 'mean' AND b.estimator <> 'mean')
+    OR (a.estimator = 'sequential' AND b.estimator = 'batch')
+)
+SELECT *, apart_deg / sigma_deg AS apart_sigmas, apart_deg > 3 * sigma_deg AS disagree
+FROM pair;
+
+-- One row a run: the answer to report, that of `batch`, where there is none of `sequential`, else of `mean`;
+-- and whether to act on it. NULL from estimator to sigma_deg: the run has no answer. A spin axis leaves
+-- qx to qw NULL.
+CREATE VIEW pass_verdict AS
+SELECT run.run_id, run.spacecraft_id, run.started_utc, run.finished_utc IS NOT NULL AS finished,
+  estimator, quality, ra_deg, dec_deg, NULL AS qx, NULL AS qy, NULL AS qz, NULL AS qw, sigma_deg,
+  ifnull(status, 'no estimate') || ifnull(
+    (SELECT group_concat('; ' || one || ' and ' || other || ' disagree', '')
+     FROM spin_comparison WHERE spin_comparison.run_id = run.run_id AND disagree), '') AS why
+FROM run LEFT JOIN pass_answer AS answer ON answer.run_id = run.run_id AND estimator =
+  (SELECT estimator FROM pass_answer WHERE pass_answer.run_id = run.run_id
+   ORDER BY CASE estimator WHEN 'batch' THEN 1 WHEN 'sequential' THEN 2 ELSE 3 END LIMIT 1);
