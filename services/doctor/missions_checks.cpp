@@ -38,7 +38,7 @@ std::vector<Check> check_settings(const MissionFacts& mission) {
   std::vector<Check> checks;
   if (mission.kind == SpacecraftKind::ThreeAxis) {
     checks.push_back(warning(name, "a three-axis stabilised spacecraft",
-                             "there is no processing for it yet: leave it out"));
+                             "its samples are stored; no attitude is computed from them yet"));
   }
   if (!mission.infrared) {
     checks.push_back(warning(name, "no infrared sensor: the sun angle alone gives no spin axis",

@@ -11,7 +11,7 @@ std::vector<std::string> idle_tables(const Mission& mission) {
   std::vector<std::string> idle;
   for (const char* name : {"spin", "three_axis", "reconstruction"}) {
     const bool of_spinner = std::string_view{name} == "spin";
-    if (document.contains(name) && of_spinner != (mission.kind == SpacecraftKind::Spin)) {
+    if (document.contains(name) && of_spinner != (mission.spin() != nullptr)) {
       idle.emplace_back(name);
     }
   }
@@ -21,13 +21,14 @@ std::vector<std::string> idle_tables(const Mission& mission) {
 }  // namespace
 
 MissionFacts mission_facts(const Mission& mission, TaiTime now) {
-  MissionFacts facts{.spacecraft = mission.spacecraft_id,
-                     .kind = mission.kind,
-                     .ephemeris = {},
-                     .no_orbit_now = {},
-                     .infrared = !mission.spin || mission.spin->north || mission.spin->south,
-                     .idle = idle_tables(mission),
-                     .orbit_doubts = mission.orbit_doubts};
+  MissionFacts facts{
+      .spacecraft = mission.spacecraft_id,
+      .kind = mission.kind(),
+      .ephemeris = {},
+      .no_orbit_now = {},
+      .infrared = mission.spin() == nullptr || mission.spin()->north || mission.spin()->south,
+      .idle = idle_tables(mission),
+      .orbit_doubts = mission.orbit_doubts};
   if (!mission.orbit) {
     return facts;
   }

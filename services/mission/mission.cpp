@@ -10,6 +10,7 @@
 #include "services/mission/mission_orbit.h"
 #include "services/mission/mission_schema.h"
 #include "services/mission/mission_spin.h"
+#include "services/mission/mission_three_axis.h"
 #include "services/mission/orbit_doubts.h"
 #include "services/toml_schema/document.h"
 #include "services/toml_schema/text_file.h"
@@ -17,6 +18,22 @@
 
 namespace spindrift {
 namespace {
+
+bool is_spinner(const TomlValues& values) {
+  return std::get<std::string>(values.at("spacecraft.kind")) == name_of(SpacecraftKind::Spin);
+}
+
+/// @param only The kind that is allowed; empty: any.
+Expected<void> allow(TomlDocument& document, std::optional<SpacecraftKind> only) {
+  const auto kind = is_spinner(document.values) ? SpacecraftKind::Spin : SpacecraftKind::ThreeAxis;
+  if (only && kind != *only) {
+    add_problem(document, "spacecraft.kind",
+                fmt::format(R"(spacecraft.kind = "{}": this command is for "{}" only)",
+                            name_of(kind), name_of(*only)));
+    return soundness(document);
+  }
+  return {};
+}
 
 /// @param only The kind that is allowed; empty: any.
 Expected<Mission> load(const std::filesystem::path& path, std::optional<SpacecraftKind> only) {
@@ -40,16 +57,8 @@ Expected<Mission> load(const std::filesystem::path& path, std::optional<Spacecra
   if (auto sound = soundness(*document); !sound) {
     return Unexpected{std::move(sound.error())};
   }
-  const auto kind =
-      std::get<std::string>(values.at("spacecraft.kind")) == name_of(SpacecraftKind::Spin)
-          ? SpacecraftKind::Spin
-          : SpacecraftKind::ThreeAxis;
-  if (only && kind != *only) {
-    add_problem(
-        *document, "spacecraft.kind",
-        fmt::format(R"(spacecraft.kind = "{}": must be "{}", nothing else is processed here yet)",
-                    name_of(kind), name_of(*only)));
-    return Unexpected{soundness(*document).error()};
+  if (auto allowed = allow(*document, only); !allowed) {
+    return Unexpected{std::move(allowed.error())};
   }
   auto spacecraft_id = std::get<std::string>(values.at("spacecraft.id"));
   const OrbitEphemeris* const ephemeris = orbit->orbit ? orbit->orbit->ephemeris() : nullptr;
@@ -57,15 +66,15 @@ Expected<Mission> load(const std::filesystem::path& path, std::optional<Spacecra
       ephemeris == nullptr
           ? std::vector<std::string>{}
           : orbit_doubts(*ephemeris, value_of<std::string>(values, "orbit.oem"), spacecraft_id);
-  return Mission{
-      .spacecraft_id = std::move(spacecraft_id),
-      .kind = kind,
-      .orbit = std::move(orbit->orbit),
-      .spin = kind == SpacecraftKind::Spin ? std::optional{spin_config(values)} : std::nullopt,
-      .toml_text = std::move(document->text),
-      .sha256 = std::move(*sha256),
-      .orbit_sha256 = std::move(orbit->file_sha256),
-      .orbit_doubts = std::move(doubts)};
+  return Mission{.spacecraft_id = std::move(spacecraft_id),
+                 .config = is_spinner(values)
+                               ? std::variant<SpinConfig, ThreeAxisConfig>{spin_config(values)}
+                               : three_axis_config(values),
+                 .orbit = std::move(orbit->orbit),
+                 .toml_text = std::move(document->text),
+                 .sha256 = std::move(*sha256),
+                 .orbit_sha256 = std::move(orbit->file_sha256),
+                 .orbit_doubts = std::move(doubts)};
 }
 
 }  // namespace

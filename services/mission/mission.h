@@ -7,11 +7,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/spin/types/config.h"
+#include "pipelines/three_axis/config.h"
 
 namespace spindrift {
 
@@ -22,13 +24,16 @@ std::string_view name_of(SpacecraftKind kind);
 
 struct Mission {
   std::string spacecraft_id;
-  SpacecraftKind kind;
-  std::optional<Orbit> orbit;               ///< Always there for a spinner.
-  std::optional<SpinConfig> spin;           ///< There for a spinner, and only then.
-  std::string toml_text;                    ///< The file as read.
-  std::string sha256;                       ///< Of toml_text, hexadecimal.
-  std::optional<std::string> orbit_sha256;  ///< Of the orbit file, if one is named.
-  std::vector<std::string> orbit_doubts;    ///< About that file, for people (orbit_doubts.h).
+  std::variant<SpinConfig, ThreeAxisConfig> config;  ///< In the order of SpacecraftKind.
+  std::optional<Orbit> orbit;                        ///< Always there for a spinner.
+  std::string toml_text;                             ///< The file as read.
+  std::string sha256;                                ///< Of toml_text, hexadecimal.
+  std::optional<std::string> orbit_sha256;           ///< Of the orbit file, if one is named.
+  std::vector<std::string> orbit_doubts;  ///< About that file, for people (orbit_doubts.h).
+
+  SpacecraftKind kind() const { return static_cast<SpacecraftKind>(config.index()); }
+  /// Null for any other spacecraft.
+  const SpinConfig* spin() const { return std::get_if<SpinConfig>(&config); }
 };
 
 /// Reads a mission file, and the orbit file that it names, by the rules of

@@ -17,7 +17,7 @@ constexpr std::chrono::minutes kBetweenBatches{1};
 
 PassRun::PassRun(const Mission& mission, const std::string& run_id, BatchPlan plan)
     : spacecraft_id_{mission.spacecraft_id},
-      config_{*mission.spin},
+      config_{*mission.spin()},
       orbit_{*mission.orbit},
       pass_{config_, orbit_},
       plan_{plan} {

@@ -14,21 +14,10 @@
 #include "services/archive/records.h"
 #include "services/mission/mission.h"
 #include "services/processor/batch_task.h"
+#include "services/processor/pass_input.h"
 #include "services/processor/run_summary.h"
 
 namespace spindrift {
-
-/// What a pass is to work on next, in order of arrival: the pulses, then the frames.
-struct PassInput {
-  std::size_t spacecraft = 0;  ///< Index of its mission.
-  std::string run_id;          ///< Another one than before: a new pass begins.
-  std::vector<Pulse> pulses = {};
-  std::vector<CodedFrame> frames = {};
-};
-
-inline std::size_t sample_count(const PassInput& input) {
-  return input.pulses.size() + input.frames.size();
-}
 
 /// When the estimator `batch` runs, beside the end of the pass.
 enum class BatchPlan {

@@ -28,6 +28,15 @@ TaiTime made_again_from(const StoredPass& stored, std::optional<TaiTime> reached
   return last && reached ? std::min(*last, *reached) - kMadeAgain : TaiTime::min();
 }
 
+std::variant<PassRun, ThreeAxisRun> computing_side(const Mission& mission,
+                                                   const SpacecraftRun& run) {
+  if (mission.spin() == nullptr) {
+    return ThreeAxisRun{mission, run.run_id()};
+  }
+  return PassRun{mission, run.run_id(),
+                 run.start().mode == "process" ? BatchPlan::WholePass : BatchPlan::EveryMinute};
+}
+
 /// A run holds what one configuration made.
 std::string why_not_continued(const LastRun& last, const RunStart& now) {
   std::string changed;
@@ -70,9 +79,7 @@ Expected<Processor> Processor::make(const std::vector<Mission>& missions,
       refuse(fmt::format("two mission files name the spacecraft '{}': one is allowed", spacecraft));
     } else {
       processor.runs_.emplace_back(mission, source, processor.runs_.size());
-      processor.passes_.emplace_back(
-          mission, processor.runs_.back().run_id(),
-          source.mode == "process" ? BatchPlan::WholePass : BatchPlan::EveryMinute);
+      processor.passes_.push_back(computing_side(mission, processor.runs_.back()));
     }
   }
   if (!problems.empty()) {
@@ -117,8 +124,12 @@ void Processor::go_on(std::size_t i, const std::vector<StoredPass>& stored, Gone
   SpacecraftRun::Taken taken = runs_[i].go_on(stored);
   // Products of a later run are never stored before the end of an earlier one.
   const StoredPass& first = stored.front();
-  passes_[i].go_on(first.run_id,
-                   stored.size() > 1 ? TaiTime::min() : made_again_from(first, runs_[i].reached()));
+  if (auto* const spin = std::get_if<PassRun>(&passes_[i])) {
+    spin->go_on(first.run_id,
+                stored.size() > 1 ? TaiTime::min() : made_again_from(first, runs_[i].reached()));
+  } else {
+    std::get<ThreeAxisRun>(passes_[i]).go_on(first.run_id);
+  }
   add(std::move(taken), gone_on.routed);
   for (const StoredPass& pass : stored) {
     append(gone_on.last_origins.pulses, pass.last_origins.pulses);
@@ -164,11 +175,12 @@ void Processor::distribute(std::vector<Sample>& samples, std::vector<Sample> Sam
 }
 
 std::vector<ArchiveBatch> Processor::compute(const PassInput& work) {
-  return passes_.at(work.spacecraft).compute(work);
+  return std::visit([&](auto& pass) { return pass.compute(work); }, passes_.at(work.spacecraft));
 }
 
 std::vector<BatchTask> Processor::take_batch_tasks(const PassInput& work) {
-  return passes_.at(work.spacecraft).take_batch_tasks();
+  auto* const spin = std::get_if<PassRun>(&passes_.at(work.spacecraft));
+  return spin == nullptr ? std::vector<BatchTask>{} : spin->take_batch_tasks();
 }
 
 std::vector<ArchiveBatch> Processor::take(SampleBatch samples) {
@@ -186,7 +198,7 @@ std::vector<ArchiveBatch> Processor::finish() {
     for (const PassInput& rest : runs_[i].finish()) {
       append(batches, compute(rest));
     }
-    batches.push_back(passes_[i].finish());
+    batches.push_back(std::visit([](auto& pass) { return pass.finish(); }, passes_[i]));
   }
   return batches;
 }
@@ -202,7 +214,8 @@ void Processor::count_other(const std::string& spacecraft) {
 std::vector<RunSummary> Processor::summaries() const {
   std::vector<RunSummary> summaries;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
-    for (RunSummary& summary : passes_[i].summaries()) {
+    for (RunSummary& summary :
+         std::visit([](const auto& pass) { return pass.summaries(); }, passes_[i])) {
       const Received received = runs_[i].received(summary.run_id);
       summary.edges_received = received.pulses + received.frame_edges;
       summary.coded_frames_received = received.frames;

@@ -10,6 +10,7 @@
 #include <map>
 #include <string>
 #include <unordered_map>
+#include <variant>
 #include <vector>
 
 #include "pipelines/core/expected.h"
@@ -18,6 +19,7 @@
 #include "services/mission/mission.h"
 #include "services/processor/pass_run.h"
 #include "services/processor/spacecraft_run.h"
+#include "services/processor/three_axis_run.h"
 
 namespace spindrift {
 
@@ -38,7 +40,6 @@ struct GoneOn {
 /// sides at rest.
 class Processor {
  public:
-  /// @param missions Of spinners.
   /// @return InvalidConfiguration with every mission that is the second of one spacecraft.
   static Expected<Processor> make(const std::vector<Mission>& missions,
                                   const TelemetrySource& source);
@@ -82,7 +83,7 @@ class Processor {
 
   std::unordered_map<std::string, std::size_t> index_of_;  ///< Of a spacecraft, in both below.
   std::vector<SpacecraftRun> runs_;
-  std::vector<PassRun> passes_;
+  std::vector<std::variant<PassRun, ThreeAxisRun>> passes_;  ///< By kind of spacecraft.
   std::map<std::string, std::int64_t> other_spacecraft_;
 };
 

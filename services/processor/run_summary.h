@@ -13,12 +13,14 @@
 #include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/types/products.h"
 #include "services/archive/disagreement.h"
+#include "services/mission/mission.h"
 
 namespace spindrift {
 
 struct RunSummary {
   std::string run_id;
   std::string spacecraft_id;
+  SpacecraftKind kind = SpacecraftKind::Spin;
   std::int64_t edges_received = 0;         ///< Those of coded frames too, as everywhere here.
   std::int64_t edges_stored = 0;           ///< Whoever knows the archive fills it in.
   std::int64_t coded_frames_received = 0;  ///< Each holds up to six edges.

@@ -77,7 +77,7 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
                              std::size_t index)
     : spacecraft_id_{mission.spacecraft_id},
       index_{index},
-      start_{.spacecraft_kind = std::string{name_of(mission.kind)},
+      start_{.spacecraft_kind = std::string{name_of(mission.kind())},
              .mode = source.mode,
              .software_version = kSoftwareVersion,
              .config_toml = mission.toml_text,

@@ -44,7 +44,7 @@ struct Received {
 /// batch of the sample that makes its first ones believed.
 class SpacecraftRun {
  public:
-  /// @param mission Of a spinner. @param index Of it among the missions.
+  /// @param index Of the mission among all.
   SpacecraftRun(const Mission& mission, const TelemetrySource& source, std::size_t index);
 
   const std::string& spacecraft_id() const { return spacecraft_id_; }

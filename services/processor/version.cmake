@@ -1,4 +1,5 @@
 # Run at every build: writes OUTPUT only when the commit has changed, so that nothing else is rebuilt.
+cmake_minimum_required(VERSION 3.25)
 execute_process(
   COMMAND git -C ${SOURCE_DIR} describe --always --dirty --abbrev=12
   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)

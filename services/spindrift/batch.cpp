@@ -27,8 +27,8 @@ Expected<void> batch(const BatchOptions& options) {
   if (options.last_revolutions) {
     stored->pass.keep_last(*options.last_revolutions);
   }
-  const auto starts = stored->pass.starts(mission->spin->prior);
-  return solve_batch(*mission->spin, *mission->orbit, std::move(stored->pass).edges(), starts)
+  const auto starts = stored->pass.starts(mission->spin()->prior);
+  return solve_batch(*mission->spin(), *mission->orbit, std::move(stored->pass).edges(), starts)
       .map([&](const BatchSolution& solution) {
         if (options.json) {
           nlohmann::json object = to_json(solution.estimate);

@@ -135,12 +135,12 @@ Expected<PassRequest> request_of(const GeometryOptions& options) {
 
 Expected<PlannedPass> planned(const GeometryOptions& options, const Mission& mission,
                               const PassRequest& request) {
-  auto plan = plan_pass(*mission.spin, *mission.orbit, request);
+  auto plan = plan_pass(*mission.spin(), *mission.orbit, request);
   if (!plan) {
     return refused(fmt::format("{}: orbit: {}", options.mission.string(), plan.error().message));
   }
   return PlannedPass{.spacecraft_id = mission.spacecraft_id,
-                     .config = *mission.spin,
+                     .config = *mission.spin(),
                      .request = request,
                      .rate_assumed = !options.rate_rpm,
                      .plan = std::move(*plan)};

@@ -53,7 +53,7 @@ void warn_where_no_edge_came(const Processor& processor, std::uint64_t bad_rows)
     others += samples;
   }
   for (const RunSummary& summary : processor.summaries()) {
-    if (summary.edges_received == 0) {
+    if (summary.kind == SpacecraftKind::Spin && summary.edges_received == 0) {
       spdlog::warn(
           "{}: no edge of it in the telemetry, and no axis: {} bad rows, {} samples of other "
           "spacecraft",
@@ -65,7 +65,7 @@ void warn_where_no_edge_came(const Processor& processor, std::uint64_t bad_rows)
 }  // namespace
 
 Expected<void> process(const ProcessOptions& options) {
-  const auto mission = load_spinner(options.mission);
+  const auto mission = load_mission(options.mission);
   if (!mission) {
     return Unexpected{mission.error()};
   }

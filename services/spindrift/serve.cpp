@@ -45,7 +45,7 @@ Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::
   std::vector<Mission> missions;
   std::string problems;
   for (const std::filesystem::path& path : paths) {
-    auto mission = load_spinner(path);
+    auto mission = load_mission(path);
     if (mission) {
       warn_of_orbit(path, *mission);
       missions.push_back(std::move(*mission));

@@ -107,6 +107,9 @@ nlohmann::json to_json(const SpinEstimate& estimate) {
 
 std::string to_text(const RunSummary& summary) {
   std::string text = fmt::format("{}  run {}\n", summary.spacecraft_id, summary.run_id);
+  if (summary.kind == SpacecraftKind::ThreeAxis) {
+    return text + "  attitude     three-axis: samples are stored, no attitude is computed yet\n";
+  }
   text += fmt::format(
       "  received     {} edges, {} of them stored, {} coded frames, {} bad rows or samples\n",
       summary.edges_received, summary.edges_stored, summary.coded_frames_received,
@@ -123,6 +126,7 @@ std::string to_text(const RunSummary& summary) {
 nlohmann::json to_json(const RunSummary& summary) {
   nlohmann::json json{{"run_id", summary.run_id},
                       {"spacecraft", summary.spacecraft_id},
+                      {"kind", name_of(summary.kind)},
                       {"edges_received", summary.edges_received},
                       {"edges_stored", summary.edges_stored},
                       {"coded_frames_received", summary.coded_frames_received},

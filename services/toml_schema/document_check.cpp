@@ -110,8 +110,8 @@ class Check {
   void key(const KeyRule& rule, const toml::node& node, const std::string& path) {
     if (const auto wrong = objection(rule, node)) {
       problem(node.source(), fmt::format("{} = {}: {}", path, shown(node), *wrong));
-    } else if (const auto value = typed(rule.type, node)) {
-      result_.values.emplace(path, *value);
+    } else {
+      result_.values.emplace(path, value_by(rule, node));
     }
   }
 

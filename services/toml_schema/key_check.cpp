@@ -147,6 +147,10 @@ std::optional<Scalar> typed(ValueType type, const toml::node& value) {
   return std::nullopt;
 }
 
+Scalar value_by(const KeyRule& rule, const toml::node& value) {
+  return rule.shape.empty() ? *typed(rule.type, value) : Scalar{elements(rule, value, 0)};
+}
+
 std::string allowed_by(const KeyRule& rule) {
   if (!rule.one_of.empty()) {
     return fmt::format("one of \"{}\"", fmt::join(rule.one_of, "\", \""));

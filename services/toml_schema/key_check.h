@@ -25,6 +25,10 @@ std::optional<std::string> objection(const KeyRule& rule, const toml::node& valu
 /// `value` as the type of the rule, an integer becoming a number; empty if it has another type.
 std::optional<Scalar> typed(ValueType type, const toml::node& value);
 
+/// `value`, against which there is no objection; an integer becomes a number where the rule asks
+/// for one, an array stands row by row.
+Scalar value_by(const KeyRule& rule, const toml::node& value);
+
 /// For people: an integer or a number.
 std::string text_of(const Scalar& number);
 

@@ -8,13 +8,14 @@
 #include <map>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace spindrift {
 
-using Scalar = std::variant<bool, std::int64_t, double, std::string>;
+/// An array of numbers stands row by row.
+using Scalar = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
 
 /// By dotted path, such as spin.noise.sun_pulse_s or faults.silence[0].from_s; defaults filled in.
-/// Arrays of values are not kept.
 using TomlValues = std::map<std::string, Scalar, std::less<>>;
 
 }  // namespace spindrift

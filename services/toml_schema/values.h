@@ -35,4 +35,9 @@ inline double radians(const TomlValues& values, std::string_view key) {
   return number(values, key) * (std::numbers::pi / 180.0);
 }
 
+/// Likewise; empty where the key is absent.
+inline std::optional<double> radians_if(const TomlValues& values, std::string_view key) {
+  return values.contains(key) ? std::optional{radians(values, key)} : std::nullopt;
+}
+
 }  // namespace spindrift

@@ -42,7 +42,7 @@ using bench::or_exit;
 std::map<TaiTime, std::size_t> closing_pulses(const Mission& mission,
                                               const std::vector<Pulse>& pulses) {
   std::map<TaiTime, std::size_t> closing;
-  SpinPass pass{*mission.spin, *mission.orbit};
+  SpinPass pass{*mission.spin(), *mission.orbit};
   for (std::size_t i = 0; i < pulses.size(); ++i) {
     for (const SpinProduct& product : pass.push(pulses[i]).products) {
       if (const auto* fix = std::get_if<SpinFix>(&product)) {

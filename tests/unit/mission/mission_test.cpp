@@ -95,10 +95,10 @@ TEST(Mission, GivesASpinnerAsTheContractDescribesIt) {
   const auto mission = load(contract());
   ASSERT_TRUE(mission) << mission.error().message;
   EXPECT_EQ(mission->spacecraft_id, "SPINNER");
-  EXPECT_EQ(mission->kind, SpacecraftKind::Spin);
+  EXPECT_EQ(mission->kind(), SpacecraftKind::Spin);
   EXPECT_TRUE(mission->orbit);
-  ASSERT_TRUE(mission->spin);
-  const SpinConfig& spin = *mission->spin;
+  ASSERT_TRUE(mission->spin());
+  const SpinConfig& spin = *mission->spin();
   EXPECT_DOUBLE_EQ(spin.sun_sensor.slit_cant_rad, 45.0 * kRadPerDeg);
   EXPECT_DOUBLE_EQ(spin.sun_sensor.slit_separation_rad, 35.0 * kRadPerDeg);
   ASSERT_TRUE(spin.north);
@@ -130,7 +130,7 @@ TEST(Mission, KeepsEveryOptionalValueThatIsGiven) {
   toml += "[spin.ir.south]\nmount_angle_deg = 95\nazimuth_deg = -92\n";
   const auto mission = load(toml);
   ASSERT_TRUE(mission) << mission.error().message;
-  const SpinConfig& spin = *mission->spin;
+  const SpinConfig& spin = *mission->spin();
   EXPECT_TRUE(spin.north->healthy);
   ASSERT_TRUE(spin.south);
   EXPECT_DOUBLE_EQ(spin.south->mount_angle_rad, 95.0 * kRadPerDeg);
@@ -147,20 +147,48 @@ TEST(Mission, KeepsEveryOptionalValueThatIsGiven) {
 TEST(Mission, HasTheDefaultsOfThePipelineWhereTheFileIsSilent) {
   const auto mission = load_mission(kData / "spin" / "nominal" / "mission.toml");
   ASSERT_TRUE(mission) << mission.error().message;
-  EXPECT_EQ(mission->spin->screening.window, SpinScreening{}.window);
-  EXPECT_EQ(mission->spin->screening.sigma, SpinScreening{}.sigma);
-  EXPECT_EQ(mission->spin->screening.interference_s, SpinScreening{}.interference_s);
-  EXPECT_EQ(mission->spin->geometry.determinant_usable, SpinGeometry{}.determinant_usable);
-  EXPECT_EQ(mission->spin->geometry.determinant_ambiguous, SpinGeometry{}.determinant_ambiguous);
-  EXPECT_FALSE(mission->spin->prior);
+  EXPECT_EQ(mission->spin()->screening.window, SpinScreening{}.window);
+  EXPECT_EQ(mission->spin()->screening.sigma, SpinScreening{}.sigma);
+  EXPECT_EQ(mission->spin()->screening.interference_s, SpinScreening{}.interference_s);
+  EXPECT_EQ(mission->spin()->geometry.determinant_usable, SpinGeometry{}.determinant_usable);
+  EXPECT_EQ(mission->spin()->geometry.determinant_ambiguous, SpinGeometry{}.determinant_ambiguous);
+  EXPECT_FALSE(mission->spin()->prior);
 }
 
 TEST(Mission, OfAThreeAxisSpacecraftHasNoSpin) {
   const auto mission = load(replaced(contract(), "kind = \"spin\"", "kind = \"three_axis\""));
   ASSERT_TRUE(mission) << mission.error().message;
-  EXPECT_EQ(mission->kind, SpacecraftKind::ThreeAxis);
-  EXPECT_FALSE(mission->spin);
+  EXPECT_EQ(mission->kind(), SpacecraftKind::ThreeAxis);
+  EXPECT_FALSE(mission->spin());
   EXPECT_TRUE(mission->orbit);
+}
+
+TEST(Mission, OfAThreeAxisSpacecraftHasItsSensorsAndInertia) {
+  const auto mission =
+      load(replaced(replaced(contract(), "kind = \"spin\"", "kind = \"three_axis\""),
+                    "bias_sigma_deg_s", "range_deg_s = 100\nbias_sigma_deg_s"));
+  ASSERT_TRUE(mission) << mission.error().message;
+  const auto& config = std::get<ThreeAxisConfig>(mission->config);
+  ASSERT_TRUE(config.gyro && config.sun_sensor && config.star_tracker && config.magnetometer);
+  EXPECT_DOUBLE_EQ(config.gyro->noise_rad_s, 0.002 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(config.gyro->bias_sigma_rad_s, 0.01 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(config.gyro->range_rad_s.value(), 100.0 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(config.sun_sensor->noise_rad, 0.5 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(config.star_tracker->noise_rad, 20.0 / 3600.0 * kRadPerDeg);
+  EXPECT_EQ(config.star_tracker->q_body_sensor.w(), 1.0);
+  EXPECT_EQ(config.magnetometer->noise_nt, 100.0);
+  ASSERT_TRUE(config.inertia);
+  EXPECT_EQ(config.inertia->kg_m2.diagonal(), Eigen::Vector3d(120.0, 100.0, 140.0));
+  EXPECT_EQ(config.inertia->sigma_fraction, 0.0);
+}
+
+TEST(Mission, KeepsTheOrderOfTheQuaternionThatTheFileHas) {
+  const auto mission = load_mission(kData / "mission" / "separation.toml");
+  ASSERT_TRUE(mission) << mission.error().message;
+  const auto& tracker = std::get<ThreeAxisConfig>(mission->config).star_tracker;
+  ASSERT_TRUE(tracker);
+  EXPECT_NEAR(tracker->q_body_sensor.x(), 0.191688957157693, 1e-12);
+  EXPECT_NEAR(tracker->q_body_sensor.w(), 0.876384251986657, 1e-12);
 }
 
 TEST(Mission, OfAThreeAxisSpacecraftMayHaveNoOrbit) {
@@ -410,8 +438,8 @@ TEST(Mission, OfASpinnerNeedsItsTables) {
 TEST(Mission, OfASpinnerMayHaveTheSunSensorAlone) {
   const auto mission = load(replaced(contract(), "\\[spin.ir.north\\][^@]*healthy[^\n]*", ""));
   ASSERT_TRUE(mission) << mission.error().message;
-  EXPECT_FALSE(mission->spin->north);
-  EXPECT_FALSE(mission->spin->south);
+  EXPECT_FALSE(mission->spin()->north);
+  EXPECT_FALSE(mission->spin()->south);
 }
 
 TEST(Mission, NeedsASpacecraft) {

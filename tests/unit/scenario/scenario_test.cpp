@@ -231,9 +231,9 @@ TEST(Scenario, WritesAMissionFileThatSaysTheSame) {
   const auto mission = load_mission(folder.path() / "mission.toml");
   ASSERT_TRUE(mission) << mission.error().message;
   EXPECT_EQ(mission->spacecraft_id, "A\"B 'C");
-  EXPECT_EQ(mission->spin->noise.infrared_s, 5e-4);
-  EXPECT_DOUBLE_EQ(mission->spin->north->mount_angle_rad, 85.0 * kDegree);
-  EXPECT_DOUBLE_EQ(mission->spin->prior->sigma_rad, 5.0 * kDegree);
+  EXPECT_EQ(mission->spin()->noise.infrared_s, 5e-4);
+  EXPECT_DOUBLE_EQ(mission->spin()->north->mount_angle_rad, 85.0 * kDegree);
+  EXPECT_DOUBLE_EQ(mission->spin()->prior->sigma_rad, 5.0 * kDegree);
   const TaiTime t = shifted(scenario->truth.start, 7.5);
   EXPECT_LT((mission->orbit->at(t).value().position_icrf_km -
              scenario->orbit.at(t).value().position_icrf_km)
