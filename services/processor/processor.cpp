@@ -211,6 +211,14 @@ void Processor::count_other(const std::string& spacecraft) {
   }
 }
 
+std::vector<std::string> Processor::spacecraft() const {
+  std::vector<std::string> ids;
+  for (const SpacecraftRun& run : runs_) {
+    ids.push_back(run.spacecraft_id());
+  }
+  return ids;
+}
+
 std::vector<RunSummary> Processor::summaries() const {
   std::vector<RunSummary> summaries;
   for (std::size_t i = 0; i < runs_.size(); ++i) {

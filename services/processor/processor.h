@@ -66,6 +66,9 @@ class Processor {
 
   std::vector<ArchiveBatch> finish();
 
+  /// Those with a mission here.
+  std::vector<std::string> spacecraft() const;
+
   /// Spacecraft by spacecraft, all runs of each.
   std::vector<RunSummary> summaries() const;
 

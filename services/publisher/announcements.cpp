@@ -11,13 +11,13 @@ namespace spindrift {
 namespace {
 
 std::optional<Announcement> announcement_of(const std::string& spacecraft,
-                                            const SpinProduct& product) {
+                                            const std::string& run_id, const SpinProduct& product) {
   if (const auto* estimate = std::get_if<SpinEstimate>(&product)) {
-    return Announcement{.spacecraft = spacecraft, .product = *estimate};
+    return Announcement{.spacecraft = spacecraft, .run_id = run_id, .product = *estimate};
   }
   if (const auto* fix = std::get_if<SpinFix>(&product);
       fix != nullptr && (fix->accepted || fix->resolution == Resolution::Ambiguous)) {
-    return Announcement{.spacecraft = spacecraft, .product = *fix};
+    return Announcement{.spacecraft = spacecraft, .run_id = run_id, .product = *fix};
   }
   return std::nullopt;
 }
@@ -41,10 +41,11 @@ void keep_latest_of_each(std::vector<Announcement>& announcements) {
 
 }  // namespace
 
-void Announcements::add(const std::string& spacecraft, std::span<const SpinProduct> products) {
+void Announcements::add(const std::string& spacecraft, const std::string& run_id,
+                        std::span<const SpinProduct> products) {
   std::vector<Announcement> more;
   for (const SpinProduct& product : products) {
-    if (auto announcement = announcement_of(spacecraft, product)) {
+    if (auto announcement = announcement_of(spacecraft, run_id, product)) {
       more.push_back(std::move(*announcement));
     }
   }

@@ -17,6 +17,7 @@ namespace spindrift {
 
 struct Announcement {
   std::string spacecraft;
+  std::string run_id;
   std::variant<SpinFix, SpinEstimate> product;
 };
 
@@ -29,7 +30,8 @@ class Announcements {
 
   /// Those of `products` that are announced: estimates, and fixes that are accepted or AMBIGUOUS.
   /// A fix from measurements that contradict each other could not be told from a good one.
-  void add(const std::string& spacecraft, std::span<const SpinProduct> products);
+  void add(const std::string& spacecraft, const std::string& run_id,
+           std::span<const SpinProduct> products);
 
   /// Waits for at least one and takes all, those of a spacecraft and kind in the order they came;
   /// empty only when closed and drained.

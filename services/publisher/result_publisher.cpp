@@ -6,7 +6,8 @@
 
 namespace spindrift {
 
-Expected<ResultPublisher> ResultPublisher::create(const bus::Participant& participant) {
+Expected<ResultPublisher> ResultPublisher::create(const bus::Participant& participant,
+                                                  std::string service) {
   const bus::Qos qos = bus::results_qos();
   auto spin_fix = bus::Writer<spindrift_SpinFix>::create(participant, bus::kSpinFixTopic, qos);
   if (!spin_fix) {
@@ -21,25 +22,27 @@ Expected<ResultPublisher> ResultPublisher::create(const bus::Participant& partic
   if (!health) {
     return Unexpected{health.error()};
   }
-  return ResultPublisher{std::move(*spin_fix), std::move(*spin_estimate), std::move(*health)};
+  return ResultPublisher{std::move(service), std::move(*spin_fix), std::move(*spin_estimate),
+                         std::move(*health)};
 }
 
-Expected<void> ResultPublisher::publish(std::string_view spacecraft, const SpinFix& fix) const {
-  return to_idl(spacecraft, fix).and_then([this](const spindrift_SpinFix& sample) {
-    return spin_fix_.write(sample);
-  });
+Expected<void> ResultPublisher::publish(std::string_view spacecraft, std::string_view run_id,
+                                        const SpinFix& fix) const {
+  return to_idl({.spacecraft = spacecraft, .run_id = run_id, .service = service_}, fix)
+      .and_then([this](const spindrift_SpinFix& sample) { return spin_fix_.write(sample); });
 }
 
-Expected<void> ResultPublisher::publish(std::string_view spacecraft,
+Expected<void> ResultPublisher::publish(std::string_view spacecraft, std::string_view run_id,
                                         const SpinEstimate& estimate) const {
-  return to_idl(spacecraft, estimate).and_then([this](const spindrift_SpinEstimate& sample) {
-    return spin_estimate_.write(sample);
-  });
+  return to_idl({.spacecraft = spacecraft, .run_id = run_id, .service = service_}, estimate)
+      .and_then(
+          [this](const spindrift_SpinEstimate& sample) { return spin_estimate_.write(sample); });
 }
 
 Expected<void> ResultPublisher::publish(const Health& health) const {
-  return to_idl(health).and_then(
-      [this](const spindrift_Health& sample) { return health_.write(sample); });
+  return to_idl(service_, health).and_then([this](const HealthSample& health_sample) {
+    return health_.write(health_sample.sample);
+  });
 }
 
 Expected<std::vector<std::string>> ResultPublisher::incompatible_readers() const {

@@ -17,16 +17,19 @@ namespace spindrift {
 /// no use, and the next one replaces it.
 class ResultPublisher {
  public:
-  /// `participant` outlives it. @return Unavailable when Cyclone refuses.
-  static Expected<ResultPublisher> create(const bus::Participant& participant);
+  /// `participant` outlives it. @param service Names the instance; at most 64 bytes.
+  /// @return Unavailable when Cyclone refuses.
+  static Expected<ResultPublisher> create(const bus::Participant& participant, std::string service);
 
   /// On spindrift/spin_fix, where its resolution tells an ambiguous fix, and nothing one that was
   /// left out for another reason: that is not for publishing (see announcements.h).
   /// @return InvalidInput for a name that does not fit (to_idl.h), Unavailable when the bus
   /// refuses.
-  Expected<void> publish(std::string_view spacecraft, const SpinFix& fix) const;
+  Expected<void> publish(std::string_view spacecraft, std::string_view run_id,
+                         const SpinFix& fix) const;
   /// On spindrift/spin_estimate. @return likewise.
-  Expected<void> publish(std::string_view spacecraft, const SpinEstimate& estimate) const;
+  Expected<void> publish(std::string_view spacecraft, std::string_view run_id,
+                         const SpinEstimate& estimate) const;
   /// On spindrift/health. @return likewise.
   Expected<void> publish(const Health& health) const;
 
@@ -35,13 +38,15 @@ class ResultPublisher {
   Expected<std::vector<std::string>> incompatible_readers() const;
 
  private:
-  ResultPublisher(bus::Writer<spindrift_SpinFix> spin_fix,
+  ResultPublisher(std::string service, bus::Writer<spindrift_SpinFix> spin_fix,
                   bus::Writer<spindrift_SpinEstimate> spin_estimate,
                   bus::Writer<spindrift_Health> health)
-      : spin_fix_{std::move(spin_fix)},
+      : service_{std::move(service)},
+        spin_fix_{std::move(spin_fix)},
         spin_estimate_{std::move(spin_estimate)},
         health_{std::move(health)} {}
 
+  std::string service_;
   bus::Writer<spindrift_SpinFix> spin_fix_;
   bus::Writer<spindrift_SpinEstimate> spin_estimate_;
   bus::Writer<spindrift_Health> health_;

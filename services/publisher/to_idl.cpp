@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "services/units/degrees.h"
 
@@ -38,6 +40,35 @@ void put_text(std::span<char> field, std::string_view text) {
   if (length < text.size()) {
     std::copy(kCut.begin(), kCut.end(), field.begin() + static_cast<std::ptrdiff_t>(length));
   }
+}
+
+template <class Result>
+Expected<void> put_origin(Result& result, const ResultOrigin& origin) {
+  return put_name(result.spacecraft, origin.spacecraft, "spacecraft")
+      .and_then([&] { return put_name(result.run_id, origin.run_id, "run_id"); })
+      .and_then([&] { return put_name(result.service, origin.service, "service"); });
+}
+
+/// By the first word of the status.
+spindrift_Quality quality_of(const SpinEstimate& estimate) {
+  constexpr std::array<std::pair<std::string_view, spindrift_Quality>, 4> kNames{
+      {{"OK", spindrift_QUALITY_OK},
+       {"AMBIGUOUS", spindrift_QUALITY_AMBIGUOUS},
+       {"DOUBTFUL", spindrift_QUALITY_DOUBTFUL},
+       {"LOST", spindrift_QUALITY_LOST}}};
+  const auto* const named = std::find_if(kNames.begin(), kNames.end(), [&](const auto& name) {
+    return estimate.status.starts_with(name.first);
+  });
+  return named == kNames.end() ? spindrift_QUALITY_CONVERGING : named->second;
+}
+
+Expected<spindrift_SpacecraftHealth> to_idl(const SpacecraftHealth& health) {
+  spindrift_SpacecraftHealth out{
+      .spacecraft = {},
+      .link = static_cast<spindrift_LinkState>(health.link),
+      .last_sample_tai_ns = health.last_sample ? tai_ns(*health.last_sample) : 0,
+      .data_age_s = health.data_age_s.value_or(kNotAvailable)};
+  return put_name(out.spacecraft, health.spacecraft, "spacecraft").map([&out] { return out; });
 }
 
 }  // namespace
@@ -74,7 +105,7 @@ Expected<spindrift_CodedFrame> to_idl(const CodedSample& sample) {
       .map([&out] { return out; });
 }
 
-Expected<spindrift_SpinFix> to_idl(std::string_view spacecraft, const SpinFix& fix) {
+Expected<spindrift_SpinFix> to_idl(const ResultOrigin& origin, const SpinFix& fix) {
   const auto [ra_deg, dec_deg] = place_deg(fix.axis_icrf);
   spindrift_SpinFix out{.spacecraft = {},
                         .t_tai_ns = tai_ns(fix.t),
@@ -85,16 +116,18 @@ Expected<spindrift_SpinFix> to_idl(std::string_view spacecraft, const SpinFix& f
                         .sigma_deg = sigma_deg(fix.covariance_rad2),
                         .alternate_ra_deg = kNotAvailable,
                         .alternate_dec_deg = kNotAvailable,
-                        .resolution = static_cast<spindrift_Resolution>(fix.resolution)};
+                        .resolution = static_cast<spindrift_Resolution>(fix.resolution),
+                        .run_id = {},
+                        .service = {}};
   if (!fix.alternates.empty()) {
     const PlaceDeg alternate = place_deg(fix.alternates.front().axis_icrf);
     out.alternate_ra_deg = alternate.ra_deg;
     out.alternate_dec_deg = alternate.dec_deg;
   }
-  return put_name(out.spacecraft, spacecraft, "spacecraft").map([&out] { return out; });
+  return put_origin(out, origin).map([&out] { return out; });
 }
 
-Expected<spindrift_SpinEstimate> to_idl(std::string_view spacecraft, const SpinEstimate& estimate) {
+Expected<spindrift_SpinEstimate> to_idl(const ResultOrigin& origin, const SpinEstimate& estimate) {
   const auto [ra_deg, dec_deg] = place_deg(estimate.axis_icrf);
   const Eigen::Matrix2d covariance_deg2 = estimate.covariance_rad2 * (kDegPerRad * kDegPerRad);
   spindrift_SpinEstimate out{
@@ -107,25 +140,47 @@ Expected<spindrift_SpinEstimate> to_idl(std::string_view spacecraft, const SpinE
       .covariance_deg2 = {covariance_deg2(0, 0), covariance_deg2(0, 1), covariance_deg2(1, 1)},
       .spin_rate_rpm = estimate.spin_rate_rad_s * kRpmPerRad_s,
       .sigma_rpm = estimate.spin_rate_sigma_rad_s * kRpmPerRad_s,
-      .status = {}};
+      .status = {},
+      .quality = quality_of(estimate),
+      .run_id = {},
+      .service = {}};
   put_text(out.status, estimate.status);
-  return put_name(out.spacecraft, spacecraft, "spacecraft")
+  return put_origin(out, origin)
       .and_then([&] { return put_name(out.estimator, name_of(estimate.estimator), "estimator"); })
       .map([&out] { return out; });
 }
 
-Expected<spindrift_Health> to_idl(const Health& health) {
-  spindrift_Health out{.service = {},
-                       .t_tai_ns = tai_ns(health.t),
-                       .samples_received = health.samples_received,
-                       .samples_committed = health.samples_committed,
-                       .gaps = health.gaps,
-                       .duplicates = health.duplicates,
-                       .queue_depth = health.queue_depth,
-                       .commit_p99_ms = health.commit_p99_ms,
-                       .status = {}};
-  put_text(out.status, health.status);
-  return put_name(out.service, health.service, "service").map([&out] { return out; });
+Expected<HealthSample> to_idl(std::string_view service, const Health& health) {
+  HealthSample out;
+  for (const SpacecraftHealth& one : health.spacecraft) {
+    const auto sample = to_idl(one);
+    if (!sample) {
+      return Unexpected{sample.error()};
+    }
+    out.spacecraft.push_back(*sample);
+  }
+  const auto count = static_cast<std::uint32_t>(out.spacecraft.size());
+  out.sample = {
+      .service = {},
+      .t_tai_ns = tai_ns(health.t),
+      .samples_received = health.samples_received,
+      .samples_committed = health.samples_committed,
+      .gaps = health.gaps,
+      .duplicates = health.duplicates,
+      .queue_depth = health.queue_depth,
+      .commit_p99_ms = health.commit_p99_ms,
+      .status = {},
+      // The generated types know no const: a sample that is written is only read.
+      .message = const_cast<char*>(health.message.c_str()),  // NOLINT(*-pro-type-const-cast)
+      .spacecraft = {._maximum = count,
+                     ._length = count,
+                     ._buffer = out.spacecraft.data(),
+                     ._release = false}};
+  put_text(out.sample.status, health.status);
+  if (const auto named = put_name(out.sample.service, service, "service"); !named) {
+    return Unexpected{named.error()};
+  }
+  return out;
 }
 
 }  // namespace spindrift

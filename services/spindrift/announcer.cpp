@@ -36,7 +36,7 @@ Announcer::~Announcer() {
 
 void Announcer::go_on(const std::string& run_id, const std::string& spacecraft,
                       StoredResults stored) {
-  waiting_.add(spacecraft, stored.in_force);
+  waiting_.add(spacecraft, run_id, stored.in_force);
   announced_before_.insert_or_assign(run_id, std::move(stored));
 }
 
@@ -44,9 +44,9 @@ void Announcer::committed(std::span<const ArchiveBatch> batches) {
   for (const ArchiveBatch& batch : batches) {
     if (const auto before = announced_before_.find(batch.run_id);
         before == announced_before_.end()) {
-      waiting_.add(batch.spacecraft_id, batch.products);
+      waiting_.add(batch.spacecraft_id, batch.run_id, batch.products);
     } else {
-      waiting_.add(batch.spacecraft_id, news(batch.products, before->second));
+      waiting_.add(batch.spacecraft_id, batch.run_id, news(batch.products, before->second));
     }
   }
 }
@@ -56,7 +56,9 @@ void Announcer::run() {
     std::map<std::string, SpinEstimate> latest;
     for (const Announcement& result : results) {
       const auto published = std::visit(
-          [&](const auto& product) { return publisher_.publish(result.spacecraft, product); },
+          [&](const auto& product) {
+            return publisher_.publish(result.spacecraft, result.run_id, product);
+          },
           result.product);
       if (!published) {
         spdlog::error("not published: {}", published.error().message);

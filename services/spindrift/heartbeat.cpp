@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <string>
 #include <utility>
 
 #include "services/clock/wall_clock.h"
@@ -19,14 +18,6 @@ namespace {
 constexpr std::chrono::seconds kPeriod{1};
 // Who looks at the log later must not have to look far back.
 constexpr int kBeatsUntilSaidAgain = 10;
-
-std::string service_name() {
-  std::array<char, 48> host{};
-  if (::gethostname(host.data(), host.size() - 1) != 0) {
-    host = {"unknown"};
-  }
-  return fmt::format("spindrift {}:{}", host.data(), ::getpid());
-}
 
 SequenceCounts total(const TelemetrySubscriberStatus& status) {
   SequenceCounts sum;
@@ -41,7 +32,6 @@ SequenceCounts total(const TelemetrySubscriberStatus& status) {
 Heartbeat::Heartbeat(const Watched& watched, std::function<void()> on_failure)
     : watched_{watched},
       on_failure_{std::move(on_failure)},
-      service_{service_name()},
       thread_{[this](const std::stop_token& stop) { run(stop); }} {}
 
 Heartbeat::~Heartbeat() = default;
@@ -103,29 +93,39 @@ void Heartbeat::note_storing(const std::optional<Error>& failure) {
   }
 }
 
+// The worst first.
+std::vector<std::string> Heartbeat::problems(const TelemetrySubscriberStatus& status,
+                                             const std::optional<Error>& archive_failure) const {
+  std::vector<std::string> found;
+  if (!status.taking && !status.failure.empty()) {
+    found.push_back("not taking samples: " + status.failure);
+  }
+  if (archive_failure) {
+    found.push_back("not storing: " + archive_failure->message);
+  }
+  const auto& writers = status.reader.incompatible_writers;
+  found.insert(found.end(), writers.begin(), writers.end());
+  if (!gaps_.empty()) {
+    found.push_back("samples missing: " + to_text(gaps_));
+  }
+  return found;
+}
+
 void Heartbeat::publish_health(const TelemetrySubscriberStatus& status) {
   const SequenceCounts counts = total(status);
   const ArchiveStatistics archive = watched_.archive.statistics();
-  std::string health = "ok";
-  if (!status.taking && !status.failure.empty()) {
-    health = "not taking samples: " + status.failure;
-  } else if (archive.failure) {
-    health = "not storing: " + archive.failure->message;
-  } else if (!status.reader.incompatible_writers.empty()) {
-    health = status.reader.incompatible_writers.front();
-  } else if (!gaps_.empty()) {
-    health = "samples missing: " + to_text(gaps_);
-  }
+  const std::vector<std::string> found = problems(status, archive.failure);
   const auto published = watched_.publisher.publish(
-      Health{.service = service_,
-             .t = tai_now(),
+      Health{.t = tai_now(),
              .samples_received = counts.received,
              .samples_committed = archive.samples_committed,
              .gaps = counts.missing,
              .duplicates = counts.duplicates,
              .queue_depth = watched_.taken.size() + watched_.work.size() + archive.queued_batches,
              .commit_p99_ms = archive.commit_p99_ms.value_or(0.0),
-             .status = health});
+             .status = found.empty() ? "ok" : found.front(),
+             .message = fmt::format("{}", fmt::join(found, "\n")),
+             .spacecraft = watched_.links.report(std::chrono::steady_clock::now())});
   if (!published) {
     say_once(published.error().message);
   }

@@ -10,11 +10,13 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "services/archive/archive.h"
 #include "services/ingest/gap_watch.h"
 #include "services/ingest/telemetry_subscriber.h"
 #include "services/processor/pass_run.h"
+#include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"
 
 namespace spindrift {
@@ -28,6 +30,7 @@ class Heartbeat {
     const BoundedQueue<PassInput>& work;
     const Archive& archive;
     const ResultPublisher& publisher;
+    const LinkWatch& links;
   };
 
   /// @param on_failure Called once, on its thread, when taking samples has failed.
@@ -41,6 +44,8 @@ class Heartbeat {
  private:
   void run(const std::stop_token& stop);
   void beat();
+  std::vector<std::string> problems(const TelemetrySubscriberStatus& status,
+                                    const std::optional<Error>& archive_failure) const;
   void note_losses(const TelemetrySubscriberStatus& status);
   void note_storing(const std::optional<Error>& failure);
   void publish_health(const TelemetrySubscriberStatus& status);
@@ -48,7 +53,6 @@ class Heartbeat {
 
   Watched watched_;
   std::function<void()> on_failure_;
-  std::string service_;
   std::set<std::string> said_;
   GapWatch gap_watch_;
   std::map<std::string, std::uint64_t> gaps_;  ///< Lasting ones, as last told.

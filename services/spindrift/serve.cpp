@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <memory>
 #include <stop_token>
@@ -16,6 +18,7 @@
 #include "services/ingest/telemetry_subscriber.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
+#include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"
 #include "services/spindrift/announcer.h"
 #include "services/spindrift/batch_solving.h"
@@ -59,6 +62,27 @@ Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::
   return missions;
 }
 
+std::string service_name() {
+  std::array<char, 48> host{};
+  if (::gethostname(host.data(), host.size() - 1) != 0) {
+    host = {"unknown"};
+  }
+  return fmt::format("spindrift {}:{}", host.data(), ::getpid());
+}
+
+/// Before the archive may make them wait.
+void note_arrivals(const std::vector<ArchiveBatch>& samples, LinkWatch& links) {
+  const auto now = std::chrono::steady_clock::now();
+  for (const ArchiveBatch& batch : samples) {
+    if (!batch.coded.empty()) {
+      links.note(batch.spacecraft_id, batch.coded.back().frame.t, now);
+    }
+    if (!batch.pulses.empty()) {
+      links.note(batch.spacecraft_id, batch.pulses.back().pulse.t, now);
+    }
+  }
+}
+
 std::size_t sample_count(const SampleBatch& taken) {
   return taken.pulses.size() + taken.coded.size() + taken.rejected.size();
 }
@@ -66,12 +90,14 @@ std::size_t sample_count(const SampleBatch& taken) {
 /// First `again`. Then hands what is taken to the archive and on to be computed, until `taken` is
 /// closed and empty, or the archive refuses.
 Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
-                     Processor& processor, Archive& archive, Computing& computing) {
+                     Processor& processor, Archive& archive, Computing& computing,
+                     LinkWatch& links) {
   for (PassInput& input : again) {
     computing.leave_to_backlog(std::move(input));
   }
   while (auto batch = taken.take()) {
     Routed routed = processor.route(std::move(*batch));
+    note_arrivals(routed.samples, links);
     auto stored = submit_all(archive, std::move(routed.samples));
     for (auto input = routed.work.begin(); stored && input != routed.work.end(); ++input) {
       stored = computing.take(std::move(*input), taken.size());
@@ -87,13 +113,13 @@ Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& ta
 /// In the end runs are finished of which all samples are computed.
 Expected<void> route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
                                  BoundedQueue<PassInput>& backlog, Processor& processor,
-                                 Archive& archive, const Patience& patience) {
+                                 Archive& archive, const Patience& patience, LinkWatch& links) {
   BoundedQueue<BatchTask> tasks{kMostBatchTasks};
   Computing computing{processor, archive, backlog, tasks, patience};
   Expected<void> worked_off;
   std::thread solving{[&] { solve_batches(tasks, archive, patience); }};
   std::thread working_off{[&] { worked_off = computing.work_off(); }};
-  const auto routed = route(std::move(again), taken, processor, archive, computing);
+  const auto routed = route(std::move(again), taken, processor, archive, computing, links);
   backlog.close();
   working_off.join();
   tasks.close();
@@ -140,6 +166,7 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
     return Unexpected{started.error()};
   }
   TelemetrySubscriber& subscriber = **started;
+  LinkWatch links{processor.spacecraft()};
   Patience patience;
   stop_signal.on_stop([&] {
     spdlog::info("stopping");
@@ -155,10 +182,11 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
                                .taken = queue,
                                .work = work,
                                .archive = archive,
-                               .publisher = publisher},
+                               .publisher = publisher,
+                               .links = links},
                               &StopSignal::raise};
     spdlog::info("ready");
-    worked = route_and_compute(std::move(again), queue, work, processor, archive, patience);
+    worked = route_and_compute(std::move(again), queue, work, processor, archive, patience, links);
   }
   if (!worked) {
     StopSignal::raise();
@@ -232,7 +260,7 @@ Expected<void> serve(const ServeOptions& options) {
     return Unexpected{participant.error()};
   }
   spdlog::info("{}", participant->description());
-  const auto publisher = ResultPublisher::create(*participant);
+  const auto publisher = ResultPublisher::create(*participant, service_name());
   if (!publisher) {
     return Unexpected{publisher.error()};
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <thread>
 
 #include "pipelines/frames/celestial.h"
 #include "services/publisher/result_publisher.h"
@@ -34,6 +35,9 @@ Eigen::Vector3d axis_deg(double ra_deg, double dec_deg) {
   return direction_icrf({.ra_rad = ra_deg * kRad_deg, .dec_rad = dec_deg * kRad_deg});
 }
 
+constexpr const char* kService = "spindrift@ship";
+constexpr ResultOrigin kOrigin{.spacecraft = "SPINNER", .run_id = "run-1", .service = kService};
+
 SpinFix a_fix() {
   return {.revolution = 4'000'000'000,
           .t = tai_from_ns(kTestTime_tai_ns),
@@ -60,23 +64,23 @@ SpinEstimate an_estimate() {
 }
 
 Health a_health() {
-  return {.service = "spindrift@ship",
-          .t = tai_from_ns(kTestTime_tai_ns),
+  return {.t = tai_from_ns(kTestTime_tai_ns),
           .samples_received = 6,
           .samples_committed = 5,
           .gaps = 4,
           .duplicates = 3,
           .queue_depth = 2,
           .commit_p99_ms = 1.5,
-          .status = "ok"};
+          .status = "ok",
+          .message = {}};
 }
 
 TEST(ResultPublisher, PublishesAFixInDegrees) {
   const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto publisher = ResultPublisher::create(participant).value();
+  const auto publisher = ResultPublisher::create(participant, kService).value();
   SpinFix fix = a_fix();
   fix.alternates = {{.axis_icrf = axis_deg(130.0, 20.0)}};
-  ASSERT_TRUE(publisher.publish("SPINNER", fix));
+  ASSERT_TRUE(publisher.publish("SPINNER", "run-1", fix));
   const auto taken = take_samples(results_reader(participant, bus::kSpinFixTopic), 1);
   ASSERT_EQ(taken.size(), 1U);
   EXPECT_STREQ(taken[0].spacecraft, "SPINNER");
@@ -89,12 +93,14 @@ TEST(ResultPublisher, PublishesAFixInDegrees) {
   EXPECT_NEAR(taken[0].alternate_ra_deg, 130.0, kRounding);
   EXPECT_NEAR(taken[0].alternate_dec_deg, 20.0, kRounding);
   EXPECT_EQ(taken[0].resolution, spindrift_GEOMETRY);
+  EXPECT_STREQ(taken[0].run_id, "run-1");
+  EXPECT_STREQ(taken[0].service, kService);
 }
 
 TEST(ResultPublisher, PublishesAnEstimateInDegreesAndRpm) {
   const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto publisher = ResultPublisher::create(participant).value();
-  ASSERT_TRUE(publisher.publish("SPINNER", an_estimate()));
+  const auto publisher = ResultPublisher::create(participant, kService).value();
+  ASSERT_TRUE(publisher.publish("SPINNER", "run-1", an_estimate()));
   const auto taken = take_samples(results_reader(participant, bus::kSpinEstimateTopic), 1);
   ASSERT_EQ(taken.size(), 1U);
   EXPECT_STREQ(taken[0].spacecraft, "SPINNER");
@@ -109,15 +115,17 @@ TEST(ResultPublisher, PublishesAnEstimateInDegreesAndRpm) {
   EXPECT_NEAR(taken[0].spin_rate_rpm, 100.0, kRounding);
   EXPECT_NEAR(taken[0].sigma_rpm, 0.5, kRounding);
   EXPECT_STREQ(taken[0].status, "120 revolutions");
+  EXPECT_STREQ(taken[0].run_id, "run-1");
+  EXPECT_STREQ(taken[0].service, kService);
 }
 
 TEST(ResultPublisher, PublishesHealth) {
   const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto publisher = ResultPublisher::create(participant).value();
+  const auto publisher = ResultPublisher::create(participant, kService).value();
   ASSERT_TRUE(publisher.publish(a_health()));
   const auto taken = take_samples(results_reader(participant, bus::kHealthTopic), 1);
   ASSERT_EQ(taken.size(), 1U);
-  EXPECT_STREQ(taken[0].service, "spindrift@ship");
+  EXPECT_STREQ(taken[0].service, kService);
   EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
   EXPECT_EQ(taken[0].samples_received, 6U);
   EXPECT_EQ(taken[0].samples_committed, 5U);
@@ -128,15 +136,52 @@ TEST(ResultPublisher, PublishesHealth) {
   EXPECT_STREQ(taken[0].status, "ok");
 }
 
+TEST(ResultPublisher, PublishesTheWholeMessageAndTheStateOfEverySpacecraft) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto publisher = ResultPublisher::create(participant, kService).value();
+  Health health = a_health();
+  health.message = std::string(500, 'x') + "\nanother";
+  health.status = health.message;
+  health.spacecraft = {{.spacecraft = "HEARD",
+                        .link = LinkState::Stale,
+                        .last_sample = tai_from_ns(kTestTime_tai_ns - 7),
+                        .data_age_s = 6.5},
+                       {.spacecraft = "UNHEARD", .link = LinkState::Waiting}};
+  const auto reader = results_reader(participant, bus::kHealthTopic);
+  ASSERT_TRUE(publisher.publish(health));
+  std::size_t taken = 0;
+  // Strings and lists belong to the middleware, and only while it lends them.
+  const auto check = [&](const spindrift_Health& sample) {
+    ++taken;
+    EXPECT_EQ(sample.status, std::string(61, 'x') + "...");
+    EXPECT_EQ(sample.message, health.message);
+    ASSERT_EQ(sample.spacecraft._length, 2U);
+    const spindrift_SpacecraftHealth& heard = sample.spacecraft._buffer[0];
+    EXPECT_STREQ(heard.spacecraft, "HEARD");
+    EXPECT_EQ(heard.link, spindrift_LINK_STALE);
+    EXPECT_EQ(heard.last_sample_tai_ns, kTestTime_tai_ns - 7);
+    EXPECT_EQ(heard.data_age_s, 6.5);
+    const spindrift_SpacecraftHealth& unheard = sample.spacecraft._buffer[1];
+    EXPECT_EQ(unheard.link, spindrift_LINK_WAITING);
+    EXPECT_EQ(unheard.last_sample_tai_ns, 0);
+    EXPECT_TRUE(std::isnan(unheard.data_age_s));
+  };
+  for (int i = 0; i < 100 && taken == 0; ++i) {
+    ASSERT_TRUE(reader.take(check));
+    std::this_thread::sleep_for(10ms);
+  }
+  EXPECT_EQ(taken, 1U);
+}
+
 TEST(ResultPublisher, GivesALateJoinerTheCurrentStateOfEverySpacecraft) {
   const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto publisher = ResultPublisher::create(participant).value();
+  const auto publisher = ResultPublisher::create(participant, kService).value();
   for (std::int64_t revolution = 0; revolution < 5; ++revolution) {
     SpinFix fix = a_fix();
     fix.revolution = revolution;
-    ASSERT_TRUE(publisher.publish("ONE", fix));
+    ASSERT_TRUE(publisher.publish("ONE", "run-1", fix));
     fix.revolution += 10;
-    ASSERT_TRUE(publisher.publish("TWO", fix));
+    ASSERT_TRUE(publisher.publish("TWO", "run-2", fix));
   }
   std::vector<std::int64_t> revolutions;
   for (const auto& fix : take_samples(results_reader(participant, bus::kSpinFixTopic), 2)) {
@@ -147,7 +192,7 @@ TEST(ResultPublisher, GivesALateJoinerTheCurrentStateOfEverySpacecraft) {
 
 TEST(ResultPublisher, NamesASubscriberThatAsksForMore) {
   const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto publisher = ResultPublisher::create(participant).value();
+  const auto publisher = ResultPublisher::create(participant, kService).value();
   EXPECT_THAT(publisher.incompatible_readers().value(), ElementsAre());
   bus::Qos demanding = bus::results_qos();
   dds_qset_durability(demanding.get(), DDS_DURABILITY_PERSISTENT);
@@ -159,7 +204,7 @@ TEST(ResultPublisher, NamesASubscriberThatAsksForMore) {
 }
 
 TEST(ToIdl, MarksAnAbsentAlternateByNan) {
-  const auto out = to_idl("SPINNER", a_fix()).value();
+  const auto out = to_idl(kOrigin, a_fix()).value();
   EXPECT_TRUE(std::isnan(out.alternate_ra_deg));
   EXPECT_TRUE(std::isnan(out.alternate_dec_deg));
 }
@@ -168,7 +213,7 @@ TEST(ToIdl, NamesResolutionsAsTheIdlDoes) {
   const auto resolution_of = [](Resolution resolution) {
     SpinFix fix = a_fix();
     fix.resolution = resolution;
-    return to_idl("SPINNER", fix).value().resolution;
+    return to_idl(kOrigin, fix).value().resolution;
   };
   EXPECT_EQ(resolution_of(Resolution::Geometry), spindrift_GEOMETRY);
   EXPECT_EQ(resolution_of(Resolution::Constraint), spindrift_CONSTRAINT);
@@ -179,24 +224,29 @@ TEST(ToIdl, NamesResolutionsAsTheIdlDoes) {
 
 TEST(ToIdl, RefusesANameThatDoesNotFit) {
   const std::string fits(32, 'x');
-  EXPECT_STREQ(to_idl(fits, a_fix()).value().spacecraft, fits.c_str());
-  const auto refused = to_idl(fits + "x", a_fix());
+  const std::string too_long = fits + "x";
+  const auto from = [](std::string_view spacecraft) {
+    return ResultOrigin{.spacecraft = spacecraft, .run_id = "run-1", .service = kService};
+  };
+  EXPECT_STREQ(to_idl(from(fits), a_fix()).value().spacecraft, fits.c_str());
+  const auto refused = to_idl(from(too_long), a_fix());
   ASSERT_FALSE(refused.has_value());
   EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
   EXPECT_THAT(refused.error().message, HasSubstr("33 bytes, at most 32 go on the bus"));
-  EXPECT_FALSE(to_idl(fits + "x", an_estimate()).has_value());
+  EXPECT_FALSE(to_idl(from(too_long), an_estimate()).has_value());
+  EXPECT_FALSE(to_idl(std::string(65, 'x'), a_health()).has_value());
   Health health = a_health();
-  health.service = std::string(65, 'x');
-  EXPECT_FALSE(to_idl(health).has_value());
+  health.spacecraft = {{.spacecraft = too_long, .link = LinkState::Live}};
+  EXPECT_FALSE(to_idl(kService, health).has_value());
 }
 
 TEST(ToIdl, CutsStatusTextBetweenCharacters) {
   SpinEstimate estimate = an_estimate();
   estimate.status = std::string(64, 'x');
-  EXPECT_EQ(to_idl("SPINNER", estimate).value().status, estimate.status);
+  EXPECT_EQ(to_idl(kOrigin, estimate).value().status, estimate.status);
   // Two bytes, of which the first alone would have a place.
   estimate.status = std::string(60, 'x') + "\u00e9" + std::string(9, 'x');
-  EXPECT_EQ(to_idl("SPINNER", estimate).value().status, std::string(60, 'x') + "...");
+  EXPECT_EQ(to_idl(kOrigin, estimate).value().status, std::string(60, 'x') + "...");
 }
 
 /// What a subscriber that comes afterwards has of `count` pulses of source "replay".

@@ -23,6 +23,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 TEST(Serve, GivesTheRowsOfProcessBitForBit) {
   Service service{"gms5"};
@@ -97,10 +98,20 @@ TEST(Serve, PublishesItsResultsForThoseWhoComeLater) {
     return latest.size() == 3;
   }));
   std::vector<spindrift_Health> beats;
+  std::vector<spindrift_SpacecraftHealth> links;
   ASSERT_TRUE(eventually([&] {
-    health.take([&](const spindrift_Health& beat) { beats.push_back(beat); }).value();
+    health
+        .take([&](const spindrift_Health& beat) {
+          beats.push_back(beat);
+          links.push_back(beat.spacecraft._buffer[0]);
+        })
+        .value();
     return !beats.empty() && beats.back().samples_committed == 3600;
   }));
+  EXPECT_STREQ(links.back().spacecraft, "SPINNER");
+  EXPECT_NE(links.back().link, spindrift_LINK_WAITING);
+  EXPECT_EQ(links.back().last_sample_tai_ns,
+            number_of(service.db(), "SELECT max(t_tai_ns) FROM pulse"));
   EXPECT_STREQ(beats.back().status, "ok");
   EXPECT_EQ(beats.back().samples_received, 3600U);
   ASSERT_EQ(service.stop(), 0) << service.program().log();
@@ -111,6 +122,9 @@ TEST(Serve, PublishesItsResultsForThoseWhoComeLater) {
   }
   for (const auto& [estimator, estimate] : latest) {
     EXPECT_STREQ(estimate.spacecraft, "SPINNER");
+    EXPECT_EQ(std::vector{std::string{estimate.run_id} + "|"},
+              rows_of(service.db(), "SELECT run_id FROM run"));
+    EXPECT_THAT(estimate.service, StartsWith("spindrift "));
     // Announced is what is stored.
     EXPECT_EQ(real_of(service.db(), "SELECT ra_deg FROM spin_estimate WHERE estimator = '" +
                                         std::string{estimate.estimator} +
@@ -247,10 +261,12 @@ TEST(Serve, StopsAcceptingLoudlyWhenTheDiskIsFullAndEndsWithOne) {
   const auto health =
       bus::Reader<spindrift_Health>::create(participant, bus::kHealthTopic, bus::results_qos())
           .value();
+  // The path of the archive alone fills the status.
   EXPECT_TRUE(eventually([&] {
-    std::string status;
-    health.take([&](const spindrift_Health& beat) { status = beat.status; }).value();
-    return status.starts_with("not storing: ");
+    std::string message;
+    health.take([&](const spindrift_Health& beat) { message = beat.message; }).value();
+    return message.starts_with("not storing: ") &&
+           message.find("(SQLite code ") != std::string::npos;
   }));
   EXPECT_TRUE(service.program().says("the archive still does not store"));
   EXPECT_EQ(service.stop(), 1);

@@ -41,7 +41,7 @@ std::vector<std::string> shown(const std::vector<Announcement>& announcements) {
 
 TEST(Announcements, LeavesOutAFixThatIsNeitherAcceptedNorAmbiguous) {
   Announcements waiting;
-  waiting.add("SPINNER",
+  waiting.add("SPINNER", "run-1",
               std::vector{fix(1, true, Resolution::Geometry), fix(2, false, Resolution::Geometry),
                           fix(3, false, Resolution::Ambiguous), estimate("four")});
   EXPECT_EQ(shown(waiting.take_all()),
@@ -51,17 +51,18 @@ TEST(Announcements, LeavesOutAFixThatIsNeitherAcceptedNorAmbiguous) {
 TEST(Announcements, KeepsAllAsLongAsTheyAreFew) {
   Announcements waiting;
   for (std::size_t i = 0; i < Announcements::kMaxWaiting; ++i) {
-    waiting.add("SPINNER", std::vector{estimate(std::to_string(i))});
+    waiting.add("SPINNER", "run-1", std::vector{estimate(std::to_string(i))});
   }
   EXPECT_EQ(waiting.take_all().size(), Announcements::kMaxWaiting);
 }
 
 TEST(Announcements, KeepsTheLatestOfEachSpacecraftAndKindWhenTheyPileUp) {
   Announcements waiting;
-  waiting.add("QUIET", std::vector{estimate("only")});
+  waiting.add("QUIET", "run-1", std::vector{estimate("only")});
   for (std::size_t i = 0; i < Announcements::kMaxWaiting; ++i) {
-    waiting.add("SPINNER", std::vector{fix(static_cast<std::int64_t>(i), true, Resolution::Prior),
-                                       estimate("after " + std::to_string(i))});
+    waiting.add("SPINNER", "run-1",
+                std::vector{fix(static_cast<std::int64_t>(i), true, Resolution::Prior),
+                            estimate("after " + std::to_string(i))});
   }
   const auto texts = shown(waiting.take_all());
   const std::string last = std::to_string(Announcements::kMaxWaiting - 1);
@@ -73,7 +74,7 @@ TEST(Announcements, KeepsTheLatestOfEachSpacecraftAndKindWhenTheyPileUp) {
 
 TEST(Announcements, GivesWhatWaitsAndThenNothingOnceClosed) {
   Announcements waiting;
-  waiting.add("SPINNER", std::vector{estimate("last")});
+  waiting.add("SPINNER", "run-1", std::vector{estimate("last")});
   waiting.close();
   EXPECT_EQ(shown(waiting.take_all()), std::vector<std::string>{"SPINNER last"});
   EXPECT_TRUE(waiting.take_all().empty());

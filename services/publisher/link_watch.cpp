@@ -1,0 +1,33 @@
+#include "services/publisher/link_watch.h"
+
+namespace spindrift {
+
+LinkWatch::LinkWatch(const std::vector<std::string>& spacecraft) {
+  for (const std::string& id : spacecraft) {
+    last_.emplace(id, std::nullopt);
+  }
+}
+
+void LinkWatch::note(const std::string& spacecraft, TaiTime t, Instant now) {
+  const std::lock_guard lock{mutex_};
+  if (const auto found = last_.find(spacecraft); found != last_.end()) {
+    found->second = Last{.t = t, .came = now};
+  }
+}
+
+std::vector<SpacecraftHealth> LinkWatch::report(Instant now) const {
+  const std::lock_guard lock{mutex_};
+  std::vector<SpacecraftHealth> all;
+  for (const auto& [spacecraft, last] : last_) {
+    all.push_back({.spacecraft = spacecraft, .link = LinkState::Waiting});
+    if (last) {
+      const std::chrono::duration<double> age = now - last->came;
+      all.back().link = age > kStaleAfter ? LinkState::Stale : LinkState::Live;
+      all.back().last_sample = last->t;
+      all.back().data_age_s = age.count();
+    }
+  }
+  return all;
+}
+
+}  // namespace spindrift
