@@ -16,6 +16,7 @@
 #include "services/telemetry_files/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -28,7 +29,7 @@ constexpr std::size_t kEdgesOfAPass = 120;
 constexpr std::size_t kEdgesABatch = 13;
 constexpr std::chrono::hours kSilence{2};
 
-const std::filesystem::path kPass = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin" / "nominal";
+const std::filesystem::path kPass = recorded_passes() / "nominal";
 
 /// Twenty revolutions, and the same again after the silence, for which there is no orbit.
 std::vector<PulseSample> two_passes() {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "services/bus/participant.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 
@@ -20,7 +21,7 @@ namespace spindrift {
 class ForeignWriter {
  public:
   ForeignWriter(const bus::BusConfig& bus, std::string kind, int count)
-      : arguments_{SPINDRIFT_BUS_FOREIGN_WRITER, std::to_string(bus.domain), bus.partition,
+      : arguments_{foreign_writer_program().string(), std::to_string(bus.domain), bus.partition,
                    std::move(kind), std::to_string(count)} {
     std::array<char*, 6> argv{};
     for (std::size_t i = 0; i < arguments_.size(); ++i) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tests/support/program.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 
@@ -62,8 +63,7 @@ inline std::string without_channel(const std::string& channel, const std::string
 /// The folder of a pass simulated from deploy/scenarios/gto-nominal.toml with that changed.
 inline std::filesystem::path simulated_pass(const TemporaryFolder& folder,
                                             const Replacements& replacements) {
-  const auto nominal = std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "deploy" /
-                       "scenarios" / "gto-nominal.toml";
+  const auto nominal = scenarios() / "gto-nominal.toml";
   const auto scenario = folder.write("scenario.toml", replaced(text_of(nominal), replacements));
   const auto pass = folder.path() / "pass";
   Program simulate{{"simulate", scenario.string(), "--out", pass.string()}};

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
 namespace spindrift {
@@ -28,7 +29,7 @@ class Program {
   explicit Program(std::vector<std::string> arguments, int largest_file_kib = 0,
                    const std::string& out = "")
       : out_path_{out.empty() ? (folder_.path() / "out").string() : out} {
-    arguments.insert(arguments.begin(), {std::string{SPINDRIFT_PROGRAM}});
+    arguments.insert(arguments.begin(), {spindrift_program().string()});
     if (largest_file_kib > 0) {
       const std::string limit = "ulimit -f " + std::to_string(largest_file_kib);
       arguments.insert(arguments.begin(), {"/bin/bash", "-c", limit + "; exec \"$@\"", "bash"});

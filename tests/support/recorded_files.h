@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "tests/support/program.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 
-inline const std::filesystem::path kPasses = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin";
+inline const std::filesystem::path kPasses = recorded_passes();
 
 inline std::vector<std::string> arguments(const std::filesystem::path& mission,
                                           const std::filesystem::path& telemetry,

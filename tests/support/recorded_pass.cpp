@@ -12,6 +12,7 @@
 
 #include "pipelines/ephemeris/oem.h"
 #include "pipelines/frames/celestial.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift::testing {
 namespace {
@@ -97,7 +98,7 @@ SpinConfig config_in(const toml::table& mission) {
 }  // namespace
 
 RecordedPass recorded_pass(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin" / name;
+  const std::filesystem::path folder = recorded_passes() / name;
   const auto truth = nlohmann::json::parse(text_of(folder / "truth.json"));
   const bool coded = std::filesystem::exists(folder / "coded.csv");
   return {.config = config_in(toml::parse(text_of(folder / "mission.toml"))),

@@ -20,6 +20,7 @@
 #include "tests/support/archive_rows.h"
 #include "tests/support/processed_pass.h"
 #include "tests/support/program.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -28,7 +29,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::filesystem::path kData{SPINDRIFT_TEST_DATA};
+const std::filesystem::path kData = test_data();
 const std::filesystem::path kNominal = kData / "spin" / "nominal";
 constexpr double kDegree = std::numbers::pi / 180.0;
 

@@ -12,6 +12,7 @@
 #include "tests/support/archive_rows.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_files.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -203,9 +204,7 @@ struct WobblingRun {
   nlohmann::json truth;
 
   explicit WobblingRun(const std::string& attitude, const std::string& told = {}) {
-    const auto scenarios =
-        std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "deploy" / "scenarios";
-    std::string text = text_of(scenarios / "gto-nominal.toml");
+    std::string text = text_of(scenarios() / "gto-nominal.toml");
     text.insert(text.find("[spin.sun_sensor]"), attitude);
     const auto scenario = folder.write("scenario.toml", text).string();
     const auto pass = folder.path() / "pass";

@@ -13,15 +13,15 @@
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
 #include "tests/support/program.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-const std::filesystem::path kPass = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin" / "coded";
+const std::filesystem::path kPass = recorded_passes() / "coded";
 const std::string kMission = (kPass / "mission.toml").string();
-const std::filesystem::path kScenarios =
-    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "deploy" / "scenarios";
+const std::filesystem::path kScenarios = scenarios();
 const std::string kScenario = (kScenarios / "gto-nominal.toml").string();
 const std::string kDirty = (kScenarios / "gto-dirty.toml").string();
 

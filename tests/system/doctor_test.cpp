@@ -16,6 +16,7 @@
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"
 #include "tests/support/program.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -23,7 +24,7 @@ namespace {
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 
-const std::filesystem::path kPasses = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin";
+const std::filesystem::path kPasses = recorded_passes();
 const std::string kMission = (kPasses / "nominal" / "mission.toml").string();
 
 struct Diagnosis {

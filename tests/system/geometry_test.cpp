@@ -9,6 +9,7 @@
 
 #include "tests/support/program.h"
 #include "tests/support/recorded_files.h"
+#include "tests/support/test_paths.h"
 #include "tests/support/well_formed.h"
 
 namespace spindrift {
@@ -19,9 +20,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-const std::filesystem::path kScenarios =
-    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "deploy" / "scenarios";
-const std::filesystem::path kMissions = std::filesystem::path{SPINDRIFT_TEST_DATA} / "mission";
+const std::filesystem::path kScenarios = scenarios();
+const std::filesystem::path kMissions = test_data() / "mission";
 const std::string kNominal = (kPasses / "nominal" / "mission.toml").string();
 
 /// Of the nominal pass, with arguments put in the place of its own or added.

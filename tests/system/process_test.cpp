@@ -14,6 +14,7 @@
 #include "tests/support/archive_rows.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_files.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -291,9 +292,9 @@ TEST(Process, GivesTheSameRowsWhateverFilesThePulsesStandIn) {
 }
 
 TEST(Process, ReadsALargeFileInBoundedMemory) {
-#ifdef SPINDRIFT_SANITIZED
-  GTEST_SKIP() << "sanitizers need memory of their own";
-#endif
+  if (is_sanitized()) {
+    GTEST_SKIP() << "sanitizers need memory of their own";
+  }
   // 60 MB: another spacecraft's pulses, which are counted only, around those of ours.
   const PassCopy pass{"nominal"};
   constexpr std::int64_t kOthers = 1'800'000;

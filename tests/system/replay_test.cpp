@@ -14,13 +14,14 @@
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
 #include "tests/support/program.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
 
 using ::testing::HasSubstr;
 
-const std::filesystem::path kData{SPINDRIFT_TEST_DATA};
+const std::filesystem::path kData = test_data();
 const std::string kPass = (kData / "spin" / "nominal").string();
 const std::string kMission = kPass + "/mission.toml";
 const std::string kScenario =

@@ -11,6 +11,7 @@
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/ephemeris/oem_writer.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -157,7 +158,7 @@ TEST(OemHoles, OfRecordedOrbitsThereAreNone) {
        {"spin/nominal/orbit.oem", "spin/dirty/orbit.oem", "spin/coded/orbit.oem",
         "spin/north-only/orbit.oem", "spin/gms5/orbit.oem", "mission/orbit.oem"}) {
     SCOPED_TRACE(name);
-    const std::ifstream file{std::string{SPINDRIFT_TEST_DATA "/"} + name, std::ios::binary};
+    const std::ifstream file{test_data() / name, std::ios::binary};
     std::ostringstream text;
     text << file.rdbuf();
     const auto read = parse_oem(text.str());

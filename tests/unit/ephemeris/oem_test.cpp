@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pipelines/time/utc.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -19,7 +20,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 std::string text_of(const std::string& name) {
-  const std::ifstream file{std::string{SPINDRIFT_TEST_DATA "/"} + name, std::ios::binary};
+  const std::ifstream file{test_data() / name, std::ios::binary};
   EXPECT_TRUE(file) << name;
   std::ostringstream text;
   text << file.rdbuf();

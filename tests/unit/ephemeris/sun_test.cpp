@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "pipelines/time/utc.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -45,7 +46,7 @@ TEST(Sun, LiesWhereDe441PutsIt) {
   // eraEpv00, note 4: heliocentric position within 11.2 km of DE405 from 1900 to 2100. DE405 and
   // DE441 differ by less than 2 km here, TT and TDB by 1.7 ms (0.05 km).
   constexpr double kTolerance_km = 11.2 + 2.0;
-  std::ifstream file{SPINDRIFT_TEST_DATA "/sun/sun_geocentric_geometric_ICRF_DE441.csv"};
+  std::ifstream file{test_data() / "sun" / "sun_geocentric_geometric_ICRF_DE441.csv"};
   std::string row;
   ASSERT_TRUE(std::getline(file, row));
   int rows = 0;

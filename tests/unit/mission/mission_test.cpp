@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -28,7 +29,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-const std::filesystem::path kData = SPINDRIFT_TEST_DATA;
+const std::filesystem::path kData = test_data();
 
 std::string text_of(const std::filesystem::path& path) {
   std::ifstream file{path, std::ios::binary};

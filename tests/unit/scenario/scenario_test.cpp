@@ -15,6 +15,7 @@
 #include "services/scenario/simulated_pass.h"
 #include "services/scenario/truth_text.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -24,8 +25,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-const std::filesystem::path kScenarios =
-    std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." / "deploy" / "scenarios";
+const std::filesystem::path kScenarios = scenarios();
 
 const std::string kSpacecraft = R"([spacecraft]
 id = "SPINNER"
@@ -315,7 +315,7 @@ TEST(Scenario, RefusesAnOrbitFileThatEndsTooEarlyAndSaysByHowMuch) {
 
 TEST(Scenario, TakesTheOrbitFileOverAsItIs) {
   const TemporaryFolder folder;
-  const auto gms5 = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin" / "gms5" / "orbit.oem";
+  const auto gms5 = recorded_passes() / "gms5" / "orbit.oem";
   std::filesystem::copy(gms5, folder.path() / "gms5.oem");
   const std::string text = replaced(replaced(kWhole, kOrbit, "[orbit]\noem = \"gms5.oem\"\n"),
                                     "2026-11-20T03:00:00Z", "1996-02-17T23:30:00Z");

@@ -21,6 +21,7 @@
 #include "pipelines/spin/association/association.h"
 #include "tests/support/recorded_pass.h"
 #include "tests/support/spinning_body.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -63,7 +64,7 @@ std::map<Pulse, std::int64_t> good_edges(const Association& association) {
 }
 
 std::set<Pulse> bad_edges_of(const std::string& pass) {
-  std::ifstream file{SPINDRIFT_TEST_DATA "/spin/" + pass + "/truth.json"};
+  std::ifstream file{recorded_passes() / pass / "truth.json"};
   std::set<Pulse> bad;
   const auto truth = nlohmann::json::parse(file);
   for (const auto& edge : truth.at("bad_edges")) {

@@ -52,9 +52,9 @@ std::vector<Scene> usual_scenes(HorizonModel earth) {
   return scenes;
 }
 
-class Horizons : public ::testing::TestWithParam<HorizonModel> {};
+class FixesOnHorizons : public ::testing::TestWithParam<HorizonModel> {};
 
-TEST_P(Horizons, ExactEdgesGiveTheTrueAxis) {
+TEST_P(FixesOnHorizons, ExactEdgesGiveTheTrueAxis) {
   for (const Scene& scene : usual_scenes(GetParam())) {
     for (const auto& left_out : kLeftOut) {
       const SpinFix fix = scene.fix(left_out).value();
@@ -65,7 +65,7 @@ TEST_P(Horizons, ExactEdgesGiveTheTrueAxis) {
   }
 }
 
-TEST_P(Horizons, TakingItForTheOtherCostsWhatTheDesignSays) {
+TEST_P(FixesOnHorizons, TakingItForTheOtherCostsWhatTheDesignSays) {
   double squares = 0.0;
   int fixes = 0;
   for (Scene scene : usual_scenes(GetParam())) {
@@ -82,7 +82,7 @@ TEST_P(Horizons, TakingItForTheOtherCostsWhatTheDesignSays) {
   EXPECT_LT(off_deg, 0.11);
 }
 
-TEST_P(Horizons, ExactEdgesGiveTheTrueAxisWhileTheEarthMoves) {
+TEST_P(FixesOnHorizons, ExactEdgesGiveTheTrueAxisWhileTheEarthMoves) {
   const Eigen::Vector3d motion_icrf_s{-5e-4, 1e-4, 2e-4};  // 0.03 deg/s.
   for (const Scene& scene : usual_scenes(GetParam())) {
     const Revolution seen = scene.seen_while_earth_moves(motion_icrf_s);
@@ -94,7 +94,7 @@ TEST_P(Horizons, ExactEdgesGiveTheTrueAxisWhileTheEarthMoves) {
   }
 }
 
-TEST_P(Horizons, AFixTurnsWithAllThatItWasMadeFrom) {
+TEST_P(FixesOnHorizons, AFixTurnsWithAllThatItWasMadeFrom) {
   std::mt19937_64 rng{94};
   std::normal_distribution<double> normal;
   for (const Scene& scene : usual_scenes(GetParam())) {
@@ -120,7 +120,7 @@ TEST_P(Horizons, AFixTurnsWithAllThatItWasMadeFrom) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AxisCandidates, Horizons,
+INSTANTIATE_TEST_SUITE_P(AxisCandidates, FixesOnHorizons,
                          ::testing::Values(HorizonModel::Sphere, HorizonModel::Ellipsoid),
                          [](const auto& model) {
                            return model.param == HorizonModel::Sphere ? "Sphere" : "Ellipsoid";

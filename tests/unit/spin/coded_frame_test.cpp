@@ -16,6 +16,7 @@
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -37,7 +38,7 @@ Pulse edge_at(double t_s, PulseChannel channel) {
 
 /// The rows of tests/data/spin/coded.
 std::vector<CodedFrame> recorded_frames() {
-  std::ifstream file{SPINDRIFT_TEST_DATA "/spin/coded/coded.csv"};
+  std::ifstream file{recorded_passes() / "coded" / "coded.csv"};
   std::string line;
   std::getline(file, line);
   std::vector<CodedFrame> frames;

@@ -70,9 +70,9 @@ Eigen::Matrix3d spin_frame(const testing::SpinningBody& body) {
       .toRotationMatrix();
 }
 
-class Horizons : public ::testing::TestWithParam<HorizonModel> {};
+class EdgesOnHorizons : public ::testing::TestWithParam<HorizonModel> {};
 
-TEST_P(Horizons, EveryEdgeComesAtThePhasePredicted) {
+TEST_P(EdgesOnHorizons, EveryEdgeComesAtThePhasePredicted) {
   std::mt19937_64 rng{7};
   std::array<int, kPulseChannels> seen{};
   int unpredicted = 0;
@@ -100,7 +100,7 @@ TEST_P(Horizons, EveryEdgeComesAtThePhasePredicted) {
   EXPECT_LT(unpredicted, 60);
 }
 
-TEST_P(Horizons, DerivativesAreThoseOfThePrediction) {
+TEST_P(EdgesOnHorizons, DerivativesAreThoseOfThePrediction) {
   // Central differences of 1e-6 rad: truncation 1e-12 f'''/6, rounding 1e-15 / 1e-6. Near grazing
   // (slopes up to 30) the third derivative grows as the fifth power of the slope.
   constexpr double kStep_rad = 1e-6;
@@ -138,7 +138,7 @@ TEST_P(Horizons, DerivativesAreThoseOfThePrediction) {
   EXPECT_GT(compared, 3000);
 }
 
-TEST_P(Horizons, TheBeamThatMissesHasNoCrossing) {
+TEST_P(EdgesOnHorizons, TheBeamThatMissesHasNoCrossing) {
   // From 42 164 km the disc is 8.8 deg wide: a beam at 85 deg, the Earth at 60 deg from the axis.
   const HorizonAxes axes = horizon_axes({.model = GetParam(), .co2_altitude_km = 40.0});
   const auto crossing = [&](double earth_angle_deg) {
@@ -155,7 +155,7 @@ TEST_P(Horizons, TheBeamThatMissesHasNoCrossing) {
   EXPECT_FALSE(crossing(93.9));
 }
 
-TEST_P(Horizons, NothingIsSeenFromInsideNorFromNowhere) {
+TEST_P(EdgesOnHorizons, NothingIsSeenFromInsideNorFromNowhere) {
   const HorizonAxes axes = horizon_axes({.model = GetParam(), .co2_altitude_km = 40.0});
   for (const double range_km : {0.0, 6400.0, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_FALSE(limb_crossing(
@@ -164,7 +164,7 @@ TEST_P(Horizons, NothingIsSeenFromInsideNorFromNowhere) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EdgePrediction, Horizons,
+INSTANTIATE_TEST_SUITE_P(EdgePrediction, EdgesOnHorizons,
                          ::testing::Values(HorizonModel::Sphere, HorizonModel::Ellipsoid),
                          [](const auto& model) {
                            return model.param == HorizonModel::Sphere ? "Sphere" : "Ellipsoid";

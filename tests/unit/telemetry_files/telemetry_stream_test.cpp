@@ -14,6 +14,7 @@
 
 #include "tests/support/read_telemetry.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -68,8 +69,7 @@ TEST(TelemetryStream, SortsByTimeThenChannelAndKeepsDuplicates) {
 }
 
 TEST(TelemetryStream, GivesTheSamePulsesWhateverTheOrderOfTheRowsAndFiles) {
-  const std::filesystem::path nominal =
-      std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin" / "nominal" / "pulses.csv";
+  const std::filesystem::path nominal = recorded_passes() / "nominal" / "pulses.csv";
   const auto expected = read({nominal});
   ASSERT_EQ(expected.samples.size(), 3600U);
   EXPECT_TRUE(expected.rejected.empty());

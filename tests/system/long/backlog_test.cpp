@@ -11,15 +11,14 @@
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
 #include "tests/support/program.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
 
 using namespace std::chrono_literals;
 
-const std::filesystem::path kScenario =
-    std::filesystem::path{SPINDRIFT_TEST_DATA}.parent_path().parent_path() / "deploy" /
-    "scenarios" / "geo-day.toml";
+const std::filesystem::path kScenario = scenarios() / "geo-day.toml";
 
 /// Looks every second, for five minutes at most.
 template <class Condition>

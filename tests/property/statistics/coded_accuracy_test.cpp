@@ -16,6 +16,7 @@
 #include "tests/support/information_limit.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/program.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -23,8 +24,7 @@ namespace {
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kDuration_s = 600.0;
 constexpr int kPasses = 40;
-const std::filesystem::path kScenario = std::filesystem::path{SPINDRIFT_TEST_DATA} / ".." / ".." /
-                                        "deploy" / "scenarios" / "gto-nominal.toml";
+const std::filesystem::path kScenario = scenarios() / "gto-nominal.toml";
 
 /// Of the scenario, like the orbit and the sensors of the limit.
 Eigen::Vector3d true_axis_icrf() {

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "tests/support/program.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -31,10 +32,10 @@ void write_gigabyte(const std::filesystem::path& path, std::int64_t rows) {
 }
 
 TEST(Process, ReadsAGigabyteBelow400MiB) {
-#ifdef SPINDRIFT_SANITIZED
-  GTEST_SKIP() << "sanitizers need memory of their own";
-#endif
-  const auto nominal = std::filesystem::path{SPINDRIFT_TEST_DATA} / "spin" / "nominal";
+  if (is_sanitized()) {
+    GTEST_SKIP() << "sanitizers need memory of their own";
+  }
+  const auto nominal = recorded_passes() / "nominal";
   const TemporaryFolder folder;
   constexpr std::int64_t kRows = 28'000'000;
   const auto large = folder.path() / "large.csv";
