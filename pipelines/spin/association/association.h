@@ -1,5 +1,5 @@
 /// @file
-/// Which edge belongs to which revolution, and which edge is to be believed: by spin phase, never
+/// Association: which edge belongs to which revolution, and which is accepted; by spin phase, never
 /// by the order of arrival.
 ///
 /// A clock counts spin phase in turns from the sun1 edges; where sun1 is silent, from those of
@@ -9,7 +9,7 @@
 /// revolution. An edge further from its expectation than the screening's sigmas is kept with its
 /// revolution and rejected. After a silence too long for the clock to say what turn it is, it
 /// starts afresh, and the count goes on from the best guess. When the edges of a channel agree on
-/// another place (the Earth moved during a silence, the spin rate stepped), they are believed.
+/// another phase (the Earth moved during a silence, the spin rate stepped), that one is adopted.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 /// @file
-/// Which channels are expected so near to each other that their edges spoil each other, revolution
-/// by revolution.
+/// Pairs of channels expected to interfere, revolution by revolution: their edges come so near to
+/// each other that they spoil each other.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// What most of a handful of phases agree on.
+/// Robust straight line through phases of which a minority may be wrong.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 /// @file
-/// Whether the spin rate has stepped: the last edges of the channel that sets the clock agree with
-/// one another and not with the clock.
+/// Detection of a step of the spin rate: the last edges of the channel that sets the clock are
+/// equally spaced, but not as the clock expects.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// The biases that a pass asks for, estimated one after the other.
+/// Forward selection of biases: significant ones are estimated, one after the other.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// Whether a pass is of one attitude and one even rate: a manoeuvre shows in the residuals.
+/// Changepoints: whether one attitude and one uniformly drifting rate explain the whole pass.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// The axis that explains the edges of a pass best, of those that its starts lead to.
+/// Multi-start fit: the likeliest of the axes that the starts converge to.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// Which biases the edges of a pass ask for, where nobody has said which to estimate.
+/// Significance of biases, where the mission file does not say which to estimate.
 
 #pragma once
 

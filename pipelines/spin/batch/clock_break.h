@@ -1,5 +1,5 @@
 /// @file
-/// When the spin rate changed at once: the times of the turns break there.
+/// A step of the spin rate, found as a changepoint in the times of the turns.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// How the edges of slits and of beams scatter about a state, each by themselves.
+/// Observed noise of the edges about a state, of slits and of beams separately.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// The best state of a pass with some biases unknown, and how well it explains the edges.
+/// A fitted state with some biases estimated, its information and its misfit.
 
 #pragma once
 

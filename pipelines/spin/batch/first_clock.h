@@ -1,5 +1,5 @@
 /// @file
-/// Phase, rate and drift of a pass about an axis that is nearly known: where the fit begins.
+/// Initial phase, rate and drift of a pass about a given axis.
 
 #pragma once
 

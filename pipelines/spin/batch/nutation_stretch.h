@@ -24,7 +24,7 @@ using NutationSlopes = Eigen::Matrix<double, 1, kNutationUnknowns>;
 
 struct NutationStretch {
   TaiTime begin;
-  TaiTime end;  ///< Not among it.
+  TaiTime end;  ///< Exclusive.
   double per_turn;
   Eigen::Matrix<double, kNutationUnknowns, 1> unknowns;  ///< g (rad), kappa, delta (rad).
 

@@ -1,5 +1,5 @@
 /// @file
-/// What the edges of a pass determine, and what they do not.
+/// Observability: covariance with the priors, and directions that the edges leave undetermined.
 
 #pragma once
 

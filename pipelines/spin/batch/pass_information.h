@@ -1,6 +1,6 @@
 /// @file
-/// What all edges of a pass together say of a state: the normal equations of pass_model.h's
-/// unknowns, and how well the state explains them.
+/// The normal equations of all edges of a pass at a state, in the unknowns of pass_model.h, and the
+/// misfit.
 
 #pragma once
 

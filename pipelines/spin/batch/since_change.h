@@ -1,5 +1,5 @@
 /// @file
-/// What explains a pass from the last change of attitude or rate on, and what becomes of the rest.
+/// The solution from the last changepoint of attitude or rate on, and what is left out before it.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// What the best even spin leaves of the edges, as the search for nutation wants it.
+/// Residuals of the edges against the best uniform spin, for the search for nutation.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// Axes that explain a pass, looked for all over the sky, whatever its fixes have found.
+/// Search of the whole sky for competing axes, independent of the fixes.
 
 #pragma once
 

@@ -1,7 +1,7 @@
 /// @file
-/// Whether the measurements of a pass are to be believed at all. Where mission file or orbit are
-/// plainly wrong, most revolutions contradict themselves; a few agree all the same, by accident or
-/// because they have too few measurements to show it, and an axis out of these would be made up.
+/// Whether most revolutions of a pass are consistent in themselves. With a wrong mission file or
+/// orbit most are not; the few that agree do so by accident, or have too few measurements to show
+/// the contradiction, and an axis from these would be wrong.
 
 #pragma once
 

@@ -34,8 +34,8 @@ struct AxisCandidates {
   int geometry_case;
   std::vector<AxisCandidate> candidates;  ///< Best first, never empty.
   bool told_apart;  ///< The geometry alone shows that the first is the true one.
-  /// Cones touch rather than cross, within noise and model: the candidates hardly differ, are not
-  /// linear in the noise, and their covariances too small.
+  /// Near-tangent: within noise and model the cones touch rather than cross. The candidates hardly
+  /// differ, are not linear in the noise, and their covariances are too small.
   bool grazing;
 };
 
@@ -45,7 +45,7 @@ int geometry_case_of(const RevolutionMeasurements& measured);
 /// From the good measurements. With the dihedral (the mean of the two, where both are there):
 /// case 1 by both chords; 2, 3 linear where |Delta| is usable, else by two roots; without it the
 /// two axes in which the cones about Sun and Earth meet. Cases 4 to 7 solve theta_s from the angle
-/// between Sun and Earth. Beams mounted alike are one beam.
+/// between Sun and Earth. Beams whose mounting angles coincide count as one.
 /// @return Unobservable for a cone (cases 8 to 10), Sun and Earth within 3 deg of one line, and
 ///         measurements that no axis explains, within their noise; InvalidInput beyond it.
 Expected<AxisCandidates> axis_candidates(const SpinConfig& config,

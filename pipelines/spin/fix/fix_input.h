@@ -40,7 +40,7 @@ struct FixInput {
   Uncertain lone_disc_rad() const { return disc_rad(north() ? Side::North : Side::South); }
 };
 
-/// Beams mounted alike are one beam: north.
+/// Beams whose mounting angles coincide count as one: north.
 FixInput fix_input(const SpinConfig& config, const RevolutionMeasurements& measured,
                    const Sightlines& sightlines, const BeamViews& beams);
 

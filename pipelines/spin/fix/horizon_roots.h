@@ -8,10 +8,10 @@
 
 namespace spindrift {
 
-/// Each root on the sphere at rest is solved anew with what the beams see from it, until it stands
-/// still: the horizon moves it by a degree at most, and changes little over that. A root that then
-/// is none is dropped. Which of them is the best, and whether it is the true one, is of those that
-/// are left.
+/// Each root on the sphere at rest is solved again with what the beams see from it, until it
+/// converges: the horizon moves it by a degree at most, and changes little over that. A root that
+/// vanishes is dropped. The others are ranked: which is the best, and whether it is beyond doubt
+/// the true one.
 /// @param on_sphere Made with views_of_sphere().
 AxisSolutions solve_on_horizon(const FixInput& on_sphere);
 

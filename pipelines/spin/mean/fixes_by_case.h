@@ -1,11 +1,11 @@
 /// @file
 /// The fixes of a pass for their mean, kept apart by geometry case.
 ///
-/// Where fixes are left out because of what their noise made of them (two roots that come together
-/// within it, candidates that it brought too near to each other), those that remain are a selection
-/// and lie to one side. Of a normal vector of unit variance, the mean over any event of probability
-/// p is at most sqrt(2 ln(1/p)) long, as its relative entropy, ln(1/p), is at least half the square
-/// of that; and by the same for what is left out, at most (1-p)/p sqrt(2 ln(1/(1-p))).
+/// Where fixes are left out because of their noise (roots that merge, candidates too near to each
+/// other), those that remain are a biased selection. Of a normal vector of unit variance, the mean
+/// over any event of probability p is at most sqrt(2 ln(1/p)) long, as its relative entropy,
+/// ln(1/p), is at least half the square of that; and by the same for what is left out, at most
+/// (1-p)/p sqrt(2 ln(1/(1-p))).
 ///
 /// A shift of every fix by s of its sigmas moves the least-squares mean, whose covariance is C, in
 /// no direction d by more than the root of

@@ -1,10 +1,10 @@
 /// @file
-/// What the beams have of the Earth in one revolution: of the mission's horizon, sphere or
-/// ellipsoid, which each edge meets where the Earth has moved to by then (by 0.3 deg where a slow
-/// body's beams cross it half a turn apart, by 0.07 deg between the two edges of a chord).
+/// The Earth as a beam sees it in one revolution: the mission's horizon, sphere or ellipsoid, with
+/// the Earth where it has moved to at each edge (by 0.3 deg where a slow body's beams cross it half
+/// a turn apart, by 0.07 deg between the two edges of a chord).
 ///
-/// Seen from one axis, a beam's chord is also that of some sphere at rest. By its half-angle, and
-/// by how far its middle is from that of the chord, the closed forms of fixes and residuals hold.
+/// For a given axis, a beam's chord equals that of some sphere at rest. With that sphere's
+/// half-angle and the offset of its middle the closed forms of fixes and residuals hold.
 
 #pragma once
 
@@ -25,8 +25,8 @@ struct BeamView {
   /// Zero for the sphere at rest, and left so where the beam has no crossing.
   Eigen::Vector3d disc_per_step_icrf = Eigen::Vector3d::Zero();
   Eigen::Vector3d lead_per_step_icrf = Eigen::Vector3d::Zero();
-  /// Empty: the beam misses the limb, or only grazes it. The others are then of a beam nearer to
-  /// the Earth's centre, which has the chord that was measured.
+  /// Empty: the beam misses the Earth or is near-tangent to its limb. The others are then of a beam
+  /// nearer to the Earth's centre, which has the chord that was measured.
   std::optional<double> chord_rad = {};
 };
 

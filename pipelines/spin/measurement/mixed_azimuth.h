@@ -32,8 +32,8 @@ struct SlitLag {
 
 struct SlitLags {
   std::vector<SlitLag> lags;  ///< The least first.
-  /// How near two of the lags are to being one: as a cosine, what lies between them at most; or how
-  /// near another pair came to agreeing. A pair less than a degree apart may be such.
+  /// How near two roots are to merging, as a cosine: the depth of the curve between them, or its
+  /// least distance from zero where a pair of roots is just missing.
   double nearest_miss;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// Free nutation, found in what an even spin leaves of the edges.
+/// Detection of free nutation in the residuals of a uniform spin.
 ///
 /// The model is that of tilt_signal.h. The strongest frequency of the spectrum is refined by least
 /// squares together with amplitude and growth; the frequencies that a sensor looking once a turn

@@ -1,5 +1,5 @@
 /// @file
-/// What an even spin about an axis at rest leaves of the time of an edge.
+/// Residual of an edge against a uniform spin about an axis at rest.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// How often a turn the tilt seems to go round: a spectrum over all edges at once.
+/// Spectrum of the tilt, over all edges at once, in cycles a turn.
 ///
 /// With w the residuals times their slopes, D(n) = sum of w exp(-2 pi i n x) is what the residuals
 /// say of a tilt that goes round n times in a turn. The six edges of a turn come at phases of their

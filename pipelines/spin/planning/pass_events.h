@@ -1,5 +1,5 @@
 /// @file
-/// From when to when what holds in a coming pass.
+/// Intervals of a coming pass in which a condition holds.
 
 #pragma once
 

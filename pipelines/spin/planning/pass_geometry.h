@@ -1,5 +1,5 @@
 /// @file
-/// What an instant of a coming pass holds: what each sensor sees, and which fix a turn then gives.
+/// Geometry of one instant of a coming pass: what each sensor sees, and which fix a turn gives.
 
 #pragma once
 
@@ -22,7 +22,7 @@ namespace spindrift {
 enum class BeamView {
   NoSensor,
   Misses,   ///< The Earth.
-  Grazes,   ///< Its limb: too near for the edges to say anything of the axis.
+  Grazes,   ///< Near-tangent to the limb: the edges say nothing of the axis.
   Crosses,  ///< It: two edges a turn.
   Inside,   ///< Its disc all the turn: no edge.
 };

@@ -24,8 +24,8 @@
 
 namespace spindrift {
 
-/// Where a slit, or a beam, is on a body that cones: to the whole rotation, which may be of a
-/// degree.
+/// Where a slit or a beam is on a body whose sensors' axis is tilted by coning: by the exact
+/// rotation, which may be of a degree.
 struct LeaningSlit {
   SunSensor slit;
   Eigen::RowVector2d cant_per_coning;  ///< rad/rad

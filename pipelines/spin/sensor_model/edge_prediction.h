@@ -39,14 +39,14 @@ struct PredictedEdge {
 
 /// @param edge Its time says where the Earth then stands.
 /// @return Empty when there is no such edge: the sensor does not exist, the slit cannot see so far
-///         from its equator, or the beam misses the Earth, or one of these is all but so.
+///         from its equator, or the beam misses the Earth; or one of these nearly.
 std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& sky,
                                           const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge,
                                           const SensorBiases& biases = SensorBiases::Zero());
 
-/// Where a state has no such edge, or hardly so: which states have it, linearised in the direction
-/// of the beam when it came. Far less curved than the time of an edge, which near the limb goes as
-/// a square root; but as the direction has the edge's noise, only to find such a state.
+/// For an observed edge that the state (nearly) does not have: the beam's depth in the disc when it
+/// came, linearised. Less curved than the edge time, which near the limb goes as a square root; but
+/// as it has the noise of the edge's azimuth, only to find a state that has the edge.
 /// @param phase_rad Of slit 1 when it came, as the state has it.
 /// @param sigma_rad Of the edge's noise.
 /// @return The third of its `phase_per_rotation` is not -1. Nothing by errors or biases. Empty for

@@ -21,7 +21,7 @@ namespace spindrift {
 /// @return Unobservable when the spacecraft is not above that sphere, or beyond a million km.
 Expected<double> earth_disc_half_angle_rad(double range_km, double co2_altitude_km);
 
-/// A chord across the Earth's disc, and the mounting angle of the beam that drew it.
+/// A chord across the Earth's disc, and the mounting angle of its beam.
 template <class T>
 struct ChordOf {
   double mount_angle_rad;  ///< gamma
@@ -29,12 +29,12 @@ struct ChordOf {
 };
 using Chord = ChordOf<double>;
 
-/// Beams whose mounting angles' cosines differ by less than 0.01 (0.6 deg near the equator) draw
-/// one chord twice.
+/// Cosines of the mounting angles differ by less than 0.01 (0.6 deg near the equator): both beams
+/// measure the same chord.
 bool mounted_alike(double one_rad, double other_rad);
 
-/// theta_e in (0, pi) from both chords, which needs no rho. Beams mounted alike leave it to the
-/// noise (the caller tests it).
+/// theta_e in (0, pi) from both chords, which needs no rho. The mounting angles must differ (the
+/// caller tests it).
 template <class T>
 T earth_angle_from_two_chords(const ChordOf<T>& north, const ChordOf<T>& south) {
   using std::atan2, std::cos;

@@ -48,7 +48,7 @@ struct EarthView {
 };
 
 /// @param mount_angle_rad gamma, of the beam from the spin axis.
-/// @return Empty when the beam misses the Earth, never leaves it, or only grazes the limb.
+/// @return Empty when the beam misses the Earth, never leaves it, or is near-tangent to the limb.
 std::optional<LimbCrossing> limb_crossing(const HorizonAxes& axes, const EarthView& earth,
                                           double mount_angle_rad, Crossing crossing);
 

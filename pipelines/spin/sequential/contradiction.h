@@ -1,9 +1,9 @@
 /// @file
-/// Whether fixes say that the axis is another one than those that are followed.
+/// Whether the fixes contradict all axes that filters follow.
 ///
-/// Single fixes stray, and where the noise is more than stated most do. So it takes more of them
-/// against the axis than for it (a cumulative sum, which begins anew wherever it comes to 0), and
-/// the mean of all since then must lie elsewhere, by the scatter that they show.
+/// Single fixes deviate, and most do where the noise is more than stated. So a cumulative sum of
+/// fixes against the axis, less those for it, must reach a limit, and the mean of all fixes since
+/// the sum was last 0 must differ from the axis by more than their observed scatter explains.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 /// @file
-/// Whether the edges lie where the filter expects them: what share of them, and of each channel's,
-/// is gated.
+/// The share of edges that the filter's gate leaves out, of all and of each channel: whether they
+/// lie where they are predicted.
 
 #pragma once
 
@@ -20,7 +20,7 @@ class GateWatch {
 
   /// Of the recent edges.
   bool most_gated() const;
-  /// A third of them, or of the first ones: among those accepted a wrong one is likely.
+  /// A third of the recent or of the first edges: some accepted ones are likely wrong too.
   bool many_gated() const;
   /// The channel most of whose edges of the recent revolutions are gated.
   std::optional<PulseChannel> channel_mostly_gated() const;

@@ -1,8 +1,8 @@
 /// @file
-/// Candidates for the axis, each with a filter that sees the same edges. They compete by the
-/// likelihood of these: a candidate is out when the edges are e^20 times likelier under another one
-/// that fits them, or when both filters have come to one axis. Of those that come when one is
-/// out, e^5 is enough, once they are as well known as the others.
+/// Candidate axes, each with a filter that sees the same edges. They compete by likelihood: a
+/// candidate is eliminated when the edges are e^20 times likelier under another one that fits them,
+/// or when both filters have converged to one axis. For candidates that join after the first
+/// elimination e^5 is enough, once they are as well known as the others.
 
 #pragma once
 
@@ -25,7 +25,7 @@ struct Hypothesis {
   double squared_innovations = 0.0;  ///< Normalised, their sum: as many as edges when all is well.
   EdgeTally tally = {};              ///< Of the last revolution.
   int fixes = 0;                     ///< That have it among their candidates.
-  bool has_beaten = false;           ///< Another, by the edges.
+  bool has_beaten = false;           ///< Eliminated another, by the edges.
   bool late = false;                 ///< Came when the one then published had beaten another.
 };
 
@@ -40,13 +40,13 @@ class Hypotheses {
   bool empty() const { return all_.empty(); }
   std::size_t count() const { return all_.size(); }
   bool provisional() const { return provisional_; }
-  /// By a fix, which leaves one, or by the edges beyond doubt.
+  /// One is left, chosen by a fix or by the edges.
   bool settled() const { return (settled_ || closed()) && all_.size() == 1; }
-  /// Of candidates that are no accident of one fix: the likeliest of false ones is false.
+  /// Chosen by the edges among candidates that several fixes have named.
   bool settled_by_edges() const { return closed() && all_.size() == 1; }
 
-  /// The one published has beaten all that came before it had beaten any: those that are left are
-  /// the last to be judged. False ones of later fixes would come and go for ever.
+  /// The one published has eliminated all that joined before its first elimination: those left are
+  /// the last to be judged. Otherwise false candidates of later fixes would keep joining.
   bool closed() const;
 
   /// The likeliest first, but before it the prior's, until the edges beat that; likewise
@@ -60,8 +60,8 @@ class Hypotheses {
   /// Nothing but a prior chose the one published, and the edges do not speak against it.
   bool prior_stands() const;
 
-  /// Another candidate, with the benefit of the doubt: as likely so far as the one published,
-  /// which, where it was settled or the list closed, stands no higher than it from now on.
+  /// Adds a candidate that is taken to be as likely so far as the one published; where that was
+  /// settled, or the list closed, both begin equal.
   /// @return False where none of the revolution's edges can tell its phase.
   bool add(const StartingPoint& point, const SpinConfig& config, const Revolution& revolution,
            const Sky& sky);

@@ -1,11 +1,11 @@
 /// @file
-/// Whether the edges are what the filter takes them for: normalised innovations of variance 1 and
-/// mean 0.
+/// Test of the filter's normalised innovations, which should have mean 0 and variance 1 (NIS).
 ///
-/// More variance is more noise than stated. A mean is an error of the model (a slit or a beam that
-/// is not where the mission says, the limb): what the axis can take up of it moves the axis and is
-/// not seen, the rest stays in the innovations for ever. What they say of the errors is judged as
-/// that of the angles is (model_check.h).
+/// More variance is more noise than stated. A mean is a model error (a slit or a beam that is not
+/// where the mission file says, the limb): the part of it that looks like another axis moves the
+/// axis unseen, the rest stays in the innovations.
+///
+/// It is tested as that of the angles is (model_check.h).
 
 #pragma once
 
@@ -19,10 +19,10 @@ class InnovationWatch {
  public:
   void note(const EdgeTally& tally);
 
-  /// What was seen so far shall weigh little beside what comes: a filter begins anew.
+  /// Gives the past little weight: a filter begins anew.
   void fade();
 
-  /// The filter has come from its start to where its edges fit: what that took is no noise.
+  /// Discards the transient after the start, which is no noise.
   void forget_the_start();
 
   /// How many times the variance of the edges is what their stated noise makes it, where that is

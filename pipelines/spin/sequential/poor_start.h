@@ -1,7 +1,7 @@
 /// @file
-/// A filter that began at an axis known to degrees, where edges need not be linear: it may have
-/// come to rest beside the truth, with edges that fit. (A chord across the middle of the Earth's
-/// disc is the longest there is: axes on either side of it see the same.) The fixes tell, in time.
+/// Whether later fixes confirm a filter that began at an axis known only to degrees. Over such a
+/// distance edges are not linear, and the filter may converge to a wrong axis that fits them: a
+/// chord across the middle of the Earth's disc looks the same from either side.
 
 #pragma once
 
@@ -20,7 +20,7 @@ class PoorStart {
   /// @param followed Where the filter is now.
   void note(const SpinFix& fix, const StartingPoint& followed);
 
-  /// Until the mean of the fixes since then, known to a degree, is where the filter is.
+  /// Until the mean of the fixes since the start is known to a degree and agrees with the filter.
   bool unconfirmed() const { return fixes_.has_value(); }
 
  private:

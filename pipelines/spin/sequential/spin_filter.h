@@ -101,7 +101,7 @@ class SpinFilter {
     std::span<const Pulse> edges;
     const ChannelNoise& noise;
   };
-  /// What is done with edges that the state does not have.
+  /// What is done with edges that the present state predicts not to exist.
   enum class Missing { Approached, LeftOut };
   struct Linearised {
     double moved_rad = 0.0;   ///< The axis, by the update.

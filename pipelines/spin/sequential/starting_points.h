@@ -1,7 +1,7 @@
 /// @file
-/// What fixes say of the axis: their candidates, averaged branch by branch until each is known well
-/// enough for a filter to begin there. One fix will do where the edges are sharp; where the body
-/// turns fast or the edges are noisy, it takes some.
+/// Where filters may begin: the candidates of fixes, averaged branch by branch until each is known
+/// well enough. One fix is enough where edges are precise; with a fast body or noisy edges it takes
+/// several.
 
 #pragma once
 

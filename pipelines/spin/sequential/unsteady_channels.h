@@ -1,8 +1,8 @@
 /// @file
-/// Channels whose edges swing about where they are expected: more noise than stated, or nutation,
-/// under which the axis that slits and beams see circles the one that stays. A gate that keeps half
-/// of a swing keeps a side of it. An edge that lies to one side for long swings not: the axis, or
-/// the sensor, is elsewhere.
+/// Channels whose innovations oscillate about zero: more noise than stated, or nutation, under
+/// which the axis that slits and beams see circles the angular momentum. A gate of fixed width
+/// would keep one side of the oscillation and bias the axis. Innovations that stay on one side do
+/// not oscillate: the axis, or the sensor, is elsewhere.
 
 #pragma once
 
@@ -20,7 +20,7 @@ class UnsteadyChannels {
   void note(const EdgeTally& tally);
 
   /// Of the recent edges of each channel, by their quartiles, which take no notice of single
-  /// spurious ones; 1 where they do not swing, or not significantly.
+  /// spurious ones; 1 where they do not oscillate significantly.
   const ChannelNoise& noise() const { return noise_; }
 
  private:

@@ -23,9 +23,9 @@ std::chrono::nanoseconds reorder_horizon(const CodedFrame& frame);
 /// Holds samples until nothing earlier is to be expected: until one arrives that is the sample's
 /// horizon of telemetry time younger.
 ///
-/// A sample far ahead of the others moves nothing by itself, since a sender with a bad clock would
-/// make all true ones late. When several in a row say so, time has really jumped: the pass goes
-/// on after a silence. Likewise fewer than that which lie far before the first run are left out.
+/// One sample far ahead of the others does not advance time, since a sender with a bad clock would
+/// make all true ones late; several in a row do: the pass continues after a silence. Likewise a few
+/// samples far before all others are left out.
 /// @tparam Sample Totally ordered, first by its time `t`.
 template <class Sample>
 class BasicReorderWindow {

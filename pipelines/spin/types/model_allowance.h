@@ -1,6 +1,6 @@
 /// @file
-/// What the models of sensors and Earth are allowed to be wrong by. None of it is noise: it does
-/// not average out.
+/// Allowed errors of the models of sensors and Earth. They are no noise: they do not average out,
+/// and stay the same in every revolution.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// Where Sun and Earth stood for one revolution.
+/// Directions to Sun and Earth for one revolution.
 
 #pragma once
 

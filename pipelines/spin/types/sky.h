@@ -1,5 +1,5 @@
 /// @file
-/// What stands about the spacecraft during one revolution.
+/// Sun, Earth's pole and orbit state during one revolution.
 
 #pragma once
 
