@@ -16,12 +16,12 @@ class PassWatch {
  public:
   /// Longer a silence does not last within a pass.
   static constexpr std::chrono::hours kLongestSilence{1};
-  /// So many samples from beyond it are believed, when none between them carries the pass on.
+  /// So many samples from beyond it are accepted, when none between them carries the pass on.
   static constexpr std::size_t kBelieved = 8;
 
   /// Within: not later than the pass has come, which says nothing of those from beyond. Onward: the
-  /// pass goes on, and what came from beyond was wrong. Undecided: from beyond. NewPass: believed.
-  /// A few stray samples before are no pass of their own: then what is believed carries theirs on.
+  /// pass goes on, and what came from beyond was wrong. Undecided: from beyond. NewPass: accepted.
+  /// A few stray samples before are no pass of their own: then what is accepted carries theirs on.
   enum class Verdict { Within, Onward, Undecided, NewPass };
 
   Verdict see(TaiTime t);

@@ -41,7 +41,7 @@ struct Received {
 
 /// Everything that arrived goes to the archive at once, whatever is computed from it and when.
 /// After a silence that ends a pass (PassWatch) what arrives is of a new run. A run begins in the
-/// batch of the sample that makes its first ones believed.
+/// batch of the sample that makes its first ones accepted.
 class SpacecraftRun {
  public:
   /// @param index Of the mission among all.

@@ -17,7 +17,7 @@ using enum PulseChannel;
 
 constexpr std::array<PulseChannel, kPulseChannels> kByPreference = {Sun1,     Sun2,    NorthIn,
                                                                     NorthOut, SouthIn, SouthOut};
-// Edges on the comb before it is believed.
+// Edges on the comb before it is accepted.
 constexpr std::size_t kFewestSun1 = 7;
 constexpr std::size_t kFewestOthers = 20;
 constexpr std::size_t kFewestAtEnd = 3;

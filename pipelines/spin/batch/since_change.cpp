@@ -87,7 +87,7 @@ bool fits(const Expected<OneAttitude>& one) {
 }
 
 /// A false axis may explain the edges as well as the true one, or need two attitudes where that
-/// needs no change: before either is believed, the sky is searched.
+/// needs no change: before either is accepted, the sky is searched.
 /// @param from The axes found are added.
 Expected<OneAttitude> solve_pass(const SpinConfig& config, const Orbit& orbit,
                                  std::span<const PassEdge> edges, StartingAxes& from,

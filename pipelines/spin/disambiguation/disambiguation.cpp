@@ -17,7 +17,7 @@ namespace {
 constexpr double kSigmas = 5.0;
 constexpr int kSilentRevolutions = 5;
 constexpr double kPriorSigmas = 3.0;
-// Fixes that graze may lack the true candidate: false ones lie near an axis that is known worse.
+// Near-tangent fixes may lack the true candidate: false ones lie near an axis that is known worse.
 constexpr double kWidest_rad = 3.0 * std::numbers::pi / 180.0;
 constexpr int kContradictionsInARow = 20;
 

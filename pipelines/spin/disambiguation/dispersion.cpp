@@ -17,7 +17,7 @@ constexpr double kLevel = 1e-8;
 // Likewise by the likelihood ratio, which sees a slow drift that the F-test spreads over all
 // blocks: the branches come from the same measurements, so that their noise is in both squares and
 // the difference is what the other has drifted. e^30 to one. But where candidates are known so
-// badly, or grazed, their curvature would be taken for a drift.
+// badly, or near-tangent, their curvature would be taken for a drift.
 constexpr double kDecisive = 60.0;
 constexpr double kNearlyLinear_rad = 1.2 * 0.017453292519943295;
 // A branch whose scatter is much more than that of its noise does not stay where it is.

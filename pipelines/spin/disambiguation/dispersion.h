@@ -61,7 +61,7 @@ class Dispersion {
   /// @return The steady branch, when there is one.
   std::optional<SteadyBranch> add(std::span<const AxisCandidate> candidates);
 
-  /// The candidates are no mirror images, or some graze and those that do not are a selection:
+  /// The candidates are no mirror images, or some are near-tangent and the rest a selection:
   /// their noise is unlike, and only the F-test decides from here on.
   void note_unlike() { unlike_ = true; }
 

@@ -21,8 +21,8 @@ constexpr double kMissingSigmas = 5.0;
 // of a pass, none is then the wrong one. And of the model, whose errors are drawn but once.
 constexpr double kToldApartSigmas = 5.0;
 constexpr double kToldApartModelSigmas = 3.0;
-// A chord narrower than so many sigmas grazes: where noise of five sigmas changes its cosine, the
-// second order is a quarter of the first.
+// A chord narrower than so many sigmas is near-tangent: where noise of five sigmas changes its
+// cosine, the second order is a quarter of the first.
 constexpr double kNarrowSigmas = 10.0;
 // The linear solution divides by Delta, which must not be its own noise.
 constexpr double kDeterminantSigmas = 5.0;

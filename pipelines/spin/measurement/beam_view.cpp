@@ -37,7 +37,7 @@ class Earth {
             .pole_spin = R_icrf_spin_.transpose() * sightlines_.earth_pole_icrf};
   }
 
-  /// Empty: it misses the limb, or only grazes it.
+  /// Empty: it misses the Earth, or is near-tangent to its limb.
   std::optional<BeamView> crossed_by(double mount_angle_rad, const EarthCrossing& crossing) const {
     const auto in = limb_crossing(axes_, at(crossing.t_in), mount_angle_rad, Crossing::In);
     const auto out = limb_crossing(axes_, at(crossing.t_out), mount_angle_rad, Crossing::Out);

@@ -58,7 +58,8 @@ bool Hypotheses::closed() const {
                      [](const Hypothesis& other) { return other.late; });
 }
 
-/// Nor where all fixes graze: filters that began to one side of the axis need not come to it.
+/// Nor where all fixes are near-tangent: filters that began to one side of the axis need not come
+/// to it.
 bool Hypotheses::prior_stands() const {
   return published().favoured && !provisional_ &&
          std::all_of(all_.begin() + 1, all_.end(), [&](const Hypothesis& other) {

@@ -57,7 +57,7 @@ bool BasicReorderWindow<Sample>::is_far_ahead(const Sample& sample) const {
   return !held_.empty() && span_between(held_.rbegin()->t, sample.t) > kFarAhead;
 }
 
-/// Time has jumped: what was held before is due, or was never to be believed itself.
+/// Time has jumped: what was held before is due, or was never accepted itself.
 template <class Sample>
 void BasicReorderWindow<Sample>::believe() {
   if (released_.empty() && held_.size() < kBelieved) {
@@ -71,7 +71,7 @@ void BasicReorderWindow<Sample>::believe() {
   far_in_a_row_ = 0;
 }
 
-/// Nothing is believed yet, and the first few are far before enough others to be.
+/// Nothing is accepted yet, and the first few are far before enough others to be.
 /// @return Whether any were set aside.
 template <class Sample>
 bool BasicReorderWindow<Sample>::set_aside_early() {

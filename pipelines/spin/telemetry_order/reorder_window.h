@@ -32,12 +32,12 @@ class BasicReorderWindow {
  public:
   /// Further than this ahead of all that came before is far.
   static constexpr std::chrono::nanoseconds kFarAhead{std::chrono::minutes{1}};
-  /// So many far ones, with none between that is not, are believed.
+  /// So many far ones in a row are accepted.
   static constexpr std::size_t kBelieved = 8;
   /// How long a released sample is known again: longer than any waits to be settled.
   static constexpr std::chrono::nanoseconds kRemembered{std::chrono::minutes{10}};
 
-  /// No more than this are kept waiting to be believed.
+  /// No more than this are kept waiting to be accepted.
   static constexpr std::size_t kMostFarAhead = 4096;
 
   enum class Verdict { Held, Duplicate, Late, OutOfTime };
@@ -51,7 +51,7 @@ class BasicReorderWindow {
 
   struct Rest {
     std::vector<Sample> in_time;      ///< In order of time and channel.
-    std::vector<Sample> out_of_time;  ///< Far ahead or far before, and too few to be believed.
+    std::vector<Sample> out_of_time;  ///< Far ahead or far before, and too few to be accepted.
   };
   /// All that are held: the pass has ended.
   Rest release_all();
@@ -65,8 +65,8 @@ class BasicReorderWindow {
   std::set<Sample> held_;
   std::set<Sample> far_ahead_;
   std::size_t far_in_a_row_ = 0;
-  std::vector<Sample> early_;    ///< Too few, and far before the first that are believed.
-  std::vector<Sample> due_;      ///< Before a jump that was believed.
+  std::vector<Sample> early_;    ///< Too few, and far before the first accepted ones.
+  std::vector<Sample> due_;      ///< Before a jump that was accepted.
   std::deque<Sample> released_;  ///< In order; those remembered, at least the last one.
 };
 

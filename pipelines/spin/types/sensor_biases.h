@@ -31,7 +31,7 @@ using BiasSet = std::bitset<kSensorBiases>;
 /// The bias, or of coning both.
 BiasSet unknowns_of(SensorBias bias);
 
-/// What is believed of a bias before the pass.
+/// The prior of a bias: zero within sigma.
 struct BiasPrior {
   std::string_view name;   ///< As in mission file and archive.
   std::string_view words;  ///< As a person would say it.
