@@ -7,13 +7,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "pipelines/spin/batch/batch_solution.h"
-#include "pipelines/spin/types/products.h"
 #include "services/ingest/rejected_input.h"
 #include "services/ingest/sample.h"
+#include "services/products/products.h"
 
 namespace spindrift {
 
@@ -60,23 +58,15 @@ struct ArchiveBatch {
   std::vector<PulseSample> pulses = {};
   std::vector<CodedSample> coded = {};
   std::vector<RejectedInput> rejected = {};
-  std::vector<SpinProduct> products = {};
-  std::optional<BatchSolution> batch = {};  ///< Its estimate is among the products.
+  std::vector<Product> products = {};
   std::vector<SourceCount> source_counts = {};
   std::optional<std::string> finished_utc = {};  ///< ISO 8601, ending in Z.
 };
 
-/// What results rest on: announced to nobody, and not to be waited for.
-inline bool is_detail(const SpinProduct& product) {
-  return !std::holds_alternative<SpinFix>(product) &&
-         !std::holds_alternative<SpinEstimate>(product);
-}
-
 /// Rows that `batch` asks for, those the archive already holds included.
 inline std::size_t row_count(const ArchiveBatch& batch) {
   return batch.pulses.size() + batch.coded.size() + batch.rejected.size() + batch.products.size() +
-         batch.source_counts.size() + (batch.start ? 1 : 0) + (batch.batch ? 1 : 0) +
-         (batch.finished_utc ? 1 : 0);
+         batch.source_counts.size() + (batch.start ? 1 : 0) + (batch.finished_utc ? 1 : 0);
 }
 
 }  // namespace spindrift

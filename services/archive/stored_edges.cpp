@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 
 #include "services/archive/connection.h"
-#include "services/archive/row_values.h"
+#include "services/products/named.h"
+#include "services/units/degrees.h"
 
 namespace spindrift {
 namespace {
@@ -24,6 +25,12 @@ std::optional<std::string> find_run(SQLite::Database& database, const std::strin
     query.bind(2, *run_id);
   }
   return query.executeStep() ? std::optional{query.getColumn(0).getString()} : std::nullopt;
+}
+
+/// From the columns 0 and 1.
+Eigen::Vector3d axis_of(SQLite::Statement& row) {
+  return direction_icrf({.ra_rad = row.getColumn(0).getDouble() * kRadPerDeg,
+                         .dec_rad = row.getColumn(1).getDouble() * kRadPerDeg});
 }
 
 PulseUse use_of(SQLite::Statement& row) {

@@ -2,120 +2,116 @@
 
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <string_view>
 #include <variant>
 
 #include "services/archive/connection.h"
-#include "services/archive/row_values.h"
-#include "services/units/degrees.h"
 
 namespace spindrift {
 namespace {
 
-template <class Value>
-bool has(const std::vector<Value>& sorted, const Value& value) {
-  return std::binary_search(sorted.begin(), sorted.end(), value);
+/// What tells an announced product from others.
+struct Identity {
+  std::pair<std::size_t, std::string> instance;
+  std::int64_t number;
+  bool is_settled;
+};
+
+/// Empty: it is not announced.
+std::optional<Identity> identity_of(const Product& product) {
+  return std::visit(
+      [&]<class Kind>(const Kind& value) -> std::optional<Identity> {
+        if constexpr (AnnouncedProduct<Kind>) {
+          if (ProductKind<Kind>::is_announced(value)) {
+            return Identity{
+                .instance = {product.index(), std::string{ProductKind<Kind>::instance(value)}},
+                .number = ProductKind<Kind>::number(value),
+                .is_settled = ProductKind<Kind>::is_settled(value)};
+          }
+        }
+        return std::nullopt;
+      },
+      product);
 }
 
-/// From the column `east_east` and the two behind it.
-Eigen::Matrix2d covariance_of(SQLite::Statement& row, int east_east) {
-  const double east_north = row.getColumn(east_east + 1).getDouble();
-  Eigen::Matrix2d deg2;
-  deg2 << row.getColumn(east_east).getDouble(), east_north, east_north,
-      row.getColumn(east_east + 2).getDouble();
-  return deg2 * (kRadPerDeg * kRadPerDeg);
-}
+/// A row whose columns are those of `Table`, in their order.
+template <class Table>
+class StoredRow {
+ public:
+  explicit StoredRow(SQLite::Statement& row) : row_{row} {}
+  bool has(ColumnOf<Table> column) const { return !row_.getColumn(column.index).isNull(); }
+  double real(ColumnOf<Table> column) const { return row_.getColumn(column.index).getDouble(); }
+  std::int64_t integer(ColumnOf<Table> column) const {
+    return row_.getColumn(column.index).getInt64();
+  }
+  std::string_view text(ColumnOf<Table> column) const {
+    return row_.getColumn(column.index).getText();
+  }
 
-void read_last_fix(const SQLite::Database& database, const std::string& run_id,
-                   StoredResults& stored) {
-  SQLite::Statement row{database,
-                        "SELECT revolution, t_tai_ns, geometry_case, ra_deg, dec_deg,"
-                        " cov_east_east_deg2, cov_east_north_deg2, cov_north_north_deg2,"
-                        " resolution, norm, accepted, alternate_ra_deg, alternate_dec_deg"
-                        " FROM spin_fix WHERE run_id = ? AND (accepted OR resolution = 'AMBIGUOUS')"
-                        " ORDER BY revolution DESC LIMIT 1"};
+ private:
+  SQLite::Statement& row_;
+};
+
+template <class Kind>
+void read(const SQLite::Database& database, const std::string& run_id, StoredResults& stored) {
+  using Table = MainTable<Kind>;
+  const auto columns =
+      with_columns<Table>([](const auto&... column) { return std::array{column.name...}; });
+  SQLite::Statement row{
+      database, fmt::format("SELECT {} FROM {} WHERE run_id = ? ORDER BY {}",
+                            fmt::join(columns, ", "), Table::kName, fmt::join(Table::kKey, ", "))};
   row.bind(1, run_id);
-  if (!row.executeStep()) {
-    return;
-  }
-  SpinFix fix{.revolution = row.getColumn(0).getInt64(),
-              .t = tai_from_ns(row.getColumn(1).getInt64()),
-              .geometry_case = row.getColumn(2).getInt(),
-              .axis_icrf = axis_of(row, 3),
-              .covariance_rad2 = covariance_of(row, 5),
-              .alternates = {},
-              .resolution = named(row.getColumn(8).getText(), Resolution::Ambiguous),
-              .norm = row.getColumn(9).getDouble(),
-              .accepted = row.getColumn(10).getInt() != 0};
-  if (!row.getColumn(11).isNull()) {
-    fix.alternates = {{.axis_icrf = axis_of(row, 11)}};
-  }
-  stored.in_force.emplace_back(std::move(fix));
-}
-
-void read_last_estimate(const SQLite::Database& database, const std::string& run_id,
-                        SpinEstimator estimator, StoredResults& stored) {
-  SQLite::Statement row{database,
-                        "SELECT t_tai_ns, ra_deg, dec_deg, cov_east_east_deg2, cov_east_north_deg2,"
-                        " cov_north_north_deg2, spin_rate_rpm, sigma_rpm, status FROM spin_estimate"
-                        " WHERE run_id = ? AND estimator = ? ORDER BY t_tai_ns DESC LIMIT 1"};
-  row.bind(1, run_id);
-  row.bind(2, std::string{name_of(estimator)});
-  if (row.executeStep()) {
-    stored.in_force.emplace_back(
-        SpinEstimate{.t = tai_from_ns(row.getColumn(0).getInt64()),
-                     .estimator = estimator,
-                     .axis_icrf = axis_of(row, 1),
-                     .covariance_rad2 = covariance_of(row, 3),
-                     .spin_rate_rad_s = row.getColumn(6).getDouble() / kRpmPerRad_s,
-                     .spin_rate_sigma_rad_s = row.getColumn(7).getDouble() / kRpmPerRad_s,
-                     .status = row.getColumn(8).getString()});
+  while (row.executeStep()) {
+    stored.add(ProductKind<Kind>::from_row(StoredRow<Table>{row}));
   }
 }
 
-void read_all(const SQLite::Database& database, const std::string& run_id, StoredResults& stored) {
-  SQLite::Statement fixes{database,
-                          "SELECT revolution, accepted FROM spin_fix WHERE run_id = ?"
-                          " AND (accepted OR resolution = 'AMBIGUOUS') ORDER BY revolution"};
-  fixes.bind(1, run_id);
-  while (fixes.executeStep()) {
-    auto& revolutions = fixes.getColumn(1).getInt() != 0 ? stored.accepted_revolutions
-                                                         : stored.ambiguous_revolutions;
-    revolutions.push_back(fixes.getColumn(0).getInt64());
-  }
-  SQLite::Statement estimates{
-      database, "SELECT estimator, t_tai_ns FROM spin_estimate WHERE run_id = ? ORDER BY t_tai_ns"};
-  estimates.bind(1, run_id);
-  while (estimates.executeStep()) {
-    stored.estimates[named(estimates.getColumn(0).getText(), SpinEstimator::Batch)].push_back(
-        tai_from_ns(estimates.getColumn(1).getInt64()));
-  }
+bool has(const std::vector<std::int64_t>& sorted, std::int64_t number) {
+  return std::binary_search(sorted.begin(), sorted.end(), number);
 }
 
 }  // namespace
 
-bool StoredResults::hold(const SpinProduct& product) const {
-  if (const auto* estimate = std::get_if<SpinEstimate>(&product)) {
-    const auto of_estimator = estimates.find(estimate->estimator);
-    return of_estimator != estimates.end() && has(of_estimator->second, estimate->t);
+std::vector<Product> StoredResults::in_force() const {
+  std::vector<Product> products;
+  products.reserve(given_.size());
+  for (const auto& [instance, given] : given_) {
+    products.push_back(given.last);
   }
-  const auto* fix = std::get_if<SpinFix>(&product);
-  return fix != nullptr && (has(accepted_revolutions, fix->revolution) ||
-                            (!fix->accepted && has(ambiguous_revolutions, fix->revolution)));
+  return products;
+}
+
+bool StoredResults::hold(const Product& product) const {
+  const auto identity = identity_of(product);
+  const auto given = identity ? given_.find(identity->instance) : given_.end();
+  return given != given_.end() &&
+         (has(given->second.settled, identity->number) ||
+          (!identity->is_settled && has(given->second.open, identity->number)));
+}
+
+void StoredResults::add(Product product) {
+  if (const auto identity = identity_of(product)) {
+    Given& given = given_.try_emplace(identity->instance, Given{.last = product}).first->second;
+    (identity->is_settled ? given.settled : given.open).push_back(identity->number);
+    given.last = std::move(product);
+  }
 }
 
 Expected<StoredResults> find_stored_results(const std::filesystem::path& archive,
                                             const std::string& run_id) {
   return read_archive(archive, [&](SQLite::Database& database) {
     StoredResults stored;
-    read_last_fix(database, run_id, stored);
-    using enum SpinEstimator;
-    for (const SpinEstimator estimator : {Mean, Sequential, Batch}) {
-      read_last_estimate(database, run_id, estimator, stored);
-    }
-    read_all(database, run_id, stored);
+    for_each_product_kind([&]<class Kind>() {
+      if constexpr (AnnouncedProduct<Kind>) {
+        read<Kind>(database, run_id, stored);
+      }
+    });
     return stored;
   });
 }

@@ -3,28 +3,40 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipelines/core/expected.h"
-#include "pipelines/spin/types/products.h"
+#include "services/products/products.h"
 
 namespace spindrift {
 
-/// Of the fixes those that are accepted or AMBIGUOUS. Times are the run's, in order.
-struct StoredResults {
-  /// The last fix, with its best alternate only, and the last estimate of each estimator.
-  std::vector<SpinProduct> in_force = {};
-  std::vector<std::int64_t> accepted_revolutions = {};
-  std::vector<std::int64_t> ambiguous_revolutions = {};
-  std::map<SpinEstimator, std::vector<TaiTime>> estimates = {};
+/// Only what is announced: see is_announced of each kind of product.
+class StoredResults {
+ public:
+  /// The last one of each instance on the bus; of a fix with its best alternate only.
+  std::vector<Product> in_force() const;
 
   /// Whether it has been given before, were it with other numbers. A fix that is no longer
   /// AMBIGUOUS has not.
-  bool hold(const SpinProduct& product) const;
+  bool hold(const Product& product) const;
+
+  /// Those of an instance in the order of their numbers.
+  void add(Product product);
+
+ private:
+  struct Given {
+    Product last;
+    std::vector<std::int64_t> settled = {};  ///< In order; so are the others.
+    std::vector<std::int64_t> open = {};
+  };
+  /// By kind and instance.
+  std::map<std::pair<std::size_t, std::string>, Given> given_;
 };
 
 /// @return as find_stored_passes.

@@ -8,8 +8,6 @@
 // The generated types, named without their header: only an adapter needs to see inside.
 struct spindrift_Pulse;
 struct spindrift_CodedFrame;
-struct spindrift_SpinFix;
-struct spindrift_SpinEstimate;
 struct spindrift_Health;
 
 namespace spindrift::bus {
@@ -23,8 +21,6 @@ struct Topic {
 
 extern const Topic<spindrift_Pulse> kPulseTopic;
 extern const Topic<spindrift_CodedFrame> kCodedFrameTopic;
-extern const Topic<spindrift_SpinFix> kSpinFixTopic;
-extern const Topic<spindrift_SpinEstimate> kSpinEstimateTopic;
 extern const Topic<spindrift_Health> kHealthTopic;
 
 }  // namespace spindrift::bus

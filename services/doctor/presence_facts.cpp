@@ -15,6 +15,7 @@
 #include "services/bus/qos.h"
 #include "services/bus/topics.h"
 #include "services/doctor/presence.h"
+#include "services/products/products.h"
 
 namespace spindrift::doctor {
 namespace {
@@ -52,8 +53,13 @@ Expected<std::map<Guid, std::string>> participants_of(const bus::Participant& pa
 }
 
 bool is_result(std::string_view topic) {
-  return topic == bus::kSpinFixTopic.name || topic == bus::kSpinEstimateTopic.name ||
-         topic == bus::kHealthTopic.name;
+  bool is_one = topic == bus::kHealthTopic.name;
+  for_each_product_kind([&]<class Kind>() {
+    if constexpr (AnnouncedProduct<Kind>) {
+      is_one = is_one || topic == ProductKind<Kind>::kTopic;
+    }
+  });
+  return is_one;
 }
 
 std::vector<bus::Shortfall> shortfalls_of(std::string_view topic, bool writes,

@@ -1,5 +1,6 @@
 #include "services/processor/batch_task.h"
 
+#include <memory>
 #include <utility>
 
 #include "pipelines/spin/batch/batch_estimator.h"
@@ -15,9 +16,13 @@ ArchiveBatch archived(const BatchTask& task, BatchSolution solution) {
   ArchiveBatch batch;
   batch.run_id = task.run_id;
   batch.spacecraft_id = task.spacecraft_id;
-  batch.products.emplace_back(solution.estimate);
-  batch.batch = std::move(solution);
+  add_products(std::move(solution), batch);
   return batch;
+}
+
+void add_products(BatchSolution solution, ArchiveBatch& batch) {
+  batch.products.emplace_back(solution.estimate);
+  batch.products.emplace_back(std::make_shared<const BatchSolution>(std::move(solution)));
 }
 
 }  // namespace spindrift

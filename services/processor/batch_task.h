@@ -23,6 +23,9 @@ struct BatchTask {
 
 Expected<BatchSolution> solve(BatchTask task);
 
+/// Its estimate, and what else it says.
+void add_products(BatchSolution solution, ArchiveBatch& batch);
+
 /// For the archive.
 ArchiveBatch archived(const BatchTask& task, BatchSolution solution);
 

@@ -80,7 +80,8 @@ void PassRun::compute(const Sample& sample, Computed& computed) {
   if (again_from_) {
     return;
   }
-  for (SpinProduct& product : output.products) {
+  for (SpinProduct& made : output.products) {
+    Product product = product_of(std::move(made));
     const std::size_t place = is_detail(product) ? 1 + product.index() : 0;
     computed.at(place).products.push_back(std::move(product));
   }
@@ -115,7 +116,9 @@ ArchiveBatch PassRun::finish() {
   const std::size_t due = due_.size();
   note(output);
   due_.erase(due_.begin() + static_cast<std::ptrdiff_t>(due), due_.end());  // The last is below.
-  last.products = std::move(output.products);
+  for (SpinProduct& product : output.products) {
+    last.products.push_back(product_of(std::move(product)));
+  }
   last.finished_utc = utc_now();
   if (plan_ == BatchPlan::EveryMinute) {
     edges_.keep_last(kLastRevolutions);
@@ -127,8 +130,7 @@ ArchiveBatch PassRun::finish() {
   if (auto solution = solve(batch_task(std::exchange(edges_, {})))) {
     summary_.count(solution->estimate);
     summary_.batch = *solution;
-    last.products.emplace_back(solution->estimate);
-    last.batch = *std::move(solution);
+    add_products(*std::move(solution), last);
   } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {
     spdlog::warn("{}: no batch solution: {}", spacecraft_id_, solution.error().message);
   }

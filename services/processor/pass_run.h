@@ -52,7 +52,7 @@ class PassRun {
   void begin(const std::string& run_id);
   ArchiveBatch batch() const;
   /// First the results, then what may be stored later (detail_lane.h), each kind by itself.
-  using Computed = std::array<ArchiveBatch, 1 + std::variant_size_v<SpinProduct>>;
+  using Computed = std::array<ArchiveBatch, 1 + std::variant_size_v<Product>>;
   template <class Sample>
   void compute(const Sample& sample, Computed& computed);
   void note(const SpinOutput& output);

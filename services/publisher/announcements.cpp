@@ -1,40 +1,52 @@
 #include "services/publisher/announcements.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <map>
-#include <optional>
 #include <string_view>
+#include <tuple>
 #include <utility>
+#include <variant>
 
 namespace spindrift {
 namespace {
 
-std::optional<Announcement> announcement_of(const std::string& spacecraft,
-                                            const std::string& run_id, const SpinProduct& product) {
-  if (const auto* estimate = std::get_if<SpinEstimate>(&product)) {
-    return Announcement{.spacecraft = spacecraft, .run_id = run_id, .product = *estimate};
-  }
-  if (const auto* fix = std::get_if<SpinFix>(&product);
-      fix != nullptr && (fix->accepted || fix->resolution == Resolution::Ambiguous)) {
-    return Announcement{.spacecraft = spacecraft, .run_id = run_id, .product = *fix};
-  }
-  return std::nullopt;
+bool is_announced(const Product& product) {
+  return std::visit(
+      []<class Kind>(const Kind& value) {
+        if constexpr (AnnouncedProduct<Kind>) {
+          return ProductKind<Kind>::is_announced(value);
+        } else {
+          return false;
+        }
+      },
+      product);
 }
 
-/// Of the instance on the bus, which only the latest of is seen.
-std::pair<std::string, std::string_view> key_of(const Announcement& announcement) {
-  const auto* estimate = std::get_if<SpinEstimate>(&announcement.product);
-  return {announcement.spacecraft, estimate == nullptr ? "fix" : name_of(estimate->estimator)};
+/// On the bus, which only the latest of is seen: spacecraft, kind, and what else tells it apart.
+using Instance = std::tuple<std::string, std::size_t, std::string_view>;
+
+Instance instance_of(const Announcement& announcement) {
+  const auto name = std::visit(
+      []<class Kind>(const Kind& value) -> std::string_view {
+        if constexpr (AnnouncedProduct<Kind>) {
+          return ProductKind<Kind>::instance(value);
+        } else {
+          return {};
+        }
+      },
+      announcement.product);
+  return {announcement.spacecraft, announcement.product.index(), name};
 }
 
 void keep_latest_of_each(std::vector<Announcement>& announcements) {
-  std::map<std::pair<std::string, std::string_view>, Announcement> latest;
+  std::map<Instance, Announcement> latest;
   for (const Announcement& announcement : announcements) {
-    latest.insert_or_assign(key_of(announcement), announcement);
+    latest.insert_or_assign(instance_of(announcement), announcement);
   }
   announcements.clear();
-  for (const auto& [key, announcement] : latest) {
+  for (const auto& [instance, announcement] : latest) {
     announcements.push_back(announcement);
   }
 }
@@ -42,11 +54,11 @@ void keep_latest_of_each(std::vector<Announcement>& announcements) {
 }  // namespace
 
 void Announcements::add(const std::string& spacecraft, const std::string& run_id,
-                        std::span<const SpinProduct> products) {
+                        std::span<const Product> products) {
   std::vector<Announcement> more;
-  for (const SpinProduct& product : products) {
-    if (auto announcement = announcement_of(spacecraft, run_id, product)) {
-      more.push_back(std::move(*announcement));
+  for (const Product& product : products) {
+    if (is_announced(product)) {
+      more.push_back({.spacecraft = spacecraft, .run_id = run_id, .product = product});
     }
   }
   if (more.empty()) {

@@ -8,30 +8,27 @@
 #include <mutex>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "pipelines/spin/types/products.h"
+#include "services/products/products.h"
 
 namespace spindrift {
 
 struct Announcement {
   std::string spacecraft;
   std::string run_id;
-  std::variant<SpinFix, SpinEstimate> product;
+  Product product;  ///< Of a kind that is announced.
 };
 
-/// One thread adds, one takes. Beyond kMaxWaiting only the latest fix of each spacecraft, and the
-/// latest estimate of each of its estimators, is kept: that is what a subscriber with keep-last 1
-/// would see of them anyhow.
+/// One thread adds, one takes. Beyond kMaxWaiting only the latest of each instance on the bus is
+/// kept: that is what a subscriber with keep-last 1 would see of them anyhow.
 class Announcements {
  public:
   static constexpr std::size_t kMaxWaiting = 4096;
 
-  /// Those of `products` that are announced: estimates, and fixes that are accepted or AMBIGUOUS.
-  /// A fix from measurements that contradict each other could not be told from a good one.
+  /// Those of `products` that are announced.
   void add(const std::string& spacecraft, const std::string& run_id,
-           std::span<const SpinProduct> products);
+           std::span<const Product> products);
 
   /// Waits for at least one and takes all, those of a spacecraft and kind in the order they came;
   /// empty only when closed and drained.

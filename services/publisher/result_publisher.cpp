@@ -1,7 +1,9 @@
 #include "services/publisher/result_publisher.h"
 
 #include <utility>
+#include <variant>
 
+#include "services/publisher/product_messages.h"
 #include "services/publisher/to_idl.h"
 
 namespace spindrift {
@@ -9,34 +11,44 @@ namespace spindrift {
 Expected<ResultPublisher> ResultPublisher::create(const bus::Participant& participant,
                                                   std::string service) {
   const bus::Qos qos = bus::results_qos();
-  auto spin_fix = bus::Writer<spindrift_SpinFix>::create(participant, bus::kSpinFixTopic, qos);
-  if (!spin_fix) {
-    return Unexpected{spin_fix.error()};
-  }
-  auto spin_estimate =
-      bus::Writer<spindrift_SpinEstimate>::create(participant, bus::kSpinEstimateTopic, qos);
-  if (!spin_estimate) {
-    return Unexpected{spin_estimate.error()};
-  }
   auto health = bus::Writer<spindrift_Health>::create(participant, bus::kHealthTopic, qos);
   if (!health) {
     return Unexpected{health.error()};
   }
-  return ResultPublisher{std::move(service), std::move(*spin_fix), std::move(*spin_estimate),
-                         std::move(*health)};
+  Writers products;
+  Expected<void> made;
+  for_each_product_kind([&]<class Kind>() {
+    if constexpr (AnnouncedProduct<Kind>) {
+      const auto topic = product_topic<Kind>();
+      made = made.and_then([&] {
+        return bus::UntypedWriter::create(participant, topic.name, topic.type, qos,
+                                          bus::Sending::AtOnce)
+            .map([&](bus::UntypedWriter&& writer) {
+              products.emplace(kProductKind<Kind>, std::move(writer));
+            });
+      });
+    }
+  });
+  if (!made) {
+    return Unexpected{made.error()};
+  }
+  return ResultPublisher{std::move(service), std::move(products), std::move(*health)};
 }
 
 Expected<void> ResultPublisher::publish(std::string_view spacecraft, std::string_view run_id,
-                                        const SpinFix& fix) const {
-  return to_idl({.spacecraft = spacecraft, .run_id = run_id, .service = service_}, fix)
-      .and_then([this](const spindrift_SpinFix& sample) { return spin_fix_.write(sample); });
-}
-
-Expected<void> ResultPublisher::publish(std::string_view spacecraft, std::string_view run_id,
-                                        const SpinEstimate& estimate) const {
-  return to_idl({.spacecraft = spacecraft, .run_id = run_id, .service = service_}, estimate)
-      .and_then(
-          [this](const spindrift_SpinEstimate& sample) { return spin_estimate_.write(sample); });
+                                        const Product& product) const {
+  return std::visit(
+      [&]<class Kind>(const Kind& value) -> Expected<void> {
+        if constexpr (AnnouncedProduct<Kind>) {
+          return to_idl({.spacecraft = spacecraft, .run_id = run_id, .service = service_}, value)
+              .and_then([&](const typename ProductMessage<Kind>::Type& message) {
+                return products_.at(kProductKind<Kind>).write(&message);
+              });
+        } else {
+          return {};
+        }
+      },
+      product);
 }
 
 Expected<void> ResultPublisher::publish(const Health& health) const {
@@ -47,13 +59,20 @@ Expected<void> ResultPublisher::publish(const Health& health) const {
 
 Expected<std::vector<std::string>> ResultPublisher::incompatible_readers() const {
   std::vector<std::string> all;
-  for (const auto& status : {spin_fix_.status(), spin_estimate_.status(), health_.status()}) {
+  Expected<void> looked;
+  const auto look = [&](const Expected<bus::WriterStatus>& status) {
     if (!status) {
-      return Unexpected{status.error()};
+      looked = Unexpected{status.error()};
+    } else {
+      all.insert(all.end(), status->incompatible_readers.begin(),
+                 status->incompatible_readers.end());
     }
-    all.insert(all.end(), status->incompatible_readers.begin(), status->incompatible_readers.end());
+  };
+  for (const auto& [kind, writer] : products_) {
+    look(writer.status());
   }
-  return all;
+  look(health_.status());
+  return looked.map([&] { return std::move(all); });
 }
 
 }  // namespace spindrift

@@ -3,12 +3,15 @@
 
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "pipelines/spin/types/products.h"
 #include "services/bus/writer.h"
+#include "services/products/products.h"
 #include "services/publisher/health.h"
 
 namespace spindrift {
@@ -21,15 +24,12 @@ class ResultPublisher {
   /// @return Unavailable when Cyclone refuses.
   static Expected<ResultPublisher> create(const bus::Participant& participant, std::string service);
 
-  /// On spindrift/spin_fix, where its resolution tells an ambiguous fix, and nothing one that was
-  /// left out for another reason: that is not for publishing (see announcements.h).
+  /// On the topic of its kind; what has none, and what is_announced says no to, is not for
+  /// publishing (see announcements.h).
   /// @return InvalidInput for a name that does not fit (to_idl.h), Unavailable when the bus
   /// refuses.
   Expected<void> publish(std::string_view spacecraft, std::string_view run_id,
-                         const SpinFix& fix) const;
-  /// On spindrift/spin_estimate. @return likewise.
-  Expected<void> publish(std::string_view spacecraft, std::string_view run_id,
-                         const SpinEstimate& estimate) const;
+                         const Product& product) const;
   /// On spindrift/health. @return likewise.
   Expected<void> publish(const Health& health) const;
 
@@ -38,17 +38,13 @@ class ResultPublisher {
   Expected<std::vector<std::string>> incompatible_readers() const;
 
  private:
-  ResultPublisher(std::string service, bus::Writer<spindrift_SpinFix> spin_fix,
-                  bus::Writer<spindrift_SpinEstimate> spin_estimate,
-                  bus::Writer<spindrift_Health> health)
-      : service_{std::move(service)},
-        spin_fix_{std::move(spin_fix)},
-        spin_estimate_{std::move(spin_estimate)},
-        health_{std::move(health)} {}
+  using Writers = std::map<std::size_t, bus::UntypedWriter>;  ///< By kind.
+
+  ResultPublisher(std::string service, Writers products, bus::Writer<spindrift_Health> health)
+      : service_{std::move(service)}, products_{std::move(products)}, health_{std::move(health)} {}
 
   std::string service_;
-  bus::Writer<spindrift_SpinFix> spin_fix_;
-  bus::Writer<spindrift_SpinEstimate> spin_estimate_;
+  Writers products_;
   bus::Writer<spindrift_Health> health_;
 };
 

@@ -15,12 +15,10 @@ namespace {
 
 constexpr std::chrono::seconds kBetweenEstimatesInLog{10};
 
-std::vector<SpinProduct> news(const std::vector<SpinProduct>& products,
-                              const StoredResults& announced) {
-  std::vector<SpinProduct> news;
-  std::copy_if(
-      products.begin(), products.end(), std::back_inserter(news),
-      [&](const SpinProduct& product) { return !is_detail(product) && !announced.hold(product); });
+std::vector<Product> news(const std::vector<Product>& products, const StoredResults& announced) {
+  std::vector<Product> news;
+  std::copy_if(products.begin(), products.end(), std::back_inserter(news),
+               [&](const Product& product) { return !announced.hold(product); });
   return news;
 }
 
@@ -36,7 +34,7 @@ Announcer::~Announcer() {
 
 void Announcer::go_on(const std::string& run_id, const std::string& spacecraft,
                       StoredResults stored) {
-  waiting_.add(spacecraft, run_id, stored.in_force);
+  waiting_.add(spacecraft, run_id, stored.in_force());
   announced_before_.insert_or_assign(run_id, std::move(stored));
 }
 
@@ -55,11 +53,7 @@ void Announcer::run() {
   for (auto results = waiting_.take_all(); !results.empty(); results = waiting_.take_all()) {
     std::map<std::string, SpinEstimate> latest;
     for (const Announcement& result : results) {
-      const auto published = std::visit(
-          [&](const auto& product) {
-            return publisher_.publish(result.spacecraft, result.run_id, product);
-          },
-          result.product);
+      const auto published = publisher_.publish(result.spacecraft, result.run_id, result.product);
       if (!published) {
         spdlog::error("not published: {}", published.error().message);
       }

@@ -8,6 +8,7 @@
 #include "pipelines/time/utc.h"
 #include "services/archive/disagreement.h"
 #include "services/archive/stored_pass.h"
+#include "services/products/to_json.h"
 #include "services/spindrift/batch_text.h"
 #include "services/units/degrees.h"
 
@@ -98,11 +99,9 @@ nlohmann::json to_json(const Disagreement& disagreement) {
 }  // namespace
 
 nlohmann::json to_json(const SpinEstimate& estimate) {
-  const Readable shown = readable(estimate);
-  return {{"t_tai_ns", tai_ns(estimate.t)}, {"utc", shown.utc},
-          {"ra_deg", shown.ra_deg},         {"dec_deg", shown.dec_deg},
-          {"sigma_deg", shown.sigma_deg},   {"spin_rate_rpm", shown.rpm},
-          {"sigma_rpm", shown.sigma_rpm},   {"status", estimate.status}};
+  nlohmann::json object = json_of(estimate);
+  object["utc"] = format_utc(estimate.t);
+  return object;
 }
 
 std::string to_text(const RunSummary& summary) {

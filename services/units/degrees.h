@@ -12,6 +12,7 @@
 namespace spindrift {
 
 inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 inline constexpr double kRpmPerRad_s = 30.0 / std::numbers::pi;
 inline constexpr double kRpmPerHourPerRad_s2 = kRpmPerRad_s * 3600.0;
 

@@ -28,6 +28,7 @@
 #include "services/bus/reader.h"
 #include "services/bus/wait_set.h"
 #include "services/mission/mission.h"
+#include "services/publisher/product_messages.h"
 #include "services/publisher/telemetry_publisher.h"
 #include "tests/bench/load_support.h"
 
@@ -115,8 +116,8 @@ void run(const std::string& mission_file, const std::string& pulses_file, std::s
   const std::map<TaiTime, std::size_t> closing = closing_pulses(mission, pulses);
 
   const auto participant = or_exit(bus::Participant::create({.domain = domain}));
-  const auto reader = or_exit(
-      bus::Reader<spindrift_SpinFix>::create(participant, bus::kSpinFixTopic, bus::results_qos()));
+  const auto reader = or_exit(bus::Reader<spindrift_SpinFix>::create(
+      participant, product_topic<SpinFix>(), bus::results_qos()));
   auto waitset = or_exit(bus::WaitSet::create(participant));
   or_exit(waitset.attach(reader.data()));
   std::vector<Seen> seen;

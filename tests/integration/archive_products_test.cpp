@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <numbers>
 #include <random>
 #include <string>
@@ -275,22 +276,23 @@ TEST_F(ArchiveProducts, TwoArchivesMergeByNaturalKey) {
 /// Of a pass that ends then.
 ArchiveBatch solution_with(std::int64_t t_tai_ns, std::vector<BiasEstimate> biases) {
   ArchiveBatch batch = testing::batch_of("run-1");
-  batch.batch = BatchSolution{.estimate = estimate_at(t_tai_ns, SpinEstimator::Batch, 0.0),
-                              .drift_rad_s2 = 1e-6,
-                              .drift_sigma_rad_s2 = 1e-8,
-                              .bound_rad = 1e-4,
-                              .consider_sigma_rad = 1e-3,
-                              .biases = std::move(biases),
-                              .undetermined = {},
-                              .singular_values = {},
-                              .changed = {},
-                              .edges = 100,
-                              .outliers = 0,
-                              .noise = 1.0,
-                              .iterations = 5,
-                              .nutation = {},
-                              .nutation_t = tai_from_ns(t_tai_ns),
-                              .coning = {}};
+  batch.products.emplace_back(std::make_shared<const BatchSolution>(
+      BatchSolution{.estimate = estimate_at(t_tai_ns, SpinEstimator::Batch, 0.0),
+                    .drift_rad_s2 = 1e-6,
+                    .drift_sigma_rad_s2 = 1e-8,
+                    .bound_rad = 1e-4,
+                    .consider_sigma_rad = 1e-3,
+                    .biases = std::move(biases),
+                    .undetermined = {},
+                    .singular_values = {},
+                    .changed = {},
+                    .edges = 100,
+                    .outliers = 0,
+                    .noise = 1.0,
+                    .iterations = 5,
+                    .nutation = {},
+                    .nutation_t = tai_from_ns(t_tai_ns),
+                    .coning = {}}));
   return batch;
 }
 

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "pipelines/frames/celestial.h"
+#include "services/publisher/product_messages.h"
 #include "services/publisher/result_publisher.h"
 #include "services/publisher/telemetry_publisher.h"
 #include "services/publisher/to_idl.h"
@@ -81,7 +82,7 @@ TEST(ResultPublisher, PublishesAFixInDegrees) {
   SpinFix fix = a_fix();
   fix.alternates = {{.axis_icrf = axis_deg(130.0, 20.0)}};
   ASSERT_TRUE(publisher.publish("SPINNER", "run-1", fix));
-  const auto taken = take_samples(results_reader(participant, bus::kSpinFixTopic), 1);
+  const auto taken = take_samples(results_reader(participant, product_topic<SpinFix>()), 1);
   ASSERT_EQ(taken.size(), 1U);
   EXPECT_STREQ(taken[0].spacecraft, "SPINNER");
   EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
@@ -101,7 +102,7 @@ TEST(ResultPublisher, PublishesAnEstimateInDegreesAndRpm) {
   const auto participant = Participant::create(bus_of_its_own()).value();
   const auto publisher = ResultPublisher::create(participant, kService).value();
   ASSERT_TRUE(publisher.publish("SPINNER", "run-1", an_estimate()));
-  const auto taken = take_samples(results_reader(participant, bus::kSpinEstimateTopic), 1);
+  const auto taken = take_samples(results_reader(participant, product_topic<SpinEstimate>()), 1);
   ASSERT_EQ(taken.size(), 1U);
   EXPECT_STREQ(taken[0].spacecraft, "SPINNER");
   EXPECT_STREQ(taken[0].estimator, "mean");
@@ -184,7 +185,7 @@ TEST(ResultPublisher, GivesALateJoinerTheCurrentStateOfEverySpacecraft) {
     ASSERT_TRUE(publisher.publish("TWO", "run-2", fix));
   }
   std::vector<std::int64_t> revolutions;
-  for (const auto& fix : take_samples(results_reader(participant, bus::kSpinFixTopic), 2)) {
+  for (const auto& fix : take_samples(results_reader(participant, product_topic<SpinFix>()), 2)) {
     revolutions.push_back(fix.revolution);
   }
   EXPECT_THAT(revolutions, testing::UnorderedElementsAre(4, 14));

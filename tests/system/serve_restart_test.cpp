@@ -16,6 +16,7 @@
 
 #include "services/bus/qos.h"
 #include "services/bus/reader.h"
+#include "services/publisher/product_messages.h"
 #include "services/publisher/telemetry_publisher.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_child.h"
@@ -120,11 +121,11 @@ class Listener {
  public:
   explicit Listener(const bus::BusConfig& bus)
       : participant_{bus::Participant::create(bus).value()},
-        fixes_{bus::Reader<spindrift_SpinFix>::create(participant_, bus::kSpinFixTopic,
+        fixes_{bus::Reader<spindrift_SpinFix>::create(participant_, product_topic<SpinFix>(),
                                                       bus::telemetry_reader_qos())
                    .value()},
         estimates_{bus::Reader<spindrift_SpinEstimate>::create(
-                       participant_, bus::kSpinEstimateTopic, bus::telemetry_reader_qos())
+                       participant_, product_topic<SpinEstimate>(), bus::telemetry_reader_qos())
                        .value()} {}
 
   Announced take_all() const {
@@ -192,7 +193,7 @@ TEST(Serve, PublishesWhatIsInForceAgainAfterARestart) {
   service.start();
   const auto participant = bus::Participant::create(service.bus()).value();
   const auto estimates = bus::Reader<spindrift_SpinEstimate>::create(
-                             participant, bus::kSpinEstimateTopic, bus::results_qos())
+                             participant, product_topic<SpinEstimate>(), bus::results_qos())
                              .value();
   const auto estimate = take_samples(estimates, 1);
   ASSERT_FALSE(estimate.empty());

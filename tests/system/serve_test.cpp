@@ -11,6 +11,7 @@
 
 #include "services/bus/qos.h"
 #include "services/bus/reader.h"
+#include "services/publisher/product_messages.h"
 #include "services/publisher/telemetry_publisher.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_child.h"
@@ -81,7 +82,7 @@ TEST(Serve, PublishesItsResultsForThoseWhoComeLater) {
   ASSERT_EQ(service.replay("0"), 0);
   const auto participant = bus::Participant::create(service.bus()).value();
   const auto estimates = bus::Reader<spindrift_SpinEstimate>::create(
-                             participant, bus::kSpinEstimateTopic, bus::results_qos())
+                             participant, product_topic<SpinEstimate>(), bus::results_qos())
                              .value();
   const auto health =
       bus::Reader<spindrift_Health>::create(participant, bus::kHealthTopic, bus::results_qos())

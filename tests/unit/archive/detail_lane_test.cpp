@@ -13,7 +13,7 @@ using std::chrono::milliseconds;
 
 const DetailLane::Instant kStart{};
 
-ArchiveBatch batch_of(const std::string& run_id, std::size_t rows, const SpinProduct& product) {
+ArchiveBatch batch_of(const std::string& run_id, std::size_t rows, const Product& product) {
   ArchiveBatch batch;
   batch.run_id = run_id;
   batch.products.assign(rows, product);

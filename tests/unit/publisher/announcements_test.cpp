@@ -5,7 +5,7 @@
 namespace spindrift {
 namespace {
 
-SpinProduct fix(std::int64_t revolution, bool accepted, Resolution resolution) {
+Product fix(std::int64_t revolution, bool accepted, Resolution resolution) {
   return SpinFix{.revolution = revolution,
                  .t = {},
                  .geometry_case = 3,
@@ -17,7 +17,7 @@ SpinProduct fix(std::int64_t revolution, bool accepted, Resolution resolution) {
                  .accepted = accepted};
 }
 
-SpinProduct estimate(const std::string& status) {
+Product estimate(const std::string& status) {
   return SpinEstimate{.t = {},
                       .estimator = SpinEstimator::Mean,
                       .axis_icrf = Eigen::Vector3d::UnitZ(),

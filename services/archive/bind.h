@@ -1,0 +1,49 @@
+/// @file
+/// Values of the domain as parameters of a statement.
+
+#pragma once
+
+#include <SQLiteCpp/Statement.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace spindrift {
+
+inline void bind(SQLite::Statement& statement, int index, std::int64_t value) {
+  statement.bind(index, value);
+}
+inline void bind(SQLite::Statement& statement, int index, bool value) {
+  statement.bind(index, value ? 1 : 0);
+}
+inline void bind(SQLite::Statement& statement, int index, double value) {
+  statement.bind(index, value);
+}
+inline void bind(SQLite::Statement& statement, int index, const std::string& value) {
+  statement.bindNoCopy(index, value);
+}
+// A name_of(...): a literal, hence ended by a NUL and there for good.
+inline void bind(SQLite::Statement& statement, int index, std::string_view literal) {
+  statement.bindNoCopy(index, literal.data());
+}
+template <class T>
+void bind(SQLite::Statement& statement, int index, const std::optional<T>& value) {
+  if (value) {
+    bind(statement, index, *value);
+  } else {
+    statement.bind(index);
+  }
+}
+
+/// Text is bound without a copy, so `values` must outlive the call and no more.
+template <class... Values>
+void execute(SQLite::Statement& statement, const Values&... values) {
+  statement.tryReset();  // Its status is that of the last step, which was reported then.
+  int index = 0;
+  (bind(statement, ++index, values), ...);
+  statement.exec();
+}
+
+}  // namespace spindrift

@@ -1,0 +1,41 @@
+/// @file
+/// Columns of a spin axis with its covariance, to and from.
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include "services/products/product_kind.h"
+#include "services/units/degrees.h"
+
+namespace spindrift {
+
+/// Where a product has its axis and covariance. East and north are of the tangent plane at the
+/// axis.
+template <class Product>
+struct AxisColumns {
+  static double ra_deg(const Product& product) { return place_deg(product.axis_icrf).ra_deg; }
+  static double dec_deg(const Product& product) { return place_deg(product.axis_icrf).dec_deg; }
+  static double sigma_deg(const Product& product) {
+    return spindrift::sigma_deg(product.covariance_rad2);
+  }
+  template <int kRow, int kColumn>
+  static double covariance_deg2(const Product& product) {
+    return product.covariance_rad2(kRow, kColumn) * (kDegPerRad * kDegPerRad);
+  }
+};
+
+inline Eigen::Vector3d axis_icrf_from(double ra_deg, double dec_deg) {
+  return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
+}
+
+/// From the columns of these names.
+template <class Row>
+Eigen::Matrix2d covariance_rad2_of(const Row& row) {
+  const double east_north = row.real("cov_east_north_deg2");
+  Eigen::Matrix2d deg2;
+  deg2 << row.real("cov_east_east_deg2"), east_north, east_north, row.real("cov_north_north_deg2");
+  return deg2 * (kRadPerDeg * kRadPerDeg);
+}
+
+}  // namespace spindrift

@@ -1,0 +1,200 @@
+/// @file
+/// What the estimator `batch` finds out of a pass, as a kind of product.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "pipelines/spin/batch/batch_solution.h"
+#include "services/products/product_kind.h"
+#include "services/units/degrees.h"
+
+namespace spindrift {
+
+/// Its estimate is a product by itself. Shared, since it is several times as large as any other.
+using BatchProduct = std::shared_ptr<const BatchSolution>;
+
+inline std::int64_t batch_t_tai_ns(const BatchProduct& solution) {
+  return tai_ns(solution->estimate.t);
+}
+
+struct SpinBatchTable {
+  static constexpr std::string_view kName = "spin_batch";
+  static constexpr std::array<std::string_view, 1> kKey{"t_tai_ns"};
+  static constexpr std::tuple kColumns{
+      ProductColumn{"t_tai_ns", &batch_t_tai_ns},
+      ProductColumn{"bound_deg", [](const BatchProduct& s) { return s->bound_rad * kDegPerRad; }},
+      ProductColumn{"edges", [](const BatchProduct& s) { return s->edges; }},
+      ProductColumn{"outliers", [](const BatchProduct& s) { return s->outliers; }},
+      ProductColumn{"noise", [](const BatchProduct& s) { return s->noise; }},
+      ProductColumn{"iterations",
+                    [](const BatchProduct& s) { return std::int64_t{s->iterations}; }},
+      ProductColumn{"changed_tai_ns",
+                    [](const BatchProduct& s) {
+                      return s->changed ? std::optional{tai_ns(*s->changed)} : std::nullopt;
+                    }},
+      ProductColumn{"consider_sigma_deg",
+                    [](const BatchProduct& s) { return s->consider_sigma_rad * kDegPerRad; }},
+      ProductColumn{"rate_drift_rpm_h",
+                    [](const BatchProduct& s) { return s->drift_rad_s2 * kRpmPerHourPerRad_s2; }},
+      ProductColumn{"rate_drift_sigma_rpm_h", [](const BatchProduct& s) {
+                      return s->drift_sigma_rad_s2 * kRpmPerHourPerRad_s2;
+                    }}};
+};
+
+/// An element of a list of the solution. @tparam Value A number, or a text for people.
+template <class Value>
+struct NumberedRow {
+  std::int64_t t_tai_ns;
+  std::int64_t position;  ///< From 1.
+  Value value;
+};
+
+/// `kKey`, `rows` and `group` of the table of such a list.
+template <class Value, std::vector<Value> BatchSolution::*kList>
+struct NumberedTable {
+  static constexpr std::array<std::string_view, 2> kKey{"t_tai_ns", "position"};
+  using Row = NumberedRow<Value>;
+
+  static std::int64_t group(const BatchProduct& solution) { return batch_t_tai_ns(solution); }
+  static std::vector<Row> rows(const BatchProduct& solution) {
+    std::vector<Row> rows;
+    for (const Value& value : (*solution).*kList) {
+      rows.push_back({.t_tai_ns = batch_t_tai_ns(solution),
+                      .position = static_cast<std::int64_t>(rows.size()) + 1,
+                      .value = value});
+    }
+    return rows;
+  }
+  static constexpr auto columns(std::string_view name) {
+    return std::tuple{ProductColumn{"t_tai_ns", [](const Row& row) { return row.t_tai_ns; }},
+                      ProductColumn{"position", [](const Row& row) { return row.position; }},
+                      ProductColumn{name, [](const Row& row) { return row.value; }}};
+  }
+};
+
+struct SpinBatchSingularValueTable : NumberedTable<double, &BatchSolution::singular_values> {
+  static constexpr std::string_view kName = "spin_batch_singular_value";
+  static constexpr std::tuple kColumns = columns("value");
+};
+
+struct SpinBatchUndeterminedTable : NumberedTable<std::string, &BatchSolution::undetermined> {
+  static constexpr std::string_view kName = "spin_batch_undetermined";
+  static constexpr std::tuple kColumns = columns("direction");
+};
+
+struct SpinBiasTable {
+  static constexpr std::string_view kName = "spin_bias";
+  static constexpr std::array<std::string_view, 2> kKey{"estimator", "name"};
+
+  static std::int64_t t_tai_ns(const BatchProduct& solution) { return batch_t_tai_ns(solution); }
+  static std::string_view group(const BatchProduct& solution) {
+    return name_of(solution->estimate.estimator);
+  }
+  /// A channel that fell silent has no row.
+  static const std::vector<BiasEstimate>& rows(const BatchProduct& solution) {
+    return solution->biases;
+  }
+  static double to_unit(const BiasEstimate& bias) {
+    return prior_of(bias.bias).is_angle ? kDegPerRad : 1.0;
+  }
+  static constexpr std::tuple kColumns{
+      ProductColumn{"estimator",
+                    [](const BiasEstimate& /*bias*/) { return name_of(SpinEstimator::Batch); }},
+      ProductColumn{"name", [](const BiasEstimate& bias) { return prior_of(bias.bias).name; }},
+      ProductColumn{"value", [](const BiasEstimate& bias) { return bias.value * to_unit(bias); }},
+      ProductColumn{"unit",
+                    [](const BiasEstimate& bias) {
+                      return std::string_view{prior_of(bias.bias).is_angle ? "deg" : "km"};
+                    }},
+      ProductColumn{"sigma", [](const BiasEstimate& bias) { return bias.sigma * to_unit(bias); }},
+      ProductColumn{"observable", [](const BiasEstimate& bias) { return bias.observable; }},
+      ProductColumn{"estimated", [](const BiasEstimate& bias) { return bias.estimated; }}};
+};
+
+/// Of what a search has found. Without a value where it has found nothing.
+template <class Get>
+constexpr auto nutation_column(std::string_view name, Get get) {
+  return ProductColumn{name, [get](const BatchProduct& solution) {
+                         const auto& found = solution->nutation->found;
+                         return found ? std::optional{get(*found)} : std::nullopt;
+                       }};
+}
+
+struct SpinNutationTable {
+  static constexpr std::string_view kName = "spin_nutation";
+  static constexpr std::array<std::string_view, 1> kKey{"t_tai_ns"};
+  static constexpr double kPerHour = 3600.0;  ///< Of 1/s.
+
+  static bool has_row(const BatchProduct& solution) { return solution->nutation.has_value(); }
+
+  using Found = FoundNutation;
+  static constexpr std::tuple kColumns{
+      ProductColumn{"t_tai_ns", &batch_t_tai_ns},
+      ProductColumn{"detected",
+                    [](const BatchProduct& s) { return s->nutation->found.has_value(); }},
+      ProductColumn{"false_alarm", [](const BatchProduct& s) { return s->nutation->false_alarm; }},
+      ProductColumn{"detectable_deg",
+                    [](const BatchProduct& s) { return s->nutation->detectable_rad * kDegPerRad; }},
+      nutation_column("half_angle_deg",
+                      [](const Found& f) { return f.half_angle_rad.value * kDegPerRad; }),
+      nutation_column("half_angle_sigma_deg",
+                      [](const Found& f) { return f.half_angle_rad.sigma * kDegPerRad; }),
+      nutation_column("period_s", [](const Found& f) { return f.period_s.value; }),
+      nutation_column("period_sigma_s", [](const Found& f) { return f.period_s.sigma; }),
+      nutation_column("growth_per_h",
+                      [](const Found& f) { return f.growth_per_s.value * kPerHour; }),
+      nutation_column("growth_sigma_per_h",
+                      [](const Found& f) { return f.growth_per_s.sigma * kPerHour; }),
+      nutation_column("lean_azimuth_deg",
+                      [](const Found& f) { return f.lean_azimuth_rad.value * kDegPerRad; }),
+      nutation_column("lean_azimuth_sigma_deg",
+                      [](const Found& f) { return f.lean_azimuth_rad.sigma * kDegPerRad; }),
+      ProductColumn{"at_tai_ns", [](const BatchProduct& s) {
+                      return s->nutation->found ? std::optional{tai_ns(s->nutation_t)}
+                                                : std::nullopt;
+                    }}};
+};
+
+/// Without a value where no coning was detected.
+template <class Get>
+constexpr auto coning_column(std::string_view name, Get get) {
+  return ProductColumn{name, [get](const BatchProduct& solution) {
+                         const ConingEstimate& coning = solution->coning;
+                         return coning.verdict.detected ? std::optional{get(coning) * kDegPerRad}
+                                                        : std::nullopt;
+                       }};
+}
+
+struct SpinConingTable {
+  static constexpr std::string_view kName = "spin_coning";
+  static constexpr std::array<std::string_view, 1> kKey{"t_tai_ns"};
+
+  using Coning = ConingEstimate;
+  static constexpr std::tuple kColumns{
+      ProductColumn{"t_tai_ns", &batch_t_tai_ns},
+      ProductColumn{"detected", [](const BatchProduct& s) { return s->coning.verdict.detected; }},
+      ProductColumn{
+          "detectable_deg",
+          [](const BatchProduct& s) { return s->coning.verdict.detectable_rad * kDegPerRad; }},
+      coning_column("tilt_deg", [](const Coning& c) { return c.verdict.tilt_rad; }),
+      coning_column("tilt_sigma_deg", [](const Coning& c) { return c.tilt_sigma_rad; }),
+      coning_column("azimuth_deg", [](const Coning& c) { return c.verdict.azimuth_rad; }),
+      coning_column("azimuth_sigma_deg", [](const Coning& c) { return c.azimuth_sigma_rad; })};
+};
+
+template <>
+struct ProductKind<BatchProduct> {
+  static constexpr ProductWeight kWeight = ProductWeight::Result;
+  using Tables = std::tuple<SpinBatchTable, SpinBatchSingularValueTable, SpinBatchUndeterminedTable,
+                            SpinBiasTable, SpinNutationTable, SpinConingTable>;
+};
+
+}  // namespace spindrift

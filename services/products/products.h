@@ -1,0 +1,51 @@
+/// @file
+/// The kinds of products.
+
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <variant>
+
+#include "pipelines/spin/types/products.h"
+#include "services/products/batch_solution.h"
+#include "services/products/product_kind.h"
+#include "services/products/pulse_use.h"
+#include "services/products/revolution.h"
+#include "services/products/spin_estimate.h"
+#include "services/products/spin_fix.h"
+#include "services/products/spin_measurement.h"
+
+namespace spindrift {
+
+/// The list.
+using Product =
+    std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate, BatchProduct>;
+
+/// Its place in the list.
+template <class Kind>
+inline const std::size_t kProductKind = Product{Kind{}}.index();
+
+/// Calls `see.template operator()<Kind>()` for each, in order.
+template <class See>
+constexpr void for_each_product_kind(const See& see) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (see.template operator()<std::variant_alternative_t<I, Product>>(), ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<Product>>{});
+}
+
+/// One of a pipeline's products as one of all.
+inline Product product_of(SpinProduct product) {
+  return std::visit([](auto& value) { return Product{std::move(value)}; }, product);
+}
+
+inline bool is_detail(const Product& product) {
+  return std::visit(
+      []<class Kind>(const Kind& /*value*/) {
+        return ProductKind<Kind>::kWeight == ProductWeight::Detail;
+      },
+      product);
+}
+
+}  // namespace spindrift

@@ -1,0 +1,41 @@
+/// @file
+/// What became of an edge, as a kind of product.
+
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <tuple>
+
+#include "pipelines/spin/types/products.h"
+#include "services/products/product_kind.h"
+
+namespace spindrift {
+
+/// The name of a test that left something out.
+inline std::optional<std::string_view> name_of(const std::optional<Rejection>& rejected_by) {
+  return rejected_by ? std::optional{name_of(*rejected_by)} : std::nullopt;
+}
+
+struct PulseUseTable {
+  static constexpr std::string_view kName = "pulse_use";
+  static constexpr bool kOfSpacecraft = true;
+  static constexpr std::array<std::string_view, 2> kKey{"t_tai_ns", "channel"};
+  static constexpr std::tuple kColumns{
+      ProductColumn{"t_tai_ns", [](const PulseUse& use) { return tai_ns(use.pulse.t); }},
+      ProductColumn{"channel", [](const PulseUse& use) { return name_of(use.pulse.channel); }},
+      ProductColumn{"revolution", [](const PulseUse& use) { return use.revolution; }},
+      ProductColumn{"accepted", [](const PulseUse& use) { return !use.rejected_by; }},
+      ProductColumn{"rejected_by", [](const PulseUse& use) { return name_of(use.rejected_by); }}};
+  /// An edge that is late is not said to be so when something else has become of it: it arrived
+  /// twice.
+  static constexpr std::string_view kReplaces = "excluded.rejected_by IS NOT 'late'";
+};
+
+template <>
+struct ProductKind<PulseUse> {
+  static constexpr ProductWeight kWeight = ProductWeight::Detail;
+  using Tables = std::tuple<PulseUseTable>;
+};
+
+}  // namespace spindrift

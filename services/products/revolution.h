@@ -1,0 +1,30 @@
+/// @file
+/// A turn of the body, as a kind of product.
+
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <tuple>
+
+#include "pipelines/spin/types/products.h"
+#include "services/products/product_kind.h"
+
+namespace spindrift {
+
+struct RevolutionTable {
+  static constexpr std::string_view kName = "revolution";
+  static constexpr std::array<std::string_view, 1> kKey{"revolution"};
+  static constexpr std::tuple kColumns{
+      ProductColumn{"revolution", [](const RevolutionProduct& turn) { return turn.revolution; }},
+      ProductColumn{"t_tai_ns", [](const RevolutionProduct& turn) { return tai_ns(turn.t_sun1); }},
+      ProductColumn{"period_s", [](const RevolutionProduct& turn) { return turn.period_s; }}};
+};
+
+template <>
+struct ProductKind<RevolutionProduct> {
+  static constexpr ProductWeight kWeight = ProductWeight::Detail;
+  using Tables = std::tuple<RevolutionTable>;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,120 @@
+/// @file
+/// The spin axis from one revolution alone, as a kind of product.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "pipelines/spin/types/products.h"
+#include "services/products/axis_columns.h"
+#include "services/products/named.h"
+#include "services/products/product_kind.h"
+
+namespace spindrift {
+
+struct SpinFixTable {
+  static constexpr std::string_view kName = "spin_fix";
+  static constexpr std::array<std::string_view, 1> kKey{"revolution"};
+
+  static std::optional<PlaceDeg> alternate(const SpinFix& fix) {
+    return fix.alternates.empty() ? std::nullopt
+                                  : std::optional{place_deg(fix.alternates.front().axis_icrf)};
+  }
+  using Axis = AxisColumns<SpinFix>;
+  static constexpr std::tuple kColumns{
+      ProductColumn{"revolution", [](const SpinFix& fix) { return fix.revolution; }},
+      ProductColumn{"t_tai_ns", [](const SpinFix& fix) { return tai_ns(fix.t); }},
+      ProductColumn{"geometry_case",
+                    [](const SpinFix& fix) { return std::int64_t{fix.geometry_case}; }},
+      ProductColumn{"ra_deg", &Axis::ra_deg},
+      ProductColumn{"dec_deg", &Axis::dec_deg},
+      ProductColumn{"sigma_deg", &Axis::sigma_deg},
+      ProductColumn{"cov_east_east_deg2", &Axis::covariance_deg2<0, 0>},
+      ProductColumn{"cov_east_north_deg2", &Axis::covariance_deg2<0, 1>},
+      ProductColumn{"cov_north_north_deg2", &Axis::covariance_deg2<1, 1>},
+      ProductColumn{"alternate_ra_deg",
+                    [](const SpinFix& fix) -> std::optional<double> {
+                      const auto place = alternate(fix);
+                      return place ? std::optional{place->ra_deg} : std::nullopt;
+                    }},
+      ProductColumn{"alternate_dec_deg",
+                    [](const SpinFix& fix) -> std::optional<double> {
+                      const auto place = alternate(fix);
+                      return place ? std::optional{place->dec_deg} : std::nullopt;
+                    }},
+      ProductColumn{"resolution", [](const SpinFix& fix) { return name_of(fix.resolution); }},
+      ProductColumn{"norm", [](const SpinFix& fix) { return fix.norm; }},
+      ProductColumn{"accepted", [](const SpinFix& fix) { return fix.accepted; }}};
+};
+
+/// All other axes of a fix that has more than the one of its own row.
+struct SpinFixCandidateTable {
+  static constexpr std::string_view kName = "spin_fix_candidate";
+  static constexpr std::array<std::string_view, 2> kKey{"revolution", "candidate"};
+
+  struct Row {
+    std::int64_t revolution;
+    std::int64_t candidate;
+    PlaceDeg place;
+  };
+  static constexpr std::tuple kColumns{
+      ProductColumn{"revolution", [](const Row& row) { return row.revolution; }},
+      ProductColumn{"candidate", [](const Row& row) { return row.candidate; }},
+      ProductColumn{"ra_deg", [](const Row& row) { return row.place.ra_deg; }},
+      ProductColumn{"dec_deg", [](const Row& row) { return row.place.dec_deg; }}};
+
+  static std::int64_t group(const SpinFix& fix) { return fix.revolution; }
+  static std::vector<Row> rows(const SpinFix& fix) {
+    std::vector<Row> rows;
+    if (fix.alternates.size() > 1) {
+      for (const SpinAlternate& alternate : fix.alternates) {
+        rows.push_back({.revolution = fix.revolution,
+                        .candidate = static_cast<std::int64_t>(rows.size()) + 1,
+                        .place = place_deg(alternate.axis_icrf)});
+      }
+    }
+    return rows;
+  }
+};
+
+template <>
+struct ProductKind<SpinFix> {
+  static constexpr ProductWeight kWeight = ProductWeight::Result;
+  using Tables = std::tuple<SpinFixTable, SpinFixCandidateTable>;
+
+  static constexpr const char* kTopic = "spindrift/spin_fix";
+  /// A fix from measurements that contradict each other could not be told from a good one.
+  static bool is_announced(const SpinFix& fix) {
+    return fix.accepted || fix.resolution == Resolution::Ambiguous;
+  }
+  static constexpr std::string_view instance(const SpinFix& /*fix*/) { return {}; }
+  static std::int64_t number(const SpinFix& fix) { return fix.revolution; }
+  /// One that is AMBIGUOUS may be given again, decided.
+  static bool is_settled(const SpinFix& fix) { return fix.accepted; }
+
+  /// With its best alternate only, and without its covariance.
+  template <class Row>
+  static SpinFix from_row(const Row& row) {
+    SpinFix fix{.revolution = row.integer("revolution"),
+                .t = tai_from_ns(row.integer("t_tai_ns")),
+                .geometry_case = static_cast<int>(row.integer("geometry_case")),
+                .axis_icrf = axis_icrf_from(row.real("ra_deg"), row.real("dec_deg")),
+                .covariance_rad2 = covariance_rad2_of(row),
+                .alternates = {},
+                .resolution = named(row.text("resolution"), Resolution::Ambiguous),
+                .norm = row.real("norm"),
+                .accepted = row.integer("accepted") != 0};
+    if (row.has("alternate_ra_deg")) {
+      fix.alternates = {{.axis_icrf = axis_icrf_from(row.real("alternate_ra_deg"),
+                                                     row.real("alternate_dec_deg"))}};
+    }
+    return fix;
+  }
+};
+
+}  // namespace spindrift

@@ -1,0 +1,46 @@
+/// @file
+/// A quantity measured in one revolution, as a kind of product.
+
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <tuple>
+
+#include "pipelines/spin/types/products.h"
+#include "services/products/product_kind.h"
+#include "services/products/pulse_use.h"
+#include "services/units/degrees.h"
+
+namespace spindrift {
+
+struct SpinMeasurementTable {
+  static constexpr std::string_view kName = "spin_measurement";
+  static constexpr std::array<std::string_view, 2> kKey{"revolution", "quantity"};
+
+  static constexpr bool is_time(const SpinMeasurement& measurement) {
+    return measurement.quantity == SpinQuantity::Period;
+  }
+  static constexpr double to_unit(const SpinMeasurement& measurement) {
+    return is_time(measurement) ? 1.0 : kDegPerRad;
+  }
+  static constexpr std::tuple kColumns{
+      ProductColumn{"revolution", [](const SpinMeasurement& one) { return one.revolution; }},
+      ProductColumn{"quantity", [](const SpinMeasurement& one) { return name_of(one.quantity); }},
+      ProductColumn{"value", [](const SpinMeasurement& one) { return one.value * to_unit(one); }},
+      ProductColumn{
+          "unit",
+          [](const SpinMeasurement& one) { return std::string_view{is_time(one) ? "s" : "deg"}; }},
+      ProductColumn{"sigma", [](const SpinMeasurement& one) { return one.sigma * to_unit(one); }},
+      ProductColumn{"accepted", [](const SpinMeasurement& one) { return !one.rejected_by; }},
+      ProductColumn{"rejected_by",
+                    [](const SpinMeasurement& one) { return name_of(one.rejected_by); }}};
+};
+
+template <>
+struct ProductKind<SpinMeasurement> {
+  static constexpr ProductWeight kWeight = ProductWeight::Detail;
+  using Tables = std::tuple<SpinMeasurementTable>;
+};
+
+}  // namespace spindrift

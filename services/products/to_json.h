@@ -1,0 +1,30 @@
+/// @file
+/// A product as an object: its columns by their names, null where there is no value.
+
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <type_traits>
+
+#include "services/products/product_kind.h"
+
+namespace spindrift {
+
+/// Of the first of its tables.
+template <class Product>
+nlohmann::json json_of(const Product& product) {
+  nlohmann::json object = nlohmann::json::object();
+  const auto put = [&]<class Value>(std::string_view name, const Value& value) {
+    if constexpr (requires { value.has_value(); }) {
+      object[std::string{name}] = value ? nlohmann::json(*value) : nlohmann::json{};
+    } else {
+      object[std::string{name}] = value;
+    }
+  };
+  with_columns<MainTable<Product>>(
+      [&](const auto&... column) { (put(column.name, column.get(product)), ...); });
+  return object;
+}
+
+}  // namespace spindrift

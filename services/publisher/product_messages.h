@@ -1,0 +1,34 @@
+/// @file
+/// The topics of products, and the generated types of their messages.
+
+#pragma once
+
+#include <spindrift.h>
+
+#include "services/bus/topics.h"
+#include "services/products/products.h"
+
+namespace spindrift {
+
+/// `Type`: the generated one, which to_idl fills. For each kind of product that is announced.
+template <AnnouncedProduct Product>
+struct ProductMessage;
+
+template <>
+struct ProductMessage<SpinFix> {
+  using Type = spindrift_SpinFix;
+  static const dds_topic_descriptor_t* descriptor() { return &spindrift_SpinFix_desc; }
+};
+
+template <>
+struct ProductMessage<SpinEstimate> {
+  using Type = spindrift_SpinEstimate;
+  static const dds_topic_descriptor_t* descriptor() { return &spindrift_SpinEstimate_desc; }
+};
+
+template <AnnouncedProduct Product>
+bus::Topic<typename ProductMessage<Product>::Type> product_topic() {
+  return {ProductKind<Product>::kTopic, ProductMessage<Product>::descriptor()};
+}
+
+}  // namespace spindrift

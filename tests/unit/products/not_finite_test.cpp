@@ -1,0 +1,94 @@
+#include "services/products/not_finite.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace spindrift {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+SpinEstimate an_estimate() {
+  return {.t = tai_from_ns(7),
+          .estimator = SpinEstimator::Mean,
+          .axis_icrf = Eigen::Vector3d::UnitX(),
+          .covariance_rad2 = Eigen::Matrix2d::Identity(),
+          .spin_rate_rad_s = 6.0,
+          .spin_rate_sigma_rad_s = 0.1,
+          .status = "OK"};
+}
+
+BatchSolution a_solution() {
+  return {.estimate = an_estimate(),
+          .drift_rad_s2 = 1e-6,
+          .drift_sigma_rad_s2 = 1e-8,
+          .bound_rad = 1e-4,
+          .consider_sigma_rad = 1e-3,
+          .biases = {BiasEstimate{NorthChordBias, 0.01, 0.001, true, true}},
+          .undetermined = {},
+          .singular_values = {},
+          .changed = {},
+          .edges = 100,
+          .outliers = 0,
+          .noise = 1.0,
+          .iterations = 5,
+          .nutation = {},
+          .nutation_t = tai_from_ns(7),
+          .coning = {}};
+}
+
+Product shared(BatchSolution solution) {
+  return std::make_shared<const BatchSolution>(std::move(solution));
+}
+
+std::string place_in(const Product& product) {
+  const auto found = not_finite(product);
+  return found ? std::string{found->table} + "." + std::string{found->column} : "";
+}
+
+TEST(NotFinite, FindsNothingInNumbers) {
+  EXPECT_EQ(place_in(PulseUse{}), "");
+  EXPECT_EQ(place_in(an_estimate()), "");
+  EXPECT_EQ(place_in(shared(a_solution())), "");
+}
+
+TEST(NotFinite, NamesTableAndColumn) {
+  SpinEstimate estimate = an_estimate();
+  estimate.spin_rate_sigma_rad_s = kNone;
+  EXPECT_EQ(place_in(estimate), "spin_estimate.sigma_rpm");
+  estimate = an_estimate();
+  estimate.axis_icrf.z() = kNone;
+  EXPECT_EQ(place_in(estimate), "spin_estimate.dec_deg");
+  EXPECT_EQ(place_in(RevolutionProduct{.revolution = 1, .t_sun1 = {}, .period_s = kEndless}),
+            "revolution.period_s");
+  EXPECT_EQ(place_in(SpinMeasurement{.revolution = 1,
+                                     .quantity = SpinQuantity::SunAngle,
+                                     .value = 1.0,
+                                     .sigma = kNone,
+                                     .rejected_by = {}}),
+            "spin_measurement.sigma");
+}
+
+TEST(NotFinite, LooksAtEveryTableAndRowOfAProduct) {
+  BatchSolution solution = a_solution();
+  solution.biases.push_back(BiasEstimate{DihedralBias, 0.01, kEndless, true, true});
+  EXPECT_EQ(place_in(shared(solution)), "spin_bias.sigma");
+  solution = a_solution();
+  solution.singular_values = {1.0, kNone};
+  EXPECT_EQ(place_in(shared(solution)), "spin_batch_singular_value.value");
+  solution = a_solution();
+  solution.coning.verdict.detected = true;
+  solution.coning.tilt_sigma_rad = kNone;
+  EXPECT_EQ(place_in(shared(solution)), "spin_coning.tilt_sigma_deg");
+  // What was not found is not looked at.
+  solution.coning.verdict.detected = false;
+  EXPECT_EQ(place_in(shared(solution)), "");
+}
+
+}  // namespace
+}  // namespace spindrift

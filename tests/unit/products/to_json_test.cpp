@@ -1,0 +1,28 @@
+#include "services/products/to_json.h"
+
+#include <gtest/gtest.h>
+
+#include "services/products/products.h"
+
+namespace spindrift {
+namespace {
+
+TEST(ProductToJson, HasTheColumnsOfTheTable) {
+  const auto object = json_of(SpinMeasurement{.revolution = 3,
+                                              .quantity = SpinQuantity::Period,
+                                              .value = 0.5,
+                                              .sigma = 0.25,
+                                              .rejected_by = Rejection::Period});
+  EXPECT_EQ(object, nlohmann::json::parse(R"({"revolution": 3, "quantity": "period", "value": 0.5,
+      "unit": "s", "sigma": 0.25, "accepted": false, "rejected_by": "period"})"));
+}
+
+TEST(ProductToJson, WhatHasNoValueIsNull) {
+  const auto object = json_of(PulseUse{});
+  EXPECT_TRUE(object.at("revolution").is_null());
+  EXPECT_TRUE(object.at("rejected_by").is_null());
+  EXPECT_EQ(object.at("accepted"), true);
+}
+
+}  // namespace
+}  // namespace spindrift
