@@ -8,7 +8,10 @@
 
 #include <chrono>
 #include <cstdint>
+#include <fstream>
 #include <numeric>
+#include <set>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,11 +22,40 @@
 
 namespace spindrift {
 
-/// Another domain for each process as far as the numbers go, another partition for each call.
+/// Domain N has the 250 UDP ports from 7400 + 250 N on. Those of 20 to 99 lie above the usual
+/// domains and below the ports that the system hands out by itself.
+inline std::set<unsigned> domains_in_use() {
+  std::set<unsigned> used;
+  for (const char* sockets : {"/proc/net/udp", "/proc/net/udp6"}) {
+    std::ifstream lines{sockets};
+    std::string slot;
+    std::string address;
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream{line} >> slot >> address;
+      if (const auto colon = address.find(':'); colon != std::string::npos) {
+        used.insert(
+            (static_cast<unsigned>(std::stoul(address.substr(colon + 1), nullptr, 16)) - 7400U) /
+            250U);
+      }
+    }
+  }
+  return used;
+}
+
+/// A domain that nobody is in, and another partition for each call. Processes begin to look at
+/// different domains: two that look at once find two.
 inline bus::BusConfig bus_of_its_own() {
+  constexpr unsigned kFirst = 20;
+  constexpr unsigned kDomains = 80;
   static int calls = 0;
-  return {.domain = 1 + static_cast<std::uint32_t>(getpid()) % 200,
-          .partition = "test-" + std::to_string(getpid()) + "-" + std::to_string(++calls)};
+  const auto used = domains_in_use();
+  const auto pid = static_cast<unsigned>(getpid());
+  unsigned tried = 0;
+  while (tried < kDomains && used.contains(kFirst + (pid + tried) % kDomains)) {
+    ++tried;
+  }
+  return {.domain = kFirst + (pid + tried) % kDomains,
+          .partition = "test-" + std::to_string(pid) + "-" + std::to_string(++calls)};
 }
 
 /// Waits for `condition`. @return false when it does not come, which only a failing test sees.

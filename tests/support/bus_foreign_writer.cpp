@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
   if (argc != 5) {
     return EXIT_FAILURE;
   }
+  alarm(120);  // Nobody waits for it longer, nor kills it once its test is killed.
   return spindrift::run(
       {.domain = static_cast<std::uint32_t>(std::stoul(argv[1])), .partition = argv[2]},
       std::string{argv[3]} == "weak", std::stoull(argv[4]));
