@@ -39,6 +39,9 @@ Expected<std::filesystem::path> resolved(const std::filesystem::path& path) {
   if (path.empty()) {
     return no_place(path, "must be the path of a file");
   }
+  if (const auto named = refuse_special_name(path); !named) {
+    return Unexpected{named.error()};
+  }
   std::error_code unresolved;
   auto real = std::filesystem::absolute(path, unresolved);
   if (!unresolved) {

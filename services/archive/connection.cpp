@@ -79,13 +79,50 @@ std::string_view why_nothing_to_read(const std::filesystem::path& path) {
              : "";
 }
 
+bool is_empty_or_absent(const std::filesystem::path& path) {
+  std::error_code absent;
+  const std::uintmax_t size = std::filesystem::file_size(path, absent);
+  return absent || size == 0;
+}
+
+/// `path` as a URI of SQLite for a file that nobody changes meanwhile.
+std::string immutable_uri(const std::filesystem::path& path) {
+  std::string uri = "file:";
+  for (const char c : path.string()) {
+    uri += c == '%' || c == '?' || c == '#' ? fmt::format("%{:02X}", static_cast<unsigned char>(c))
+                                            : std::string{c};
+  }
+  return uri + "?immutable=1";
+}
+
+Expected<void> refuse_unreadable(const std::filesystem::path& path) {
+  if (const auto named = refuse_special_name(path); !named) {
+    return named;
+  }
+  if (const std::string_view why = why_nothing_to_read(path); !why.empty()) {
+    return Unexpected{{ErrorCode::InvalidConfiguration,
+                       fmt::format("there is no archive {}: {}", path.string(), why)}};
+  }
+  return refuse_foreign_file(path);
+}
+
 }  // namespace
+
+Expected<void> refuse_special_name(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  if (name.starts_with(":") || name.starts_with("file:")) {
+    return Unexpected{
+        {ErrorCode::InvalidConfiguration,
+         fmt::format("archive \"{}\": SQLite takes this name for something else than a file; an "
+                     "archive is a file, of another name or with ./ before it",
+                     name)}};
+  }
+  return {};
+}
 
 Expected<void> refuse_foreign_file(const std::filesystem::path& path) {
   do_not_count_memory();
-  std::error_code no_file;
-  const std::uintmax_t size = std::filesystem::file_size(path, no_file);
-  if (no_file || size == 0) {
+  if (is_empty_or_absent(path)) {
     return {};
   }
   const auto header = header_of(path);
@@ -157,21 +194,48 @@ Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path) {
   }
 }
 
-Expected<SQLite::Database> open_for_reading(const std::filesystem::path& path) {
-  if (const std::string_view why = why_nothing_to_read(path); !why.empty()) {
-    return Unexpected{{ErrorCode::InvalidConfiguration,
-                       fmt::format("there is no archive {}: {}", path.string(), why)}};
-  }
-  if (const auto ours = refuse_foreign_file(path); !ours) {
-    return Unexpected{ours.error()};
+Expected<SQLite::Database> open_at_rest(const std::filesystem::path& path) {
+  if (const auto readable = refuse_unreadable(path); !readable) {
+    return Unexpected{readable.error()};
   }
   try {
-    SQLite::Database database{path.string(), SQLite::OPEN_READONLY, kBusyTimeout_ms};
+    SQLite::Database database{immutable_uri(path), SQLite::OPEN_READONLY | SQLite::OPEN_URI};
     distrust(database);
     return database;
   } catch (const SQLite::Exception& exception) {
     return Unexpected{archive_error(path.string(), exception)};
   }
+}
+
+Expected<SQLite::Database> open_for_reading(const std::filesystem::path& path) {
+  if (const auto readable = refuse_unreadable(path); !readable) {
+    return Unexpected{readable.error()};
+  }
+  try {
+    SQLite::Database database{path.string(), SQLite::OPEN_READONLY, kBusyTimeout_ms};
+    distrust(database);
+    database.execAndGet("SELECT count(*) FROM sqlite_schema");  // Looks at the log, too.
+    return database;
+  } catch (const SQLite::Exception& exception) {
+    // Beside the archive there is no index of its log, and none can be made.
+    const int code = exception.getErrorCode();
+    const bool cannot_index = code == SQLITE_CANTOPEN || code == SQLITE_READONLY;
+    if (cannot_index && is_empty_or_absent(log_of(path))) {
+      return open_at_rest(path);
+    }
+    if (cannot_index) {
+      return Unexpected{
+          {ErrorCode::Unavailable,
+           fmt::format("archive {}: its newest rows stand in {}, which cannot be read in a folder "
+                       "where no file may be made: copy both to another folder, and read there",
+                       path.string(), log_of(path).string())}};
+    }
+    return Unexpected{archive_error(path.string(), exception)};
+  }
+}
+
+std::filesystem::path log_of(const std::filesystem::path& archive) {
+  return archive.string() + "-wal";
 }
 
 }  // namespace spindrift

@@ -20,16 +20,28 @@ namespace spindrift {
 ///         program's, saying what to do.
 Expected<void> refuse_foreign_file(const std::filesystem::path& path);
 
+/// SQLite takes these names for something else than a file: ":memory:", and "file:" as a URI.
+/// @return InvalidConfiguration for such a name.
+Expected<void> refuse_special_name(const std::filesystem::path& path);
+
 /// The one connection that writes: made if absent, WAL with a sync at every commit. Its caller
 /// holds the archive's WriteLock.
 /// @return InvalidConfiguration when the file is not an archive or has another schema, which leaves
 ///         it untouched; Unavailable when it cannot be opened.
 Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path);
 
-/// A connection that cannot write, for one thread.
+/// A connection that cannot write, for one thread. Where no file may be made beside an archive that
+/// nobody writes, it is read as one that does not change.
 /// @return InvalidConfiguration when there is no such file, it is not an archive or has another
 ///         schema; Unavailable when it cannot be opened.
 Expected<SQLite::Database> open_for_reading(const std::filesystem::path& path);
+
+/// Likewise, for an archive that nobody writes: leaves nothing beside it, as an ordinary connection
+/// that may not tidy up would. What is read while somebody begins to write may be half old.
+Expected<SQLite::Database> open_at_rest(const std::filesystem::path& path);
+
+/// Where SQLite keeps what is committed and not yet in the archive's file.
+std::filesystem::path log_of(const std::filesystem::path& archive);
 
 /// InvalidInput when a row breaks a rule of the schema and trying again is no use; Unavailable
 /// otherwise (disk full, I/O error, busy).

@@ -46,4 +46,13 @@ Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& arch
   });
 }
 
+Expected<bool> is_finished(const std::filesystem::path& archive, const std::string& run_id) {
+  return read_archive(archive, [&](SQLite::Database& database) {
+    SQLite::Statement query{database,
+                            "SELECT 1 FROM run WHERE run_id = ? AND finished_utc IS NOT NULL"};
+    query.bind(1, run_id);
+    return query.executeStep();
+  });
+}
+
 }  // namespace spindrift

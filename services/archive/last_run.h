@@ -26,4 +26,7 @@ Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& arch
                                                const std::string& spacecraft_id,
                                                const std::string& mode);
 
+/// Whether the run came to its end: it goes on, or was interrupted or killed, otherwise.
+Expected<bool> is_finished(const std::filesystem::path& archive, const std::string& run_id);
+
 }  // namespace spindrift

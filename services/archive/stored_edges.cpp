@@ -11,11 +11,13 @@
 namespace spindrift {
 namespace {
 
-std::optional<std::string> find_run(SQLite::Database& database, const std::string& spacecraft_id,
+/// Without its edges yet.
+std::optional<StoredEdges> find_run(SQLite::Database& database, const std::string& spacecraft_id,
                                     const std::optional<std::string>& run_id) {
   SQLite::Statement query{
       database,
-      "SELECT run_id FROM run WHERE spacecraft_id = ?1 AND ifnull(run_id = ?2, 1)"
+      "SELECT run_id, config_sha256, orbit_sha256 FROM run WHERE spacecraft_id = ?1 AND "
+      "ifnull(run_id = ?2, 1)"
       // Without sun1 a run has no rows in `revolution`.
       " AND EXISTS (SELECT 1 FROM pulse_use AS one WHERE one.run_id = run.run_id"
       "  AND revolution IS NOT NULL)"
@@ -24,7 +26,15 @@ std::optional<std::string> find_run(SQLite::Database& database, const std::strin
   if (run_id) {
     query.bind(2, *run_id);
   }
-  return query.executeStep() ? std::optional{query.getColumn(0).getString()} : std::nullopt;
+  if (!query.executeStep()) {
+    return std::nullopt;
+  }
+  const SQLite::Column orbit = query.getColumn(2);
+  return StoredEdges{
+      .run_id = query.getColumn(0).getString(),
+      .config_sha256 = query.getColumn(1).getString(),
+      .orbit_sha256 = orbit.isNull() ? std::nullopt : std::optional{orbit.getString()},
+      .pass = {}};
 }
 
 /// From the columns 0 and 1.
@@ -108,9 +118,8 @@ Expected<StoredEdges> read_edges(const std::filesystem::path& archive,
                                  const std::string& spacecraft_id,
                                  const std::optional<std::string>& run_id) {
   const auto read = read_archive(archive, [&](SQLite::Database& database) {
-    std::optional<StoredEdges> stored;
-    if (auto run = find_run(database, spacecraft_id, run_id)) {
-      stored = StoredEdges{.run_id = *std::move(run), .pass = {}};
+    std::optional<StoredEdges> stored = find_run(database, spacecraft_id, run_id);
+    if (stored) {
       read_uses(database, *stored);
       read_estimate(database, SpinEstimator::Mean, *stored);
       read_estimate(database, SpinEstimator::Sequential, *stored);

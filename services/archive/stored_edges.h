@@ -14,6 +14,8 @@ namespace spindrift {
 
 struct StoredEdges {
   std::string run_id;
+  std::string config_sha256;                ///< Of the mission file of the run.
+  std::optional<std::string> orbit_sha256;  ///< Of its orbit file, if it had one.
   PassEdges pass;
 };
 

@@ -65,7 +65,7 @@ Check check_leap_table(int archive_s, int program_s) {
 }  // namespace
 
 std::vector<Check> check_archive(const ArchiveFacts& facts, int program_tai_minus_utc_s) {
-  if (!facts.exists) {
+  if (facts.content && !facts.exists) {
     return {ok("archive", fmt::format("{} is not there: it will be made", facts.path))};
   }
   if (!facts.content) {

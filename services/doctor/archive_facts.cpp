@@ -73,35 +73,6 @@ ArchiveContent read_content(SQLite::Database& database, bool everything) {
   return content;
 }
 
-std::filesystem::path log_of(const std::filesystem::path& archive) {
-  return archive.string() + "-wal";
-}
-
-/// `path` as a URI of SQLite for a file that nobody changes meanwhile.
-std::string immutable_uri(const std::filesystem::path& path) {
-  std::string uri = "file:";
-  for (const char c : path.string()) {
-    uri += c == '%' || c == '?' || c == '#' ? fmt::format("%{:02X}", static_cast<unsigned char>(c))
-                                            : std::string{c};
-  }
-  return uri + "?immutable=1";
-}
-
-/// Opened as any other connection, one to an archive that nobody has open would leave its -wal and
-/// -shm files behind, since it may not tidy up.
-Expected<SQLite::Database> open_at_rest(const std::filesystem::path& path) {
-  if (const auto ours = refuse_foreign_file(path); !ours) {
-    return Unexpected{ours.error()};
-  }
-  try {
-    SQLite::Database database{immutable_uri(path), SQLite::OPEN_READONLY | SQLite::OPEN_URI};
-    database.exec("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON");
-    return database;
-  } catch (const SQLite::Exception& exception) {
-    return Unexpected{archive_error(path.string(), exception)};
-  }
-}
-
 Expected<ArchiveContent> content_of(const std::filesystem::path& path, bool everything) {
   const bool at_rest = !std::filesystem::exists(log_of(path));
   auto database = at_rest ? open_at_rest(path) : open_for_reading(path);
@@ -127,7 +98,9 @@ ArchiveFacts archive_facts(const std::filesystem::path& path) {
                      .wal_bytes = size_of(log_of(path)),
                      .writer = writer_of(path),
                      .content = ArchiveContent{}};
-  if (facts.exists) {
+  if (const auto named = refuse_special_name(path); !named) {
+    facts.content = Unexpected{named.error()};
+  } else if (facts.exists) {
     facts.content = content_of(path, facts.bytes + facts.wal_bytes < kLarge_bytes);
   }
   return facts;

@@ -35,6 +35,7 @@ struct RunSummary {
   std::map<SpinEstimator, SpinEstimate> estimates;               ///< The last of each.
   std::optional<BatchSolution> batch;
   std::vector<Disagreement> disagreements = {};  ///< Likewise from the archive.
+  bool finished = true;                          ///< Likewise; not where the run was interrupted.
 
   void count(const SpinProduct& product);
 

@@ -1,6 +1,7 @@
 #include "services/spindrift/batch.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -13,6 +14,26 @@
 #include "services/spindrift/summary_text.h"
 
 namespace spindrift {
+namespace {
+
+bool is_same_mission(const StoredEdges& stored, const Mission& mission) {
+  return stored.config_sha256 == mission.sha256 && stored.orbit_sha256 == mission.orbit_sha256;
+}
+
+/// To try another mission is what the command is for, and nobody must do so without knowing.
+void warn_of_another_mission(const StoredEdges& stored, const Mission& mission) {
+  const auto warn = [&](const char* what, const std::string& now, const std::string& then) {
+    if (now != then) {
+      spdlog::warn("{}: the {} is not that of run {}: sha256 {} here, {} there",
+                   mission.spacecraft_id, what, stored.run_id, now, then);
+    }
+  };
+  warn("mission file", mission.sha256, stored.config_sha256);
+  warn("orbit file", mission.orbit_sha256.value_or("(none)"),
+       stored.orbit_sha256.value_or("(none)"));
+}
+
+}  // namespace
 
 Expected<void> batch(const BatchOptions& options) {
   const auto mission = load_spinner(options.mission);
@@ -24,6 +45,7 @@ Expected<void> batch(const BatchOptions& options) {
   if (!stored) {
     return Unexpected{stored.error()};
   }
+  warn_of_another_mission(*stored, *mission);
   if (options.last_revolutions) {
     stored->pass.keep_last(*options.last_revolutions);
   }
@@ -34,6 +56,7 @@ Expected<void> batch(const BatchOptions& options) {
           nlohmann::json object = to_json(solution.estimate);
           object.update(to_json(solution));
           object["run_id"] = stored->run_id;
+          object["same_mission"] = is_same_mission(*stored, *mission);
           fmt::print("{}\n", object.dump());
         } else {
           fmt::print("{}  run {}\n{}\n{}", mission->spacecraft_id, stored->run_id,

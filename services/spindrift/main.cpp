@@ -127,7 +127,13 @@ void add_process(CLI::App& app, Request& request) {
   add_archive_option(command, options.db);
   command.add_flag("--strict", options.strict, "A bad row of telemetry is an error");
   command.add_flag("--json", options.json, "Print one JSON object");
-  command.callback([&] { request.run = [&] { return process(request.process); }; });
+  command.callback([&] {
+    request.run = [&] {
+      return process(request.process).map([&](bool finished) {
+        request.status = finished ? EXIT_SUCCESS : kFailed;
+      });
+    };
+  });
 }
 
 void add_batch(CLI::App& app, Request& request) {

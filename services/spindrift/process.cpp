@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <csignal>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -26,24 +27,38 @@ std::vector<std::string> texts_of(const std::vector<std::filesystem::path>& path
   return {paths.begin(), paths.end()};
 }
 
-Expected<void> run(Processor& processor, TelemetryInput& telemetry, Archive& archive) {
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a signal handler has no other
+volatile std::sig_atomic_t interrupted = 0;
+
+/// The second signal does what it does without a handler.
+void stop_at_first_signal() {
+  struct sigaction action {};
+  action.sa_handler = [](int /*signal*/) { interrupted = 1; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+/// Until all is computed, or a signal. @return whether all is.
+Expected<bool> run(Processor& processor, TelemetryInput& telemetry, Archive& archive) {
   if (auto begun = submit_all(archive, processor.begin()); !begun) {
-    return begun;
+    return Unexpected{begun.error()};
   }
   ProgressBar progress{"processing", telemetry.bytes_total()};
-  while (true) {
+  while (interrupted == 0) {
     auto batch = telemetry.next();
     if (!batch) {
       return Unexpected{std::move(batch.error())};
     }
     if (is_empty(*batch)) {
-      return submit_all(archive, processor.finish());
+      return submit_all(archive, processor.finish()).map([] { return true; });
     }
     if (auto stored = submit_all(archive, processor.take(std::move(*batch))); !stored) {
-      return stored;
+      return Unexpected{stored.error()};
     }
     progress.advance_to(telemetry.bytes_given());
   }
+  return false;
 }
 
 /// Whoever has edges is told by the pass why they give no axis.
@@ -64,7 +79,7 @@ void warn_where_no_edge_came(const Processor& processor, std::uint64_t bad_rows)
 
 }  // namespace
 
-Expected<void> process(const ProcessOptions& options) {
+Expected<bool> process(const ProcessOptions& options) {
   const auto mission = load_mission(options.mission);
   if (!mission) {
     return Unexpected{mission.error()};
@@ -86,17 +101,19 @@ Expected<void> process(const ProcessOptions& options) {
   if (!archive) {
     return Unexpected{archive.error()};
   }
+  stop_at_first_signal();
   const auto done = run(*processor, *telemetry, **archive);
   // Whatever stopped the run: what was accepted is stored before the archive is let go.
-  if (auto outcome = outcome_of(done, (*archive)->close()); !outcome) {
-    return outcome;
+  if (auto outcome = outcome_of(done.map([](bool) {}), (*archive)->close()); !outcome) {
+    return Unexpected{outcome.error()};
   }
   if (telemetry->bad_rows().count > 0) {
     spdlog::warn("{}", telemetry->bad_rows().text());
   }
   warn_where_no_edge_came(*processor, telemetry->bad_rows().count);
-  return report(*processor, options.db, options.json).map([](const std::string& text) {
+  return report(*processor, options.db, options.json).map([&](const std::string& text) {
     fmt::print("{}", text);
+    return *done;
   });
 }
 

@@ -18,9 +18,11 @@ struct ProcessOptions {
   bool json = false;
 };
 
-/// Prints its summary on standard output.
-/// @return InvalidConfiguration for bad input, before anything is written; Unavailable for a
+/// Prints its summary on standard output. SIGINT and SIGTERM interrupt it: what was taken is stored
+/// and summarised, and the run stays unfinished. A second one ends the program at once.
+/// @return whether it came to its end; InvalidConfiguration for bad input, before anything is
+/// written; Unavailable for a
 ///         failure while running.
-Expected<void> process(const ProcessOptions& options);
+Expected<bool> process(const ProcessOptions& options);
 
 }  // namespace spindrift

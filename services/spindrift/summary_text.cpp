@@ -7,6 +7,7 @@
 
 #include "pipelines/time/utc.h"
 #include "services/archive/disagreement.h"
+#include "services/archive/last_run.h"
 #include "services/archive/stored_pass.h"
 #include "services/products/to_json.h"
 #include "services/spindrift/batch_text.h"
@@ -105,7 +106,11 @@ nlohmann::json to_json(const SpinEstimate& estimate) {
 }
 
 std::string to_text(const RunSummary& summary) {
-  std::string text = fmt::format("{}  run {}\n", summary.spacecraft_id, summary.run_id);
+  std::string text = fmt::format("{}  run {}{}\n", summary.spacecraft_id, summary.run_id,
+                                 summary.finished ? "" : ", interrupted");
+  if (!summary.finished) {
+    text += "  interrupted  what follows rests on a part of the telemetry\n";
+  }
   if (summary.kind == SpacecraftKind::ThreeAxis) {
     return text + "  attitude     three-axis: samples are stored, no attitude is computed yet\n";
   }
@@ -126,6 +131,7 @@ nlohmann::json to_json(const RunSummary& summary) {
   nlohmann::json json{{"run_id", summary.run_id},
                       {"spacecraft", summary.spacecraft_id},
                       {"kind", name_of(summary.kind)},
+                      {"finished", summary.finished},
                       {"edges_received", summary.edges_received},
                       {"edges_stored", summary.edges_stored},
                       {"coded_frames_received", summary.coded_frames_received},
@@ -170,6 +176,11 @@ Expected<std::string> report(const Processor& processor, const std::filesystem::
       return Unexpected{stored.error()};
     }
     summary.edges_stored = *stored;
+    const auto finished = is_finished(db, summary.run_id);
+    if (!finished) {
+      return Unexpected{finished.error()};
+    }
+    summary.finished = *finished;
     auto disagreements = find_disagreements(db, summary.run_id);
     if (!disagreements) {
       return Unexpected{disagreements.error()};

@@ -159,6 +159,76 @@ TEST_F(ArchiveFile, TablesOfEveryEdgeTakeNoOtherNamesThanThoseOfTheContract) {
       takes("spin_estimate VALUES ('r', 1, 'mode', 1, 1, 1, 1, 0, 1, 1, 1, 'OK', '[]', 'OK')"));
 }
 
+TEST_F(ArchiveFile, NameThatSqliteTakesForSomethingElseIsRefused) {
+  for (const char* name :
+       {":memory:", "file:pass.db", "file:pass.db?mode=memory", "file::memory:"}) {
+    for (const auto& error : {Archive::open(name, {}).error(), open_for_reading(name).error()}) {
+      EXPECT_EQ(error.code, ErrorCode::InvalidConfiguration);
+      EXPECT_THAT(error.message, HasSubstr("takes this name for something else than a file"));
+    }
+    EXPECT_FALSE(std::filesystem::exists(name));
+  }
+}
+
+/// Nobody may make a file in the folder, not even root, who becomes somebody else.
+class ReadOnlyFolder {
+ public:
+  explicit ReadOnlyFolder(std::filesystem::path folder) : folder_{std::move(folder)} {
+    std::filesystem::permissions(folder_, std::filesystem::perms{0555});
+    if (was_root_) {
+      EXPECT_EQ(seteuid(kNobody), 0);
+    }
+  }
+  ~ReadOnlyFolder() {
+    if (was_root_) {
+      EXPECT_EQ(seteuid(0), 0);
+    }
+    std::filesystem::permissions(folder_, std::filesystem::perms{0755});
+  }
+  ReadOnlyFolder(const ReadOnlyFolder&) = delete;
+  ReadOnlyFolder& operator=(const ReadOnlyFolder&) = delete;
+  ReadOnlyFolder(ReadOnlyFolder&&) = delete;
+  ReadOnlyFolder& operator=(ReadOnlyFolder&&) = delete;
+
+ private:
+  static constexpr uid_t kNobody = 65534;
+  std::filesystem::path folder_;
+  bool was_root_ = geteuid() == 0;
+};
+
+std::string kind_in(const std::filesystem::path& archive) {
+  const auto read = read_archive(archive, [](SQLite::Database& database) {
+    return database.execAndGet("SELECT kind FROM spacecraft").getString();
+  });
+  return read ? *read : read.error().message;
+}
+
+TEST_F(ArchiveFile, IsReadInAFolderWhereNoFileMayBeMade) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(start_of("run-1")));
+  ASSERT_TRUE(archive->close());
+  for (const bool empty_log : {false, true}) {
+    if (empty_log) {
+      std::ofstream{log_of(path())}.close();
+    }
+    const ReadOnlyFolder folder{directory()};
+    EXPECT_EQ(kind_in(path()), "spin");
+  }
+}
+
+TEST_F(ArchiveFile, WhoseLogCannotBeReadIsRefusedAndSaysWhatToDo) {
+  const std::filesystem::path copy = directory() / "copy";
+  std::filesystem::create_directory(copy);
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(start_of("run-1")));
+  ASSERT_TRUE(archive->flush());
+  std::filesystem::copy(path(), copy / "pass.db");
+  std::filesystem::copy(log_of(path()), log_of(copy / "pass.db"));
+  std::filesystem::permissions(directory(), std::filesystem::perms{0755});
+  const ReadOnlyFolder folder{copy};
+  EXPECT_THAT(kind_in(copy / "pass.db"), HasSubstr("copy both to another folder, and read there"));
+}
+
 TEST_F(ArchiveFile, PathThatCannotBeThatOfAFileIsRefusedAndLeavesNoLock) {
   const std::filesystem::path folder = directory() / "folder";
   std::filesystem::create_directory(folder);

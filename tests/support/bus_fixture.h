@@ -1,24 +1,23 @@
 /// @file
-/// A corner of the bus of its own for each test, and waiting for what DDS does in its own time.
+/// A corner of the bus of its own for each test.
 
 #pragma once
 
 #include <spindrift.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdint>
 #include <fstream>
 #include <numeric>
 #include <set>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "services/bus/participant.h"
 #include "services/bus/reader.h"
 #include "services/bus/writer.h"
+#include "tests/support/eventually.h"
 
 namespace spindrift {
 
@@ -56,20 +55,6 @@ inline bus::BusConfig bus_of_its_own() {
   }
   return {.domain = kFirst + (pid + tried) % kDomains,
           .partition = "test-" + std::to_string(pid) + "-" + std::to_string(++calls)};
-}
-
-/// Waits for `condition`. @return false when it does not come, which only a failing test sees.
-template <class Condition>
-bool eventually(const Condition& condition) {
-  using namespace std::chrono_literals;
-  const auto deadline = std::chrono::steady_clock::now() + 30s;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) {
-      return false;
-    }
-    std::this_thread::sleep_for(2ms);
-  }
-  return true;
 }
 
 /// Takes until there are `count` samples.

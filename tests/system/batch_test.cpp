@@ -18,6 +18,7 @@ namespace spindrift {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
@@ -119,6 +120,21 @@ TEST(Batch, AGapOfTheOrbitCostsTheEdgesThereOnly) {
   ASSERT_FALSE(batch.is_null());
   EXPECT_THAT(batch["status"].get<std::string>(), StartsWith("OK"));
   EXPECT_LT(error_deg(batch, truth_of("nominal")), 3.0 * batch["sigma_deg"].get<double>());
+}
+
+TEST(Batch, SaysWhenTheMissionIsNotThatOfTheRun) {
+  const PassCopy pass{"nominal"};
+  ASSERT_FALSE(answer(pass.arguments_here()).is_discarded());
+  const std::vector<std::string> again{"batch", "--mission",      pass.mission().string(),
+                                       "--db",  pass.db.string(), "--json"};
+  EXPECT_EQ(answer(again)["same_mission"], true);
+
+  pass.replace("mount_angle_deg = 85", "mount_angle_deg = 86");
+  Program other{again};
+  ASSERT_EQ(other.exit_status(), 0) << other.log();
+  EXPECT_EQ(nlohmann::json::parse(other.out())["same_mission"], false);
+  EXPECT_THAT(other.log(), HasSubstr("SPINNER: the mission file is not that of run "));
+  EXPECT_THAT(other.log(), Not(HasSubstr("orbit file is not")));
 }
 
 TEST(Batch, SolvesAStoredRunAgainAndOnlyItsLastRevolutions) {

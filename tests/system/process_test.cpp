@@ -12,6 +12,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "tests/support/archive_rows.h"
+#include "tests/support/eventually.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_files.h"
 #include "tests/support/test_paths.h"
@@ -322,6 +323,52 @@ TEST(Process, CountsAndLeavesTheEdgesOfAnotherSpacecraft) {
   EXPECT_THAT(program.log(), HasSubstr("'OTHER'"));
   EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM rejected_input"), 0);
   EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3600);
+}
+
+/// The pass again and again: more than is computed before a signal comes.
+void repeat_pulses(const std::filesystem::path& file) {
+  std::ifstream in{file};
+  std::string header;
+  std::getline(in, header);
+  std::vector<std::pair<std::int64_t, std::string>> rows;
+  for (std::string row; std::getline(in, row);) {
+    rows.emplace_back(std::stoll(row), row.substr(row.find(',')));
+  }
+  in.close();
+  constexpr std::int64_t kPass_ns = 600'000'000'000;
+  std::ofstream out{file};
+  out << header << '\n';
+  for (std::int64_t pass = 0; pass < 500; ++pass) {
+    for (const auto& [t_tai_ns, rest] : rows) {
+      out << t_tai_ns + pass * kPass_ns << rest << '\n';
+    }
+  }
+}
+
+TEST(Process, ThatIsInterruptedSaysSoAndLeavesARunThatIsNotFinished) {
+  const PassCopy pass{"nominal"};
+  repeat_pulses(pass.folder.path() / "pulses.csv");
+  Program program{pass.arguments_here()};
+  ASSERT_TRUE(eventually([&] {
+    return std::filesystem::exists(pass.db) &&
+           number_of(pass.db, "SELECT count(*) FROM sqlite_schema WHERE name = 'pulse_use'") == 1 &&
+           number_of(pass.db, "SELECT count(*) FROM spin_estimate") > 0;
+  }));
+  program.signal(SIGINT);
+  EXPECT_EQ(program.exit_status(), 1) << program.log();
+  const auto run = nlohmann::json::parse(program.out())["runs"][0];
+  EXPECT_EQ(run["finished"], false);
+  EXPECT_EQ(run["edges_received"], number_of(pass.db, "SELECT count(*) FROM pulse"));
+  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pass_verdict WHERE finished = 0"), 1);
+  EXPECT_GT(number_of(pass.db, "SELECT count(*) FROM pass_answer WHERE finished = 0"), 0);
+}
+
+TEST(Process, RefusesAnArchiveThatSqliteWouldNotTakeForAFile) {
+  for (const std::string name : {":memory:", "file:pass.db"}) {
+    Program program{arguments("nominal", name)};
+    EXPECT_EQ(program.exit_status(), 2) << program.log();
+    EXPECT_THAT(program.log(), HasSubstr("takes this name for something else than a file"));
+  }
 }
 
 }  // namespace
