@@ -1,0 +1,128 @@
+#include "pipelines/spin/batch/batch_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "pipelines/frames/celestial.h"
+#include "tests/support/batch_pass.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+/// Edges without noise, and the state that they come from.
+struct ExactPass {
+  testing::BatchScene scene{61};
+  std::vector<PassEdge> edges = testing::counted(
+      scene.body, testing::pulses_from(testing::edges_of_turns(scene.body, scene.around, 60.0),
+                                       testing::kTransferStart));
+  PassModel model = scene.model(edges);
+  SpinState truth = testing::true_state(scene.body, model);
+
+  /// Of the frame `spin`, with the body's phase.
+  SpinState turned(const Eigen::Vector3d& turn_rad) const {
+    SpinState state = truth;
+    state.q_icrf_spin = state.q_icrf_spin * Eigen::Quaterniond{Eigen::AngleAxisd{
+                                                turn_rad.norm(), turn_rad.normalized()}};
+    return state;
+  }
+  double off_rad(const SpinState& state) const {
+    return state.q_icrf_spin.angularDistance(truth.q_icrf_spin);
+  }
+};
+
+// The model's sky stands still for ten seconds: a hundredth of the noise of an edge
+// (pass_model_test), 5e-4 s of a body that turns in a second or more, divided by what hundreds of
+// edges average.
+constexpr double kExact_rad = 1e-4;
+
+TEST(BatchFit, ExactEdgesLeadBackFromDegreesAway) {
+  const ExactPass pass;
+  for (const Eigen::Vector3d& turn_deg :
+       {Eigen::Vector3d{2.0, 0.0, 0.0}, Eigen::Vector3d{0.0, -2.0, 0.0},
+        Eigen::Vector3d{0.0, 0.0, 1.0}, Eigen::Vector3d{-1.0, 1.0, 0.5}}) {
+    const SpinState start = pass.turned(turn_deg * kDegree_rad);
+    const auto found = fit(pass.model, pass.edges, start, {});
+    ASSERT_TRUE(found);
+    EXPECT_LT(pass.off_rad(found->state), kExact_rad);
+    // Over the pass the rate makes an angle: as exact as the others.
+    EXPECT_LT(std::abs(found->state.rate_rad_s - pass.truth.rate_rad_s) * pass.model.half_s(),
+              kExact_rad);
+    EXPECT_LT(std::abs(found->state.drift_rad_s2) * 0.5 * std::pow(pass.model.half_s(), 2),
+              kExact_rad);
+    EXPECT_TRUE(found->at_bound.none());
+    EXPECT_TRUE(found->state.biases.isZero());
+  }
+}
+
+TEST(BatchFit, BeginningAtTheMinimumItStaysThere) {
+  const ExactPass pass;
+  const SpinState minimum = fit(pass.model, pass.edges, pass.truth, {}).value().state;
+  const SpinState again = fit(pass.model, pass.edges, minimum, {}).value().state;
+  EXPECT_LT(again.q_icrf_spin.angularDistance(minimum.q_icrf_spin), 1e-7);
+}
+
+TEST(BatchFit, ARateThatIsOffAtTheStartIsFound) {
+  const ExactPass pass;
+  SpinState start = pass.truth;
+  start.rate_rad_s += 0.5 * kDegree_rad / pass.model.half_s();
+  const auto found = fit(pass.model, pass.edges, start, {});
+  ASSERT_TRUE(found);
+  EXPECT_LT(std::abs(found->state.rate_rad_s - pass.truth.rate_rad_s) * pass.model.half_s(),
+            kExact_rad);
+}
+
+/// The coarse fit is of the same model and, of so few edges, of all of them.
+TEST(BatchFit, TheCoarseFitLeadsToTheSameMinimum) {
+  const ExactPass pass;
+  const SpinState coarse = coarse_fit(
+      pass.model, pass.edges, pass.turned(Eigen::Vector3d{3.0, -2.0, 1.0} * kDegree_rad), {});
+  EXPECT_LT(pass.off_rad(coarse), 0.05 * kDegree_rad);
+}
+
+/// Tukey's biweight gives an edge beyond its limit no weight at all.
+TEST(BatchFit, EdgesFarOffHaveNoInfluence) {
+  ExactPass pass;
+  const SpinState clean = fit(pass.model, pass.edges, pass.truth, {}).value().state;
+  std::mt19937_64 rng{62};
+  std::uniform_real_distribution<double> late_s{0.01, 0.05};
+  for (std::size_t i = 0; i < pass.edges.size(); i += 10) {
+    pass.edges[i].pulse.t = shifted(pass.edges[i].pulse.t, late_s(rng));
+  }
+  const SpinState spoilt =
+      fit(pass.model, pass.edges, pass.turned(Eigen::Vector3d{0.2, 0.1, 0.1} * kDegree_rad), {})
+          .value()
+          .state;
+  EXPECT_LT(clean.q_icrf_spin.angularDistance(spoilt.q_icrf_spin), kExact_rad);
+}
+
+/// The errors of passes with the stated noise, whitened by nothing but the count of edges: four
+/// times the edges, half the error.
+TEST(BatchFit, ErrorsFallWithTheRootOfTheNumberOfEdges) {
+  const auto rms_rad = [](double turns) {
+    double squares = 0.0;
+    constexpr int kPasses = 40;
+    for (int i = 0; i < kPasses; ++i) {
+      testing::BatchScene scene{static_cast<std::uint64_t>(700 + i)};
+      const std::vector<PassEdge> edges = scene.pass(turns);
+      const PassModel model = scene.model(edges);
+      const SpinState truth = testing::true_state(scene.body, model);
+      const auto found = fit(model, edges, truth, {});
+      squares += std::pow(angle_between_rad(found.value().state.axis_icrf(), truth.axis_icrf()), 2);
+    }
+    return std::sqrt(squares / kPasses);
+  };
+  // The ratio of two such has a standard deviation of a ninth of itself: 2 of 80 components each.
+  const double ratio = rms_rad(20.0) / rms_rad(80.0);
+  EXPECT_GT(ratio, 1.4);
+  EXPECT_LT(ratio, 2.8);
+}
+
+}  // namespace
+}  // namespace spindrift

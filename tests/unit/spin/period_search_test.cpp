@@ -1,0 +1,149 @@
+#include "pipelines/spin/association/period_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "pipelines/time/time_span.h"
+
+namespace spindrift {
+namespace {
+
+const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+constexpr double kNoise_s = 1e-4;
+constexpr std::size_t kFewest = 5;
+
+std::vector<TaiTime> instants(std::vector<double> times_s) {
+  std::sort(times_s.begin(), times_s.end());
+  std::vector<TaiTime> edges;
+  for (const double t_s : times_s) {
+    edges.push_back(later_by_s(kStart, t_s));
+  }
+  return edges;
+}
+
+/// When a body that turns at `rate_hz`, which changes by `drift_per_s2`, has made n turns: the root
+/// of rate t + drift t^2 / 2 = n that grows from 0.
+double time_of_turn(int n, double rate_hz, double drift_per_s2) {
+  const double root = std::sqrt(rate_hz * rate_hz + 2.0 * drift_per_s2 * n);
+  return 2.0 * n / (rate_hz + root);
+}
+
+std::vector<double> even_edges(int count, double period_s) {
+  std::vector<double> times_s;
+  for (int n = 0; n < count; ++n) {
+    times_s.push_back(n * period_s);
+  }
+  return times_s;
+}
+
+TEST(PeriodSearch, EvenEdgesAreACombOfTheirSpacing) {
+  for (const double period_s : {0.26, 0.6, 1.0, 4.75, 14.9}) {
+    SCOPED_TRACE(period_s);
+    const auto comb = find_comb(instants(even_edges(20, period_s)), kNoise_s, kFewest);
+    ASSERT_TRUE(comb);
+    // Times are whole nanoseconds.
+    EXPECT_NEAR(comb->period_s, period_s, 1e-9);
+    EXPECT_NEAR(elapsed_s(kStart, comb->t), 0.0, 2e-9);
+    EXPECT_EQ(comb->drift_per_s2, 0.0);
+    EXPECT_EQ(comb->edges, 20U);
+    EXPECT_EQ(comb->turns, 19.0);
+    EXPECT_GE(comb->scatter_s, kNoise_s);
+  }
+}
+
+TEST(PeriodSearch, SpacingsOutsideWhatIsSearchedAreNone) {
+  EXPECT_FALSE(
+      find_comb(instants(even_edges(20, 0.9 * 60.0 / kFastestSearched_rpm)), kNoise_s, kFewest));
+  EXPECT_FALSE(
+      find_comb(instants(even_edges(20, 1.1 * 60.0 / kSlowestSearched_rpm)), kNoise_s, kFewest));
+}
+
+TEST(PeriodSearch, FewerEdgesThanAskedForAreNoEvidence) {
+  EXPECT_FALSE(find_comb(instants(even_edges(4, 1.0)), kNoise_s, kFewest));
+  EXPECT_TRUE(find_comb(instants(even_edges(5, 1.0)), kNoise_s, kFewest));
+  EXPECT_FALSE(find_comb({}, kNoise_s, kFewest));
+}
+
+/// The standard deviation of the slope of a line through n equidistant points is
+/// sigma sqrt(12 / (n^3 - n)).
+TEST(PeriodSearch, NoiseMovesThePeriodAsTheSlopeOfALine) {
+  std::mt19937_64 rng{41};
+  std::normal_distribution<double> noise_s{0.0, kNoise_s};
+  constexpr int kEdges = 32;
+  constexpr int kTrials = 300;
+  double squares = 0.0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const double period_s = std::uniform_real_distribution{0.5, 10.0}(rng);
+    std::vector<double> times_s = even_edges(kEdges, period_s);
+    for (double& t_s : times_s) {
+      t_s += noise_s(rng);
+    }
+    const auto comb = find_comb(instants(times_s), kNoise_s, kFewest);
+    ASSERT_TRUE(comb) << trial;
+    squares += std::pow(comb->period_s - period_s, 2);
+  }
+  const double sigma_s = kNoise_s * std::sqrt(12.0 / (kEdges * (kEdges * kEdges - 1.0)));
+  // A robust line loses a part of what least squares have: medians need up to pi / 2 as many.
+  const double ratio = std::sqrt(squares / kTrials) / sigma_s;
+  EXPECT_GT(ratio, 0.85);
+  EXPECT_LT(ratio, 1.6);
+}
+
+TEST(PeriodSearch, ADriftIsThatOfTheRate) {
+  for (const double drift_per_s2 : {-1e-5, 8e-6}) {
+    constexpr double kRate_hz = 0.8;
+    std::vector<double> times_s;
+    for (int n = 0; n < 30; ++n) {
+      times_s.push_back(time_of_turn(n, kRate_hz, drift_per_s2));
+    }
+    const auto comb = find_comb(instants(times_s), 1e-6, kFewest);
+    ASSERT_TRUE(comb);
+    // A parabola in the turn has no third order: (drift / rate^2)^2 n of its drift, about.
+    EXPECT_NEAR(comb->drift_per_s2, drift_per_s2, 0.01 * std::abs(drift_per_s2));
+    EXPECT_NEAR(comb->period_s, 1.0 / kRate_hz, 1e-6);
+  }
+}
+
+/// A quarter of the edges lost and every eighth a stray: neither a multiple nor a fraction.
+TEST(PeriodSearch, LostAndStrayEdgesChangeNeitherThePeriodNorItsCount) {
+  std::mt19937_64 rng{42};
+  std::uniform_real_distribution<double> share;
+  int found = 0;
+  constexpr int kTrials = 300;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const double period_s = std::uniform_real_distribution{0.5, 10.0}(rng);
+    std::vector<double> times_s;
+    for (int n = 0; n < 32; ++n) {
+      if (share(rng) > 0.25) {
+        times_s.push_back(n * period_s);
+      }
+      if (share(rng) < 0.125) {
+        times_s.push_back((n + share(rng)) * period_s);
+      }
+    }
+    if (const auto comb = find_comb(instants(times_s), kNoise_s, kFewest)) {
+      EXPECT_NEAR(comb->period_s, period_s, 1e-3 * period_s) << trial;
+      ++found;
+    }
+  }
+  EXPECT_GT(found, kTrials * 9 / 10);
+}
+
+TEST(PeriodSearch, EdgesAtRandomHaveSeldomAPeriod) {
+  std::mt19937_64 rng{43};
+  std::uniform_real_distribution<double> t_s{0.0, 60.0};
+  int found = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<double> times_s(30);
+    std::generate(times_s.begin(), times_s.end(), [&] { return t_s(rng); });
+    found += find_comb(instants(times_s), kNoise_s, kFewest) ? 1 : 0;
+  }
+  EXPECT_LE(found, 3);
+}
+
+}  // namespace
+}  // namespace spindrift
