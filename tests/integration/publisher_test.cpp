@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <thread>
 
 #include "pipelines/frames/celestial.h"
 #include "services/publisher/product_messages.h"
@@ -17,7 +16,6 @@
 namespace spindrift {
 namespace {
 
-using namespace std::chrono_literals;
 using bus::Participant;
 using bus::Reader;
 using ::testing::ElementsAre;
@@ -167,10 +165,10 @@ TEST(ResultPublisher, PublishesTheWholeMessageAndTheStateOfEverySpacecraft) {
     EXPECT_EQ(unheard.last_sample_tai_ns, 0);
     EXPECT_TRUE(std::isnan(unheard.data_age_s));
   };
-  for (int i = 0; i < 100 && taken == 0; ++i) {
-    ASSERT_TRUE(reader.take(check));
-    std::this_thread::sleep_for(10ms);
-  }
+  ASSERT_TRUE(eventually([&] {
+    reader.take(check).value();
+    return taken > 0;
+  }));
   EXPECT_EQ(taken, 1U);
 }
 
