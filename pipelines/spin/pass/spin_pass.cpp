@@ -87,6 +87,7 @@ SpinOutput SpinPass::finish() {
       take(frame, out);
     }
   }
+  take_edges_before(TaiTime::max(), out);
   const ReorderWindow::Rest rest = reorder_.release_all();
   sort_out(rest.in_time, out);
   associate(interference_.finish(), out);
@@ -109,8 +110,18 @@ void SpinPass::take(const CodedFrame& frame, SpinOutput& out) {
     associator_.note_period(frame.t, *frame.period_s);
   }
   for (const Pulse& edge : edges_of(frame)) {
-    take(edge, out);
+    of_next_frame_.insert(std::upper_bound(of_next_frame_.begin(), of_next_frame_.end(), edge),
+                          edge);
   }
+  take_edges_before(frame.period_s ? later_by_s(frame.t, *frame.period_s) : TaiTime::max(), out);
+}
+
+void SpinPass::take_edges_before(TaiTime t, SpinOutput& out) {
+  auto edge = of_next_frame_.begin();
+  for (; edge != of_next_frame_.end() && edge->t < t; ++edge) {
+    take(*edge, out);
+  }
+  of_next_frame_.erase(of_next_frame_.begin(), edge);
 }
 
 void SpinPass::take(const Pulse& pulse, SpinOutput& out) {

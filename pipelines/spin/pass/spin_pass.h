@@ -68,6 +68,7 @@ class SpinPass {
 
   void take(const Pulse& pulse, SpinOutput& out);
   void take(const CodedFrame& frame, SpinOutput& out);
+  void take_edges_before(TaiTime t, SpinOutput& out);
   void sort_out(const std::vector<Pulse>& in_time, SpinOutput& out);
   void associate(const std::vector<InterferenceWindow::Judged>& pulses, SpinOutput& out);
   void collect(Association association, SpinOutput& out);
@@ -91,6 +92,7 @@ class SpinPass {
   PassNotices notices_;
   Surroundings surroundings_;
   FrameReorderWindow frames_;
+  std::vector<Pulse> of_next_frame_;  ///< Edges behind the sun1 of a frame that is still to come.
   ReorderWindow reorder_;
   InterferenceWindow interference_;
   Associator associator_;

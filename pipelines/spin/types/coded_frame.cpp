@@ -16,7 +16,8 @@ std::vector<Pulse> edges_of(const CodedFrame& frame) {
     if (!delay_s || channel == PulseChannel::Sun1) {
       continue;
     }
-    const double turns = period_s > 0.0 ? std::floor(*delay_s / period_s) : 0.0;
+    const bool is_plain = *delay_s >= 0.0 && *delay_s <= kLongestDelay_periods * period_s;
+    const double turns = period_s > 0.0 && !is_plain ? std::floor(*delay_s / period_s) : 0.0;
     edges.push_back({.t = later_by_s(frame.t, *delay_s - turns * period_s), .channel = channel});
   }
   std::sort(edges.begin(), edges.end());

@@ -16,19 +16,24 @@ namespace spindrift {
 /// Between two sun1. One revolution a minute, far slower than what is stabilised by its spin.
 inline constexpr double kLongestPeriod_s = 60.0;
 
+/// As far behind sun1 is an interval a plain time: an edge of the revolution that begins with sun1,
+/// or of the one behind it.
+inline constexpr double kLongestDelay_periods = 2.0;
+
 /// The six leading edges as intervals measured on board. Empty: not received.
 struct CodedFrame {
   TaiTime t;                       ///< Of its sun1 edge.
   std::optional<double> period_s;  ///< T12, between this sun1 and its neighbour.
-  /// Behind sun1, modulo the period, by channel; that of sun1 itself is empty.
+  /// Behind sun1 by channel, up to two periods; that of sun1 itself is empty.
   std::array<std::optional<double>, kPulseChannels> delay_s;
 
   friend auto operator<=>(const CodedFrame&, const CodedFrame&) = default;
 };
 
-/// Its edges in order of time: sun1, and the others within the period behind it, as the counter on
-/// board sees them. So the end of a chord that straddles sun1 is in the frame behind that of its
-/// beginning. Without a period, or with one that is none, the delays are taken as they are.
+/// Its edges in order of time: sun1, and the others behind it. A counter on board that begins anew
+/// with each sun1 has the end of a chord that straddles sun1 in the frame behind that of its
+/// beginning. Delays that no counter gives, below 0 or above two periods, are taken modulo the
+/// period. Without a period, or with one that is none, all are taken as they are.
 std::vector<Pulse> edges_of(const CodedFrame& frame);
 
 }  // namespace spindrift

@@ -82,10 +82,11 @@ TEST(CodedFrame, ItsEdgesComeInOrderOfTime) {
   CodedFrame frame = frame_at(0.0);
   frame.delay_s.at(index_of(NorthIn)) = -0.3;   // 0.7, modulo the period.
   frame.delay_s.at(index_of(SouthOut)) = 2.05;  // 0.05.
+  frame.delay_s.at(index_of(Sun2)) = 1.1;       // Of the revolution behind.
   frame.delay_s.at(index_of(SouthIn)) = std::nullopt;
   EXPECT_THAT(edges_of(frame),
-              ElementsAre(edge_at(0.0, Sun1), edge_at(0.05, SouthOut), edge_at(0.1, Sun2),
-                          edge_at(0.5, NorthOut), edge_at(0.7, NorthIn)));
+              ElementsAre(edge_at(0.0, Sun1), edge_at(0.05, SouthOut), edge_at(0.5, NorthOut),
+                          edge_at(0.7, NorthIn), edge_at(1.1, Sun2)));
 }
 
 TEST(CodedFrame, WithoutAPeriodTheDelaysAreTakenAsTheyAre) {

@@ -125,6 +125,30 @@ TEST(SpinPass, SaysOnceWhatBecameOfEveryEdge) {
   }
 }
 
+TEST(SpinPass, TakesAnIntervalOfMoreThanAPeriodForAnEdgeOfTheNextRevolution) {
+  // So slow that what comes behind a second is late.
+  constexpr double kPeriod_s = 10.0;
+  const RecordedPass pass = recorded_pass("coded");
+  std::vector<CodedFrame> frames;
+  for (int i = 0; i < 50; ++i) {
+    frames.push_back({.t = shifted(pass.frames.front().t, i * kPeriod_s),
+                      .period_s = kPeriod_s,
+                      .delay_s = {std::nullopt, 11.0, 4.0, 5.0, 14.5, 16.0}});
+  }
+  std::map<PulseChannel, std::vector<TaiTime>> told;
+  for (const PulseUse& use :
+       all_of<PulseUse>(testing::run(SpinPass{pass.config, pass.orbit}, frames))) {
+    EXPECT_NE(use.rejected_by, Rejection::Late);
+    told[use.pulse.channel].push_back(use.pulse.t);
+  }
+  for (const auto& [channel, times] : told) {
+    ASSERT_EQ(times.size(), frames.size());
+    EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+    EXPECT_EQ(times.front(), shifted(frames.front().t,
+                                     frames.front().delay_s.at(index_of(channel)).value_or(0.0)));
+  }
+}
+
 TEST(SpinPass, AcceptsNearlyAllOfACleanPass) {
   const auto uses = all_of<PulseUse>(run(recorded_pass("nominal")));
   const auto rejected =
