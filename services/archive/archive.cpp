@@ -221,7 +221,7 @@ void Archive::note_success(std::span<const ArchiveBatch> batches, double duratio
     commit_durations_.add(duration_ms);
     rows_committed_ += row_count(batches);
     for (const ArchiveBatch& batch : batches) {
-      samples_committed_ += batch.pulses.size() + batch.coded.size();
+      samples_committed_ += count_of(batch.samples);
     }
     committed_batches_ += batches.size();
     if (state_ == State::Accepting) {

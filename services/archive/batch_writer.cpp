@@ -1,11 +1,13 @@
 #include "services/archive/batch_writer.h"
 
 #include <SQLiteCpp/Transaction.h>
+#include <fmt/format.h>
 
 #include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "services/archive/bind.h"
@@ -16,11 +18,34 @@ namespace {
 
 std::int64_t as_signed(std::uint64_t value) { return static_cast<std::int64_t>(value); }
 
-// What is stored already stays as it is, but for its place in the order of the run that takes it
-// now: of ?8, where ?7 is its arrival.
-constexpr const char* kTakenByALaterRun =
-    " ON CONFLICT DO UPDATE SET arrival = excluded.arrival"
-    " WHERE arrival < (SELECT first_arrival FROM run WHERE run_id = ?8)";
+/// What is stored already stays as it is, but for its place in the order of the run that takes it
+/// now: the last parameter.
+template <class Value>
+std::string insert_statement() {
+  std::string columns = "spacecraft_id, t_tai_ns";
+  std::string values = "?1, ?2";
+  int parameter = 2;
+  const auto add = [&](std::string_view column) {
+    columns += fmt::format(", {}", column);
+    values += fmt::format(", ?{}", ++parameter);
+  };
+  std::apply([&](const auto&... column) { (add(column.name), ...); }, Telemetry<Value>::kColumns);
+  for (const std::string_view column : {"source", "session", "seq", "arrival"}) {
+    add(column);
+  }
+  return fmt::format(
+      "INSERT INTO {} ({}) VALUES ({}) ON CONFLICT DO UPDATE SET arrival = excluded.arrival"
+      " WHERE arrival < (SELECT first_arrival FROM run WHERE run_id = ?{})",
+      Telemetry<Value>::kTable, columns, values, parameter + 1);
+}
+
+std::vector<SQLite::Statement> insert_statements(SQLite::Database& database) {
+  std::vector<SQLite::Statement> statements;
+  TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
+    statements.emplace_back(database, insert_statement<Value>());
+  });
+  return statements;
+}
 
 }  // namespace
 
@@ -40,16 +65,7 @@ BatchWriter::BatchWriter(SQLite::Database& database)
       run_earliest_{database,
                     "UPDATE run SET first_tai_ns = min(ifnull(first_tai_ns, ?1), ?1)"
                     " WHERE run_id = ?2"},
-      pulse_{database,
-             std::string{"INSERT INTO pulse (spacecraft_id, t_tai_ns, channel, source, session,"
-                         " seq, arrival) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)"} +
-                 kTakenByALaterRun},
-      coded_frame_{database,
-                   std::string{"INSERT INTO coded_frame (spacecraft_id, t_tai_ns, period_s, sun2_s,"
-                               " north_in_s, north_out_s, south_in_s, south_out_s, source, session,"
-                               " seq, arrival)"
-                               " VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?9, ?10, ?11, ?12, ?13, ?7)"} +
-                       kTakenByALaterRun},
+      samples_{insert_statements(database)},
       rejected_input_{database,
                       "INSERT INTO rejected_input (run_id, source, session, line, reason)"
                       " VALUES (?, ?, ?, ?, ?) ON CONFLICT DO NOTHING"},
@@ -83,13 +99,11 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
   if (batch.earliest) {
     execute(run_earliest_, tai_ns(*batch.earliest), batch.run_id);
   }
-  std::int64_t arrival = batch.arrival;
-  for (const PulseSample& sample : batch.pulses) {
-    insert(batch, sample, arrival++);
-  }
-  for (const CodedSample& sample : batch.coded) {
-    insert(batch, sample, arrival++);
-  }
+  batch.samples.for_each([&](const auto& of_kind) {
+    for (const auto& sample : of_kind) {
+      insert(batch.run_id, sample);
+    }
+  });
   for (const RejectedInput& rejected : batch.rejected) {
     insert(batch.run_id, rejected);
   }
@@ -125,23 +139,15 @@ void BatchWriter::insert(const ArchiveBatch& batch, const RunStart& start) {
   }
 }
 
-void BatchWriter::insert(const ArchiveBatch& batch, const PulseSample& sample,
-                         std::int64_t arrival) {
-  execute(pulse_, sample.spacecraft, tai_ns(sample.pulse.t),
-          spindrift::name_of(sample.pulse.channel), sample.origin.source,
-          as_signed(sample.origin.session), as_signed(sample.origin.seq), arrival, batch.run_id);
-}
-
-void BatchWriter::insert(const ArchiveBatch& batch, const CodedSample& sample,
-                         std::int64_t arrival) {
-  const auto delay_s = [&](PulseChannel channel) {
-    return sample.frame.delay_s.at(index_of(channel));
-  };
-  using enum PulseChannel;
-  execute(coded_frame_, sample.spacecraft, tai_ns(sample.frame.t), sample.frame.period_s,
-          delay_s(Sun2), delay_s(NorthIn), delay_s(NorthOut), arrival, batch.run_id,
-          delay_s(SouthIn), delay_s(SouthOut), sample.origin.source,
-          as_signed(sample.origin.session), as_signed(sample.origin.seq));
+template <class Value>
+void BatchWriter::insert(const std::string& run_id, const TelemetrySample<Value>& sample) {
+  std::apply(
+      [&](const auto&... column) {
+        execute(samples_[kTelemetryKind<Value>], sample.spacecraft, tai_ns(sample.value.t),
+                column.of(sample.value)..., sample.origin.source, as_signed(sample.origin.session),
+                as_signed(sample.origin.seq), sample.arrival, run_id);
+      },
+      Telemetry<Value>::kColumns);
 }
 
 void BatchWriter::insert(const std::string& run_id, const RejectedInput& rejected) {

@@ -8,6 +8,8 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "pipelines/core/expected.h"
 #include "services/archive/product_writer.h"
@@ -29,8 +31,8 @@ class BatchWriter {
  private:
   void insert(const ArchiveBatch& batch);
   void insert(const ArchiveBatch& batch, const RunStart& start);
-  void insert(const ArchiveBatch& batch, const PulseSample& sample, std::int64_t arrival);
-  void insert(const ArchiveBatch& batch, const CodedSample& sample, std::int64_t arrival);
+  template <class Value>
+  void insert(const std::string& run_id, const TelemetrySample<Value>& sample);
   void insert(const std::string& run_id, const RejectedInput& rejected);
   void insert(const std::string& run_id, const SourceCount& count);
   void insert_latest_counts(std::span<const ArchiveBatch> batches);
@@ -42,8 +44,7 @@ class BatchWriter {
   SQLite::Statement run_finished_;
   SQLite::Statement run_unfinished_;
   SQLite::Statement run_earliest_;
-  SQLite::Statement pulse_;
-  SQLite::Statement coded_frame_;
+  std::vector<SQLite::Statement> samples_;  ///< In the order of the list of kinds.
   SQLite::Statement rejected_input_;
   SQLite::Statement source_count_;
   ProductWriter products_;

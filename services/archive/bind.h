@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "pipelines/spin/types/pulse.h"
+
 namespace spindrift {
 
 inline void bind(SQLite::Statement& statement, int index, std::int64_t value) {
@@ -27,6 +29,9 @@ inline void bind(SQLite::Statement& statement, int index, const std::string& val
 // A name_of(...): a literal, hence ended by a NUL and there for good.
 inline void bind(SQLite::Statement& statement, int index, std::string_view literal) {
   statement.bindNoCopy(index, literal.data());
+}
+inline void bind(SQLite::Statement& statement, int index, PulseChannel channel) {
+  bind(statement, index, name_of(channel));
 }
 template <class T>
 void bind(SQLite::Statement& statement, int index, const std::optional<T>& value) {

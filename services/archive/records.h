@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "services/ingest/rejected_input.h"
-#include "services/ingest/sample.h"
 #include "services/products/products.h"
+#include "services/telemetry/by_kind.h"
+#include "services/telemetry/rejected_input.h"
 
 namespace spindrift {
 
@@ -53,10 +53,8 @@ struct ArchiveBatch {
   std::string spacecraft_id;
   std::optional<RunStart> start = {};
   std::optional<Continuation> continuation = {};
-  std::int64_t arrival = 0;  ///< Of its first sample; the pulses and then the frames count on.
   std::optional<TaiTime> earliest = {};  ///< A sample of it is earlier than the run's earliest.
-  std::vector<PulseSample> pulses = {};
-  std::vector<CodedSample> coded = {};
+  TelemetrySamples samples = {};         ///< With their order of arrival in the run.
   std::vector<RejectedInput> rejected = {};
   std::vector<Product> products = {};
   std::vector<SourceCount> source_counts = {};
@@ -65,7 +63,7 @@ struct ArchiveBatch {
 
 /// Rows that `batch` asks for, those the archive already holds included.
 inline std::size_t row_count(const ArchiveBatch& batch) {
-  return batch.pulses.size() + batch.coded.size() + batch.rejected.size() + batch.products.size() +
+  return count_of(batch.samples) + batch.rejected.size() + batch.products.size() +
          batch.source_counts.size() + (batch.start ? 1 : 0) + (batch.finished_utc ? 1 : 0);
 }
 

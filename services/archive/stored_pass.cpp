@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
+#include <tuple>
 
 #include "services/archive/connection.h"
 
@@ -13,10 +15,6 @@ namespace {
 
 std::optional<TaiTime> time_of(const SQLite::Column& column) {
   return column.isNull() ? std::nullopt : std::optional{tai_from_ns(column.getInt64())};
-}
-
-std::optional<double> real_of(const SQLite::Column& column) {
-  return column.isNull() ? std::nullopt : std::optional{column.getDouble()};
 }
 
 constexpr const char* kFindRuns =
@@ -69,8 +67,7 @@ std::vector<StoredPass> find_runs(const SQLite::Database& database,
                     .rejected_inputs = query.getColumn(6).getInt64(),
                     .source_counts = {},
                     .last_origins = {},
-                    .pulses = {},
-                    .frames = {}});
+                    .values = {}});
   }
   return runs;
 }
@@ -106,48 +103,45 @@ void bind_extent(SQLite::Statement& query, const std::string& spacecraft_id,
   }
 }
 
-void read_pulses(const SQLite::Database& database, const std::string& spacecraft_id,
+/// @name A column into a member; the schema allows no other values
+/// @{
+void read(const SQLite::Column& column, double& member) { member = column.getDouble(); }
+void read(const SQLite::Column& column, std::optional<double>& member) {
+  member = column.isNull() ? std::nullopt : std::optional{column.getDouble()};
+}
+void read(const SQLite::Column& column, PulseChannel& member) {
+  member = pulse_channel_from(column.getText()).value();
+}
+/// @}
+
+template <class Value>
+void read_values(const SQLite::Database& database, const std::string& spacecraft_id,
                  StoredPass& pass) {
-  SQLite::Statement query{database,
-                          std::string{"SELECT arrival, t_tai_ns, channel FROM pulse"} + kExtent};
+  std::string columns;
+  std::apply([&](const auto&... column) { (((columns += ", ") += column.name), ...); },
+             Telemetry<Value>::kColumns);
+  SQLite::Statement query{database, fmt::format("SELECT arrival, t_tai_ns{} FROM {}{}", columns,
+                                                Telemetry<Value>::kTable, kExtent)};
   bind_extent(query, spacecraft_id, pass);
+  auto& values = pass.values.of<Value>();
   while (query.executeStep()) {
-    // The schema allows no other names.
-    const auto channel = pulse_channel_from(query.getColumn(2).getText()).value();
-    pass.pulses.push_back(
-        {.arrival = query.getColumn(0).getInt64(),
-         .pulse = {.t = tai_from_ns(query.getColumn(1).getInt64()), .channel = channel}});
+    auto& [arrival, value] = values.emplace_back();
+    arrival = query.getColumn(0).getInt64();
+    value.t = tai_from_ns(query.getColumn(1).getInt64());
+    for_each_column(value, [&, column = 1](std::string_view /*name*/, auto& member) mutable {
+      read(query.getColumn(++column), member);
+    });
   }
-  std::sort(pass.pulses.begin(), pass.pulses.end(),
-            [](const StoredPulse& a, const StoredPulse& b) { return a.arrival < b.arrival; });
+  std::sort(values.begin(), values.end(),
+            [](const Arrived<Value>& a, const Arrived<Value>& b) { return a.arrival < b.arrival; });
 }
 
-void read_frames(const SQLite::Database& database, const std::string& spacecraft_id,
-                 StoredPass& pass) {
-  SQLite::Statement query{database,
-                          std::string{"SELECT arrival, t_tai_ns, period_s, sun2_s, north_in_s,"
-                                      " north_out_s, south_in_s, south_out_s FROM coded_frame"} +
-                              kExtent};
-  bind_extent(query, spacecraft_id, pass);
-  while (query.executeStep()) {
-    StoredFrame stored{.arrival = query.getColumn(0).getInt64(),
-                       .frame = {.t = tai_from_ns(query.getColumn(1).getInt64()),
-                                 .period_s = real_of(query.getColumn(2)),
-                                 .delay_s = {}}};
-    // sun2 to south_out stand in the order of their channels.
-    for (std::size_t channel = 1; channel < kPulseChannels; ++channel) {
-      stored.frame.delay_s.at(channel) = real_of(query.getColumn(static_cast<int>(channel) + 2));
-    }
-    pass.frames.push_back(stored);
-  }
-  std::sort(pass.frames.begin(), pass.frames.end(),
-            [](const StoredFrame& a, const StoredFrame& b) { return a.arrival < b.arrival; });
-}
-
-std::vector<Origin> last_origins(const SQLite::Database& database, const std::string& table,
+std::vector<Origin> last_origins(const SQLite::Database& database, std::string_view table,
                                  const std::string& spacecraft_id, const StoredPass& pass) {
-  SQLite::Statement query{database, "SELECT source, session, max(seq) FROM " + table + kExtent +
-                                        " GROUP BY source, session"};
+  SQLite::Statement query{database,
+                          fmt::format("SELECT source, session, max(seq) FROM {}{} GROUP BY source,"
+                                      " session",
+                                      table, kExtent)};
   bind_extent(query, spacecraft_id, pass);
   std::vector<Origin> last;
   while (query.executeStep()) {
@@ -168,10 +162,11 @@ Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path
     for (StoredPass& pass : passes) {
       read_source_counts(database, pass);
       if (pass.earliest) {
-        read_pulses(database, spacecraft_id, pass);
-        read_frames(database, spacecraft_id, pass);
-        pass.last_origins = {.pulses = last_origins(database, "pulse", spacecraft_id, pass),
-                             .frames = last_origins(database, "coded_frame", spacecraft_id, pass)};
+        TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
+          read_values<Value>(database, spacecraft_id, pass);
+          pass.last_origins[kTelemetryKind<Value>] =
+              last_origins(database, Telemetry<Value>::kTable, spacecraft_id, pass);
+        });
       }
     }
     return passes;

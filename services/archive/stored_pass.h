@@ -11,19 +11,10 @@
 
 #include "pipelines/core/expected.h"
 #include "services/archive/records.h"
-#include "services/ingest/last_origins.h"
+#include "services/telemetry/by_kind.h"
+#include "services/telemetry/last_origins.h"
 
 namespace spindrift {
-
-struct StoredPulse {
-  std::int64_t arrival;
-  Pulse pulse;
-};
-
-struct StoredFrame {
-  std::int64_t arrival;
-  CodedFrame frame;
-};
 
 /// Where the next run begins. A sample from before its first one that arrived between those by
 /// which it began is still of the run before.
@@ -41,9 +32,8 @@ struct StoredPass {
   std::optional<TaiTime> last_revolution;
   std::int64_t rejected_inputs;
   std::vector<SourceCount> source_counts;
-  LastOrigins last_origins;         ///< Of its samples, as they arrived first.
-  std::vector<StoredPulse> pulses;  ///< In order of arrival; so are the frames.
-  std::vector<StoredFrame> frames;
+  LastOrigins last_origins;  ///< Of its samples, as they arrived first.
+  TelemetryValues values;    ///< Each kind in order of arrival.
 };
 
 /// Of the runs of `spacecraft_id` that were made as `start` says (same mode, telemetry, program,

@@ -6,8 +6,6 @@
 #include <dds/dds.h>
 
 // The generated types, named without their header: only an adapter needs to see inside.
-struct spindrift_Pulse;
-struct spindrift_CodedFrame;
 struct spindrift_Health;
 
 namespace spindrift::bus {
@@ -19,8 +17,6 @@ struct Topic {
   const dds_topic_descriptor_t* type;
 };
 
-extern const Topic<spindrift_Pulse> kPulseTopic;
-extern const Topic<spindrift_CodedFrame> kCodedFrameTopic;
 extern const Topic<spindrift_Health> kHealthTopic;
 
 }  // namespace spindrift::bus

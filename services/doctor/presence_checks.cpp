@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "services/bus/topics.h"
 #include "services/doctor/presence.h"
+#include "services/telemetry/telemetry_kinds.h"
 
 namespace spindrift::doctor {
 namespace {
@@ -50,8 +50,11 @@ std::string mismatch(const Endpoint& endpoint) {
 }
 
 bool is_telemetry(const Endpoint& endpoint) {
-  return endpoint.writes &&
-         (endpoint.topic == bus::kPulseTopic.name || endpoint.topic == bus::kCodedFrameTopic.name);
+  bool is_topic = false;
+  TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
+    is_topic = is_topic || endpoint.topic == Telemetry<Value>::kTopic;
+  });
+  return endpoint.writes && is_topic;
 }
 
 Check check_company(const PresenceFacts& facts) {
@@ -74,9 +77,8 @@ Check check_telemetry(const PresenceFacts& facts) {
   if (!here.empty()) {
     return ok("telemetry", lines(here));
   }
-  const std::string found =
-      fmt::format("nobody publishes pulses or coded frames in domain {}, partition '{}'",
-                  facts.bus.domain, facts.bus.partition);
+  const std::string found = fmt::format("nobody publishes telemetry in domain {}, partition '{}'",
+                                        facts.bus.domain, facts.bus.partition);
   return elsewhere.empty()
              ? warning("telemetry", found,
                        "start the front-end; if it runs, give it this domain and the network "

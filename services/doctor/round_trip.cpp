@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "services/bus/reader.h"
+#include "services/bus/telemetry_messages.h"
 #include "services/bus/writer.h"
 #include "services/doctor/network.h"
 
@@ -28,7 +29,7 @@ Expected<void> send_one(const bus::BusConfig& config) {
   if (!participant) {
     return Unexpected{participant.error()};
   }
-  const auto writer = bus::Writer<spindrift_Pulse>::create(*participant, bus::kPulseTopic,
+  const auto writer = bus::Writer<spindrift_Pulse>::create(*participant, bus::topic_of<Pulse>(),
                                                            bus::telemetry_writer_qos());
   if (!writer) {
     return Unexpected{writer.error()};
@@ -49,7 +50,7 @@ Expected<void> receive_one(const bus::BusConfig& config,
   if (!participant) {
     return Unexpected{participant.error()};
   }
-  const auto reader = bus::Reader<spindrift_Pulse>::create(*participant, bus::kPulseTopic,
+  const auto reader = bus::Reader<spindrift_Pulse>::create(*participant, bus::topic_of<Pulse>(),
                                                            bus::telemetry_reader_qos());
   if (!reader) {
     return Unexpected{reader.error()};

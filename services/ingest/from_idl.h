@@ -4,29 +4,87 @@
 
 #pragma once
 
-#include <spindrift.h>
-
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
 
 #include "pipelines/core/expected.h"
-#include "services/ingest/sample_batch.h"
+#include "services/bus/telemetry_messages.h"
+#include "services/telemetry/rejected_input.h"
+#include "services/telemetry/telemetry_sample.h"
 
 namespace spindrift {
 
-/// Of any telemetry sample.
-template <class Sample>
-Origin origin_from_idl(const Sample& sample) {
-  return {.source = sample.source, .session = sample.session, .seq = sample.seq};
+/// Of any message.
+template <class Message>
+Origin origin_from_idl(const Message& message) {
+  return {.source = message.source, .session = message.session, .seq = message.seq};
 }
-
-/// @return InvalidInput naming field, value and what is allowed, when the sample cannot be true:
-/// spacecraft or source no name, time outside telemetry_time.h, channel unknown.
-Expected<PulseSample> from_idl(const spindrift_Pulse& pulse);
-
-/// NaN becomes "not received". @return InvalidInput likewise; intervals: see coded_check.h.
-Expected<CodedSample> from_idl(const spindrift_CodedFrame& frame);
 
 /// What is stored in the place of a telemetry sample of `origin`.
 RejectedInput rejected_from_idl(const Origin& origin, std::string reason);
+
+/// @name What cannot be true of the members that every message has, and of a channel
+/// Member, value and what is allowed; empty when it may be true.
+/// @{
+std::string why_header_impossible(std::string_view spacecraft, std::string_view source,
+                                  std::int64_t t_tai_ns);
+std::string why_no_channel(std::string_view name, std::uint32_t channel);
+/// @}
+
+/// @name One member of a message into one of a value
+/// @return why it cannot be true, or empty.
+/// @{
+inline std::string put(std::string_view /*name*/, double field, double& member) {
+  member = field;
+  return {};
+}
+/// NaN: not received.
+inline std::string put(std::string_view /*name*/, double field, std::optional<double>& member) {
+  member = std::isnan(field) ? std::nullopt : std::optional{field};
+  return {};
+}
+/// As bytes: a newer IDL may know a channel that ours does not, and an enum must not hold it.
+template <class Field>
+std::string put(std::string_view name, const Field& field, PulseChannel& member) {
+  std::uint32_t channel = 0;
+  static_assert(sizeof channel == sizeof field);
+  std::memcpy(&channel, &field, sizeof channel);
+  auto reason = why_no_channel(name, channel);
+  if (reason.empty()) {
+    member = static_cast<PulseChannel>(channel);
+  }
+  return reason;
+}
+/// @}
+
+/// @return InvalidInput naming member, value and what is allowed, when the sample cannot be true:
+/// spacecraft or source no name, time outside telemetry_time.h, values that its kind does not
+/// allow.
+template <class Value>
+Expected<TelemetrySample<Value>> from_idl(const bus::MessageOf<Value>& message) {
+  TelemetrySample<Value> sample{
+      .spacecraft = message.spacecraft, .origin = origin_from_idl(message), .value = {}};
+  sample.value.t = tai_from_ns(message.t_tai_ns);
+  auto reason = why_header_impossible(message.spacecraft, message.source, message.t_tai_ns);
+  bus::for_each_field(sample.value, message,
+                      [&reason](std::string_view name, auto& member, const auto& field) {
+                        if (reason.empty()) {
+                          reason = put(name, field, member);
+                        }
+                      });
+  if (reason.empty()) {
+    reason = Telemetry<Value>::why_impossible(sample.value);
+  }
+  if (!reason.empty()) {
+    return Unexpected{Error{ErrorCode::InvalidInput, std::move(reason)}};
+  }
+  return sample;
+}
 
 }  // namespace spindrift

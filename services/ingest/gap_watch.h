@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "services/ingest/sequence_counts.h"
+#include "services/telemetry/sequence_counts.h"
 
 namespace spindrift {
 

@@ -11,8 +11,8 @@
 #include <tuple>
 #include <utility>
 
-#include "services/ingest/sample.h"
-#include "services/ingest/sequence_counts.h"
+#include "services/telemetry/sequence_counts.h"
+#include "services/telemetry/telemetry_sample.h"
 
 namespace spindrift {
 

@@ -10,11 +10,11 @@ namespace {
 // So many does Reader::take give at a time while there are more.
 constexpr std::int32_t kTakenAtOnce = 256;
 
-template <class Sample>
-Expected<bus::Reader<Sample>> attached_reader(const bus::Participant& participant,
-                                              const bus::Topic<Sample>& topic,
-                                              bus::WaitSet& waitset) {
-  auto reader = bus::Reader<Sample>::create(participant, topic, bus::telemetry_reader_qos());
+template <class Value>
+Expected<bus::Reader<bus::MessageOf<Value>>> attached_reader(const bus::Participant& participant,
+                                                             bus::WaitSet& waitset) {
+  auto reader = bus::Reader<bus::MessageOf<Value>>::create(participant, bus::topic_of<Value>(),
+                                                           bus::telemetry_reader_qos());
   if (reader) {
     if (const auto attached = waitset.attach(reader->data()); !attached) {
       return Unexpected{attached.error()};
@@ -23,8 +23,21 @@ Expected<bus::Reader<Sample>> attached_reader(const bus::Participant& participan
   return reader;
 }
 
-bool is_empty(const SampleBatch& batch) {
-  return batch.pulses.empty() && batch.coded.empty() && batch.rejected.empty();
+/// All of `each`, or the first error among them.
+template <class... Values>
+Expected<std::tuple<Values...>> all_of(Expected<Values>... each) {
+  const Error* failure = nullptr;
+  ((failure = failure == nullptr && !each ? &each.error() : failure), ...);
+  if (failure != nullptr) {
+    return Unexpected{*failure};
+  }
+  return std::tuple<Values...>{std::move(*each)...};
+}
+
+template <class... Kinds>
+auto attached_readers(const bus::Participant& participant, bus::WaitSet& waitset,
+                      KindList<Kinds...> /*kinds*/) {
+  return all_of(attached_reader<Kinds>(participant, waitset)...);
 }
 
 /// Of all readers together.
@@ -40,9 +53,6 @@ Expected<bus::ReaderStatus> status_of(const Readers&... readers) {
   return all;
 }
 
-void keep(PulseSample&& sample, SampleBatch& batch) { batch.pulses.push_back(std::move(sample)); }
-void keep(CodedSample&& sample, SampleBatch& batch) { batch.coded.push_back(std::move(sample)); }
-
 }  // namespace
 
 Expected<std::unique_ptr<TelemetrySubscriber>> TelemetrySubscriber::start(
@@ -52,27 +62,22 @@ Expected<std::unique_ptr<TelemetrySubscriber>> TelemetrySubscriber::start(
   if (!waitset) {
     return Unexpected{waitset.error()};
   }
-  auto pulses = attached_reader(participant, bus::kPulseTopic, *waitset);
-  if (!pulses) {
-    return Unexpected{pulses.error()};
+  auto readers = attached_readers(participant, *waitset, TelemetryKinds{});
+  if (!readers) {
+    return Unexpected{readers.error()};
   }
-  auto coded = attached_reader(participant, bus::kCodedFrameTopic, *waitset);
-  if (!coded) {
-    return Unexpected{coded.error()};
-  }
-  return std::unique_ptr<TelemetrySubscriber>{new TelemetrySubscriber{
-      Readers{std::move(*pulses), std::move(*coded)}, std::move(*waitset), queue, stored}};
+  return std::unique_ptr<TelemetrySubscriber>{
+      new TelemetrySubscriber{std::move(*readers), std::move(*waitset), queue, stored}};
 }
 
 TelemetrySubscriber::TelemetrySubscriber(Readers readers, bus::WaitSet waitset,
                                          BoundedQueue<SampleBatch>& queue,
                                          const LastOrigins& stored)
     : readers_{std::move(readers)}, waitset_{std::move(waitset)}, queue_{queue} {
-  for (const Origin& last : stored.pulses) {
-    tracker_.go_on(last, kPulses);
-  }
-  for (const Origin& last : stored.frames) {
-    tracker_.go_on(last, kCodedFrames);
+  for (std::size_t kind = 0; kind < stored.size(); ++kind) {
+    for (const Origin& last : stored.at(kind)) {
+      tracker_.go_on(last, kind);
+    }
   }
   thread_ = std::thread{[this] { run(); }};
 }
@@ -139,20 +144,19 @@ Expected<void> TelemetrySubscriber::take_what_is_left() {
 
 // False: there was nothing to take.
 Expected<bool> TelemetrySubscriber::hand_over_batches() {
-  auto pulses = hand_over_batch<kPulses>();
-  if (!pulses) {
-    return pulses;
-  }
-  auto coded = hand_over_batch<kCodedFrames>();
-  if (coded) {
-    *coded = *coded || *pulses;
-  }
-  return coded;
+  Expected<bool> some = false;
+  TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
+    if (some) {
+      const bool before = *some;
+      some = hand_over_batch<Value>().map([before](bool now) { return before || now; });
+    }
+  });
+  return some;
 }
 
-template <std::size_t topic>
+template <class Value>
 Expected<bool> TelemetrySubscriber::hand_over_batch() {
-  auto batch = take_batch<topic>();
+  auto batch = take_batch<Value>();
   if (!batch) {
     return Unexpected{batch.error()};
   }
@@ -164,18 +168,19 @@ Expected<bool> TelemetrySubscriber::hand_over_batch() {
   return !empty;
 }
 
-template <std::size_t topic>
+template <class Value>
 Expected<SampleBatch> TelemetrySubscriber::take_batch() {
+  constexpr std::size_t kTopic = kTelemetryKind<Value>;
   SampleBatch batch;
   const std::lock_guard lock{mutex_};
-  return std::get<topic>(readers_)
-      .take([this, &batch](const auto& taken) {
-        if (auto sample = from_idl(taken)) {
-          tracker_.record(sample->origin, sample->spacecraft, topic);
-          keep(std::move(*sample), batch);
+  return std::get<kTopic>(readers_)
+      .take([this, &batch](const bus::MessageOf<Value>& taken) {
+        if (auto sample = from_idl<Value>(taken)) {
+          tracker_.record(sample->origin, sample->spacecraft, kTopic);
+          batch.samples.of<Value>().push_back(std::move(*sample));
         } else {
           const Origin origin = origin_from_idl(taken);
-          tracker_.record(origin, taken.spacecraft, topic);
+          tracker_.record(origin, taken.spacecraft, kTopic);
           batch.rejected.push_back(rejected_from_idl(origin, std::move(sample.error().message)));
         }
       })

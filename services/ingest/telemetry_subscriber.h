@@ -12,11 +12,12 @@
 #include <tuple>
 
 #include "services/bus/reader.h"
+#include "services/bus/telemetry_messages.h"
 #include "services/bus/wait_set.h"
-#include "services/ingest/last_origins.h"
-#include "services/ingest/sample_batch.h"
 #include "services/ingest/sequence_tracker.h"
 #include "services/queue/bounded_queue.h"
+#include "services/telemetry/last_origins.h"
+#include "services/telemetry/sample_batch.h"
 
 namespace spindrift {
 
@@ -27,8 +28,8 @@ struct TelemetrySubscriberStatus {
   std::string failure;
 };
 
-/// Takes from spindrift/pulse and spindrift/coded_frame for as long as it lives. When the queue is
-/// full it waits, the reader fills up, and the writers feel the pressure: nothing is dropped.
+/// Takes from the topics of all kinds of telemetry for as long as it lives. When the queue is full
+/// it waits, the reader fills up, and the writers feel the pressure: nothing is dropped.
 class TelemetrySubscriber {
  public:
   /// `participant` and `queue` outlive it. @param stored Before a restart: no gap is counted again.
@@ -51,10 +52,9 @@ class TelemetrySubscriber {
   Expected<TelemetrySubscriberStatus> status() const;
 
  private:
-  /// One for each topic; what is done with a sample follows from its type (from_idl).
-  using Readers = std::tuple<bus::Reader<spindrift_Pulse>, bus::Reader<spindrift_CodedFrame>>;
-  static constexpr std::size_t kPulses = 0;
-  static constexpr std::size_t kCodedFrames = 1;
+  template <class Value>
+  using ReaderOf = bus::Reader<bus::MessageOf<Value>>;
+  using Readers = TelemetryKinds::Of<std::tuple, ReaderOf>;
 
   TelemetrySubscriber(Readers readers, bus::WaitSet waitset, BoundedQueue<SampleBatch>& queue,
                       const LastOrigins& stored);
@@ -63,9 +63,9 @@ class TelemetrySubscriber {
   Expected<void> take_until_stopped();
   Expected<void> take_what_is_left();
   Expected<bool> hand_over_batches();
-  template <std::size_t topic>
+  template <class Value>
   Expected<bool> hand_over_batch();
-  template <std::size_t topic>
+  template <class Value>
   Expected<SampleBatch> take_batch();
 
   Readers readers_;

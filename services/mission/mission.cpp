@@ -23,6 +23,14 @@ bool is_spinner(const TomlValues& values) {
   return std::get<std::string>(values.at("spacecraft.kind")) == name_of(SpacecraftKind::Spin);
 }
 
+std::set<std::string> tables_of(const TomlValues& values) {
+  std::set<std::string> tables;
+  for (const auto& [key, value] : values) {
+    tables.insert(key.substr(0, key.rfind('.')));
+  }
+  return tables;
+}
+
 /// @param only The kind that is allowed; empty: any.
 Expected<void> allow(TomlDocument& document, std::optional<SpacecraftKind> only) {
   const auto kind = is_spinner(document.values) ? SpacecraftKind::Spin : SpacecraftKind::ThreeAxis;
@@ -74,6 +82,7 @@ Expected<Mission> load(const std::filesystem::path& path, std::optional<Spacecra
                  .toml_text = std::move(document->text),
                  .sha256 = std::move(*sha256),
                  .orbit_sha256 = std::move(orbit->file_sha256),
+                 .tables = tables_of(values),
                  .orbit_doubts = std::move(doubts)};
 }
 

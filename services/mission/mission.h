@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -29,6 +30,7 @@ struct Mission {
   std::string toml_text;                             ///< The file as read.
   std::string sha256;                                ///< Of toml_text, hexadecimal.
   std::optional<std::string> orbit_sha256;           ///< Of the orbit file, if one is named.
+  std::set<std::string> tables;                      ///< That have values, "three_axis.gyro".
   std::vector<std::string> orbit_doubts;  ///< About that file, for people (orbit_doubts.h).
 
   SpacecraftKind kind() const { return static_cast<SpacecraftKind>(config.index()); }

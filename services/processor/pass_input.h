@@ -5,23 +5,18 @@
 
 #include <cstddef>
 #include <string>
-#include <vector>
 
-#include "pipelines/spin/types/coded_frame.h"
-#include "pipelines/spin/types/pulse.h"
+#include "services/telemetry/by_kind.h"
 
 namespace spindrift {
 
-/// What a pass is to work on next, in order of arrival: the pulses, then the frames.
+/// What a pass is to work on next.
 struct PassInput {
-  std::size_t spacecraft = 0;  ///< Index of its mission.
-  std::string run_id;          ///< Another one than before: a new pass begins.
-  std::vector<Pulse> pulses = {};
-  std::vector<CodedFrame> frames = {};
+  std::size_t spacecraft = 0;   ///< Index of its mission.
+  std::string run_id;           ///< Another one than before: a new pass begins.
+  TelemetryValues values = {};  ///< `arrival`: the place of each among all in here.
 };
 
-inline std::size_t sample_count(const PassInput& input) {
-  return input.pulses.size() + input.frames.size();
-}
+inline std::size_t sample_count(const PassInput& input) { return count_of(input.values); }
 
 }  // namespace spindrift

@@ -56,12 +56,12 @@ std::vector<ArchiveBatch> PassRun::compute(const PassInput& input) {
   }
   Computed computed;
   computed.fill(batch());
-  for (const Pulse& pulse : input.pulses) {
-    compute(pulse, computed);
-  }
-  for (const CodedFrame& frame : input.frames) {
-    compute(frame, computed);
-  }
+  in_order_of_arrival(input.values, [&]<class Value>(const Arrived<Value>& arrived) {
+    // Of the other kinds of telemetry it knows nothing.
+    if constexpr (requires { pass_.push(arrived.value); }) {
+      compute(arrived.value, computed);
+    }
+  });
   for (ArchiveBatch& batch : computed) {
     if (!batch.products.empty() || batch.continuation) {
       batches.push_back(std::move(batch));

@@ -58,7 +58,7 @@ void append(std::vector<Value>& values, std::vector<Value> more) {
 void add(SpacecraftRun::Taken taken, Routed& routed) {
   append(routed.samples, std::move(taken.batches));
   for (PassInput& input : taken.inputs) {
-    if (!input.pulses.empty() || !input.frames.empty()) {
+    if (sample_count(input) > 0) {
       routed.work.push_back(std::move(input));
     }
   }
@@ -132,10 +132,11 @@ void Processor::go_on(std::size_t i, const std::vector<StoredPass>& stored, Gone
   }
   add(std::move(taken), gone_on.routed);
   for (const StoredPass& pass : stored) {
-    append(gone_on.last_origins.pulses, pass.last_origins.pulses);
-    append(gone_on.last_origins.frames, pass.last_origins.frames);
+    for (std::size_t kind = 0; kind < pass.last_origins.size(); ++kind) {
+      append(gone_on.last_origins.at(kind), pass.last_origins.at(kind));
+    }
     spdlog::info("{}: continuing run {}: {} samples read back", runs_[i].spacecraft_id(),
-                 pass.run_id, pass.pulses.size() + pass.frames.size());
+                 pass.run_id, count_of(pass.values));
   }
 }
 
@@ -145,8 +146,7 @@ Routed Processor::route(SampleBatch samples) {
     by_run[0].rejected = std::move(samples.rejected);
     by_run[0].counts = std::move(samples.counts);
   }
-  distribute(samples.pulses, &SampleBatch::pulses, by_run);
-  distribute(samples.coded, &SampleBatch::coded, by_run);
+  samples.samples.for_each([&](auto& of_kind) { distribute(of_kind, by_run); });
   Routed routed;
   for (auto& [run, of_run] : by_run) {
     add(runs_.at(run).take(std::move(of_run)), routed);
@@ -154,17 +154,18 @@ Routed Processor::route(SampleBatch samples) {
   return routed;
 }
 
-template <class Sample>
-void Processor::distribute(std::vector<Sample>& samples, std::vector<Sample> SampleBatch::*kind,
+template <class Value>
+void Processor::distribute(SamplesOfKind<Value>& samples,
                            std::map<std::size_t, SampleBatch>& by_run) {
   // The bus gives samples spacecraft by spacecraft: most are of the same one as the one before.
   const std::string* last = nullptr;
-  std::vector<Sample>* place = nullptr;
-  for (Sample& sample : samples) {
+  SamplesOfKind<Value>* place = nullptr;
+  for (TelemetrySample<Value>& sample : samples) {
     if (last == nullptr || sample.spacecraft != *last) {
       const auto known = index_of_.find(sample.spacecraft);
       last = known == index_of_.end() ? nullptr : &known->first;
-      place = known == index_of_.end() ? nullptr : &(by_run[known->second].*kind);
+      place =
+          known == index_of_.end() ? nullptr : &by_run[known->second].samples.template of<Value>();
     }
     if (place == nullptr) {
       count_other(sample.spacecraft);
@@ -225,8 +226,13 @@ std::vector<RunSummary> Processor::summaries() const {
     for (RunSummary& summary :
          std::visit([](const auto& pass) { return pass.summaries(); }, passes_[i])) {
       const Received received = runs_[i].received(summary.run_id);
-      summary.edges_received = received.pulses + received.frame_edges;
-      summary.coded_frames_received = received.frames;
+      TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
+        if (const std::int64_t count = received.of<Value>(); count > 0) {
+          summary.samples_received.emplace(Telemetry<Value>::kPlural, count);
+        }
+      });
+      summary.edges_received = received.of<Pulse>() + received.frame_edges;
+      summary.coded_frames_received = received.of<CodedFrame>();
       summary.input_rejected = received.rejected_inputs;
       summaries.push_back(std::move(summary));
     }

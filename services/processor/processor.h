@@ -15,11 +15,11 @@
 
 #include "pipelines/core/expected.h"
 #include "services/archive/records.h"
-#include "services/ingest/sample_batch.h"
 #include "services/mission/mission.h"
 #include "services/processor/pass_run.h"
 #include "services/processor/spacecraft_run.h"
 #include "services/processor/three_axis_run.h"
+#include "services/telemetry/sample_batch.h"
 
 namespace spindrift {
 
@@ -78,9 +78,8 @@ class Processor {
  private:
   Processor() = default;
 
-  template <class Sample>
-  void distribute(std::vector<Sample>& samples, std::vector<Sample> SampleBatch::*kind,
-                  std::map<std::size_t, SampleBatch>& by_run);
+  template <class Value>
+  void distribute(SamplesOfKind<Value>& samples, std::map<std::size_t, SampleBatch>& by_run);
   void go_on(std::size_t i, const std::vector<StoredPass>& stored, GoneOn& gone_on);
   void count_other(const std::string& spacecraft);
 

@@ -21,6 +21,7 @@ struct RunSummary {
   std::string run_id;
   std::string spacecraft_id;
   SpacecraftKind kind = SpacecraftKind::Spin;
+  std::map<std::string_view, std::int64_t> samples_received = {};  ///< "gyro samples"; what came.
   std::int64_t edges_received = 0;         ///< Those of coded frames too, as everywhere here.
   std::int64_t edges_stored = 0;           ///< Whoever knows the archive fills it in.
   std::int64_t coded_frames_received = 0;  ///< Each holds up to six edges.

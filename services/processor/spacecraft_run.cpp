@@ -44,34 +44,7 @@ void lower(std::optional<TaiTime>& earliest, TaiTime t) {
   earliest = std::min(earliest.value_or(t), t);
 }
 
-const Pulse& value_of(const PulseSample& sample) { return sample.pulse; }
-const CodedFrame& value_of(const CodedSample& sample) { return sample.frame; }
-
-void keep(PulseSample&& sample, ArchiveBatch& batch) { batch.pulses.push_back(std::move(sample)); }
-void keep(CodedSample&& sample, ArchiveBatch& batch) { batch.coded.push_back(std::move(sample)); }
-
-/// Calls `see` with each sample of `stored` and its arrival.
-template <class See>
-void in_order_of_arrival(const StoredPass& stored, const See& see) {
-  auto frame = stored.frames.begin();
-  const auto see_frames_before = [&](std::int64_t arrival) {
-    for (; frame != stored.frames.end() && frame->arrival < arrival; ++frame) {
-      see(frame->frame, frame->arrival);
-    }
-  };
-  for (const StoredPulse& pulse : stored.pulses) {
-    see_frames_before(pulse.arrival);
-    see(pulse.pulse, pulse.arrival);
-  }
-  see_frames_before(std::numeric_limits<std::int64_t>::max());
-}
-
 }  // namespace
-
-void Received::count(const CodedFrame& frame) {
-  ++frames;
-  frame_edges += static_cast<std::int64_t>(edges_of(frame).size());
-}
 
 SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& source,
                              std::size_t index)
@@ -88,7 +61,8 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
              // The clock only sets the run apart from earlier ones; within it samples are counted.
              .first_arrival = tai_ns(tai_now())},
       run_id_{new_run_id()},
-      next_arrival_{start_.first_arrival} {}
+      next_arrival_{start_.first_arrival},
+      tables_{mission.tables} {}
 
 ArchiveBatch SpacecraftRun::batch() const {
   ArchiveBatch batch;
@@ -109,9 +83,7 @@ Received SpacecraftRun::received(const std::string& run_id) const {
 }
 
 SpacecraftRun::Taken SpacecraftRun::nothing_taken() const {
-  Taken nothing{.batches = {batch()}, .inputs = {{.spacecraft = index_, .run_id = run_id_}}};
-  nothing.batches.back().arrival = next_arrival_;
-  return nothing;
+  return {.batches = {batch()}, .inputs = {{.spacecraft = index_, .run_id = run_id_}}};
 }
 
 SpacecraftRun::Taken SpacecraftRun::go_on(const std::vector<StoredPass>& stored) {
@@ -140,22 +112,17 @@ void SpacecraftRun::go_on(const StoredPass& stored, Taken& out) {
   out.batches.push_back(batch());
   out.batches.back().continuation = Continuation{.t = TaiTime::max()};
   out.inputs.push_back({.spacecraft = index_, .run_id = run_id_});
-  in_order_of_arrival(stored, [&](const auto& sample, std::int64_t arrival) {
-    next_arrival_ = std::max(next_arrival_, arrival + 1);
-    received_.count(sample);
-    place(sample, arrival, out);
+  in_order_of_arrival(stored.values, [&](const auto& arrived) {
+    next_arrival_ = std::max(next_arrival_, arrived.arrival + 1);
+    received_.count(arrived.value);
+    place(arrived, out);
   });
 }
 
 SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples) {
+  tell_undescribed(samples.samples);
   Taken out = nothing_taken();
-  out.batches.back().pulses.reserve(samples.pulses.size());
-  for (PulseSample& sample : samples.pulses) {
-    sort(std::move(sample), out);
-  }
-  for (CodedSample& sample : samples.coded) {
-    sort(std::move(sample), out);
-  }
+  in_order_of_arrival(samples.samples, [&](auto& sample) { sort(std::move(sample), out); });
   tell_both();
   received_.rejected_inputs += static_cast<std::int64_t>(samples.rejected.size());
   ArchiveBatch& last = out.batches.back();
@@ -172,7 +139,7 @@ void SpacecraftRun::note_earliest(ArchiveBatch& batch) {
 }
 
 void SpacecraftRun::tell_both() {
-  if (!told_both_ && received_.pulses > 0 && received_.frames > 0) {
+  if (!told_both_ && received_.of<Pulse>() > 0 && received_.of<CodedFrame>() > 0) {
     told_both_ = true;
     spdlog::warn(
         "{}: both pulses and coded frames arrive: an edge that both give is used as the one that "
@@ -181,69 +148,78 @@ void SpacecraftRun::tell_both() {
   }
 }
 
+/// Of each kind once.
+void SpacecraftRun::tell_undescribed(const TelemetrySamples& samples) {
+  TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
+    constexpr std::string_view kSensor = Telemetry<Value>::kSensor;
+    bool& told = told_undescribed_[kTelemetryKind<Value>];
+    if (!told && !kSensor.empty() && !samples.of<Value>().empty() &&
+        !tables_.contains(std::string{kSensor})) {
+      told = true;
+      spdlog::warn(
+          "{}: {} arrive, and the mission file has no [{}]: they are stored, and nothing is "
+          "computed from them",
+          spacecraft_id_, Telemetry<Value>::kPlural, kSensor);
+    }
+  });
+}
+
 std::vector<PassInput> SpacecraftRun::finish() {
   std::vector<PassInput> rest = nothing_taken().inputs;
   release_held(rest);
   return rest;
 }
 
-template <class Sample>
-void SpacecraftRun::sort(Sample&& sample, Taken& out) {
-  const std::int64_t arrival = next_arrival_++;
-  const auto& value = value_of(sample);
-  received_.count(value);
-  lower(earliest_, value.t);
-  if (!is_known(value)) {
-    place(value, arrival, out);
+template <class Value>
+void SpacecraftRun::sort(TelemetrySample<Value>&& sample, Taken& out) {
+  sample.arrival = next_arrival_++;
+  received_.count(sample.value);
+  lower(earliest_, sample.value.t);
+  if (!is_known(sample.value)) {
+    place(Arrived<Value>{.arrival = sample.arrival, .value = sample.value}, out);
   }
   // A new pass that it begins has made a batch of its own.
-  keep(std::forward<Sample>(sample), out.batches.back());
+  out.batches.back().samples.of<Value>().push_back(std::move(sample));
 }
 
 /// Sent again: one sample is not to be believed for two.
-template <class Sample>
-bool SpacecraftRun::is_known(const Sample& sample) const {
-  const auto is_it = [&](const Held& held) {
-    const auto* const same_kind = std::get_if<Sample>(&held.sample);
-    return same_kind != nullptr && *same_kind == sample;
+template <class Value>
+bool SpacecraftRun::is_known(const Value& value) const {
+  const auto is_it = [key = order_of(value)](const Held& held) {
+    return std::visit([&](const auto& arrived) { return order_of(arrived.value) == key; }, held);
   };
-  return (stored_ && stored_->hold(sample)) || std::any_of(held_.begin(), held_.end(), is_it);
+  return (stored_ && stored_->hold(value)) || std::any_of(held_.begin(), held_.end(), is_it);
 }
 
-template <class Sample>
-void SpacecraftRun::place(const Sample& sample, std::int64_t arrival, Taken& out) {
-  const PassWatch::Verdict verdict = watch_.see(sample.t);
+template <class Value>
+void SpacecraftRun::place(const Arrived<Value>& arrived, Taken& out) {
+  const PassWatch::Verdict verdict = watch_.see(arrived.value.t);
   if (verdict == PassWatch::Verdict::Within) {
-    hand_on(sample, out.inputs);
+    hand_on(arrived.value, out.inputs);
   } else if (verdict == PassWatch::Verdict::Onward) {
     stored_.reset();
     release_held(out.inputs);
-    hand_on(sample, out.inputs);
+    hand_on(arrived.value, out.inputs);
   } else {
-    held_.push_back({.arrival = arrival, .sample = sample});
+    held_.emplace_back(arrived);
     if (verdict == PassWatch::Verdict::NewPass) {
       begin_new_pass(out);
     }
   }
 }
 
-void SpacecraftRun::hand_on(const Pulse& pulse, std::vector<PassInput>& inputs) const {
-  if (!inputs.back().frames.empty() || inputs.back().pulses.size() >= kSamplesPerInput) {
+template <class Value>
+void SpacecraftRun::hand_on(const Value& value, std::vector<PassInput>& inputs) const {
+  if (sample_count(inputs.back()) >= kSamplesPerInput) {
     inputs.push_back({.spacecraft = index_, .run_id = run_id_});
   }
-  inputs.back().pulses.push_back(pulse);
-}
-
-void SpacecraftRun::hand_on(const CodedFrame& frame, std::vector<PassInput>& inputs) const {
-  if (inputs.back().frames.size() >= kSamplesPerInput) {
-    inputs.push_back({.spacecraft = index_, .run_id = run_id_});
-  }
-  inputs.back().frames.push_back(frame);
+  const auto place = static_cast<std::int64_t>(sample_count(inputs.back()));
+  inputs.back().values.of<Value>().push_back({.arrival = place, .value = value});
 }
 
 void SpacecraftRun::release_held(std::vector<PassInput>& inputs) {
   for (const Held& held : std::exchange(held_, {})) {
-    std::visit([&](const auto& sample) { hand_on(sample, inputs); }, held.sample);
+    std::visit([&](const auto& arrived) { hand_on(arrived.value, inputs); }, held);
   }
 }
 
@@ -251,19 +227,21 @@ void SpacecraftRun::begin_new_pass(Taken& out) {
   const std::vector<Held> its_first = std::exchange(held_, {});
   Received its_own;
   for (const Held& held : its_first) {
-    std::visit([&](const auto& sample) { its_own.count(sample); }, held.sample);
+    std::visit(
+        [&](const auto& arrived) {
+          its_own.count(arrived.value);
+          received_.count(arrived.value, -1);
+        },
+        held);
   }
-  received_.pulses -= its_own.pulses;
-  received_.frames -= its_own.frames;
-  received_.frame_edges -= its_own.frame_edges;
   received_before_.emplace(run_id_, received_);
   note_earliest(out.batches.back());
 
   start_.started_utc = utc_now();
-  start_.first_arrival = its_first.front().arrival;
+  start_.first_arrival =
+      std::visit([](const auto& arrived) { return arrived.arrival; }, its_first.front());
   run_id_ = new_run_id();
   out.batches.push_back(begin());
-  out.batches.back().arrival = its_first.back().arrival;
   out.inputs.push_back({.spacecraft = index_, .run_id = run_id_});
   received_ = its_own;
   earliest_.reset();
@@ -274,11 +252,11 @@ void SpacecraftRun::begin_new_pass(Taken& out) {
   watch_ = {};
   for (const Held& held : its_first) {
     std::visit(
-        [&](const auto& sample) {
-          lower(earliest_, sample.t);
-          place(sample, held.arrival, out);
+        [&](const auto& arrived) {
+          lower(earliest_, arrived.value.t);
+          place(arrived, out);
         },
-        held.sample);
+        held);
   }
   note_earliest(out.batches.back());
   spdlog::info("{}: more than an hour of silence, a new run begins: {}", spacecraft_id_, run_id_);

@@ -4,21 +4,24 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
 #include "services/archive/records.h"
 #include "services/archive/stored_pass.h"
-#include "services/ingest/sample_batch.h"
 #include "services/mission/mission.h"
 #include "services/processor/pass_run.h"
 #include "services/processor/pass_watch.h"
 #include "services/processor/stored_samples.h"
+#include "services/telemetry/sample_batch.h"
 
 namespace spindrift {
 
@@ -30,13 +33,21 @@ struct TelemetrySource {
 
 /// What arrived of a run.
 struct Received {
-  std::int64_t pulses = 0;       ///< Duplicates too.
-  std::int64_t frames = 0;       ///< Coded ones; likewise.
-  std::int64_t frame_edges = 0;  ///< That they hold.
+  std::array<std::int64_t, kTelemetryKindCount> samples{};  ///< By kind; duplicates too.
+  std::int64_t frame_edges = 0;                             ///< That coded frames hold.
   std::int64_t rejected_inputs = 0;
 
-  void count(const Pulse& /*pulse*/) { ++pulses; }
-  void count(const CodedFrame& frame);
+  template <class Value>
+  std::int64_t of() const {
+    return samples[kTelemetryKind<Value>];
+  }
+  template <class Value>
+  void count(const Value& value, std::int64_t times = 1) {
+    samples[kTelemetryKind<Value>] += times;
+    if constexpr (std::is_same_v<Value, CodedFrame>) {
+      frame_edges += times * static_cast<std::int64_t>(edges_of(value).size());
+    }
+  }
 };
 
 /// Everything that arrived goes to the archive at once, whatever is computed from it and when.
@@ -74,25 +85,23 @@ class SpacecraftRun {
   std::vector<PassInput> finish();
 
  private:
-  struct Held {
-    std::int64_t arrival;
-    std::variant<Pulse, CodedFrame> sample;
-  };
+  using Held = TelemetryKinds::Of<std::variant, Arrived>;
 
   Taken nothing_taken() const;
-  template <class Sample>
-  void sort(Sample&& sample, Taken& out);
+  template <class Value>
+  void sort(TelemetrySample<Value>&& sample, Taken& out);
   void go_on(const StoredPass& stored, Taken& out);
   void note_earliest(ArchiveBatch& batch);
-  template <class Sample>
-  bool is_known(const Sample& sample) const;
-  template <class Sample>
-  void place(const Sample& sample, std::int64_t arrival, Taken& out);
-  void hand_on(const Pulse& pulse, std::vector<PassInput>& inputs) const;
-  void hand_on(const CodedFrame& frame, std::vector<PassInput>& inputs) const;
+  template <class Value>
+  bool is_known(const Value& value) const;
+  template <class Value>
+  void place(const Arrived<Value>& arrived, Taken& out);
+  template <class Value>
+  void hand_on(const Value& value, std::vector<PassInput>& inputs) const;
   void release_held(std::vector<PassInput>& inputs);
   void begin_new_pass(Taken& out);
   void tell_both();
+  void tell_undescribed(const TelemetrySamples& samples);
   std::vector<SourceCount> source_counts(const std::map<std::string, SequenceCounts>& by_source);
   ArchiveBatch batch() const;
 
@@ -109,6 +118,8 @@ class SpacecraftRun {
   std::map<std::string, SequenceCounts> counts_before_;  ///< The run's, before a restart.
   std::map<std::string, SequenceCounts> counts_of_earlier_runs_;
   bool told_both_ = false;
+  std::set<std::string> tables_;  ///< Of the mission file.
+  std::array<bool, kTelemetryKindCount> told_undescribed_{};
   PassWatch watch_;
   std::optional<StoredSamples> stored_;  ///< After a restart, until the pass has gone on.
   std::vector<Held> held_;               ///< In order of arrival, until the pass is known.

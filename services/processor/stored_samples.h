@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "services/archive/stored_pass.h"
@@ -14,12 +15,13 @@ class StoredSamples {
  public:
   explicit StoredSamples(const StoredPass& stored);
 
-  bool hold(const Pulse& pulse) const;
-  bool hold(const CodedFrame& frame) const;
+  template <class Value>
+  bool hold(const Value& value) const {
+    return std::binary_search(keys_.begin(), keys_.end(), order_of(value));
+  }
 
  private:
-  std::vector<Pulse> pulses_;         ///< In order.
-  std::vector<TaiTime> frame_times_;  ///< In order.
+  std::vector<TelemetryOrder> keys_;  ///< In order.
 };
 
 }  // namespace spindrift

@@ -8,18 +8,20 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "services/bus/telemetry_messages.h"
 #include "services/bus/writer.h"
-#include "services/ingest/sample.h"
+#include "services/publisher/to_idl.h"
+#include "services/telemetry/telemetry_sample.h"
 
 namespace spindrift {
 
 /// Of a source that starts: drawn at random.
 std::uint64_t random_session();
 
-/// One topic of one source. `Value`: what is published; `Sample`: the same with its origin;
-/// `OnBus`: its generated type.
-template <class Value, class Sample, class OnBus>
+/// One topic of one source.
+template <class Value>
 class TelemetryPublisher {
  public:
   /// @param session  The same for all topics of a source. `participant` outlives the publisher.
@@ -28,13 +30,25 @@ class TelemetryPublisher {
   static Expected<TelemetryPublisher> create(const bus::Participant& participant,
                                              const std::string& source,
                                              std::uint64_t session = random_session(),
-                                             bus::Sending sending = bus::Sending::AtOnce);
+                                             bus::Sending sending = bus::Sending::AtOnce) {
+    return Writer::create(participant, bus::topic_of<Value>(), bus::telemetry_writer_qos(), sending)
+        .map([&](Writer&& writer) {
+          return TelemetryPublisher{std::move(writer),
+                                    {.source = source, .session = session, .seq = 0}};
+        });
+  }
 
   /// With the next seq: 0, 1, 2, ... Waits for as long as a subscriber pushes back.
   /// @return InvalidInput for a name that does not fit (to_idl.h), Unavailable when stopped
   ///         meanwhile or the bus refuses; the seq is then not used up.
   Expected<void> publish(std::string_view spacecraft, const Value& value,
-                         const std::stop_token& stop);
+                         const std::stop_token& stop) {
+    return to_idl(TelemetrySample<Value>{
+                      .spacecraft = std::string{spacecraft}, .origin = next_, .value = value})
+        .and_then(
+            [&](const bus::MessageOf<Value>& message) { return writer_.write(message, stop); })
+        .map([this] { ++next_.seq; });
+  }
 
   /// What is still packed goes out.
   void flush() const { writer_.flush(); }
@@ -53,17 +67,13 @@ class TelemetryPublisher {
   const Origin& next() const { return next_; }
 
  private:
-  TelemetryPublisher(bus::Writer<OnBus> writer, Origin first)
+  using Writer = bus::Writer<bus::MessageOf<Value>>;
+
+  TelemetryPublisher(Writer writer, Origin first)
       : writer_{std::move(writer)}, next_{std::move(first)} {}
 
-  bus::Writer<OnBus> writer_;
+  Writer writer_;
   Origin next_;
 };
-
-using PulsePublisher = TelemetryPublisher<Pulse, PulseSample, spindrift_Pulse>;
-using CodedPublisher = TelemetryPublisher<CodedFrame, CodedSample, spindrift_CodedFrame>;
-
-extern template class TelemetryPublisher<Pulse, PulseSample, spindrift_Pulse>;
-extern template class TelemetryPublisher<CodedFrame, CodedSample, spindrift_CodedFrame>;
 
 }  // namespace spindrift

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include "services/units/degrees.h"
@@ -14,17 +13,6 @@ namespace spindrift {
 namespace {
 
 constexpr double kNotAvailable = std::numeric_limits<double>::quiet_NaN();
-
-/// `field` is zeroed and keeps its last byte 0.
-Expected<void> put_name(std::span<char> field, std::string_view name, std::string_view what) {
-  if (name.size() >= field.size()) {
-    return Unexpected{Error{ErrorCode::InvalidInput,
-                            fmt::format("{} = \"{}\": {} bytes, at most {} go on the bus", what,
-                                        name, name.size(), field.size() - 1)}};
-  }
-  std::copy(name.begin(), name.end(), field.begin());
-  return {};
-}
 
 /// Cut where it is too long, between characters and not within one of UTF-8, and then ends in
 /// "...".
@@ -73,36 +61,14 @@ Expected<spindrift_SpacecraftHealth> to_idl(const SpacecraftHealth& health) {
 
 }  // namespace
 
-Expected<spindrift_Pulse> to_idl(const PulseSample& sample) {
-  spindrift_Pulse out{.spacecraft = {},
-                      .source = {},
-                      .session = sample.origin.session,
-                      .seq = sample.origin.seq,
-                      .t_tai_ns = tai_ns(sample.pulse.t),
-                      .channel = static_cast<spindrift_PulseChannel>(sample.pulse.channel)};
-  return put_name(out.spacecraft, sample.spacecraft, "spacecraft")
-      .and_then([&] { return put_name(out.source, sample.origin.source, "source"); })
-      .map([&out] { return out; });
-}
-
-Expected<spindrift_CodedFrame> to_idl(const CodedSample& sample) {
-  const auto delay_s = [&sample](PulseChannel channel) {
-    return sample.frame.delay_s.at(index_of(channel)).value_or(kNotAvailable);
-  };
-  spindrift_CodedFrame out{.spacecraft = {},
-                           .source = {},
-                           .session = sample.origin.session,
-                           .seq = sample.origin.seq,
-                           .t_tai_ns = tai_ns(sample.frame.t),
-                           .period_s = sample.frame.period_s.value_or(kNotAvailable),
-                           .sun2_s = delay_s(PulseChannel::Sun2),
-                           .north_in_s = delay_s(PulseChannel::NorthIn),
-                           .north_out_s = delay_s(PulseChannel::NorthOut),
-                           .south_in_s = delay_s(PulseChannel::SouthIn),
-                           .south_out_s = delay_s(PulseChannel::SouthOut)};
-  return put_name(out.spacecraft, sample.spacecraft, "spacecraft")
-      .and_then([&] { return put_name(out.source, sample.origin.source, "source"); })
-      .map([&out] { return out; });
+Expected<void> put_name(std::span<char> field, std::string_view name, std::string_view what) {
+  if (name.size() >= field.size()) {
+    return Unexpected{Error{ErrorCode::InvalidInput,
+                            fmt::format("{} = \"{}\": {} bytes, at most {} go on the bus", what,
+                                        name, name.size(), field.size() - 1)}};
+  }
+  std::copy(name.begin(), name.end(), field.begin());
+  return {};
 }
 
 Expected<spindrift_SpinFix> to_idl(const ResultOrigin& origin, const SpinFix& fix) {

@@ -9,13 +9,17 @@
 
 #include <spindrift.h>
 
+#include <limits>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "pipelines/core/expected.h"
 #include "pipelines/spin/types/products.h"
-#include "services/ingest/sample.h"
+#include "services/bus/telemetry_messages.h"
 #include "services/publisher/health.h"
+#include "services/telemetry/telemetry_sample.h"
 
 namespace spindrift {
 
@@ -26,10 +30,34 @@ struct ResultOrigin {
   std::string_view service;
 };
 
-Expected<spindrift_Pulse> to_idl(const PulseSample& sample);
+/// @name One member of a telemetry value into one of its message; what was not received is NaN
+/// @{
+inline void put(double member, double& field) { field = member; }
+inline void put(const std::optional<double>& member, double& field) {
+  field = member.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+template <class Field>
+void put(PulseChannel member, Field& field) {
+  field = static_cast<Field>(member);
+}
+/// @}
 
-/// What was not received is NaN.
-Expected<spindrift_CodedFrame> to_idl(const CodedSample& sample);
+/// `field` is zeroed and keeps its last byte 0.
+Expected<void> put_name(std::span<char> field, std::string_view name, std::string_view what);
+
+template <class Value>
+Expected<bus::MessageOf<Value>> to_idl(const TelemetrySample<Value>& sample) {
+  bus::MessageOf<Value> out{};
+  out.session = sample.origin.session;
+  out.seq = sample.origin.seq;
+  out.t_tai_ns = tai_ns(sample.value.t);
+  bus::for_each_field(
+      sample.value, out,
+      [](std::string_view /*name*/, const auto& member, auto& field) { put(member, field); });
+  return put_name(out.spacecraft, sample.spacecraft, "spacecraft")
+      .and_then([&] { return put_name(out.source, sample.origin.source, "source"); })
+      .map([&out] { return out; });
+}
 
 /// The IDL has no optional: an absent alternate is NaN in both its members.
 Expected<spindrift_SpinFix> to_idl(const ResultOrigin& origin, const SpinFix& fix);

@@ -85,7 +85,7 @@ Expected<void> write_telemetry(const std::filesystem::path& path, const Scenario
 }
 
 std::vector<std::filesystem::path> telemetry_paths(const std::filesystem::path& folder,
-                                                   const TelemetryKinds& kinds) {
+                                                   const SimulatedTelemetry& kinds) {
   std::vector<std::filesystem::path> paths;
   if (kinds.pulses) {
     paths.push_back(folder / "pulses.csv");

@@ -237,7 +237,7 @@ PulseLink link_of(const TomlValues& values, const PulseNoise& said) {
   return link;
 }
 
-TelemetryKinds telemetry_of(const TomlValues& values) {
+SimulatedTelemetry telemetry_of(const TomlValues& values) {
   const auto kind = value_of<std::string>(values, "telemetry.kind");
   return {.pulses = kind != "coded",
           .coded = kind != "pulses",

@@ -15,7 +15,7 @@
 
 namespace spindrift {
 
-struct TelemetryKinds {
+struct SimulatedTelemetry {
   bool pulses;
   bool coded;
   double coded_resolution_s;
@@ -28,7 +28,7 @@ struct Scenario {
   double duration_s;
   SpinTruth truth;
   PulseLink link;
-  TelemetryKinds telemetry;
+  SimulatedTelemetry telemetry;
   std::string mission_toml;  ///< The mission file that goes with it; its orbit is orbit.oem.
 };
 

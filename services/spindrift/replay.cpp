@@ -18,19 +18,13 @@ namespace {
 /// `after_each()`: called for every sample that is out.
 template <class AfterEach>
 Expected<void> publish(const SampleBatch& batch, TelemetryOutput& output, AfterEach after_each) {
-  for (const PulseSample& sample : batch.pulses) {
-    if (auto sent = output.publish(sample.spacecraft, sample.pulse); !sent) {
-      return sent;
+  Expected<void> sent;
+  in_order_of_arrival(batch.samples, [&](const auto& sample) {
+    if (sent && (sent = output.publish(sample.spacecraft, sample.value))) {
+      after_each();
     }
-    after_each();
-  }
-  for (const CodedSample& sample : batch.coded) {
-    if (auto sent = output.publish(sample.spacecraft, sample.frame); !sent) {
-      return sent;
-    }
-    after_each();
-  }
-  return {};
+  });
+  return sent;
 }
 
 Expected<void> publish(TelemetryInput& telemetry, TelemetryOutput& output) {
@@ -47,7 +41,7 @@ Expected<void> publish(TelemetryInput& telemetry, TelemetryOutput& output) {
     // A batch may take a minute at the pace of real time: its bytes are shared out among it.
     const std::uint64_t bytes = telemetry.bytes_given() - bytes_before;
     const auto after_each = [&, done = std::uint64_t{0},
-                             count = batch->pulses.size() + batch->coded.size()]() mutable {
+                             count = count_of(batch->samples)]() mutable {
       progress.advance_to(bytes_before + bytes * ++done / count);
     };
     if (auto sent = publish(*batch, output, after_each); !sent) {
@@ -71,8 +65,7 @@ Expected<void> replay(const ReplayOptions& options) {
       send_telemetry({.bus = {.domain = options.domain, .partition = options.partition},
                       .source = "replay",
                       .speed = options.speed,
-                      .pulses = telemetry->holds(TelemetryKind::Pulses),
-                      .coded = telemetry->holds(TelemetryKind::Coded)},
+                      .kinds = telemetry->kinds()},
                      [&](TelemetryOutput& output) { return publish(*telemetry, output); });
   const BadRows& bad = telemetry->bad_rows();
   if (bad.count > 0) {

@@ -74,17 +74,12 @@ std::string service_name() {
 void note_arrivals(const std::vector<ArchiveBatch>& samples, LinkWatch& links) {
   const auto now = std::chrono::steady_clock::now();
   for (const ArchiveBatch& batch : samples) {
-    if (!batch.coded.empty()) {
-      links.note(batch.spacecraft_id, batch.coded.back().frame.t, now);
-    }
-    if (!batch.pulses.empty()) {
-      links.note(batch.spacecraft_id, batch.pulses.back().pulse.t, now);
-    }
+    batch.samples.for_each([&](const auto& of_kind) {
+      if (!of_kind.empty()) {
+        links.note(batch.spacecraft_id, of_kind.back().value.t, now);
+      }
+    });
   }
-}
-
-std::size_t sample_count(const SampleBatch& taken) {
-  return taken.pulses.size() + taken.coded.size() + taken.rejected.size();
 }
 
 /// First `again`. Then hands what is taken to the archive and on to be computed, until `taken` is
@@ -158,7 +153,7 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
                    const bus::Participant& participant, const ResultPublisher& publisher,
                    Processor& processor, Archive& archive, StopSignal& stop_signal) {
   BoundedQueue<SampleBatch> queue{kSamplesTaken,
-                                  [](const SampleBatch& taken) { return sample_count(taken); }};
+                                  [](const SampleBatch& taken) { return size_of(taken); }};
   BoundedQueue<PassInput> work{kSamplesToCompute,
                                [](const PassInput& input) { return sample_count(input); }};
   auto started = TelemetrySubscriber::start(participant, queue, last_origins);

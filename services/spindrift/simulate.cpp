@@ -80,6 +80,17 @@ Expected<void> publish(const Scenario& scenario, const SimulatedPass& pass,
   return sent;
 }
 
+std::vector<TelemetryKind> kinds_of(const SimulatedTelemetry& telemetry) {
+  std::vector<TelemetryKind> kinds;
+  if (telemetry.pulses) {
+    kinds.emplace_back(Kind<Pulse>{});
+  }
+  if (telemetry.coded) {
+    kinds.emplace_back(Kind<CodedFrame>{});
+  }
+  return kinds;
+}
+
 Expected<void> to_bus(const SimulateOptions& options, const Scenario& scenario,
                       const SimulatedPass& pass) {
   const std::vector<CodedFrame> frames =
@@ -90,17 +101,12 @@ Expected<void> to_bus(const SimulateOptions& options, const Scenario& scenario,
       {.bus = {.domain = options.domain, .partition = options.partition},
        .source = "simulate",
        .speed = options.speed,
-       .pulses = scenario.telemetry.pulses,
-       .coded = scenario.telemetry.coded},
+       .kinds = kinds_of(scenario.telemetry)},
       [&](TelemetryOutput& output) { return publish(scenario, pass, frames, output); });
   if (!sent) {
     return Unexpected{sent.error()};
   }
-  report(scenario, pass,
-         {{"published", sent->edges + sent->coded_frames},
-          {"published_edges", sent->edges},
-          {"published_coded_frames", sent->coded_frames}},
-         sent->text() + " published\n", options.json);
+  report(scenario, pass, sent->json("published_"), sent->text() + " published\n", options.json);
   return {};
 }
 

@@ -11,6 +11,7 @@
 #include "services/archive/stored_pass.h"
 #include "services/products/to_json.h"
 #include "services/spindrift/batch_text.h"
+#include "services/spindrift/json_key.h"
 #include "services/units/degrees.h"
 
 namespace spindrift {
@@ -112,6 +113,11 @@ std::string to_text(const RunSummary& summary) {
     text += "  interrupted  what follows rests on a part of the telemetry\n";
   }
   if (summary.kind == SpacecraftKind::ThreeAxis) {
+    text += "  received     ";
+    for (const auto& [plural, count] : summary.samples_received) {
+      text += fmt::format("{} {}, ", count, plural);
+    }
+    text += fmt::format("{} bad rows or samples\n", summary.input_rejected);
     return text + "  attitude     three-axis: samples are stored, no attitude is computed yet\n";
   }
   text += fmt::format(
@@ -132,6 +138,7 @@ nlohmann::json to_json(const RunSummary& summary) {
                       {"spacecraft", summary.spacecraft_id},
                       {"kind", name_of(summary.kind)},
                       {"finished", summary.finished},
+                      {"samples_received", nlohmann::json::object()},
                       {"edges_received", summary.edges_received},
                       {"edges_stored", summary.edges_stored},
                       {"coded_frames_received", summary.coded_frames_received},
@@ -147,6 +154,9 @@ nlohmann::json to_json(const RunSummary& summary) {
                       {"sequential", nullptr},
                       {"batch", nullptr},
                       {"disagreements", nlohmann::json::array()}};
+  for (const auto& [plural, count] : summary.samples_received) {
+    json["samples_received"][json_key(plural)] = count;
+  }
   for (const auto& [estimator, estimate] : summary.estimates) {
     json[std::string{name_of(estimator)}] = to_json(estimate);
   }

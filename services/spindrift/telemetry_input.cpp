@@ -1,11 +1,11 @@
 #include "services/spindrift/telemetry_input.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
+#include <variant>
 
 #include "services/telemetry_files/telemetry_rows.h"
 
@@ -34,10 +34,6 @@ Expected<void> find_bad_rows_of(const std::filesystem::path& path, BadRows& bad)
   }
 }
 
-bool is_processed(TelemetryKind kind) {
-  return kind == TelemetryKind::Pulses || kind == TelemetryKind::Coded;
-}
-
 /// A front-end that was stopped before its first line leaves such a file.
 RejectedInput empty_file(const TelemetryFile& file) {
   return {.source = file.path.string(),
@@ -46,14 +42,10 @@ RejectedInput empty_file(const TelemetryFile& file) {
 }
 
 Error nothing_in(std::span<const TelemetryFile> files) {
-  std::string text =
-      "no row of pulses or coded frames in the telemetry: files with the header "
-      "'t_tai_ns,channel' or 't_tai_ns,period_s,...' and rows are needed";
+  std::string text = "no row of telemetry: files with a header line and rows are needed";
   for (const TelemetryFile& file : files) {
     text += fmt::format("\n  {}: {}", file.path.string(),
-                        !file.kind                 ? "empty, without a header"
-                        : is_processed(*file.kind) ? "no rows"
-                                                   : "other telemetry");
+                        file.kind ? "no rows" : "empty, without a header");
   }
   return {ErrorCode::InvalidConfiguration, text};
 }
@@ -81,10 +73,10 @@ Expected<BadRows> find_bad_rows(std::span<const TelemetryFile> files) {
     Expected<void> looked;
     if (!file.kind) {
       bad.add(empty_file(file));
-    } else if (file.kind == TelemetryKind::Pulses) {
-      looked = find_bad_rows_of<Pulse>(file.path, bad);
-    } else if (file.kind == TelemetryKind::Coded) {
-      looked = find_bad_rows_of<CodedFrame>(file.path, bad);
+    } else {
+      looked = std::visit(
+          [&]<class Value>(Kind<Value>) { return find_bad_rows_of<Value>(file.path, bad); },
+          *file.kind);
     }
     if (!looked) {
       return Unexpected{std::move(looked.error())};
@@ -98,12 +90,6 @@ Expected<TelemetryInput> TelemetryInput::open(std::span<const std::filesystem::p
   auto files = scan_telemetry(paths);
   if (!files) {
     return Unexpected{std::move(files.error())};
-  }
-  for (const TelemetryFile& file : *files) {
-    if (file.kind && !is_processed(*file.kind)) {
-      spdlog::warn("{}: {} telemetry is left out: this version processes pulses and coded frames",
-                   file.path.string(), name_of(*file.kind));
-    }
   }
   if (strict) {
     const auto bad = find_bad_rows(*files);
@@ -143,9 +129,14 @@ Expected<SampleBatch> TelemetryInput::next() {
   return batch;
 }
 
-bool TelemetryInput::holds(TelemetryKind kind) const {
-  return std::any_of(files_.begin(), files_.end(),
-                     [kind](const TelemetryFile& file) { return file.kind == kind; });
+std::vector<TelemetryKind> TelemetryInput::kinds() const {
+  std::vector<TelemetryKind> kinds;
+  for (const TelemetryFile& file : files_) {
+    if (file.kind && std::find(kinds.begin(), kinds.end(), *file.kind) == kinds.end()) {
+      kinds.push_back(*file.kind);
+    }
+  }
+  return kinds;
 }
 
 }  // namespace spindrift

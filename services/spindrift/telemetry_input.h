@@ -24,14 +24,14 @@ struct BadRows {
   std::string text() const;
 };
 
-/// Of the files that can be processed. A pass over all of them, in constant memory.
+/// A pass over all files, in constant memory.
 /// @return as TelemetryStream.
 Expected<BadRows> find_bad_rows(std::span<const TelemetryFile> files);
 
 class TelemetryInput {
  public:
-  /// The pulses and coded frames among `paths` (files, or directories of them). Files of another
-  /// kind are left out with a warning; an empty file beside others is rejected input.
+  /// The telemetry in `paths` (files, or directories of them). An empty file beside others is
+  /// rejected input.
   /// @param spacecraft Of the rows, where a file does not say.
   /// @param strict     A bad row anywhere is an error.
   /// @return InvalidConfiguration for unreadable files, where there is no row at all, and for bad
@@ -42,7 +42,8 @@ class TelemetryInput {
   /// As TelemetryStream.
   Expected<SampleBatch> next();
 
-  bool holds(TelemetryKind kind) const;
+  /// That there are files of, each once.
+  std::vector<TelemetryKind> kinds() const;
   const BadRows& bad_rows() const { return bad_rows_; }  ///< Of the batches given.
   std::uint64_t bytes_given() const { return stream_.bytes_given(); }
   std::uint64_t bytes_total() const { return stream_.bytes_total(); }
@@ -56,10 +57,5 @@ class TelemetryInput {
   SampleBatch first_;  ///< Not given yet.
   BadRows bad_rows_;
 };
-
-/// The end of a stream.
-inline bool is_empty(const SampleBatch& batch) {
-  return batch.pulses.empty() && batch.coded.empty() && batch.rejected.empty();
-}
 
 }  // namespace spindrift

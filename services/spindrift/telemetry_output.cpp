@@ -5,9 +5,12 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <utility>
+#include <variant>
 
 #include "pipelines/time/utc.h"
+#include "services/spindrift/json_key.h"
 #include "services/spindrift/stop_signal.h"
 
 namespace spindrift {
@@ -36,13 +39,31 @@ Expected<void> try_for(std::chrono::seconds patience, const std::stop_token& sto
   }
 }
 
+/// `attempt(publisher)` with each that there is, until one fails.
+template <class Attempt>
+Expected<void> with_each(const TelemetryPublishers& publishers, const Attempt& attempt) {
+  Expected<void> done;
+  publishers.for_each([&](const auto& publisher) {
+    if (done && publisher) {
+      done = attempt(*publisher);
+    }
+  });
+  return done;
+}
+
+Expected<void> wait_for_arrival(const TelemetryPublishers& publishers,
+                                std::chrono::nanoseconds patience) {
+  return with_each(publishers, [patience](const auto& publisher) {
+    return publisher.wait_for_acknowledgments(patience);
+  });
+}
+
 Expected<void> wait_for_subscriber(const TelemetryOutput& output, const Sending& sending,
                                    const std::stop_token& stop) {
   const auto subscribed = [&](std::chrono::milliseconds slice) {
-    return (sending.pulses ? output.pulses().wait_for_subscriber(slice) : Expected<void>{})
-        .and_then([&] {
-          return sending.coded ? output.coded().wait_for_subscriber(slice) : Expected<void>{};
-        });
+    return with_each(output.publishers(), [slice](const auto& publisher) {
+      return publisher.wait_for_subscriber(slice);
+    });
   };
   auto found = try_for(kWaitInSilence, stop, subscribed);
   if (!found && !stop.stop_requested()) {
@@ -61,13 +82,6 @@ Expected<void> wait_for_subscriber(const TelemetryOutput& output, const Sending&
   return {};
 }
 
-Expected<void> wait_for_arrival(const TelemetryOutput& output, const std::stop_token& stop) {
-  return try_for(kWaitForArrival, stop, [&](std::chrono::milliseconds slice) {
-    return output.pulses().wait_for_acknowledgments(slice).and_then(
-        [&] { return output.coded().wait_for_acknowledgments(slice); });
-  });
-}
-
 Error stopped(const TelemetryOutput& output) {
   return {ErrorCode::Unavailable,
           fmt::format("stopped by a signal: {} published{}", output.counts().text(),
@@ -83,23 +97,83 @@ Expected<void> send(const Sending& sending, TelemetryOutput& output,
                     spdlog::info("publishing");
                     return feed(output);
                   })
-                  .and_then([&] { return wait_for_arrival(output, stop); });
+                  .and_then([&] {
+                    return try_for(kWaitForArrival, stop, [&](std::chrono::milliseconds slice) {
+                      return wait_for_arrival(output.publishers(), slice);
+                    });
+                  });
   if (!sent && stop.stop_requested()) {
-    static_cast<void>(output.pulses().wait_for_acknowledgments(kWaitForArrivalWhenStopped));
-    static_cast<void>(output.coded().wait_for_acknowledgments(kWaitForArrivalWhenStopped));
+    static_cast<void>(wait_for_arrival(output.publishers(), kWaitForArrivalWhenStopped));
     return Unexpected{stopped(output)};
   }
   return sent;
 }
 
-}  // namespace
-
-std::string PublishedCounts::text() const {
-  return fmt::format("{} edges and {} coded frames", edges, coded_frames);
+Expected<TelemetryPublishers> create_publishers(const bus::Participant& participant,
+                                                const Sending& sending) {
+  TelemetryPublishers publishers;
+  const std::uint64_t session = random_session();
+  Expected<void> created;
+  for (const TelemetryKind& kind : sending.kinds) {
+    created = created.and_then([&] {
+      return std::visit(
+          [&]<class Value>(Kind<Value>) {
+            return TelemetryPublisher<Value>::create(participant, sending.source, session,
+                                                     bus::Sending::Packed)
+                .map([&](TelemetryPublisher<Value>&& publisher) {
+                  publishers.of<Value>().emplace(std::move(publisher));
+                });
+          },
+          kind);
+    });
+  }
+  return created.map([&] { return std::move(publishers); });
 }
 
-nlohmann::json PublishedCounts::json() const {
-  return {{"published", edges + coded_frames}, {"edges", edges}, {"coded_frames", coded_frames}};
+}  // namespace
+
+std::uint64_t PublishedCounts::all() const {
+  return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const Count& count) { return sum + count.samples; });
+}
+
+std::string PublishedCounts::text() const {
+  std::string text;
+  for (const auto& [plural, samples] : counts_) {
+    const bool is_last = plural == counts_.back().plural;
+    text += fmt::format("{}{} {}", text.empty() ? "" : is_last ? " and " : ", ", samples, plural);
+  }
+  return text;
+}
+
+nlohmann::json PublishedCounts::json(std::string_view prefix) const {
+  nlohmann::json object = {{"published", all()}};
+  for (const auto& [plural, samples] : counts_) {
+    object[fmt::format("{}{}", prefix, json_key(plural))] = samples;
+  }
+  return object;
+}
+
+PublishedCounts TelemetryOutput::counts() const {
+  PublishedCounts counts;
+  TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
+    if (const auto& publisher = publishers_.of<Value>()) {
+      counts.add(Telemetry<Value>::kPlural, publisher->next().seq);
+    }
+  });
+  return counts;
+}
+
+/// What is due together goes out packed; nothing that is out waits for what is not due.
+void TelemetryOutput::wait_until_due(TaiTime t) {
+  if (const auto due = pacing_.due(t)) {
+    publishers_.for_each([](const auto& publisher) {
+      if (publisher) {
+        publisher->flush();
+      }
+    });
+    pacing_.wait_until(*due, stop_);
+  }
 }
 
 Expected<PublishedCounts> send_telemetry(
@@ -112,16 +186,11 @@ Expected<PublishedCounts> send_telemetry(
     return Unexpected{participant.error()};
   }
   spdlog::info("{}", participant->description());
-  const std::uint64_t session = random_session();
-  auto pulses = PulsePublisher::create(*participant, sending.source, session, bus::Sending::Packed);
-  if (!pulses) {
-    return Unexpected{std::move(pulses.error())};
+  auto publishers = create_publishers(*participant, sending);
+  if (!publishers) {
+    return Unexpected{std::move(publishers.error())};
   }
-  auto coded = CodedPublisher::create(*participant, sending.source, session, bus::Sending::Packed);
-  if (!coded) {
-    return Unexpected{std::move(coded.error())};
-  }
-  TelemetryOutput output{std::move(*pulses), std::move(*coded), sending.speed, stop.get_token()};
+  TelemetryOutput output{std::move(*publishers), sending.speed, stop.get_token()};
   return send(sending, output, feed, stop.get_token()).map([&] { return output.counts(); });
 }
 

@@ -10,67 +10,65 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "pipelines/core/expected.h"
 #include "services/bus/participant.h"
 #include "services/publisher/telemetry_publisher.h"
 #include "services/spindrift/pacing.h"
+#include "services/telemetry/by_kind.h"
 
 namespace spindrift {
 
-/// How many samples went out.
-struct PublishedCounts {
-  std::uint64_t edges;
-  std::uint64_t coded_frames;
+/// How many samples of each kind went out, of those that were to come.
+class PublishedCounts {
+ public:
+  struct Count {
+    std::string_view plural;  ///< "edges"
+    std::uint64_t samples;
+  };
 
-  std::string text() const;     ///< "3600 edges and 0 coded frames"
-  nlohmann::json json() const;  ///< "published" (all), "edges", "coded_frames"
+  void add(std::string_view plural, std::uint64_t samples) { counts_.push_back({plural, samples}); }
+  std::uint64_t all() const;
+  std::string text() const;  ///< "3600 edges and 0 coded frames"
+  /// "published" (all), and each kind, "coded_frames". @param prefix Of the names of kinds.
+  nlohmann::json json(std::string_view prefix = {}) const;
+
+ private:
+  std::vector<Count> counts_;
 };
+
+template <class Value>
+using PublisherOfKind = std::optional<TelemetryPublisher<Value>>;
+/// Of those kinds of telemetry that are to be sent.
+using TelemetryPublishers = ByKind<PublisherOfKind>;
 
 /// One source on the topics of the telemetry.
 class TelemetryOutput {
  public:
-  TelemetryOutput(PulsePublisher pulses, CodedPublisher coded, double speed, std::stop_token stop)
-      : pulses_{std::move(pulses)},
-        coded_{std::move(coded)},
-        pacing_{speed},
-        stop_{std::move(stop)} {}
+  TelemetryOutput(TelemetryPublishers publishers, double speed, std::stop_token stop)
+      : publishers_{std::move(publishers)}, pacing_{speed}, stop_{std::move(stop)} {}
 
-  /// When it is due, and for as long as a subscriber pushes back.
+  /// When it is due, and for as long as a subscriber pushes back. Its kind is to be sent.
   /// @return as TelemetryPublisher::publish.
-  Expected<void> publish(std::string_view spacecraft, const Pulse& pulse) {
-    return send(pulses_, spacecraft, pulse);
-  }
-  Expected<void> publish(std::string_view spacecraft, const CodedFrame& frame) {
-    return send(coded_, spacecraft, frame);
+  template <class Value>
+  Expected<void> publish(std::string_view spacecraft, const Value& value) {
+    wait_until_due(value.t);
+    return publishers_.of<Value>()->publish(spacecraft, value, stop_).map([&] {
+      reached_ = value.t;
+    });
   }
 
-  const PulsePublisher& pulses() const { return pulses_; }
-  const CodedPublisher& coded() const { return coded_; }
-  PublishedCounts counts() const {
-    return {.edges = pulses_.next().seq, .coded_frames = coded_.next().seq};
-  }
+  const TelemetryPublishers& publishers() const { return publishers_; }
+  PublishedCounts counts() const;
   /// Time of the sample published last.
   const std::optional<TaiTime>& reached() const { return reached_; }
 
  private:
-  template <class Publisher, class Value>
-  Expected<void> send(Publisher& publisher, std::string_view spacecraft, const Value& value) {
-    wait_until_due(value.t);
-    return publisher.publish(spacecraft, value, stop_).map([&] { reached_ = value.t; });
-  }
+  void wait_until_due(TaiTime t);
 
-  /// What is due together goes out packed; nothing that is out waits for what is not due.
-  void wait_until_due(TaiTime t) {
-    if (const auto due = pacing_.due(t)) {
-      pulses_.flush();
-      coded_.flush();
-      pacing_.wait_until(*due, stop_);
-    }
-  }
-
-  PulsePublisher pulses_;
-  CodedPublisher coded_;
+  TelemetryPublishers publishers_;
   Pacing pacing_;
   std::stop_token stop_;
   std::optional<TaiTime> reached_;
@@ -78,10 +76,9 @@ class TelemetryOutput {
 
 struct Sending {
   bus::BusConfig bus;
-  std::string source;  ///< Its name on the bus.
-  double speed;        ///< Times real time; 0: as fast as it is taken.
-  bool pulses;         ///< Kinds that will come, for which there must be a subscriber.
-  bool coded;
+  std::string source;                ///< Its name on the bus.
+  double speed;                      ///< Times real time; 0: as fast as it is taken.
+  std::vector<TelemetryKind> kinds;  ///< That will come, for which there must be a subscriber.
 };
 
 /// Waits for a subscriber, lets `feed` publish, waits until everything has arrived. SIGINT and

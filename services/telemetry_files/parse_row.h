@@ -3,21 +3,52 @@
 
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "pipelines/core/expected.h"
-#include "pipelines/spin/types/coded_frame.h"
 #include "pipelines/spin/types/pulse.h"
+#include "services/telemetry/telemetry.h"
 
 namespace spindrift {
 
 using RowFields = std::span<const std::string_view>;
 
-/// Of the columns of their kind, without `spacecraft`, all there.
-/// @return InvalidInput naming column, value and what is allowed (telemetry_time.h,
-///         coded_check.h).
-Expected<void> parse_row(RowFields fields, Pulse& pulse);
-Expected<void> parse_row(RowFields fields, CodedFrame& frame);
+/// @name One field into one member of a value
+/// @return why it cannot be read, naming column, field and what is allowed; or empty.
+/// @{
+std::string parse_field(std::string_view column, std::string_view field, TaiTime& t);
+std::string parse_field(std::string_view column, std::string_view field, double& number);
+/// Empty: not received.
+std::string parse_field(std::string_view column, std::string_view field,
+                        std::optional<double>& number);
+std::string parse_field(std::string_view column, std::string_view field, PulseChannel& channel);
+/// @}
+
+/// @param fields The columns of the kind, without `spacecraft`, all there.
+/// @return InvalidInput naming column, value and what is allowed (telemetry_time.h, and the traits
+///         of the kind).
+template <class Value>
+Expected<void> parse_row(RowFields fields, Value& value) {
+  std::string reason = parse_field("t_tai_ns", fields[0], value.t);
+  std::size_t column = 0;
+  for_each_column(value, [&](std::string_view name, auto& member) {
+    ++column;
+    if (reason.empty()) {
+      reason = parse_field(name, fields[column], member);
+    }
+  });
+  if (reason.empty()) {
+    reason = Telemetry<Value>::why_impossible(value);
+  }
+  if (!reason.empty()) {
+    return Unexpected{{ErrorCode::InvalidInput, std::move(reason)}};
+  }
+  return {};
+}
 
 }  // namespace spindrift

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
-#include "services/telemetry_files/telemetry_kind.h"
+#include "services/telemetry_files/telemetry_layout.h"
 
 namespace spindrift {
 

@@ -13,27 +13,24 @@ constexpr std::uint64_t kShortestRow = 19;
 constexpr std::size_t kFewestRowsHeld = 64;
 
 struct Opening {
-  TelemetryFile file;
+  std::filesystem::path path;
+  TelemetryKind kind;
   std::uint64_t bytes;
   std::size_t rows_held;
 };
 
-bool is_read(std::optional<TelemetryKind> kind) {
-  return kind == TelemetryKind::Pulses || kind == TelemetryKind::Coded;
-}
-
-std::size_t row_bytes(std::optional<TelemetryKind> kind) {
-  return kind == TelemetryKind::Pulses ? sizeof(TelemetryRow<Pulse>)
-                                       : sizeof(TelemetryRow<CodedFrame>);
+std::size_t row_bytes(const TelemetryKind& kind) {
+  return std::visit([]<class Value>(Kind<Value>) { return sizeof(TelemetryRow<Value>); }, kind);
 }
 
 std::vector<Opening> openings_of(std::span<const TelemetryFile> files) {
   std::vector<Opening> openings;
   for (const TelemetryFile& file : files) {
-    if (is_read(file.kind)) {
+    if (file.kind) {
       std::error_code gone;  // Opening it then says so.
       const auto bytes = std::filesystem::file_size(file.path, gone);
-      openings.push_back({.file = file, .bytes = gone ? 0 : bytes, .rows_held = 0});
+      openings.push_back(
+          {.path = file.path, .kind = *file.kind, .bytes = gone ? 0 : bytes, .rows_held = 0});
     }
   }
   return openings;
@@ -48,7 +45,7 @@ void share_out(std::vector<Opening>& openings, std::size_t buffer_bytes) {
                    [](const Opening* a, const Opening* b) { return a->bytes < b->bytes; });
   std::size_t files_left = by_size.size();
   for (Opening* opening : by_size) {
-    const std::size_t row = row_bytes(opening->file.kind);
+    const std::size_t row = row_bytes(opening->kind);
     const std::size_t share = buffer_bytes / files_left / row;
     const std::size_t whole = opening->bytes / kShortestRow + 1;
     opening->rows_held = std::max(std::min(share, whole), kFewestRowsHeld);
@@ -59,33 +56,18 @@ void share_out(std::vector<Opening>& openings, std::size_t buffer_bytes) {
 
 template <class Value>
 Expected<SortedRows<Value>> opened(const Opening& opening, const std::string& spacecraft) {
-  return TelemetryRows<Value>::open(opening.file.path, spacecraft)
+  return TelemetryRows<Value>::open(opening.path, spacecraft)
       .map([&opening](TelemetryRows<Value>&& rows) {
         return SortedRows<Value>{std::move(rows), opening.rows_held};
       });
 }
 
 template <class Value>
-Origin origin_of(const SortedRows<Value>& rows) {
-  return {.source = rows.file_name(), .session = 0, .seq = rows.line()};
-}
-
-void add_head(const SortedRows<Pulse>& rows, SampleBatch& batch) {
-  batch.pulses.push_back(
-      {.spacecraft = rows.spacecraft(), .origin = origin_of(rows), .pulse = *rows.head()});
-}
-
-void add_head(const SortedRows<CodedFrame>& rows, SampleBatch& batch) {
-  batch.coded.push_back(
-      {.spacecraft = rows.spacecraft(), .origin = origin_of(rows), .frame = *rows.head()});
-}
-
-bool holds_other_kind(const SortedRows<Pulse>& /*rows*/, const SampleBatch& batch) {
-  return !batch.coded.empty();
-}
-
-bool holds_other_kind(const SortedRows<CodedFrame>& /*rows*/, const SampleBatch& batch) {
-  return !batch.pulses.empty();
+TelemetrySample<Value> head_of(const SortedRows<Value>& rows, std::int64_t arrival) {
+  return {.spacecraft = rows.spacecraft(),
+          .origin = {.source = rows.file_name(), .session = 0, .seq = rows.line()},
+          .value = *rows.head(),
+          .arrival = arrival};
 }
 
 }  // namespace
@@ -102,11 +84,9 @@ Expected<TelemetryStream> TelemetryStream::open(std::span<const TelemetryFile> f
     const auto add = [&open_files](auto&& rows) {
       open_files.emplace_back(std::forward<decltype(rows)>(rows));
     };
-    if (opening.file.kind == TelemetryKind::Pulses) {
-      added = opened<Pulse>(opening, spacecraft).map(add);
-    } else {
-      added = opened<CodedFrame>(opening, spacecraft).map(add);
-    }
+    added = std::visit(
+        [&]<class Value>(Kind<Value>) { return opened<Value>(opening, spacecraft).map(add); },
+        opening.kind);
     if (!added) {
       return Unexpected{std::move(added.error())};
     }
@@ -132,19 +112,12 @@ Expected<SampleBatch> TelemetryStream::next() {
       break;
     }
     const std::size_t first = heads_.top().second;
-    const bool added = std::visit(
-        [&batch](auto& rows) {
-          if (holds_other_kind(rows, batch)) {
-            return false;
-          }
-          add_head(rows, batch);
+    std::visit(
+        [&]<class Value>(SortedRows<Value>& rows) {
+          batch.samples.of<Value>().push_back(head_of(rows, static_cast<std::int64_t>(taken)));
           rows.pop();
-          return true;
         },
         files_[first]);
-    if (!added) {
-      break;
-    }
     heads_.pop();
     without_head_.push_back(first);
   }

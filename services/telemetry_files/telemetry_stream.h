@@ -14,14 +14,14 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
-#include "services/ingest/sample_batch.h"
+#include "services/telemetry/sample_batch.h"
 #include "services/telemetry_files/sorted_rows.h"
 #include "services/telemetry_files/telemetry_files.h"
 
 namespace spindrift {
 
-/// The pulses and coded frames of any number of files, whatever the order of the files and of
-/// their rows; duplicates are kept. Other kinds of telemetry are passed over.
+/// The samples of any number of files, whatever the order of the files and of their rows;
+/// duplicates are kept.
 ///
 /// Rows are held back to be sorted, in `buffer_bytes` for all files together. What that holds is
 /// sorted completely, and in what is longer every row finds its place that stands nearer to it than
@@ -39,7 +39,7 @@ class TelemetryStream {
                                         const std::string& spacecraft,
                                         std::size_t buffer_bytes = kBufferBytes);
 
-  /// Up to kBatch samples, all of one kind, and as many rejected rows; none of both at the end. The
+  /// Up to kBatch samples and as many rejected rows; none of both at the end. The
   /// origin of a sample is the file's name, 0 and the line.
   /// @return Unavailable when reading fails on the way.
   Expected<SampleBatch> next();
@@ -50,7 +50,7 @@ class TelemetryStream {
   std::uint64_t bytes_total() const { return bytes_total_; }
 
  private:
-  using File = std::variant<SortedRows<Pulse>, SortedRows<CodedFrame>>;
+  using File = TelemetryKinds::Of<std::variant, SortedRows>;
   /// The head of a file; of equals the file that was named first.
   using Head = std::pair<TelemetryOrder, std::size_t>;
 

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "services/ingest/spacecraft_id.h"
+#include "services/telemetry/spacecraft_id.h"
 #include "services/toml_schema/toml_scalar.h"
 
 namespace spindrift {

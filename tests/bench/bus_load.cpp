@@ -58,7 +58,7 @@ class Query {
   sqlite3_stmt* statement_ = nullptr;
 };
 
-void publish(PulsePublisher& publisher, const std::vector<Pulse>& pulses,
+void publish(TelemetryPublisher<Pulse>& publisher, const std::vector<Pulse>& pulses,
              const std::string& spacecraft, double rate) {
   const auto start = steady_clock::now();
   for (std::size_t i = 0; i < pulses.size(); ++i) {
@@ -79,8 +79,8 @@ void run(const std::string& file, const std::string& spacecraft, const std::stri
          double rate, std::uint32_t domain) {
   const std::vector<Pulse> pulses = bench::read_pulses(file);
   const auto participant = or_exit(bus::Participant::create({.domain = domain}));
-  auto publisher =
-      or_exit(PulsePublisher::create(participant, "load", random_session(), bus::Sending::Packed));
+  auto publisher = or_exit(TelemetryPublisher<Pulse>::create(participant, "load", random_session(),
+                                                             bus::Sending::Packed));
   or_exit(publisher.wait_for_subscriber(std::chrono::seconds{30}));
 
   Query last{archive, "SELECT max(t_tai_ns) FROM pulse WHERE spacecraft_id = '" + spacecraft + "'"};

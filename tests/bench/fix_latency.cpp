@@ -124,7 +124,7 @@ void run(const std::string& mission_file, const std::string& pulses_file, std::s
   seen.reserve(closing.size() * spacecraft);
   std::thread listener{[&] { listen(reader, waitset, seen); }};
 
-  auto publisher = or_exit(PulsePublisher::create(participant, "load"));
+  auto publisher = or_exit(TelemetryPublisher<Pulse>::create(participant, "load"));
   or_exit(publisher.wait_for_subscriber(std::chrono::seconds{30}));
   std::vector<std::string> names;
   for (std::size_t s = 0; s < spacecraft; ++s) {

@@ -34,10 +34,10 @@ inline std::vector<Pulse> read_pulses(const std::string& path) {
   const std::vector<TelemetryFile> files = or_exit(scan_telemetry(paths));
   TelemetryStream stream = or_exit(TelemetryStream::open(files, "LOAD"));
   std::vector<Pulse> pulses;
-  for (SampleBatch batch = or_exit(stream.next()); !batch.pulses.empty();
+  for (SampleBatch batch = or_exit(stream.next()); !batch.samples.of<Pulse>().empty();
        batch = or_exit(stream.next())) {
-    for (const PulseSample& sample : batch.pulses) {
-      pulses.push_back(sample.pulse);
+    for (const TelemetrySample<Pulse>& sample : batch.samples.of<Pulse>()) {
+      pulses.push_back(sample.value);
     }
   }
   return pulses;

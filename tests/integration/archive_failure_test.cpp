@@ -33,7 +33,7 @@ constexpr std::int64_t kPulsesPerBatch = 1000;
 ArchiveBatch pulses_from(std::int64_t first_tai_ns) {
   ArchiveBatch batch = batch_of("run-1");
   for (std::int64_t i = 0; i < kPulsesPerBatch; ++i) {
-    batch.pulses.push_back(pulse_at(first_tai_ns + i));
+    batch.samples.of<Pulse>().push_back(pulse_at(first_tai_ns + i));
   }
   return batch;
 }
@@ -219,8 +219,8 @@ TEST_F(ArchiveFailure, RowThatBreaksTheSchemaStopsEvenRetryAndCostsOnlyItsOwnBat
   ArchiveOptions options;
   options.on_committed = [reports](std::span<const ArchiveBatch> batches) {
     for (const ArchiveBatch& batch : batches) {
-      if (!batch.pulses.empty()) {
-        const std::int64_t number = tai_ns(batch.pulses.front().pulse.t);
+      if (!batch.samples.of<Pulse>().empty()) {
+        const std::int64_t number = tai_ns(batch.samples.of<Pulse>().front().value.t);
         static_cast<void>(write(reports, &number, sizeof number));
       }
     }
@@ -231,7 +231,7 @@ TEST_F(ArchiveFailure, RowThatBreaksTheSchemaStopsEvenRetryAndCostsOnlyItsOwnBat
   }
   for (std::int64_t number = first;; ++number) {
     ArchiveBatch batch = batch_of(run_id);
-    batch.pulses = {pulse_at(number)};
+    batch.samples.of<Pulse>() = {pulse_at(number)};
     if (!(*archive)->submit(std::move(batch))) {
       _exit(1);
     }

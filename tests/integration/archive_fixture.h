@@ -40,10 +40,10 @@ inline ArchiveBatch start_of(const std::string& run_id) {
   return batch;
 }
 
-inline PulseSample pulse_at(std::int64_t t_tai_ns, std::uint64_t seq = 0) {
+inline TelemetrySample<Pulse> pulse_at(std::int64_t t_tai_ns, std::uint64_t seq = 0) {
   return {.spacecraft = "SPINNER",
           .origin = {.source = "station", .session = 7, .seq = seq},
-          .pulse = {.t = tai_from_ns(t_tai_ns), .channel = PulseChannel::Sun1}};
+          .value = {.t = tai_from_ns(t_tai_ns), .channel = PulseChannel::Sun1}};
 }
 
 /// The first column of every row.

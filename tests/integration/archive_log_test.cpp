@@ -44,7 +44,7 @@ class ArchiveLog : public testing::ArchiveFixture {
     for (int i = 0; i < kBatchesOfALongLog; ++i) {
       ArchiveBatch batch = batch_of("run");
       for (int row = 0; row < kPulsesPerBatch; ++row) {
-        batch.pulses.push_back(testing::pulse_at(anywhere_(random_)));
+        batch.samples.of<Pulse>().push_back(testing::pulse_at(anywhere_(random_)));
       }
       ASSERT_TRUE(archive.submit(std::move(batch)));
       ASSERT_TRUE(archive.flush());

@@ -135,12 +135,13 @@ TEST_F(ArchiveProducts, MeasurementsAreStoredInDegreesAndThePeriodInSeconds) {
 
 TEST_F(ArchiveProducts, WhatBecameOfEveryEdgeIsStored) {
   ArchiveBatch batch = start_of("run-1");
-  batch.pulses = {pulse_at(5, 1), pulse_at(6, 2)};
-  batch.products = {
-      PulseUse{.pulse = batch.pulses[0].pulse, .revolution = 3, .rejected_by = std::nullopt},
-      PulseUse{.pulse = batch.pulses[1].pulse,
-               .revolution = std::nullopt,
-               .rejected_by = Rejection::Unassociated}};
+  batch.samples.of<Pulse>() = {pulse_at(5, 1), pulse_at(6, 2)};
+  batch.products = {PulseUse{.pulse = batch.samples.of<Pulse>()[0].value,
+                             .revolution = 3,
+                             .rejected_by = std::nullopt},
+                    PulseUse{.pulse = batch.samples.of<Pulse>()[1].value,
+                             .revolution = std::nullopt,
+                             .rejected_by = Rejection::Unassociated}};
   store(batch);
 
   EXPECT_EQ(text("SELECT group_concat(format('%s %d %s %s %d %s', spacecraft_id, t_tai_ns, channel,"
@@ -214,7 +215,7 @@ TEST_F(ArchiveProducts, UtcOfTheViewsIsThatOfFormatUtc) {
   }
   ArchiveBatch batch = start_of("run-1");
   for (const std::int64_t t_tai_ns : times_ns) {
-    batch.pulses.push_back(pulse_at(t_tai_ns));
+    batch.samples.of<Pulse>().push_back(pulse_at(t_tai_ns));
   }
   store(batch);
 
@@ -258,7 +259,7 @@ TEST_F(ArchiveProducts, TwoArchivesMergeByNaturalKey) {
     ArchiveBatch batch = start_of(run_id);
     batch.products = {fix_at(100.0, -55.0)};
     for (int i = 0; i < 10; ++i) {
-      batch.pulses.push_back(pulse_at(first_ns + i));
+      batch.samples.of<Pulse>().push_back(pulse_at(first_ns + i));
     }
     ASSERT_TRUE((*archive)->submit(batch));
     ASSERT_TRUE((*archive)->close());

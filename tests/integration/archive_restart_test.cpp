@@ -38,31 +38,36 @@ class ArchiveRestart : public testing::ArchiveFixture {
   }
 
   static ArchiveBatch arrived(const std::string& run_id, std::int64_t arrival,
-                              std::vector<PulseSample> pulses) {
+                              std::vector<TelemetrySample<Pulse>> pulses) {
     ArchiveBatch batch = batch_of(run_id);
-    batch.arrival = arrival;
-    batch.pulses = std::move(pulses);
-    batch.earliest = std::min_element(batch.pulses.begin(), batch.pulses.end(),
-                                      [](const PulseSample& a, const PulseSample& b) {
-                                        return a.pulse < b.pulse;
-                                      })
-                         ->pulse.t;
+    for (TelemetrySample<Pulse>& sample : pulses) {
+      sample.arrival = arrival++;
+    }
+    batch.samples.of<Pulse>() = std::move(pulses);
+    batch.earliest =
+        std::min_element(batch.samples.of<Pulse>().begin(), batch.samples.of<Pulse>().end(),
+                         [](const TelemetrySample<Pulse>& a, const TelemetrySample<Pulse>& b) {
+                           return a.value < b.value;
+                         })
+            ->value.t;
     return batch;
   }
 
-  static CodedSample frame_at(std::int64_t t_tai_ns, std::uint64_t seq) {
+  static TelemetrySample<CodedFrame> frame_at(std::int64_t t_tai_ns, std::uint64_t seq,
+                                              std::int64_t arrival = 0) {
     CodedFrame frame{.t = tai_from_ns(t_tai_ns), .period_s = 0.6, .delay_s = {}};
     frame.delay_s.at(index_of(PulseChannel::SouthOut)) = 0.25;
     return {.spacecraft = "SPINNER",
             .origin = {.source = "station", .session = 7, .seq = seq},
-            .frame = frame};
+            .value = frame,
+            .arrival = arrival};
   }
 };
 
-std::vector<std::int64_t> times_of(const std::vector<StoredPulse>& pulses) {
+std::vector<std::int64_t> times_of(const StoredPass& pass) {
   std::vector<std::int64_t> times;
-  for (const StoredPulse& stored : pulses) {
-    times.push_back(tai_ns(stored.pulse.t));
+  for (const Arrived<Pulse>& stored : pass.values.of<Pulse>()) {
+    times.push_back(tai_ns(stored.value.t));
   }
   return times;
 }
@@ -70,7 +75,7 @@ std::vector<std::int64_t> times_of(const std::vector<StoredPulse>& pulses) {
 TEST_F(ArchiveRestart, CodedFrameThatArrivesTwiceIsStoredOnceWithItsFirstOrigin) {
   const auto archive = open();
   ArchiveBatch batch = start_of("run-1");
-  batch.coded = {frame_at(5, 1), frame_at(6, 2), frame_at(5, 3)};
+  batch.samples.of<CodedFrame>() = {frame_at(5, 1), frame_at(6, 2), frame_at(5, 3)};
   ASSERT_TRUE(archive->submit(batch));
   ASSERT_TRUE(archive->flush());
 
@@ -85,7 +90,7 @@ TEST_F(ArchiveRestart, SamplesComeBackInTheOrderTheyArrivedIn) {
   ASSERT_TRUE(archive->submit(begun("run-1", 100)));
   ASSERT_TRUE(archive->submit(arrived("run-1", 100, {pulse_at(50), pulse_at(70)})));
   ArchiveBatch late = arrived("run-1", 102, {pulse_at(40)});
-  late.coded = {frame_at(60, 9)};
+  late.samples.of<CodedFrame>() = {frame_at(60, 9, 103)};
   ASSERT_TRUE(archive->submit(late));
   ASSERT_TRUE(archive->flush());
 
@@ -93,11 +98,12 @@ TEST_F(ArchiveRestart, SamplesComeBackInTheOrderTheyArrivedIn) {
   ASSERT_TRUE(pass);
   EXPECT_EQ(pass->run_id, "run-1");
   EXPECT_EQ(pass->earliest, tai_from_ns(40));
-  EXPECT_THAT(times_of(pass->pulses), ElementsAre(50, 70, 40));
-  ASSERT_EQ(pass->frames.size(), 1U);
-  EXPECT_EQ(pass->frames[0].arrival, 103);
-  EXPECT_EQ(pass->frames[0].frame.period_s, 0.6);
-  EXPECT_EQ(pass->frames[0].frame.delay_s, frame_at(60, 9).frame.delay_s);
+  EXPECT_THAT(times_of(*pass), ElementsAre(50, 70, 40));
+  const auto& frames = pass->values.of<CodedFrame>();
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].arrival, 103);
+  EXPECT_EQ(frames[0].value.period_s, 0.6);
+  EXPECT_EQ(frames[0].value.delay_s, frame_at(60, 9).value.delay_s);
 }
 
 TEST_F(ArchiveRestart, SamplesOfARunThatAnEarlierOneHasStoredAreItsOwnToo) {
@@ -112,16 +118,16 @@ TEST_F(ArchiveRestart, SamplesOfARunThatAnEarlierOneHasStoredAreItsOwnToo) {
   const auto pass = stored();
   ASSERT_TRUE(pass);
   EXPECT_EQ(pass->run_id, "run-2");
-  EXPECT_THAT(times_of(pass->pulses), ElementsAre(30, 20, 40));
+  EXPECT_THAT(times_of(*pass), ElementsAre(30, 20, 40));
 }
 
 TEST_F(ArchiveRestart, TheLastSampleOfEachSessionComesBack) {
   const auto archive = open();
   ASSERT_TRUE(archive->submit(begun("run-1", 100)));
-  PulseSample other = pulse_at(30, 2);
+  TelemetrySample<Pulse> other = pulse_at(30, 2);
   other.origin.session = ~std::uint64_t{0};
   ArchiveBatch batch = arrived("run-1", 100, {pulse_at(10, 41), pulse_at(40, 42), other});
-  batch.coded = {frame_at(50, 9)};
+  batch.samples.of<CodedFrame>() = {frame_at(50, 9, 103)};
   ASSERT_TRUE(archive->submit(batch));
   ASSERT_TRUE(archive->flush());
 
@@ -133,8 +139,8 @@ TEST_F(ArchiveRestart, TheLastSampleOfEachSessionComesBack) {
     return text;
   };
   const LastOrigins last = stored().value().last_origins;
-  EXPECT_EQ(text_of(last.pulses), "station 18446744073709551615 2; station 7 42; ");
-  EXPECT_EQ(text_of(last.frames), "station 7 9; ");
+  EXPECT_EQ(text_of(last[kTelemetryKind<Pulse>]), "station 18446744073709551615 2; station 7 42; ");
+  EXPECT_EQ(text_of(last[kTelemetryKind<CodedFrame>]), "station 7 9; ");
 }
 
 TEST_F(ArchiveRestart, OnlyARunThatWasMadeTheSameWayIsContinued) {
@@ -173,7 +179,7 @@ Product period_of(std::int64_t number) {
 
 Product use_at(std::int64_t t_tai_ns) {
   return PulseUse{
-      .pulse = pulse_at(t_tai_ns).pulse, .revolution = t_tai_ns / 10, .rejected_by = {}};
+      .pulse = pulse_at(t_tai_ns).value, .revolution = t_tai_ns / 10, .rejected_by = {}};
 }
 
 TEST_F(ArchiveRestart, RunThatGoesOnIsNotFinishedAndItsLastProductsAreWithdrawn) {
@@ -214,7 +220,7 @@ TEST_F(ArchiveRestart, LastRevolutionIsTheOneThatNoTableIsBehind) {
   EXPECT_EQ(after({period_of(4)}), tai_from_ns(30));
   EXPECT_EQ(after({revolution_at(4), period_of(5)}), tai_from_ns(35));
   // An edge whose time cannot be true does not say how far its table is.
-  EXPECT_EQ(after({PulseUse{.pulse = pulse_at(1'000'000).pulse,
+  EXPECT_EQ(after({PulseUse{.pulse = pulse_at(1'000'000).value,
                             .revolution = {},
                             .rejected_by = Rejection::OutOfTime}}),
             tai_from_ns(35));
@@ -359,7 +365,7 @@ TEST_F(ArchiveRestart, AllAxesOfAnAmbiguousFixAreStoredUntilItIsGivenAgainOrWith
 }
 
 TEST_F(ArchiveRestart, WhatBecomesOfAnEdgeLaterStandsButNotThatItIsLate) {
-  const Pulse pulse = pulse_at(5).pulse;
+  const Pulse pulse = pulse_at(5).value;
   ArchiveBatch batch = start_of("run-1");
   batch.products = {
       PulseUse{.pulse = pulse, .revolution = {}, .rejected_by = Rejection::Unassociated},

@@ -164,9 +164,9 @@ TEST_F(ArchiveTest, RunWithoutAnOrbitFileHasNoDigestOfOne) {
 TEST_F(ArchiveTest, PulseThatArrivesTwiceIsStoredOnceWithItsFirstOrigin) {
   const auto archive = open();
   ArchiveBatch batch = start_of("run-1");
-  batch.pulses = {pulse_at(5, 1), pulse_at(6, 2), pulse_at(5, 3)};
+  batch.samples.of<Pulse>() = {pulse_at(5, 1), pulse_at(6, 2), pulse_at(5, 3)};
   ArchiveBatch again = batch_of("run-1");
-  again.pulses = {pulse_at(6, 4)};
+  again.samples.of<Pulse>() = {pulse_at(6, 4)};
 
   ASSERT_TRUE(archive->submit(batch));
   ASSERT_TRUE(archive->submit(again));
@@ -183,8 +183,8 @@ TEST_F(ArchiveTest, EdgeThatBreaksARuleIsNotPassedOverAsIfItWereStored) {
   SQLite::Database{path().string(), SQLite::OPEN_READWRITE}.exec(
       "ALTER TABLE pulse_use ADD COLUMN rule INTEGER CHECK (t_tai_ns <> 6)");
   const auto archive = open();
-  const PulseUse good{.pulse = pulse_at(5).pulse, .revolution = 3, .rejected_by = std::nullopt};
-  const PulseUse bad{.pulse = pulse_at(6).pulse, .revolution = 3, .rejected_by = std::nullopt};
+  const PulseUse good{.pulse = pulse_at(5).value, .revolution = 3, .rejected_by = std::nullopt};
+  const PulseUse bad{.pulse = pulse_at(6).value, .revolution = 3, .rejected_by = std::nullopt};
   ArchiveBatch batch = start_of("run-1");
   batch.products = {good, good};
   ASSERT_TRUE(archive->submit(batch));
@@ -240,8 +240,8 @@ TEST_F(ArchiveTest, BatchesAreAnnouncedInOrderAndOnlyOnceTheyCanBeRead) {
   ArchiveOptions options;
   options.on_committed = [&](std::span<const ArchiveBatch> batches) {
     for (const ArchiveBatch& batch : batches) {
-      for (const PulseSample& sample : batch.pulses) {
-        announced.push_back(tai_ns(sample.pulse.t));
+      for (const TelemetrySample<Pulse>& sample : batch.samples.of<Pulse>()) {
+        announced.push_back(tai_ns(sample.value.t));
       }
     }
     readable.push_back(number("SELECT count(*) FROM pulse"));
@@ -252,7 +252,7 @@ TEST_F(ArchiveTest, BatchesAreAnnouncedInOrderAndOnlyOnceTheyCanBeRead) {
   std::vector<std::int64_t> submitted;
   for (std::int64_t t_tai_ns = 0; t_tai_ns < 200; ++t_tai_ns) {
     ArchiveBatch batch = batch_of("run-1");
-    batch.pulses = {pulse_at(t_tai_ns)};
+    batch.samples.of<Pulse>() = {pulse_at(t_tai_ns)};
     submitted.push_back(t_tai_ns);
     ASSERT_TRUE(archive->submit(batch));
   }
@@ -278,7 +278,7 @@ TEST_F(ArchiveTest, WhatIsQueuedDuringACommitGoesIntoTheNextOne) {
   }
   for (std::int64_t t_tai_ns = 0; t_tai_ns < 100; ++t_tai_ns) {
     ArchiveBatch batch = batch_of("run-1");
-    batch.pulses = {pulse_at(t_tai_ns)};
+    batch.samples.of<Pulse>() = {pulse_at(t_tai_ns)};
     ASSERT_TRUE(archive->submit(batch));
   }
   all_queued.set_value();

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "services/bus/network.h"
+#include "services/bus/telemetry_messages.h"
 #include "services/bus/wait_set.h"
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"
@@ -49,12 +50,12 @@ class NetworkOverride {
 
 Reader<spindrift_Pulse> pulse_reader(const Participant& participant,
                                      const bus::Qos& qos = bus::telemetry_reader_qos()) {
-  return Reader<spindrift_Pulse>::create(participant, bus::kPulseTopic, qos).value();
+  return Reader<spindrift_Pulse>::create(participant, bus::topic_of<Pulse>(), qos).value();
 }
 
 Writer<spindrift_Pulse> pulse_writer(const Participant& participant,
                                      const bus::Qos& qos = bus::telemetry_writer_qos()) {
-  return Writer<spindrift_Pulse>::create(participant, bus::kPulseTopic, qos).value();
+  return Writer<spindrift_Pulse>::create(participant, bus::topic_of<Pulse>(), qos).value();
 }
 
 TEST(Network, IsThisHostOnlyUnlessToldOtherwise) {

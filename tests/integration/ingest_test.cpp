@@ -72,8 +72,10 @@ class Station {
   void consume() {
     held_.wait(true);
     while (auto batch = queue_.take()) {
-      std::move(batch->pulses.begin(), batch->pulses.end(), std::back_inserter(arrived_.pulses));
-      std::move(batch->coded.begin(), batch->coded.end(), std::back_inserter(arrived_.coded));
+      TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
+        auto& some = batch->samples.of<Value>();
+        std::move(some.begin(), some.end(), std::back_inserter(arrived_.samples.of<Value>()));
+      });
       std::move(batch->rejected.begin(), batch->rejected.end(),
                 std::back_inserter(arrived_.rejected));
     }
@@ -88,34 +90,35 @@ class Station {
 };
 
 Writer<spindrift_Pulse> pulse_writer(const Participant& participant) {
-  return Writer<spindrift_Pulse>::create(participant, bus::kPulseTopic, bus::telemetry_writer_qos())
+  return Writer<spindrift_Pulse>::create(participant, bus::topic_of<Pulse>(),
+                                         bus::telemetry_writer_qos())
       .value();
 }
 
-std::vector<std::uint64_t> seqs_of(const std::vector<PulseSample>& samples) {
+std::vector<std::uint64_t> seqs_of(const std::vector<TelemetrySample<Pulse>>& samples) {
   std::vector<std::uint64_t> seqs;
   seqs.reserve(samples.size());
-  for (const PulseSample& sample : samples) {
+  for (const TelemetrySample<Pulse>& sample : samples) {
     seqs.push_back(sample.origin.seq);
   }
   return seqs;
 }
 
 TEST(FromIdl, KeepsEveryField) {
-  const PulseSample sample = from_idl(idl_pulse(41, 17)).value();
+  const TelemetrySample<Pulse> sample = from_idl<Pulse>(idl_pulse(41, 17)).value();
   EXPECT_EQ(sample.spacecraft, "SPINNER");
   EXPECT_EQ(sample.origin.source, "front-end");
   EXPECT_EQ(sample.origin.session, 17U);
   EXPECT_EQ(sample.origin.seq, 41U);
-  EXPECT_EQ(tai_ns(sample.pulse.t), kTestTime_tai_ns + 41'000'000'000);
-  EXPECT_EQ(sample.pulse.channel, PulseChannel::Sun1);
+  EXPECT_EQ(tai_ns(sample.value.t), kTestTime_tai_ns + 41'000'000'000);
+  EXPECT_EQ(sample.value.channel, PulseChannel::Sun1);
 }
 
 TEST(FromIdl, NamesTheChannelsAsTheIdlDoes) {
   const auto channel_of = [](spindrift_PulseChannel channel) {
     spindrift_Pulse pulse = idl_pulse(0);
     pulse.channel = channel;
-    return name_of(from_idl(pulse).value().pulse.channel);
+    return name_of(from_idl<Pulse>(pulse).value().value.channel);
   };
   EXPECT_EQ(channel_of(spindrift_SUN1), "sun1");
   EXPECT_EQ(channel_of(spindrift_SUN2), "sun2");
@@ -153,7 +156,7 @@ TEST(FromIdl, RefusesWhatCannotBeTrueWithItsReason) {
     SCOPED_TRACE(impossible.reason);
     spindrift_Pulse pulse = idl_pulse(0);
     impossible.spoil(pulse);
-    const auto refused = from_idl(pulse);
+    const auto refused = from_idl<Pulse>(pulse);
     ASSERT_FALSE(refused.has_value());
     EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
     EXPECT_THAT(refused.error().message, HasSubstr(impossible.reason));
@@ -164,7 +167,7 @@ TEST(FromIdl, TakesTheFirstAndLastTimeOfTelemetry) {
   for (const std::int64_t t_tai_ns : {63'072'010'000'000'000, 4'102'444'799'999'999'999}) {
     spindrift_Pulse pulse = idl_pulse(0);
     pulse.t_tai_ns = t_tai_ns;
-    EXPECT_EQ(tai_ns(from_idl(pulse).value().pulse.t), t_tai_ns);
+    EXPECT_EQ(tai_ns(from_idl<Pulse>(pulse).value().value.t), t_tai_ns);
   }
 }
 
@@ -185,23 +188,23 @@ spindrift_CodedFrame idl_frame(std::uint64_t seq) {
 }
 
 TEST(FromIdl, KeepsEveryFieldOfACodedFrame) {
-  const CodedSample sample = from_idl(idl_frame(41)).value();
+  const TelemetrySample<CodedFrame> sample = from_idl<CodedFrame>(idl_frame(41)).value();
   EXPECT_EQ(sample.spacecraft, "SPINNER");
   EXPECT_EQ(sample.origin.source, "front-end");
   EXPECT_EQ(sample.origin.session, 1U);
   EXPECT_EQ(sample.origin.seq, 41U);
-  EXPECT_EQ(tai_ns(sample.frame.t), kTestTime_tai_ns + 41'000'000'000);
-  EXPECT_EQ(sample.frame.period_s, 1.0);
-  EXPECT_THAT(sample.frame.delay_s, ElementsAre(std::nullopt, 0.125, 0.25, 0.375, 0.5, 0.625));
+  EXPECT_EQ(tai_ns(sample.value.t), kTestTime_tai_ns + 41'000'000'000);
+  EXPECT_EQ(sample.value.period_s, 1.0);
+  EXPECT_THAT(sample.value.delay_s, ElementsAre(std::nullopt, 0.125, 0.25, 0.375, 0.5, 0.625));
 }
 
 TEST(FromIdl, TakesNanForNotReceived) {
   spindrift_CodedFrame frame = idl_frame(0);
   frame.period_s = frame.sun2_s = frame.north_in_s = kNan;
   frame.north_out_s = frame.south_in_s = frame.south_out_s = kNan;
-  const CodedSample sample = from_idl(frame).value();
-  EXPECT_EQ(sample.frame.period_s, std::nullopt);
-  EXPECT_THAT(sample.frame.delay_s, ::testing::Each(std::nullopt));
+  const TelemetrySample<CodedFrame> sample = from_idl<CodedFrame>(frame).value();
+  EXPECT_EQ(sample.value.period_s, std::nullopt);
+  EXPECT_THAT(sample.value.delay_s, ::testing::Each(std::nullopt));
 }
 
 struct ImpossibleFrame {
@@ -216,14 +219,14 @@ TEST(FromIdl, RefusesACodedFrameThatCannotBeTrueWithItsReason) {
       {[](auto& frame) { frame.t_tai_ns = -1; }, "t_tai_ns = -1: must lie in the years"},
       {[](auto& frame) { frame.period_s = 0.0; }, "period_s = 0: must be above 0, at most 60 s"},
       {[](auto& frame) { frame.period_s = kInfinity; }, "period_s = inf: must be above 0"},
-      {[](auto& frame) { frame.sun2_s = -kInfinity; }, "sun2_s = -inf: must be 0 to the period"},
-      {[](auto& frame) { frame.south_out_s = 1.5; },
-       "south_out_s = 1.5: must be 0 to the period, 1 s"}};
+      {[](auto& frame) { frame.sun2_s = -kInfinity; }, "sun2_s = -inf: must be 0 to two periods"},
+      {[](auto& frame) { frame.south_out_s = 2.01; },
+       "south_out_s = 2.01: must be 0 to two periods, 2 s"}};
   for (const ImpossibleFrame& impossible : cases) {
     SCOPED_TRACE(impossible.reason);
     spindrift_CodedFrame frame = idl_frame(0);
     impossible.spoil(frame);
-    const auto refused = from_idl(frame);
+    const auto refused = from_idl<CodedFrame>(frame);
     ASSERT_FALSE(refused.has_value());
     EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
     EXPECT_THAT(refused.error().message, HasSubstr(impossible.reason));
@@ -233,8 +236,10 @@ TEST(FromIdl, RefusesACodedFrameThatCannotBeTrueWithItsReason) {
 TEST(TelemetrySubscriber, TakesCodedFramesBesidePulsesAndCountsBothOfASource) {
   Station station{bus_of_its_own()};
   const auto session = random_session();
-  auto pulses = PulsePublisher::create(station.participant(), "antenna", session).value();
-  auto frames = CodedPublisher::create(station.participant(), "antenna", session).value();
+  auto pulses =
+      TelemetryPublisher<Pulse>::create(station.participant(), "antenna", session).value();
+  auto frames =
+      TelemetryPublisher<CodedFrame>::create(station.participant(), "antenna", session).value();
   const std::stop_token never;
   constexpr int kCount = 1000;
   for (int i = 0; i < kCount; ++i) {
@@ -247,28 +252,29 @@ TEST(TelemetrySubscriber, TakesCodedFramesBesidePulsesAndCountsBothOfASource) {
   // Both topics count from 0 in one session: neither gaps nor duplicates.
   EXPECT_EQ(station.counts_of("antenna"), (SequenceCounts{.received = 2 * kCount}));
   const SampleBatch arrived = station.finish();
-  EXPECT_EQ(arrived.pulses.size(), kCount);
-  ASSERT_EQ(arrived.coded.size(), kCount);
-  EXPECT_EQ(arrived.coded.back().origin.session, session);
-  EXPECT_EQ(arrived.coded.back().origin.seq, kCount - 1);
-  EXPECT_EQ(tai_ns(arrived.coded.back().frame.t), kTestTime_tai_ns + kCount - 1);
-  EXPECT_EQ(arrived.coded.back().frame.period_s, 0.5);
+  EXPECT_EQ(arrived.samples.of<Pulse>().size(), kCount);
+  ASSERT_EQ(arrived.samples.of<CodedFrame>().size(), kCount);
+  EXPECT_EQ(arrived.samples.of<CodedFrame>().back().origin.session, session);
+  EXPECT_EQ(arrived.samples.of<CodedFrame>().back().origin.seq, kCount - 1);
+  EXPECT_EQ(tai_ns(arrived.samples.of<CodedFrame>().back().value.t), kTestTime_tai_ns + kCount - 1);
+  EXPECT_EQ(arrived.samples.of<CodedFrame>().back().value.period_s, 0.5);
   EXPECT_THAT(
-      arrived.coded.back().frame.delay_s,
+      arrived.samples.of<CodedFrame>().back().value.delay_s,
       ElementsAre(std::nullopt, 0.25, std::nullopt, std::nullopt, std::nullopt, std::nullopt));
 }
 
 TEST(TelemetrySubscriber, PassesOnACodedFrameThatCannotBeTrueAsRejected) {
   Station station{bus_of_its_own()};
-  const auto writer = Writer<spindrift_CodedFrame>::create(
-                          station.participant(), bus::kCodedFrameTopic, bus::telemetry_writer_qos())
-                          .value();
+  const auto writer =
+      Writer<spindrift_CodedFrame>::create(station.participant(), bus::topic_of<CodedFrame>(),
+                                           bus::telemetry_writer_qos())
+          .value();
   spindrift_CodedFrame impossible = idl_frame(7);
   impossible.north_in_s = 2.0;
   ASSERT_TRUE(writer.write(impossible));
   ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 1; }));
   const SampleBatch arrived = station.finish();
-  EXPECT_TRUE(arrived.coded.empty());
+  EXPECT_TRUE(arrived.samples.of<CodedFrame>().empty());
   ASSERT_EQ(arrived.rejected.size(), 1U);
   EXPECT_EQ(arrived.rejected[0].line, 7);
   EXPECT_EQ(arrived.rejected[0].session, 1U);
@@ -277,18 +283,18 @@ TEST(TelemetrySubscriber, PassesOnACodedFrameThatCannotBeTrueAsRejected) {
 
 TEST(TelemetrySubscriber, QueuesWhatAPublisherSends) {
   Station station{bus_of_its_own()};
-  auto publisher = PulsePublisher::create(station.participant(), "antenna").value();
+  auto publisher = TelemetryPublisher<Pulse>::create(station.participant(), "antenna").value();
   const auto session = publisher.next().session;
   const Pulse pulse{.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::NorthOut};
   ASSERT_TRUE(publisher.publish("SPINNER", pulse, {}));
   ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received == 1; }));
   const SampleBatch arrived = station.finish();
-  ASSERT_EQ(arrived.pulses.size(), 1U);
-  EXPECT_EQ(arrived.pulses[0].spacecraft, "SPINNER");
-  EXPECT_EQ(arrived.pulses[0].origin.source, "antenna");
-  EXPECT_EQ(arrived.pulses[0].origin.session, session);
-  EXPECT_EQ(arrived.pulses[0].origin.seq, 0U);
-  EXPECT_EQ(arrived.pulses[0].pulse, pulse);
+  ASSERT_EQ(arrived.samples.of<Pulse>().size(), 1U);
+  EXPECT_EQ(arrived.samples.of<Pulse>()[0].spacecraft, "SPINNER");
+  EXPECT_EQ(arrived.samples.of<Pulse>()[0].origin.source, "antenna");
+  EXPECT_EQ(arrived.samples.of<Pulse>()[0].origin.session, session);
+  EXPECT_EQ(arrived.samples.of<Pulse>()[0].origin.seq, 0U);
+  EXPECT_EQ(arrived.samples.of<Pulse>()[0].value, pulse);
 }
 
 TEST(TelemetrySubscriber, LosesNothingToASlowConsumer) {
@@ -303,7 +309,7 @@ TEST(TelemetrySubscriber, LosesNothingToASlowConsumer) {
   EXPECT_EQ(writer.exit_status(), 0);
   EXPECT_EQ(station.counts_of("front-end"), (SequenceCounts{.received = kCount}));
   const SampleBatch arrived = station.finish();
-  EXPECT_EQ(seqs_of(arrived.pulses), first_seqs(kCount));
+  EXPECT_EQ(seqs_of(arrived.samples.of<Pulse>()), first_seqs(kCount));
 }
 
 TEST(TelemetrySubscriber, PassesOnWhatCannotBeTrueAsRejected) {
@@ -317,7 +323,7 @@ TEST(TelemetrySubscriber, PassesOnWhatCannotBeTrueAsRejected) {
   ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 3; }));
   EXPECT_EQ(station.counts_of("front-end").missing, 0U);
   const SampleBatch arrived = station.finish();
-  EXPECT_EQ(arrived.pulses.size(), 2U);
+  EXPECT_EQ(arrived.samples.of<Pulse>().size(), 2U);
   ASSERT_EQ(arrived.rejected.size(), 1U);
   EXPECT_EQ(arrived.rejected[0].source, "front-end");
   EXPECT_EQ(arrived.rejected[0].line, 1);
@@ -333,12 +339,12 @@ TEST(TelemetrySubscriber, CountsGapsDuplicatesAndDisorderAndPassesAllOn) {
   ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 4; }));
   EXPECT_EQ(station.counts_of("front-end"),
             (SequenceCounts{.received = 4, .missing = 2, .duplicates = 1, .disordered = 1}));
-  EXPECT_EQ(station.finish().pulses.size(), 4U);
+  EXPECT_EQ(station.finish().samples.of<Pulse>().size(), 4U);
 }
 
 /// A source that starts, sends `count` pulses and ends.
 Expected<void> run_source(const Participant& participant, int count) {
-  auto publisher = PulsePublisher::create(participant, "antenna").value();
+  auto publisher = TelemetryPublisher<Pulse>::create(participant, "antenna").value();
   Expected<void> sent = publisher.wait_for_subscriber(30s);
   for (int i = 0; i < count && sent; ++i) {
     sent = publisher.publish(
@@ -381,7 +387,7 @@ TEST(TelemetrySubscriber, NamesAnIncompatibleWriterWhileItIsThere) {
 TEST(TelemetrySubscriber, StopsWhilePulsesArriveAndKeepsWhatItTook) {
   Station station{bus_of_its_own(), 2};
   std::jthread front_end{[&station](const std::stop_token& stop) {
-    auto publisher = PulsePublisher::create(station.participant(), "antenna").value();
+    auto publisher = TelemetryPublisher<Pulse>::create(station.participant(), "antenna").value();
     Expected<void> published;
     while (published && !stop.stop_requested()) {
       published = publisher.publish(
@@ -390,7 +396,7 @@ TEST(TelemetrySubscriber, StopsWhilePulsesArriveAndKeepsWhatItTook) {
   }};
   ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received > 1000; }));
   const SampleBatch arrived = station.finish();
-  EXPECT_EQ(arrived.pulses.size(), station.counts_of("antenna").received);
+  EXPECT_EQ(arrived.samples.of<Pulse>().size(), station.counts_of("antenna").received);
   EXPECT_FALSE(station.status().taking);
   EXPECT_EQ(station.status().failure, "");
 }
@@ -404,7 +410,7 @@ TEST(TelemetrySubscriber, HandsOverWhatIsAcknowledgedWhenStopped) {
     ASSERT_TRUE(writer.write(idl_pulse(seq), std::stop_token{}));
   }
   ASSERT_TRUE(writer.wait_for_acknowledgments(std::chrono::seconds{30}));
-  EXPECT_EQ(station.finish().pulses.size(), kSent);
+  EXPECT_EQ(station.finish().samples.of<Pulse>().size(), kSent);
 }
 
 TEST(TelemetrySubscriber, SaysSoWhenItsQueueIsClosedTooEarly) {

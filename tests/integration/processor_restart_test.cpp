@@ -16,6 +16,7 @@
 #include "services/telemetry_files/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
+#include "tests/support/samples.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift {
@@ -32,15 +33,14 @@ constexpr std::chrono::hours kSilence{2};
 const std::filesystem::path kPass = recorded_passes() / "nominal";
 
 /// Twenty revolutions, and the same again after the silence, for which there is no orbit.
-std::vector<PulseSample> two_passes() {
-  const std::vector<TelemetryFile> files{
-      {.path = kPass / "pulses.csv", .kind = TelemetryKind::Pulses}};
-  std::vector<PulseSample> all =
-      TelemetryStream::open(files, "SPINNER").value().next().value().pulses;
+std::vector<TelemetrySample<Pulse>> two_passes() {
+  const std::vector<TelemetryFile> files{{.path = kPass / "pulses.csv", .kind = Kind<Pulse>{}}};
+  std::vector<TelemetrySample<Pulse>> all =
+      TelemetryStream::open(files, "SPINNER").value().next().value().samples.of<Pulse>();
   all.resize(kEdgesOfAPass);
   for (std::size_t i = 0; i < kEdgesOfAPass; ++i) {
-    PulseSample later = all[i];
-    later.pulse.t += kSilence;
+    TelemetrySample<Pulse> later = all[i];
+    later.value.t += kSilence;
     later.origin.seq += 100'000;
     all.push_back(std::move(later));
   }
@@ -76,12 +76,13 @@ void work(Processor& processor, Routed routed, Submitted& out) {
   }
 }
 
-void receive(Processor& processor, const std::vector<PulseSample>& pulses, Submitted& out) {
+void receive(Processor& processor, const std::vector<TelemetrySample<Pulse>>& pulses,
+             Submitted& out) {
   for (std::size_t i = 0; i < pulses.size(); i += kEdgesABatch) {
     const auto first = pulses.begin() + static_cast<std::ptrdiff_t>(i);
     const auto end =
         pulses.begin() + static_cast<std::ptrdiff_t>(std::min(i + kEdgesABatch, pulses.size()));
-    work(processor, processor.route({.pulses = {first, end}}), out);
+    work(processor, processor.route(testing::batch_of_samples<Pulse>({first, end})), out);
   }
 }
 
@@ -98,17 +99,18 @@ class ProcessorRestart : public testing::ArchiveFixture {
   }
 
   /// Goes on with what `db` holds, and receives what of `sent` it does not.
-  static Submitted go_on(const std::filesystem::path& db, const std::vector<PulseSample>& sent) {
+  static Submitted go_on(const std::filesystem::path& db,
+                         const std::vector<TelemetrySample<Pulse>>& sent) {
     std::set<std::string> stored;
     for (const std::string& row : rows_of(db, "SELECT t_tai_ns, channel FROM pulse")) {
       stored.insert(row);
     }
-    std::vector<PulseSample> missing;
-    std::copy_if(
-        sent.begin(), sent.end(), std::back_inserter(missing), [&](const PulseSample& sample) {
-          return !stored.contains(
-              fmt::format("{}|{}|", tai_ns(sample.pulse.t), name_of(sample.pulse.channel)));
-        });
+    std::vector<TelemetrySample<Pulse>> missing;
+    std::copy_if(sent.begin(), sent.end(), std::back_inserter(missing),
+                 [&](const TelemetrySample<Pulse>& sample) {
+                   return !stored.contains(fmt::format("{}|{}|", tai_ns(sample.value.t),
+                                                       name_of(sample.value.channel)));
+                 });
     Processor processor = new_processor();
     Submitted out;
     work(processor, processor.go_on(db).value().routed, out);
@@ -154,7 +156,7 @@ class ProcessorRestart : public testing::ArchiveFixture {
 };
 
 TEST_F(ProcessorRestart, KilledAtAnyPointBetweenTwoPassesGivesWhatNoRestartWouldHave) {
-  const std::vector<PulseSample> sent = two_passes();
+  const std::vector<TelemetrySample<Pulse>> sent = two_passes();
   Processor processor = new_processor();
   Submitted all;
   all.samples = processor.begin();

@@ -251,14 +251,14 @@ TEST(ToIdl, CutsStatusTextBetweenCharacters) {
 /// What a subscriber that comes afterwards has of `count` pulses of source "replay".
 std::vector<spindrift_Pulse> published(const Pulse& pulse, std::size_t count) {
   const auto participant = Participant::create(bus_of_its_own()).value();
-  auto publisher = PulsePublisher::create(participant, "replay").value();
+  auto publisher = TelemetryPublisher<Pulse>::create(participant, "replay").value();
   for (std::size_t i = 0; i < count; ++i) {
     EXPECT_TRUE(publisher.publish("SPINNER", pulse, {}));
   }
-  return take_samples(
-      Reader<spindrift_Pulse>::create(participant, bus::kPulseTopic, bus::telemetry_reader_qos())
-          .value(),
-      count);
+  return take_samples(Reader<spindrift_Pulse>::create(participant, bus::topic_of<Pulse>(),
+                                                      bus::telemetry_reader_qos())
+                          .value(),
+                      count);
 }
 
 TEST(PulsePublisher, PublishesEveryField) {
@@ -273,14 +273,14 @@ TEST(PulsePublisher, PublishesEveryField) {
 
 TEST(CodedPublisher, PublishesEveryFieldAndNanForWhatWasNotReceived) {
   const auto participant = Participant::create(bus_of_its_own()).value();
-  auto publisher = CodedPublisher::create(participant, "replay", 17).value();
+  auto publisher = TelemetryPublisher<CodedFrame>::create(participant, "replay", 17).value();
   ASSERT_TRUE(publisher.publish("SPINNER",
                                 {.t = tai_from_ns(kTestTime_tai_ns),
                                  .period_s = 1.0,
                                  .delay_s = {std::nullopt, 0.125, 0.25, 0.375, 0.5, std::nullopt}},
                                 {}));
   const auto taken =
-      take_samples(Reader<spindrift_CodedFrame>::create(participant, bus::kCodedFrameTopic,
+      take_samples(Reader<spindrift_CodedFrame>::create(participant, bus::topic_of<CodedFrame>(),
                                                         bus::telemetry_reader_qos())
                        .value(),
                    1);
@@ -311,10 +311,11 @@ TEST(PulsePublisher, PackedSamplesAllArriveInOrder) {
   const auto sender = Participant::create(bus).value();
   const auto receiver = Participant::create(bus).value();
   const auto reader =
-      Reader<spindrift_Pulse>::create(receiver, bus::kPulseTopic, bus::telemetry_reader_qos())
+      Reader<spindrift_Pulse>::create(receiver, bus::topic_of<Pulse>(), bus::telemetry_reader_qos())
           .value();
   auto publisher =
-      PulsePublisher::create(sender, "replay", random_session(), bus::Sending::Packed).value();
+      TelemetryPublisher<Pulse>::create(sender, "replay", random_session(), bus::Sending::Packed)
+          .value();
   ASSERT_TRUE(publisher.wait_for_subscriber(std::chrono::seconds{30}));
   for (std::size_t i = 0; i < kCount; ++i) {
     ASSERT_TRUE(publisher.publish(
@@ -326,14 +327,14 @@ TEST(PulsePublisher, PackedSamplesAllArriveInOrder) {
 
 TEST(PulsePublisher, DrawsAnotherSessionAtEachStart) {
   const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto first = PulsePublisher::create(participant, "replay").value();
-  const auto second = PulsePublisher::create(participant, "replay").value();
+  const auto first = TelemetryPublisher<Pulse>::create(participant, "replay").value();
+  const auto second = TelemetryPublisher<Pulse>::create(participant, "replay").value();
   EXPECT_NE(first.next().session, second.next().session);
 }
 
 TEST(PulsePublisher, UsesNoSeqForASampleThatIsRefused) {
   const auto participant = Participant::create(bus_of_its_own()).value();
-  auto publisher = PulsePublisher::create(participant, "replay").value();
+  auto publisher = TelemetryPublisher<Pulse>::create(participant, "replay").value();
   const Pulse pulse{.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::Sun1};
   EXPECT_FALSE(publisher.publish(std::string(33, 'x'), pulse, {}));
   EXPECT_EQ(publisher.next().seq, 0U);

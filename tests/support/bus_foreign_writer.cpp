@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 
+#include "services/bus/telemetry_messages.h"
 #include "tests/support/bus_fixture.h"
 
 namespace spindrift {
@@ -31,7 +32,7 @@ Expected<void> write_all(const bus::Writer<spindrift_Pulse>& writer, std::uint64
 int run(const bus::BusConfig& config, bool weak, std::uint64_t count) {
   const auto participant = bus::Participant::create(config);
   const auto writer = bus::Writer<spindrift_Pulse>::create(
-      participant.value(), bus::kPulseTopic, weak ? weak_qos() : bus::telemetry_writer_qos());
+      participant.value(), bus::topic_of<Pulse>(), weak ? weak_qos() : bus::telemetry_writer_qos());
   if (weak) {
     std::this_thread::sleep_for(60s);
     return EXIT_FAILURE;

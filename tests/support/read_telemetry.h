@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "services/telemetry_files/telemetry_stream.h"
@@ -27,38 +28,37 @@ struct BadRow {
 };
 
 /// Everything that a stream gives, in its order; no batch is larger than it may be.
-struct Telemetry {
-  std::vector<PulseSample> samples;
-  std::vector<CodedSample> coded;
+struct ReadTelemetry {
+  std::vector<TelemetrySample<Pulse>> samples;
+  std::vector<TelemetrySample<CodedFrame>> coded;
   std::vector<RejectedInput> rejected;
-  std::vector<TaiTime> times;  ///< Of samples of both kinds.
+  std::vector<TaiTime> times;  ///< Of samples of all kinds.
 };
 
-inline Telemetry read(const std::vector<std::filesystem::path>& paths,
+inline ReadTelemetry read(const std::vector<std::filesystem::path>& paths,
                       std::size_t buffer_bytes = TelemetryStream::kBufferBytes) {
   const auto files = scan_telemetry(paths);
   EXPECT_TRUE(files) << files.error().message;
   auto stream = TelemetryStream::open(*files, "SPINNER", buffer_bytes);
   EXPECT_TRUE(stream) << stream.error().message;
-  Telemetry all;
+  ReadTelemetry all;
   while (true) {
     const auto batch = stream->next();
     EXPECT_TRUE(batch) << batch.error().message;
-    EXPECT_TRUE(batch->pulses.empty() || batch->coded.empty());
-    EXPECT_LE(batch->pulses.size() + batch->coded.size(), TelemetryStream::kBatch);
+    EXPECT_LE(count_of(batch->samples), TelemetryStream::kBatch);
     EXPECT_LE(batch->rejected.size(), TelemetryStream::kBatch);
-    if (batch->pulses.empty() && batch->coded.empty() && batch->rejected.empty()) {
+    if (is_empty(*batch)) {
       EXPECT_EQ(stream->bytes_given(), stream->bytes_total());
       return all;
     }
-    for (const PulseSample& sample : batch->pulses) {
-      all.samples.push_back(sample);
-      all.times.push_back(sample.pulse.t);
-    }
-    for (const CodedSample& sample : batch->coded) {
-      all.coded.push_back(sample);
-      all.times.push_back(sample.frame.t);
-    }
+    in_order_of_arrival(batch->samples, [&]<class Value>(const TelemetrySample<Value>& sample) {
+      all.times.push_back(sample.value.t);
+      if constexpr (std::is_same_v<Value, Pulse>) {
+        all.samples.push_back(sample);
+      } else if constexpr (std::is_same_v<Value, CodedFrame>) {
+        all.coded.push_back(sample);
+      }
+    });
     all.rejected.insert(all.rejected.end(), batch->rejected.begin(), batch->rejected.end());
   }
 }

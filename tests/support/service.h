@@ -74,7 +74,7 @@ class FrontEnd {
   FrontEnd(const bus::BusConfig& bus, std::string spacecraft, std::vector<Pulse> pulses)
       : spacecraft_{std::move(spacecraft)},
         participant_{bus::Participant::create(bus).value()},
-        publisher_{PulsePublisher::create(participant_, "front-end").value()},
+        publisher_{TelemetryPublisher<Pulse>::create(participant_, "front-end").value()},
         pulses_{std::move(pulses)} {}
 
   /// Those from where it is to `share` of all, with a pause before each. @return false when nobody
@@ -96,7 +96,7 @@ class FrontEnd {
  private:
   std::string spacecraft_;
   bus::Participant participant_;
-  PulsePublisher publisher_;
+  TelemetryPublisher<Pulse> publisher_;
   std::vector<Pulse> pulses_;
   std::size_t next_ = 0;
 };

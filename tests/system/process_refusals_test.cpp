@@ -110,7 +110,8 @@ TEST(Process, RefusesADatabaseThatIsNotOursAndLeavesItAlone) {
 }
 
 TEST(Process, RefusesTelemetryWithoutARow) {
-  expect_refused("pulses.csv", "t_tai_ns,channel\n", {"no row of pulses", "pulses.csv: no rows"});
+  expect_refused("pulses.csv", "t_tai_ns,channel\n",
+                 {"no row of telemetry", "pulses.csv: no rows"});
 }
 
 TEST(Process, TakesAnEmptyTelemetryFileForRejectedInputBesideOthersOnly) {
@@ -130,7 +131,7 @@ TEST(Process, TakesAnEmptyTelemetryFileForRejectedInputBesideOthersOnly) {
 
   Program alone{arguments(pass.mission(), pass.folder.path() / "empty.csv", pass.db)};
   EXPECT_EQ(alone.exit_status(), 2);
-  EXPECT_THAT(alone.log(), HasSubstr("no row of pulses"));
+  EXPECT_THAT(alone.log(), HasSubstr("no row of telemetry"));
   EXPECT_THAT(alone.log(), HasSubstr("empty.csv: empty"));
 }
 

@@ -16,6 +16,7 @@
 
 #include "services/bus/qos.h"
 #include "services/bus/reader.h"
+#include "services/bus/telemetry_messages.h"
 #include "services/publisher/product_messages.h"
 #include "services/publisher/telemetry_publisher.h"
 #include "tests/support/archive_rows.h"
@@ -203,7 +204,7 @@ TEST(Serve, PublishesWhatIsInForceAgainAfterARestart) {
 TEST(Serve, CountsMissingSamplesOnceHoweverOftenTheyAreSentAgain) {
   Service service{"nominal"};
   const auto participant = bus::Participant::create(service.bus()).value();
-  const auto front_end = bus::Writer<spindrift_Pulse>::create(participant, bus::kPulseTopic,
+  const auto front_end = bus::Writer<spindrift_Pulse>::create(participant, bus::topic_of<Pulse>(),
                                                               bus::telemetry_writer_qos())
                              .value();
   const std::set<std::uint64_t> withheld = {100, 101, 102, 103, 250, 251, 400};

@@ -165,7 +165,7 @@ TEST(Serve, StoresWhatCannotBeTrueWithItsReason) {
   Service service{"nominal"};
   ASSERT_TRUE(service.ready()) << service.program().log();
   const auto participant = bus::Participant::create(service.bus()).value();
-  auto front_end = PulsePublisher::create(participant, "front-end").value();
+  auto front_end = TelemetryPublisher<Pulse>::create(participant, "front-end").value();
   ASSERT_TRUE(front_end.wait_for_subscriber(30s));
   const std::stop_token never;
   const Pulse pulse{.t = tai_from_ns(1795143637568806257), .channel = PulseChannel::Sun1};
@@ -186,7 +186,7 @@ TEST(Serve, LeavesTheSpacecraftOfOthersAlone) {
   Service service{"nominal"};
   ASSERT_TRUE(service.ready()) << service.program().log();
   const auto participant = bus::Participant::create(service.bus()).value();
-  auto front_end = PulsePublisher::create(participant, "front-end").value();
+  auto front_end = TelemetryPublisher<Pulse>::create(participant, "front-end").value();
   ASSERT_TRUE(front_end.wait_for_subscriber(30s));
   constexpr std::int64_t kPairs = 1000;
   for (std::int64_t i = 0; i < kPairs; ++i) {

@@ -21,7 +21,7 @@ ArchiveBatch batch_of(const std::string& run_id) {
 
 ArchiveBatch samples(std::size_t count) {
   ArchiveBatch batch = batch_of("samples");
-  batch.pulses.resize(count);
+  batch.samples.of<Pulse>().resize(count);
   return batch;
 }
 

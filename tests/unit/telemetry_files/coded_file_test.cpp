@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-Telemetry read_coded_row(std::string_view row) {
+ReadTelemetry read_coded_row(std::string_view row) {
   const TemporaryFolder folder;
   return read({folder.write("coded.csv", std::string{kCodedHeader}.append(row).append("\n"))});
 }
@@ -24,14 +24,14 @@ TEST(CodedFile, GivesFramesWithTheirOrigin) {
       read_coded_row("1795143637568985513,1.00007,0.07932,0.4545,,0.45928,0.60985");
   EXPECT_TRUE(telemetry.rejected.empty());
   ASSERT_EQ(telemetry.coded.size(), 1U);
-  const CodedSample& sample = telemetry.coded[0];
+  const TelemetrySample<CodedFrame>& sample = telemetry.coded[0];
   EXPECT_EQ(sample.spacecraft, "SPINNER");
   EXPECT_EQ(sample.origin.source, "coded.csv");
   EXPECT_EQ(sample.origin.session, 0U);
   EXPECT_EQ(sample.origin.seq, 2U);
-  EXPECT_EQ(tai_ns(sample.frame.t), 1795143637568985513);
-  EXPECT_EQ(sample.frame.period_s, 1.00007);
-  EXPECT_THAT(sample.frame.delay_s, ::testing::ElementsAre(std::nullopt, 0.07932, 0.4545,
+  EXPECT_EQ(tai_ns(sample.value.t), 1795143637568985513);
+  EXPECT_EQ(sample.value.period_s, 1.00007);
+  EXPECT_THAT(sample.value.delay_s, ::testing::ElementsAre(std::nullopt, 0.07932, 0.4545,
                                                            std::nullopt, 0.45928, 0.60985));
 }
 
@@ -39,8 +39,8 @@ TEST(CodedFile, MayLackAnythingButItsTime) {
   const auto telemetry = read_coded_row("1795143637568985513,,,,,,");
   EXPECT_TRUE(telemetry.rejected.empty());
   ASSERT_EQ(telemetry.coded.size(), 1U);
-  EXPECT_EQ(telemetry.coded[0].frame.period_s, std::nullopt);
-  EXPECT_THAT(telemetry.coded[0].frame.delay_s, ::testing::Each(std::nullopt));
+  EXPECT_EQ(telemetry.coded[0].value.period_s, std::nullopt);
+  EXPECT_THAT(telemetry.coded[0].value.delay_s, ::testing::Each(std::nullopt));
 }
 
 TEST(CodedFile, RejectsABadRowWithItsReason) {
@@ -61,8 +61,8 @@ TEST(CodedFile, RejectsABadRowWithItsReason) {
       {"1795143637568985513,0,,,,,", "period_s = 0: must be above 0, at most 60 s"},
       {"1795143637568985513,-1,,,,,", "period_s = -1: must be above 0"},
       {"1795143637568985513,60.001,,,,,", "period_s = 60.001: must be above 0, at most 60 s"},
-      {"1795143637568985513,1,-0.001,,,,", "sun2_s = -0.001: must be 0 to the period, 1 s"},
-      {"1795143637568985513,0.5,,0.51,,,", "north_in_s = 0.51: must be 0 to the period, 0.5 s"},
+      {"1795143637568985513,1,-0.001,,,,", "sun2_s = -0.001: must be 0 to two periods, 2 s"},
+      {"1795143637568985513,0.5,,1.01,,,", "north_in_s = 1.01: must be 0 to two periods, 1 s"},
       {"1795143637568985513,,,,61,,", "north_out_s = 61: must be 0 to 60 s"},
   };
   for (const BadRow& bad : rows) {
@@ -76,7 +76,7 @@ TEST(CodedFile, RejectsABadRowWithItsReason) {
 }
 
 TEST(CodedFile, TakesTheEndsOfWhatItAllows) {
-  for (const char* row : {"1795143637568985513,60,0,60,,,", "1795143637568985513,1,1,1.009,,,",
+  for (const char* row : {"1795143637568985513,60,0,60,,,", "1795143637568985513,1,1,2,,,",
                           "1795143637568985513,1e-3,0,0,0,0,0", "1795143637568985513,,60,,,,"}) {
     EXPECT_EQ(read_coded_row(row).coded.size(), 1U) << row;
   }

@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 
 /// A pulse file with this row between two good ones.
-Telemetry read_row(std::string_view row) {
+ReadTelemetry read_row(std::string_view row) {
   const TemporaryFolder folder;
   std::string text = "t_tai_ns,channel\n1795143637568806257,sun1\n";
   text.append(row).append("\n1795143637648746313,sun2\n");
@@ -34,9 +34,9 @@ TEST(PulseFile, GivesSamplesWithTheirOrigin) {
   EXPECT_EQ(pulses.samples[0].origin.source, "pulses.csv");
   EXPECT_EQ(pulses.samples[0].origin.session, 0U);
   EXPECT_EQ(pulses.samples[0].origin.seq, 2U);
-  EXPECT_EQ(pulses.samples[0].pulse, (Pulse{tai_from_ns(kT0_tai_ns), PulseChannel::Sun1}));
+  EXPECT_EQ(pulses.samples[0].value, (Pulse{tai_from_ns(kT0_tai_ns), PulseChannel::Sun1}));
   EXPECT_EQ(pulses.samples[1].origin.seq, 3U);
-  EXPECT_EQ(pulses.samples[1].pulse,
+  EXPECT_EQ(pulses.samples[1].value,
             (Pulse{tai_from_ns(1795143637648746313), PulseChannel::SouthOut}));
 }
 
@@ -44,7 +44,7 @@ TEST(PulseFile, KnowsEveryChannel) {
   for (std::size_t i = 0; i < kPulseChannels; ++i) {
     const auto pulses = read_row("1795143637600000000," + std::string{kPulseChannelNames.at(i)});
     ASSERT_EQ(pulses.samples.size(), 3U);
-    EXPECT_EQ(index_of(pulses.samples[1].pulse.channel), i);
+    EXPECT_EQ(index_of(pulses.samples[1].value.channel), i);
   }
 }
 
@@ -75,7 +75,7 @@ TEST(PulseFile, ReadsWhatOtherSystemsWrite) {
     const auto pulses = read({folder.write("b.csv", text)});
     EXPECT_TRUE(pulses.rejected.empty());
     ASSERT_EQ(pulses.samples.size(), 1U);
-    EXPECT_EQ(pulses.samples[0].pulse, plain.samples[0].pulse);
+    EXPECT_EQ(pulses.samples[0].value, plain.samples[0].value);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/read_telemetry.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift {
@@ -34,13 +35,13 @@ std::string error_of(std::vector<std::filesystem::path> paths) {
 TEST(TelemetryFiles, AreRecognisedByTheirHeaders) {
   const TemporaryFolder folder;
   const std::array<std::pair<const char*, TelemetryKind>, 6> cases = {
-      {{"t_tai_ns,channel\n", TelemetryKind::Pulses},
+      {{"t_tai_ns,channel\n", Kind<Pulse>{}},
        {"t_tai_ns,period_s,sun2_s,north_in_s,north_out_s,south_in_s,south_out_s\n",
-        TelemetryKind::Coded},
-       {"t_tai_ns,wx_rad_s,wy_rad_s,wz_rad_s\n", TelemetryKind::Gyro},
-       {"t_tai_ns,qx,qy,qz,qw\n", TelemetryKind::Star},
-       {"t_tai_ns,sx,sy,sz\n", TelemetryKind::Sun},
-       {"t_tai_ns,bx_nt,by_nt,bz_nt\n", TelemetryKind::Magnetometer}}};
+        Kind<CodedFrame>{}},
+       {"t_tai_ns,wx_rad_s,wy_rad_s,wz_rad_s\n", Kind<GyroSample>{}},
+       {"t_tai_ns,qx,qy,qz,qw\n", Kind<StarFix>{}},
+       {"t_tai_ns,sx,sy,sz\n", Kind<SunDirection>{}},
+       {"t_tai_ns,x_km,y_km,z_km,vx_km_s,vy_km_s,vz_km_s\n", Kind<TimedOrbitState>{}}}};
   for (const auto& [header, kind] : cases) {
     SCOPED_TRACE(header);
     const auto files = scan({folder.write("a.csv", header)});
@@ -57,14 +58,14 @@ TEST(TelemetryFiles, MayNameTheSpacecraftInAnyColumn) {
     SCOPED_TRACE(header);
     const auto files = scan({folder.write("a.csv", header)});
     ASSERT_TRUE(files) << files.error().message;
-    EXPECT_EQ(files->front().kind, TelemetryKind::Pulses);
+    EXPECT_EQ(files->front().kind, TelemetryKind{Kind<Pulse>{}});
   }
 }
 
 TEST(TelemetryFiles, OfADirectoryAreItsCsvFilesByName) {
   const TemporaryFolder folder;
   folder.write("b.csv", "t_tai_ns,channel\n");
-  folder.write("a.csv", "t_tai_ns,qx,qy,qz,qw\n");
+  folder.write("a.csv", kCodedHeader);
   folder.write("notes.txt", "not telemetry");
   folder.write("a.csv.bak", "not telemetry");
   std::filesystem::create_directory(folder.path() / "c.csv");
@@ -72,9 +73,9 @@ TEST(TelemetryFiles, OfADirectoryAreItsCsvFilesByName) {
   ASSERT_TRUE(files) << files.error().message;
   ASSERT_EQ(files->size(), 2U);
   EXPECT_EQ((*files)[0].path, folder.path() / "a.csv");
-  EXPECT_EQ((*files)[0].kind, TelemetryKind::Star);
+  EXPECT_EQ((*files)[0].kind, TelemetryKind{Kind<CodedFrame>{}});
   EXPECT_EQ((*files)[1].path, folder.path() / "b.csv");
-  EXPECT_EQ((*files)[1].kind, TelemetryKind::Pulses);
+  EXPECT_EQ((*files)[1].kind, TelemetryKind{Kind<Pulse>{}});
 }
 
 TEST(TelemetryFiles, StayInTheOrderGiven) {

@@ -1,5 +1,6 @@
 #include "services/telemetry_files/telemetry_stream.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ using ::testing::HasSubstr;
 TEST(TelemetryStream, OfAFileThatHasGoneIsAnError) {
   const TemporaryFolder folder;
   const std::vector<TelemetryFile> files = {
-      {.path = folder.path() / "gone.csv", .kind = TelemetryKind::Pulses}};
+      {.path = folder.path() / "gone.csv", .kind = Kind<Pulse>{}}};
   const auto pulses = TelemetryStream::open(files, "SPINNER");
   ASSERT_FALSE(pulses);
   EXPECT_THAT(pulses.error().message, HasSubstr("gone.csv: cannot be read: No such file"));
@@ -60,9 +61,9 @@ TEST(TelemetryStream, SortsByTimeThenChannelAndKeepsDuplicates) {
                               "1795143637000000000,south_out\n");
   const auto pulses = read({a, b});
   std::vector<std::string> seen;
-  for (const PulseSample& sample : pulses.samples) {
-    seen.push_back(std::to_string(tai_ns(sample.pulse.t) % 10) + " " +
-                   std::string{name_of(sample.pulse.channel)} + " " + sample.origin.source);
+  for (const TelemetrySample<Pulse>& sample : pulses.samples) {
+    seen.push_back(std::to_string(tai_ns(sample.value.t) % 10) + " " +
+                   std::string{name_of(sample.value.channel)} + " " + sample.origin.source);
   }
   EXPECT_THAT(seen, ::testing::ElementsAre("0 south_out b.csv", "1 sun1 a.csv", "1 sun1 b.csv",
                                            "1 sun2 a.csv", "2 sun1 a.csv"));
@@ -75,9 +76,9 @@ TEST(TelemetryStream, GivesTheSamePulsesWhateverTheOrderOfTheRowsAndFiles) {
   EXPECT_TRUE(expected.rejected.empty());
 
   std::vector<std::string> rows;
-  for (const PulseSample& sample : expected.samples) {
-    rows.push_back(std::to_string(tai_ns(sample.pulse.t)) + "," +
-                   std::string{name_of(sample.pulse.channel)} + "\n");
+  for (const TelemetrySample<Pulse>& sample : expected.samples) {
+    rows.push_back(std::to_string(tai_ns(sample.value.t)) + "," +
+                   std::string{name_of(sample.value.channel)} + "\n");
   }
   std::mt19937 random{20261120};
   for (int trial = 0; trial < 5; ++trial) {
@@ -94,7 +95,7 @@ TEST(TelemetryStream, GivesTheSamePulsesWhateverTheOrderOfTheRowsAndFiles) {
     const auto shuffled = read({b, a});
     EXPECT_TRUE(std::equal(shuffled.samples.begin(), shuffled.samples.end(),
                            expected.samples.begin(), expected.samples.end(),
-                           [](const auto& x, const auto& y) { return x.pulse == y.pulse; }));
+                           [](const auto& x, const auto& y) { return x.value == y.value; }));
   }
 }
 
@@ -129,16 +130,13 @@ TEST(TelemetryStream, MergesPulsesAndFramesByTimeAndHandsOverOneKindAtATime) {
   const auto files = scan_telemetry({{coded, pulses}});
   auto stream = TelemetryStream::open(*files, "SPINNER").value();
   std::vector<std::string> order;
-  for (auto batch = stream.next().value(); batch.pulses.size() + batch.coded.size() > 0;
-       batch = stream.next().value()) {
-    for (const PulseSample& sample : batch.pulses) {
-      order.push_back("pulse " + std::to_string(tai_ns(sample.pulse.t) % 10));
-    }
-    for (const CodedSample& sample : batch.coded) {
-      order.push_back("coded " + std::to_string(tai_ns(sample.frame.t) % 10));
-    }
+  for (auto batch = stream.next().value(); !is_empty(batch); batch = stream.next().value()) {
+    in_order_of_arrival(batch.samples, [&]<class Value>(const TelemetrySample<Value>& sample) {
+      order.push_back(fmt::format("{} {}", Telemetry<Value>::kName, tai_ns(sample.value.t) % 10));
+    });
   }
-  EXPECT_THAT(order, ::testing::ElementsAre("pulse 1", "coded 1", "pulse 2", "coded 3", "pulse 4"));
+  EXPECT_THAT(order,
+              ::testing::ElementsAre("pulses 1", "coded 1", "pulses 2", "coded 3", "pulses 4"));
 }
 
 /// `count` rows a microsecond apart, moved about within blocks of `block` rows.
@@ -184,11 +182,11 @@ TEST(TelemetryStream, PassesOnARowThatComesTooLateForItsPlace) {
       "a.csv", disordered_rows(50'000, 1) + std::to_string(kT0_tai_ns - 1) + ",sun2\n");
   const auto telemetry = read({path}, 1000 * kRow);
   ASSERT_EQ(telemetry.samples.size(), 50'001U);
-  EXPECT_NE(telemetry.samples.front().pulse.channel, PulseChannel::Sun2);
+  EXPECT_NE(telemetry.samples.front().value.channel, PulseChannel::Sun2);
   std::vector<TaiTime> others;
-  for (const PulseSample& sample : telemetry.samples) {
-    if (sample.pulse.channel == PulseChannel::Sun1) {
-      others.push_back(sample.pulse.t);
+  for (const TelemetrySample<Pulse>& sample : telemetry.samples) {
+    if (sample.value.channel == PulseChannel::Sun1) {
+      others.push_back(sample.value.t);
     }
   }
   EXPECT_EQ(others.size(), 50'000U);
@@ -233,8 +231,8 @@ TEST(TelemetryStream, KeepsTheSpacecraftOfEveryRow) {
   const TemporaryFolder folder;
   const auto telemetry = read({folder.write("a.csv", text)});
   ASSERT_EQ(telemetry.samples.size(), 1000U);
-  for (const PulseSample& sample : telemetry.samples) {
-    EXPECT_EQ(sample.spacecraft, "SC-" + std::to_string((kT0_tai_ns - tai_ns(sample.pulse.t)) % 7));
+  for (const TelemetrySample<Pulse>& sample : telemetry.samples) {
+    EXPECT_EQ(sample.spacecraft, "SC-" + std::to_string((kT0_tai_ns - tai_ns(sample.value.t)) % 7));
   }
 }
 
@@ -246,7 +244,7 @@ TEST(TelemetryStream, ReadsLinesThatCrossItsReads) {
   EXPECT_TRUE(telemetry.rejected.empty());
   ASSERT_EQ(telemetry.samples.size(), kRows);
   for (std::size_t i = 0; i < kRows; ++i) {
-    ASSERT_EQ(tai_ns(telemetry.samples[i].pulse.t),
+    ASSERT_EQ(tai_ns(telemetry.samples[i].value.t),
               kT0_tai_ns + static_cast<std::int64_t>(i) * 1000);
     ASSERT_EQ(telemetry.samples[i].origin.seq, i + 2);
   }

@@ -6,9 +6,6 @@
 #include <cstdint>
 #include <string>
 
-#include "pipelines/spin/types/coded_frame.h"
-#include "pipelines/spin/types/pulse.h"
-
 namespace spindrift {
 
 /// Which sample of which sender. On the bus: source, session and seq of the IDL. From a file: the
@@ -19,16 +16,13 @@ struct Origin {
   std::uint64_t seq = 0;
 };
 
-struct PulseSample {
+/// `Value`: a kind of telemetry_kinds.h.
+template <class Value>
+struct TelemetrySample {
   std::string spacecraft;
   Origin origin;
-  Pulse pulse;
-};
-
-struct CodedSample {
-  std::string spacecraft;
-  Origin origin;
-  CodedFrame frame;
+  Value value;
+  std::int64_t arrival = 0;  ///< Among the samples of its batch, later of its run; larger: later.
 };
 
 }  // namespace spindrift

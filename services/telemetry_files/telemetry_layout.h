@@ -1,20 +1,19 @@
 /// @file
-/// What a telemetry file holds; its header line tells.
+/// Which kind of telemetry a file holds, and in which columns; its header line tells.
 
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <string_view>
+#include <string>
+#include <tuple>
 
 #include "pipelines/core/expected.h"
+#include "services/telemetry/by_kind.h"
 #include "services/telemetry_files/csv.h"
 
 namespace spindrift {
-
-enum class TelemetryKind { Pulses, Coded, Gyro, Star, Sun, Magnetometer };
-std::string_view name_of(TelemetryKind kind);
 
 /// The columns of one file.
 // Written as a whole, never default-constructed.
@@ -28,6 +27,15 @@ struct OpenTelemetry {
   CsvLines lines;  ///< Those behind the header.
   TelemetryLayout layout;
 };
+
+/// Of a kind: "t_tai_ns,channel".
+template <class Value>
+std::string header_of() {
+  std::string header = "t_tai_ns";
+  std::apply([&](const auto&... column) { (((header += ',') += column.name), ...); },
+             Telemetry<Value>::kColumns);
+  return header;
+}
 
 /// Opens a file and reads its header line, the first that is not empty.
 /// @return InvalidConfiguration with path and line for what is not a readable file, no header or

@@ -1,0 +1,19 @@
+/// @file
+/// Words as a key of JSON.
+
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+namespace spindrift {
+
+/// "coded frames": "coded_frames"
+inline std::string json_key(std::string_view words) {
+  std::string key{words};
+  std::replace(key.begin(), key.end(), ' ', '_');
+  return key;
+}
+
+}  // namespace spindrift

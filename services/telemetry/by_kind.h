@@ -1,0 +1,143 @@
+/// @file
+/// Something of each kind of telemetry.
+
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <tuple>
+#include <variant>
+#include <vector>
+
+#include "pipelines/time/tai_time.h"
+#include "services/telemetry/telemetry_kinds.h"
+#include "services/telemetry/telemetry_sample.h"
+
+namespace spindrift {
+
+inline constexpr std::size_t kTelemetryKindCount = TelemetryKinds::kSize;
+
+/// One kind of the list.
+using TelemetryKind = TelemetryKinds::Of<std::variant, Kind>;
+
+template <class Value>
+inline constexpr std::size_t kTelemetryKind = TelemetryKinds::index_of<Value>();
+
+inline std::string_view name_of(const TelemetryKind& kind) {
+  return std::visit([]<class Value>(Kind<Value>) { return Telemetry<Value>::kName; }, kind);
+}
+
+/// `Content<Value>` of each kind.
+template <template <class> class Content>
+class ByKind {
+ public:
+  template <class Value>
+  Content<Value>& of() {
+    return std::get<kTelemetryKind<Value>>(all_);
+  }
+  template <class Value>
+  const Content<Value>& of() const {
+    return std::get<kTelemetryKind<Value>>(all_);
+  }
+
+  /// Calls `see` with the content of each, in the order of the list.
+  template <class See>
+  void for_each(See&& see) {
+    std::apply([&](auto&... content) { (see(content), ...); }, all_);
+  }
+  template <class See>
+  void for_each(See&& see) const {
+    std::apply([&](const auto&... content) { (see(content), ...); }, all_);
+  }
+
+ private:
+  TelemetryKinds::Of<std::tuple, Content> all_;
+};
+
+template <class Value>
+using SamplesOfKind = std::vector<TelemetrySample<Value>>;
+
+/// Samples by kind; their `arrival` gives the order of all.
+using TelemetrySamples = ByKind<SamplesOfKind>;
+
+/// A value in the order in which it arrived among others.
+template <class Value>
+struct Arrived {
+  std::int64_t arrival;
+  Value value;
+};
+template <class Value>
+using ArrivedOfKind = std::vector<Arrived<Value>>;
+
+/// Values by kind in the order of arrival, without where they came from.
+using TelemetryValues = ByKind<ArrivedOfKind>;
+
+/// Of TelemetrySamples or TelemetryValues, all kinds together.
+template <template <class> class Content>
+std::size_t count_of(const ByKind<Content>& all) {
+  std::size_t count = 0;
+  all.for_each([&count](const auto& of_kind) { count += of_kind.size(); });
+  return count;
+}
+
+/// Calls `see` with each element of all kinds in the order of its `arrival`, in which each kind is
+/// by itself.
+/// @param all TelemetrySamples or TelemetryValues.
+template <class All, class See>
+void in_order_of_arrival(All&& all, See&& see) {
+  constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+  std::array<std::size_t, kTelemetryKindCount> next{};
+  while (true) {
+    // The kind whose next is the first of all, and when that of another kind follows.
+    std::size_t earliest = 0;
+    std::int64_t first = kNone;
+    std::int64_t other = kNone;
+    std::size_t kind = 0;
+    all.for_each([&](const auto& of_kind) {
+      const auto arrival = next[kind] < of_kind.size() ? of_kind[next[kind]].arrival : kNone;
+      other = std::min(other, std::max(first, arrival));
+      if (arrival < first) {
+        first = arrival;
+        earliest = kind;
+      }
+      ++kind;
+    });
+    if (first == kNone) {
+      return;
+    }
+    kind = 0;
+    all.for_each([&](auto& of_kind) {
+      if (kind++ == earliest) {
+        std::size_t& i = next[earliest];
+        for (; i < of_kind.size() && of_kind[i].arrival <= other; ++i) {
+          see(of_kind[i]);
+        }
+      }
+    });
+  }
+}
+
+/// Where a sample stands among all of its spacecraft: the natural key of what is stored, and the
+/// order in which equal times are given from files.
+struct TelemetryOrder {
+  TaiTime t;
+  std::uint32_t kind;
+  std::uint32_t place;
+  friend constexpr auto operator<=>(const TelemetryOrder&, const TelemetryOrder&) = default;
+};
+
+template <class Value>
+constexpr TelemetryOrder order_of(const Value& value) {
+  TelemetryOrder order{.t = value.t, .kind = kTelemetryKind<Value>, .place = 0};
+  if constexpr (requires { Telemetry<Value>::place(value); }) {
+    order.place = static_cast<std::uint32_t>(Telemetry<Value>::place(value));
+  }
+  return order;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,42 @@
+/// @file
+/// A list of types, and a type as a value.
+
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+
+namespace spindrift {
+
+/// Stands for a type where a value is needed.
+template <class Value>
+struct Kind {
+  using Type = Value;
+  friend constexpr bool operator==(Kind /*one*/, Kind /*other*/) { return true; }
+};
+
+template <class... Values>
+struct KindList {
+  static constexpr std::size_t kSize = sizeof...(Values);
+
+  /// `Whole<Content<Value>...>`
+  template <template <class...> class Whole, template <class> class Content>
+  using Of = Whole<Content<Values>...>;
+
+  /// Its place in the list.
+  template <class Value>
+  static constexpr std::size_t index_of() {
+    static_assert((std::is_same_v<Value, Values> || ...), "not a kind of the list");
+    std::size_t index = 0;
+    static_cast<void>(((std::is_same_v<Value, Values> || (++index, false)) || ...));
+    return index;
+  }
+
+  /// Calls `see(Kind<Value>{})` for each, in order.
+  template <class See>
+  static constexpr void for_each(See&& see) {
+    (see(Kind<Values>{}), ...);
+  }
+};
+
+}  // namespace spindrift

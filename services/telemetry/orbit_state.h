@@ -1,0 +1,66 @@
+/// @file
+/// Position and velocity as a kind of telemetry.
+
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "pipelines/ephemeris/timed_orbit_state.h"
+#include "services/telemetry/plausible.h"
+#include "services/telemetry/telemetry.h"
+
+namespace spindrift {
+
+template <>
+struct Telemetry<TimedOrbitState> {
+  static constexpr std::string_view kName = "orbit state";
+  static constexpr std::string_view kPlural = "orbit states";
+  static constexpr const char* kTopic = "spindrift/orbit_state";
+  static constexpr BusMessage kMessage = BusMessage::OrbitState;
+  static constexpr std::string_view kTable = "orbit_state_sample";
+  static constexpr std::string_view kSensor = "";
+  static constexpr std::tuple kColumns{
+      Column{"x_km", [](auto& sample) -> auto& {return sample.state.position_icrf_km.x();
+}
+}  // namespace spindrift
+, Column{"y_km", [](auto& sample) -> auto& {return sample.state.position_icrf_km.y();
+}
+}
+, Column{"z_km", [](auto& sample) -> auto& {return sample.state.position_icrf_km.z();
+}
+}
+, Column{"vx_km_s", [](auto& sample) -> auto& {return sample.state.velocity_icrf_km_s.x();
+}
+}
+, Column{"vy_km_s", [](auto& sample) -> auto& {return sample.state.velocity_icrf_km_s.y();
+}
+}
+, Column {
+  "vz_km_s", [](auto& sample) -> auto& { return sample.state.velocity_icrf_km_s.z(); }
+}
+}
+;
+
+/// From below the pole, which is at 6357 km, to as far as orbits of the mission file go.
+static constexpr double kNearest_km = 6300.0;
+static constexpr double kFarthest_km = 2.0e6;
+/// No body that stays near the Earth is as fast, nor does one stand still.
+static constexpr double kFastest_km_s = 20.0;
+
+static std::string why_impossible(const TimedOrbitState& sample) {
+  const auto& [position_km, velocity_km_s] = sample.state;
+  if (!is_between(position_km, kNearest_km, kFarthest_km)) {
+    return impossible("x_km, y_km, z_km", position_km,
+                      "be 6300 to 2000000 km from the centre of the Earth");
+  }
+  if (!(is_at_most(velocity_km_s, kFastest_km_s) && velocity_km_s.norm() > 0.0)) {
+    return impossible("vx_km_s, vy_km_s, vz_km_s", velocity_km_s, "be above 0, at most 20 km/s");
+  }
+  return {};
+}
+}
+;
+
+}  // namespace spindrift

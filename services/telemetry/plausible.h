@@ -1,0 +1,40 @@
+/// @file
+/// What is asked of vectors and quaternions of telemetry.
+
+#pragma once
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+namespace spindrift {
+
+/// The length of a unit vector or quaternion as it is sent may be off by this, by rounding.
+inline constexpr double kUnitTolerance = 1e-3;
+
+/// "sx, sy, sz = 0.1, 0, 2: must ..."
+inline std::string impossible(std::string_view names,
+                              const Eigen::Ref<const Eigen::VectorXd>& values,
+                              std::string_view allowed) {
+  std::string text;
+  for (const double value : values) {
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", value);
+  }
+  return fmt::format("{} = {}: must {}", names, text, allowed);
+}
+
+/// Written so that NaN is none; so are the two below.
+inline bool is_unit(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  return std::abs(values.norm() - 1.0) <= kUnitTolerance;
+}
+inline bool is_at_most(const Eigen::Vector3d& vector, double longest) {
+  return vector.norm() <= longest;
+}
+inline bool is_between(const Eigen::Vector3d& vector, double shortest, double longest) {
+  return vector.norm() >= shortest && vector.norm() <= longest;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,32 @@
+/// @file
+/// What goes from the thread that takes samples to the one that works on them.
+
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "services/telemetry/by_kind.h"
+#include "services/telemetry/rejected_input.h"
+#include "services/telemetry/sequence_counts.h"
+
+namespace spindrift {
+
+/// Samples in order of arrival; all batches together are everything that arrived.
+struct SampleBatch {
+  TelemetrySamples samples = {};
+  std::vector<RejectedInput> rejected = {};
+  /// Of the sources in it, from the start up to and including this batch. Empty for a file.
+  std::map<std::string, SequenceCounts> counts = {};
+};
+
+/// Samples and rejected input.
+inline std::size_t size_of(const SampleBatch& batch) {
+  return count_of(batch.samples) + batch.rejected.size();
+}
+
+inline bool is_empty(const SampleBatch& batch) { return size_of(batch) == 0; }
+
+}  // namespace spindrift
