@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "services/spindrift/planned_pass.h"
+#include "services/geometry/planned_pass.h"
 
 namespace spindrift {
 

@@ -1,4 +1,4 @@
-#include "services/spindrift/geometry_text.h"
+#include "services/geometry/geometry_text.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "services/spindrift/geometry_plot.h"
+#include "services/geometry/geometry_plot.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/sensor_model/geometry.h"
+#include "services/geometry/geometry_text.h"
 #include "services/plot/time_page.h"
-#include "services/spindrift/geometry_text.h"
 #include "services/units/degrees.h"
 
 namespace spindrift {

@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "services/spindrift/planned_pass.h"
+#include "services/geometry/planned_pass.h"
 
 namespace spindrift {
 
