@@ -22,45 +22,36 @@ struct Telemetry<TimedOrbitState> {
   static constexpr std::string_view kTable = "orbit_state_sample";
   static constexpr std::string_view kSensor = "";
   static constexpr std::tuple kColumns{
-      Column{"x_km", [](auto& sample) -> auto& {return sample.state.position_icrf_km.x();
-}
-}  // namespace spindrift
-, Column{"y_km", [](auto& sample) -> auto& {return sample.state.position_icrf_km.y();
-}
-}
-, Column{"z_km", [](auto& sample) -> auto& {return sample.state.position_icrf_km.z();
-}
-}
-, Column{"vx_km_s", [](auto& sample) -> auto& {return sample.state.velocity_icrf_km_s.x();
-}
-}
-, Column{"vy_km_s", [](auto& sample) -> auto& {return sample.state.velocity_icrf_km_s.y();
-}
-}
-, Column {
-  "vz_km_s", [](auto& sample) -> auto& { return sample.state.velocity_icrf_km_s.z(); }
-}
-}
-;
+      Column{"x_km",
+             [](auto& sample) -> decltype(auto) { return sample.state.position_icrf_km.x(); }},
+      Column{"y_km",
+             [](auto& sample) -> decltype(auto) { return sample.state.position_icrf_km.y(); }},
+      Column{"z_km",
+             [](auto& sample) -> decltype(auto) { return sample.state.position_icrf_km.z(); }},
+      Column{"vx_km_s",
+             [](auto& sample) -> decltype(auto) { return sample.state.velocity_icrf_km_s.x(); }},
+      Column{"vy_km_s",
+             [](auto& sample) -> decltype(auto) { return sample.state.velocity_icrf_km_s.y(); }},
+      Column{"vz_km_s",
+             [](auto& sample) -> decltype(auto) { return sample.state.velocity_icrf_km_s.z(); }}};
 
-/// From below the pole, which is at 6357 km, to as far as orbits of the mission file go.
-static constexpr double kNearest_km = 6300.0;
-static constexpr double kFarthest_km = 2.0e6;
-/// No body that stays near the Earth is as fast, nor does one stand still.
-static constexpr double kFastest_km_s = 20.0;
+  /// From below the pole, which is at 6357 km, to as far as orbits of the mission file go.
+  static constexpr double kNearest_km = 6300.0;
+  static constexpr double kFarthest_km = 2.0e6;
+  /// No body that stays near the Earth is as fast, nor does one stand still.
+  static constexpr double kFastest_km_s = 20.0;
 
-static std::string why_impossible(const TimedOrbitState& sample) {
-  const auto& [position_km, velocity_km_s] = sample.state;
-  if (!is_between(position_km, kNearest_km, kFarthest_km)) {
-    return impossible("x_km, y_km, z_km", position_km,
-                      "be 6300 to 2000000 km from the centre of the Earth");
+  static std::string why_impossible(const TimedOrbitState& sample) {
+    const auto& [position_km, velocity_km_s] = sample.state;
+    if (!is_between(position_km, kNearest_km, kFarthest_km)) {
+      return impossible("x_km, y_km, z_km", position_km,
+                        "be 6300 to 2000000 km from the centre of the Earth");
+    }
+    if (!(is_at_most(velocity_km_s, kFastest_km_s) && velocity_km_s.norm() > 0.0)) {
+      return impossible("vx_km_s, vy_km_s, vz_km_s", velocity_km_s, "be above 0, at most 20 km/s");
+    }
+    return {};
   }
-  if (!(is_at_most(velocity_km_s, kFastest_km_s) && velocity_km_s.norm() > 0.0)) {
-    return impossible("vx_km_s, vy_km_s, vz_km_s", velocity_km_s, "be above 0, at most 20 km/s");
-  }
-  return {};
-}
-}
-;
+};
 
 }  // namespace spindrift

@@ -22,28 +22,17 @@ struct Telemetry<StarFix> {
   static constexpr std::string_view kTable = "star_sample";
   static constexpr std::string_view kSensor = "three_axis.star_tracker";
   static constexpr std::tuple kColumns{
-      Column{"qx", [](auto& fix) -> auto& {return fix.q_icrf_sensor.x();
-}
-}  // namespace spindrift
-, Column{"qy", [](auto& fix) -> auto& {return fix.q_icrf_sensor.y();
-}
-}
-, Column{"qz", [](auto& fix) -> auto& {return fix.q_icrf_sensor.z();
-}
-}
-, Column {
-  "qw", [](auto& fix) -> auto& { return fix.q_icrf_sensor.w(); }
-}
-}
-;
+      Column{"qx", [](auto& fix) -> decltype(auto) { return fix.q_icrf_sensor.x(); }},
+      Column{"qy", [](auto& fix) -> decltype(auto) { return fix.q_icrf_sensor.y(); }},
+      Column{"qz", [](auto& fix) -> decltype(auto) { return fix.q_icrf_sensor.z(); }},
+      Column{"qw", [](auto& fix) -> decltype(auto) { return fix.q_icrf_sensor.w(); }}};
 
-static std::string why_impossible(const StarFix& fix) {
-  return is_unit(fix.q_icrf_sensor.coeffs())
-             ? std::string{}
-             : impossible("qx, qy, qz, qw", fix.q_icrf_sensor.coeffs(),
-                          "have length 1 within 0.001");
-}
-}
-;
+  static std::string why_impossible(const StarFix& fix) {
+    return is_unit(fix.q_icrf_sensor.coeffs())
+               ? std::string{}
+               : impossible("qx, qy, qz, qw", fix.q_icrf_sensor.coeffs(),
+                            "have length 1 within 0.001");
+  }
+};
 
 }  // namespace spindrift

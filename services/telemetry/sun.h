@@ -22,24 +22,15 @@ struct Telemetry<SunDirection> {
   static constexpr std::string_view kTable = "sun_sample";
   static constexpr std::string_view kSensor = "three_axis.sun_sensor";
   static constexpr std::tuple kColumns{
-      Column{"sx", [](auto& sample) -> auto& {return sample.sun_body.x();
-}
-}  // namespace spindrift
-, Column{"sy", [](auto& sample) -> auto& {return sample.sun_body.y();
-}
-}
-, Column {
-  "sz", [](auto& sample) -> auto& { return sample.sun_body.z(); }
-}
-}
-;
+      Column{"sx", [](auto& sample) -> decltype(auto) { return sample.sun_body.x(); }},
+      Column{"sy", [](auto& sample) -> decltype(auto) { return sample.sun_body.y(); }},
+      Column{"sz", [](auto& sample) -> decltype(auto) { return sample.sun_body.z(); }}};
 
-static std::string why_impossible(const SunDirection& sample) {
-  return is_unit(sample.sun_body)
-             ? std::string{}
-             : impossible("sx, sy, sz", sample.sun_body, "have length 1 within 0.001");
-}
-}
-;
+  static std::string why_impossible(const SunDirection& sample) {
+    return is_unit(sample.sun_body)
+               ? std::string{}
+               : impossible("sx, sy, sz", sample.sun_body, "have length 1 within 0.001");
+  }
+};
 
 }  // namespace spindrift
