@@ -7,6 +7,7 @@
 #include "services/telemetry/coded_frame.h"
 #include "services/telemetry/gyro.h"
 #include "services/telemetry/kind_list.h"
+#include "services/telemetry/magnetometer.h"
 #include "services/telemetry/orbit_state.h"
 #include "services/telemetry/pulse.h"
 #include "services/telemetry/star.h"
@@ -15,6 +16,6 @@
 namespace spindrift {
 
 using TelemetryKinds =
-    KindList<Pulse, CodedFrame, GyroSample, StarFix, SunDirection, TimedOrbitState>;
+    KindList<Pulse, CodedFrame, GyroSample, StarFix, SunDirection, MagneticField, TimedOrbitState>;
 
 }  // namespace spindrift

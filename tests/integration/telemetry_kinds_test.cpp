@@ -44,6 +44,10 @@ struct Example<SunDirection> {
   static SunDirection value() { return {.t = kStart, .sun_body = {0.6, 0.0, -0.8}}; }
 };
 template <>
+struct Example<MagneticField> {
+  static MagneticField value() { return {.t = kStart, .field_body_nt = {21000.0, -1200.0, 0.5}}; }
+};
+template <>
 struct Example<TimedOrbitState> {
   static TimedOrbitState value() {
     return {

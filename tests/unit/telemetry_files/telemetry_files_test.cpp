@@ -34,13 +34,14 @@ std::string error_of(std::vector<std::filesystem::path> paths) {
 
 TEST(TelemetryFiles, AreRecognisedByTheirHeaders) {
   const TemporaryFolder folder;
-  const std::array<std::pair<const char*, TelemetryKind>, 6> cases = {
+  const std::array<std::pair<const char*, TelemetryKind>, 7> cases = {
       {{"t_tai_ns,channel\n", Kind<Pulse>{}},
        {"t_tai_ns,period_s,sun2_s,north_in_s,north_out_s,south_in_s,south_out_s\n",
         Kind<CodedFrame>{}},
        {"t_tai_ns,wx_rad_s,wy_rad_s,wz_rad_s\n", Kind<GyroSample>{}},
        {"t_tai_ns,qx,qy,qz,qw\n", Kind<StarFix>{}},
        {"t_tai_ns,sx,sy,sz\n", Kind<SunDirection>{}},
+       {"t_tai_ns,bx_nt,by_nt,bz_nt\n", Kind<MagneticField>{}},
        {"t_tai_ns,x_km,y_km,z_km,vx_km_s,vy_km_s,vz_km_s\n", Kind<TimedOrbitState>{}}}};
   for (const auto& [header, kind] : cases) {
     SCOPED_TRACE(header);
