@@ -36,7 +36,7 @@ Expected<void> allow(TomlDocument& document, std::optional<SpacecraftKind> only)
   const auto kind = is_spinner(document.values) ? SpacecraftKind::Spin : SpacecraftKind::ThreeAxis;
   if (only && kind != *only) {
     add_problem(document, "spacecraft.kind",
-                fmt::format(R"(spacecraft.kind = "{}": this command is for "{}" only)",
+                fmt::format(R"(spacecraft.kind = "{}": must be "{}" for this command)",
                             name_of(kind), name_of(*only)));
     return soundness(document);
   }

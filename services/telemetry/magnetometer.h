@@ -22,28 +22,19 @@ struct Telemetry<MagneticField> {
   static constexpr std::string_view kTable = "magnetometer_sample";
   static constexpr std::string_view kSensor = "three_axis.magnetometer";
   static constexpr std::tuple kColumns{
-      Column{"bx_nt", [](auto& sample) -> auto& {return sample.field_body_nt.x();
-}
-}  // namespace spindrift
-, Column{"by_nt", [](auto& sample) -> auto& {return sample.field_body_nt.y();
-}
-}
-, Column {
-  "bz_nt", [](auto& sample) -> auto& { return sample.field_body_nt.z(); }
-}
-}
-;
+      Column{"bx_nt", [](auto& sample) -> decltype(auto) { return sample.field_body_nt.x(); }},
+      Column{"by_nt", [](auto& sample) -> decltype(auto) { return sample.field_body_nt.y(); }},
+      Column{"bz_nt", [](auto& sample) -> decltype(auto) { return sample.field_body_nt.z(); }}};
 
-/// At the Earth's surface it is below 70,000 nT.
-static constexpr double kStrongest_nt = 100'000.0;
+  /// At the Earth's surface it is below 70,000 nT.
+  static constexpr double kStrongest_nt = 100'000.0;
 
-static std::string why_impossible(const MagneticField& sample) {
-  return is_at_most(sample.field_body_nt, kStrongest_nt) && sample.field_body_nt.norm() > 0.0
-             ? std::string{}
-             : impossible("bx_nt, by_nt, bz_nt", sample.field_body_nt,
-                          "be above 0, at most 100000 nT together");
-}
-}
-;
+  static std::string why_impossible(const MagneticField& sample) {
+    return is_at_most(sample.field_body_nt, kStrongest_nt) && sample.field_body_nt.norm() > 0.0
+               ? std::string{}
+               : impossible("bx_nt, by_nt, bz_nt", sample.field_body_nt,
+                            "be above 0, at most 100000 nT together");
+  }
+};
 
 }  // namespace spindrift

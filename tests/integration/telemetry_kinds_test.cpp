@@ -104,7 +104,7 @@ TEST(TelemetryKinds, NumbersThatAreNoneAreRejectedWithTheirReason) {
 class StoredKinds : public testing::ArchiveFixture {};
 
 TEST_F(StoredKinds, EachComesBackFromTheArchiveInTheOrderOfArrival) {
-  ArchiveBatch batch = start_of("run-1");
+  ArchiveBatch batch = testing::start_of("run-1");
   batch.start->first_arrival = 100;
   batch.earliest = kStart;
   std::int64_t arrival = 100;

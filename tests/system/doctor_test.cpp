@@ -180,7 +180,7 @@ TEST(Doctor, FailsOnADamagedArchive) {
   {
     constexpr int kPageBytes = 4096;
     std::fstream file{db, std::ios::binary | std::ios::in | std::ios::out};
-    for (int page = 40; page < 60; ++page) {
+    for (int page = 100; page < 120; ++page) {
       file.seekp(page * kPageBytes);
       file << std::string(16, '\xff');
     }

@@ -84,11 +84,17 @@ TEST(Process, RefusesAnEmptyMission) {
   expect_refused("mission.toml", "", {"mission.toml: [spacecraft]: missing"});
 }
 
-TEST(Process, RefusesASpacecraftThatIsNoSpinner) {
-  expect_refused("mission.toml",
-                 "[spacecraft]\nid = \"SPINNER\"\nkind = \"three_axis\"\n"
-                 "[orbit]\noem = \"orbit.oem\"\n",
-                 {"mission.toml:3: spacecraft.kind = \"three_axis\": must be \"spin\""});
+TEST(Process, StoresEdgesOfASpacecraftThatIsNoSpinnerAndSaysThatNothingIsComputed) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("mission.toml",
+                    "[spacecraft]\nid = \"SPINNER\"\nkind = \"three_axis\"\n"
+                    "[orbit]\noem = \"orbit.oem\"\n");
+  Program program{pass.arguments_here()};
+  EXPECT_EQ(program.exit_status(), 0);
+  EXPECT_THAT(program.log(), HasSubstr("edges arrive, and the mission file has no "
+                                       "[spin.sun_sensor]: they are stored"));
+  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3600);
+  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM spin_estimate"), 0);
 }
 
 TEST(Process, RefusesAnOrbitThatCannotBeRead) {
@@ -186,13 +192,13 @@ TEST(Process, CountsImpossibleCodedFrames) {
                     "1795143637568985513,nan,0.07932,,,,\n"
                     "1795143637568985513,1.0,inf,,,,\n"
                     "1795143637568985513,-1.0,,,,,\n"
-                    "1795143637568985513,1.0,1.5,,,,\n"
+                    "1795143637568985513,1.0,2.5,,,,\n"
                     "1795143637568985513,1.0,0.07\n");
   Program program{pass.arguments_here()};
   ASSERT_EQ(program.exit_status(), 0) << program.log();
   EXPECT_THAT(rows_of(pass.db, "SELECT reason FROM rejected_input ORDER BY line"),
               ::testing::ElementsAre(HasSubstr("period_s = \"nan\""), HasSubstr("sun2_s = \"inf\""),
-                                     HasSubstr("period_s = -1"), HasSubstr("sun2_s = 1.5"),
+                                     HasSubstr("period_s = -1"), HasSubstr("sun2_s = 2.5"),
                                      HasSubstr("has 3 columns, must have 7")));
 }
 

@@ -256,11 +256,11 @@ TEST(Scenario, ReportsTenMistakesAtOnce) {
   const std::string error = error_of(text);
   for (const char* const problem :
        {"scenario.toml:3: spacecraft.kind = 'three_axis': must be one of \"spin\"",
-        "orbit.elements.e = 1.5: must lie in [0, 1)",
+        "orbit.elements.e = 1.5: must lie in [0, 0.99]",
         "pass.duration_s = 0: must lie in (0, 604800] s",
         "pass.start_utc = \"tomorrow\": ", "attitude.rate_rpm = 0: must lie in [5, 200] rpm",
         "attitude.right_ascension: unknown", "attitude.model = 'tumbling': must be one of \"spin\"",
-        "spin.sun_sensor.slit_cant_deg = 'steep': must be a number in (0, 90) deg",
+        "spin.sun_sensor.slit_cant_deg = 'steep': must be a number in [1, 89] deg",
         "faults.lost = 1.5: must lie in [0, 1]", "must not be below spoilt_min_s = 0.5",
         "faults.channel.sun3: unknown; did you mean sun", "truth.noise.sun_pulse_s = nan: must lie",
         "telemetry.kind = 'smoke': must be one of \"pulses\", \"coded\", \"both\""}) {

@@ -39,13 +39,14 @@ TEST(TelemetryStream, OfAFileThatFailsWhileReadingIsAnError) {
   EXPECT_THAT(file.error().message, HasSubstr("/proc/self/mem: reading failed"));
 }
 
-TEST(TelemetryStream, PassesOtherKindsOver) {
+TEST(TelemetryStream, RejectsBadRowsOfEveryKind) {
   const TemporaryFolder folder;
   folder.write("pulses.csv", "t_tai_ns,channel\n1795143637568806257,sun1\n");
   folder.write("star.csv", "t_tai_ns,qx,qy,qz,qw\nrubbish\n");
   const auto pulses = read({folder.path()});
   EXPECT_EQ(pulses.samples.size(), 1U);
-  EXPECT_TRUE(pulses.rejected.empty());
+  ASSERT_EQ(pulses.rejected.size(), 1U);
+  EXPECT_THAT(pulses.rejected[0].source, HasSubstr("star.csv"));
 }
 
 TEST(TelemetryStream, SortsByTimeThenChannelAndKeepsDuplicates) {
