@@ -36,7 +36,7 @@ struct ReadTelemetry {
 };
 
 inline ReadTelemetry read(const std::vector<std::filesystem::path>& paths,
-                      std::size_t buffer_bytes = TelemetryStream::kBufferBytes) {
+                          std::size_t buffer_bytes = TelemetryStream::kBufferBytes) {
   const auto files = scan_telemetry(paths);
   EXPECT_TRUE(files) << files.error().message;
   auto stream = TelemetryStream::open(*files, "SPINNER", buffer_bytes);
