@@ -270,7 +270,7 @@ TEST(TelemetrySubscriber, PassesOnACodedFrameThatCannotBeTrueAsRejected) {
                                            bus::telemetry_writer_qos())
           .value();
   spindrift_CodedFrame impossible = idl_frame(7);
-  impossible.north_in_s = 2.0;
+  impossible.north_in_s = 2.5;
   ASSERT_TRUE(writer.write(impossible));
   ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 1; }));
   const SampleBatch arrived = station.finish();
@@ -278,7 +278,7 @@ TEST(TelemetrySubscriber, PassesOnACodedFrameThatCannotBeTrueAsRejected) {
   ASSERT_EQ(arrived.rejected.size(), 1U);
   EXPECT_EQ(arrived.rejected[0].line, 7);
   EXPECT_EQ(arrived.rejected[0].session, 1U);
-  EXPECT_THAT(arrived.rejected[0].reason, HasSubstr("north_in_s = 2"));
+  EXPECT_THAT(arrived.rejected[0].reason, HasSubstr("north_in_s = 2.5"));
 }
 
 TEST(TelemetrySubscriber, QueuesWhatAPublisherSends) {
