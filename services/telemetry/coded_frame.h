@@ -29,38 +29,32 @@ struct Telemetry<CodedFrame> {
   static constexpr std::string_view kTable = "coded_frame";
   static constexpr std::string_view kSensor = "spin.sun_sensor";
   static constexpr std::tuple kColumns{
-      Column{"period_s", [](auto& frame) -> auto& {return frame.period_s;
-}
-}  // namespace spindrift
-, Column{"sun2_s", delay_of(PulseChannel::Sun2)},
-    Column{"north_in_s", delay_of(PulseChannel::NorthIn)},
-    Column{"north_out_s", delay_of(PulseChannel::NorthOut)},
-    Column{"south_in_s", delay_of(PulseChannel::SouthIn)}, Column {
-  "south_out_s", delay_of(PulseChannel::SouthOut)
-}
-}
-;
+      Column{"period_s", [](auto& frame) -> decltype(auto) { return (frame.period_s); }},
+      Column{"sun2_s", delay_of(PulseChannel::Sun2)},
+      Column{"north_in_s", delay_of(PulseChannel::NorthIn)},
+      Column{"north_out_s", delay_of(PulseChannel::NorthOut)},
+      Column{"south_in_s", delay_of(PulseChannel::SouthIn)},
+      Column{"south_out_s", delay_of(PulseChannel::SouthOut)}};
 
-/// A period lies in (0, 60] s, a delay in [0, 2] periods, or in [0, 60] s where there is none.
-static std::string why_impossible(const CodedFrame& frame) {
-  // Written so that NaN fails.
-  if (frame.period_s && !(*frame.period_s > 0.0 && *frame.period_s <= kLongestPeriod_s)) {
-    return fmt::format("period_s = {}: must be above 0, at most {} s", *frame.period_s,
-                       kLongestPeriod_s);
-  }
-  const double longest_s =
-      frame.period_s ? *frame.period_s * kLongestDelay_periods : kLongestPeriod_s;
-  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
-    const auto& delay_s = frame.delay_s.at(channel);
-    if (delay_s && !(*delay_s >= 0.0 && *delay_s <= longest_s)) {
-      return fmt::format("{}_s = {}: must be 0 to {}", kPulseChannelNames.at(channel), *delay_s,
-                         frame.period_s ? fmt::format("two periods, {} s", longest_s)
-                                        : fmt::format("{} s", kLongestPeriod_s));
+  /// A period lies in (0, 60] s, a delay in [0, 2] periods, or in [0, 60] s where there is none.
+  static std::string why_impossible(const CodedFrame& frame) {
+    // Written so that NaN fails.
+    if (frame.period_s && !(*frame.period_s > 0.0 && *frame.period_s <= kLongestPeriod_s)) {
+      return fmt::format("period_s = {}: must be above 0, at most {} s", *frame.period_s,
+                         kLongestPeriod_s);
     }
+    const double longest_s =
+        frame.period_s ? *frame.period_s * kLongestDelay_periods : kLongestPeriod_s;
+    for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+      const auto& delay_s = frame.delay_s.at(channel);
+      if (delay_s && !(*delay_s >= 0.0 && *delay_s <= longest_s)) {
+        return fmt::format("{}_s = {}: must be 0 to {}", kPulseChannelNames.at(channel), *delay_s,
+                           frame.period_s ? fmt::format("two periods, {} s", longest_s)
+                                          : fmt::format("{} s", kLongestPeriod_s));
+      }
+    }
+    return {};
   }
-  return {};
-}
-}
-;
+};
 
 }  // namespace spindrift

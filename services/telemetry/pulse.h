@@ -22,15 +22,10 @@ struct Telemetry<Pulse> {
   static constexpr std::string_view kTable = "pulse";
   static constexpr std::string_view kSensor = "spin.sun_sensor";
   static constexpr std::tuple kColumns{
-      Column{"channel", [](auto& pulse) -> auto& {return pulse.channel;
-}
-}  // namespace spindrift
-}
-;
+      Column{"channel", [](auto& pulse) -> decltype(auto) { return (pulse.channel); }}};
 
-static std::string why_impossible(const Pulse& /*pulse*/) { return {}; }
-static constexpr std::size_t place(const Pulse& pulse) { return index_of(pulse.channel); }
-}
-;
+  static std::string why_impossible(const Pulse& /*pulse*/) { return {}; }
+  static constexpr std::size_t place(const Pulse& pulse) { return index_of(pulse.channel); }
+};
 
 }  // namespace spindrift
