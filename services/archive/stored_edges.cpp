@@ -66,18 +66,19 @@ void read_uses(SQLite::Database& database, StoredEdges& stored) {
 
 void read_estimate(SQLite::Database& database, SpinEstimator estimator, StoredEdges& stored) {
   SQLite::Statement query{database,
-                          "SELECT ra_deg, dec_deg, status FROM spin_estimate"
+                          "SELECT ra_deg, dec_deg, quality FROM spin_estimate"
                           " WHERE run_id = ? AND estimator = ? ORDER BY t_tai_ns DESC LIMIT 1"};
   query.bind(1, stored.run_id);
   query.bind(2, std::string{name_of(estimator)});
   if (query.executeStep()) {
-    stored.pass.note(SpinProduct{SpinEstimate{.t = {},
-                                              .estimator = estimator,
-                                              .axis_icrf = axis_of(query),
-                                              .covariance_rad2 = Eigen::Matrix2d::Zero(),
-                                              .spin_rate_rad_s = 0.0,
-                                              .spin_rate_sigma_rad_s = 0.0,
-                                              .status = query.getColumn(2).getString()}});
+    stored.pass.note(SpinProduct{
+        SpinEstimate{.t = {},
+                     .estimator = estimator,
+                     .axis_icrf = axis_of(query),
+                     .covariance_rad2 = Eigen::Matrix2d::Zero(),
+                     .spin_rate_rad_s = 0.0,
+                     .spin_rate_sigma_rad_s = 0.0,
+                     .assessment = {named(query.getColumn(2).getText(), Quality::Lost)}}});
   }
 }
 

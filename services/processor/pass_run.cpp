@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "services/clock/wall_clock.h"
+#include "services/words/notice_words.h"
 
 namespace spindrift {
 namespace {
@@ -144,8 +145,8 @@ std::vector<RunSummary> PassRun::summaries() const {
 }
 
 void PassRun::note(const SpinOutput& output) {
-  for (const std::string& notice : output.notices) {
-    spdlog::warn("{}: {}", spacecraft_id_, notice);
+  for (const Notice& notice : output.notices) {
+    spdlog::warn("{}: {}", spacecraft_id_, sentence_of(notice));
   }
   for (const SpinProduct& product : output.products) {
     summary_.count(product);

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <tuple>
 
@@ -13,6 +12,8 @@
 #include "services/products/axis_columns.h"
 #include "services/products/named.h"
 #include "services/products/product_kind.h"
+#include "services/words/assessment_words.h"
+#include "services/words/reasons_json.h"
 
 namespace spindrift {
 
@@ -20,11 +21,6 @@ struct SpinEstimateTable {
   static constexpr std::string_view kName = "spin_estimate";
   static constexpr std::array<std::string_view, 2> kKey{"t_tai_ns", "estimator"};
 
-  /// The first word of the status.
-  static std::string quality(const SpinEstimate& estimate) {
-    const std::string& status = estimate.status;
-    return status.substr(0, status.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ"));
-  }
   using Axis = AxisColumns<SpinEstimate>;
   static constexpr std::tuple kColumns{
       ProductColumn{"t_tai_ns", [](const SpinEstimate& estimate) { return tai_ns(estimate.t); }},
@@ -43,10 +39,14 @@ struct SpinEstimateTable {
                     [](const SpinEstimate& estimate) {
                       return estimate.spin_rate_sigma_rad_s * kRpmPerRad_s;
                     }},
-      ProductColumn{"quality", &quality},
-      ProductColumn{"reasons",
-                    [](const SpinEstimate& /*estimate*/) { return std::string_view{"[]"}; }},
-      ProductColumn{"status", [](const SpinEstimate& estimate) { return estimate.status; }}};
+      ProductColumn{
+          "quality",
+          [](const SpinEstimate& estimate) { return name_of(estimate.assessment.quality); }},
+      ProductColumn{
+          "reasons",
+          [](const SpinEstimate& estimate) { return to_json_text(estimate.assessment.reasons); }},
+      ProductColumn{"status",
+                    [](const SpinEstimate& estimate) { return sentence_of(estimate.assessment); }}};
 };
 
 template <>
@@ -70,7 +70,8 @@ struct ProductKind<SpinEstimate> {
             .covariance_rad2 = covariance_rad2_of(row),
             .spin_rate_rad_s = row.real("spin_rate_rpm") / kRpmPerRad_s,
             .spin_rate_sigma_rad_s = row.real("sigma_rpm") / kRpmPerRad_s,
-            .status = std::string{row.text("status")}};
+            .assessment = {.quality = named(row.text("quality"), Quality::Lost),
+                           .reasons = reasons_of(row.text("reasons"))}};
   }
 };
 

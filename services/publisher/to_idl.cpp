@@ -3,23 +3,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <utility>
 
 #include "services/units/degrees.h"
+#include "services/words/assessment_words.h"
 
 namespace spindrift {
 namespace {
 
 constexpr double kNotAvailable = std::numeric_limits<double>::quiet_NaN();
 
-/// Cut where it is too long, between characters and not within one of UTF-8, and then ends in
-/// "...".
+/// Cut where it is too long, between words, or within a long one between characters of UTF-8; then
+/// it ends in "...".
 void put_text(std::span<char> field, std::string_view text) {
   constexpr std::string_view kCut = "...";
   const std::size_t room = field.size() - 1;
   std::size_t length = text.size() <= room ? text.size() : room - kCut.size();
+  if (length < text.size()) {
+    const std::size_t blank = text.substr(0, length + 1).rfind(' ');
+    const bool long_word = blank == std::string_view::npos || 2 * blank < length;
+    length = long_word ? length : text.find_last_not_of(", ", blank) + 1;
+  }
   while (length < text.size() && length > 0 &&
          (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) {
     --length;
@@ -35,19 +39,6 @@ Expected<void> put_origin(Result& result, const ResultOrigin& origin) {
   return put_name(result.spacecraft, origin.spacecraft, "spacecraft")
       .and_then([&] { return put_name(result.run_id, origin.run_id, "run_id"); })
       .and_then([&] { return put_name(result.service, origin.service, "service"); });
-}
-
-/// By the first word of the status.
-spindrift_Quality quality_of(const SpinEstimate& estimate) {
-  constexpr std::array<std::pair<std::string_view, spindrift_Quality>, 4> kNames{
-      {{"OK", spindrift_QUALITY_OK},
-       {"AMBIGUOUS", spindrift_QUALITY_AMBIGUOUS},
-       {"DOUBTFUL", spindrift_QUALITY_DOUBTFUL},
-       {"LOST", spindrift_QUALITY_LOST}}};
-  const auto* const named = std::find_if(kNames.begin(), kNames.end(), [&](const auto& name) {
-    return estimate.status.starts_with(name.first);
-  });
-  return named == kNames.end() ? spindrift_QUALITY_CONVERGING : named->second;
 }
 
 Expected<spindrift_SpacecraftHealth> to_idl(const SpacecraftHealth& health) {
@@ -107,10 +98,10 @@ Expected<spindrift_SpinEstimate> to_idl(const ResultOrigin& origin, const SpinEs
       .spin_rate_rpm = estimate.spin_rate_rad_s * kRpmPerRad_s,
       .sigma_rpm = estimate.spin_rate_sigma_rad_s * kRpmPerRad_s,
       .status = {},
-      .quality = quality_of(estimate),
+      .quality = static_cast<spindrift_Quality>(estimate.assessment.quality),
       .run_id = {},
       .service = {}};
-  put_text(out.status, estimate.status);
+  put_text(out.status, sentence_of(estimate.assessment));
   return put_origin(out, origin)
       .and_then([&] { return put_name(out.estimator, name_of(estimate.estimator), "estimator"); })
       .map([&out] { return out; });

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipelines/time/utc.h"
+#include "services/units/decimals.h"
 #include "services/units/degrees.h"
 
 namespace spindrift {
@@ -102,9 +103,11 @@ std::string to_text(const BatchSolution& solution) {
   text += fmt::format(
       "  consider     {:.4f} deg (sigma, were no bias known better than by its prior)\n",
       solution.consider_sigma_rad * kDegPerRad);
-  text += fmt::format("  rate drift   {:+.6f} +/- {:.6f} rpm/h\n",
-                      solution.drift_rad_s2 * kRpmPerHourPerRad_s2,
-                      solution.drift_sigma_rad_s2 * kRpmPerHourPerRad_s2);
+  const double drift_sigma_rpm_h = solution.drift_sigma_rad_s2 * kRpmPerHourPerRad_s2;
+  const int decimals = decimals_for(drift_sigma_rpm_h, 6);
+  text += fmt::format("  rate drift   {:+.{}f} +/- {:.{}f} rpm/h\n",
+                      solution.drift_rad_s2 * kRpmPerHourPerRad_s2, decimals, drift_sigma_rpm_h,
+                      decimals);
   text += nutation_text(solution) + coning_text(solution.coning);
   std::string_view heading = "biases";
   for (const BiasEstimate& bias : solution.biases) {

@@ -12,7 +12,10 @@
 #include "services/products/to_json.h"
 #include "services/spindrift/batch_text.h"
 #include "services/spindrift/json_key.h"
+#include "services/units/decimals.h"
 #include "services/units/degrees.h"
+#include "services/words/assessment_words.h"
+#include "services/words/reasons_json.h"
 
 namespace spindrift {
 namespace {
@@ -70,15 +73,26 @@ std::string axis_text(const RunSummary& summary) {
   if (summary.estimates.empty()) {
     return "  spin axis    not determined\n";
   }
-  std::string text =
-      "  spin axis    ICRF, deg          RA         Dec    sigma    spin rate, rpm      sigma\n";
+  int angle = 4;  // Decimals; likewise the following.
+  int rate = 6;
+  for (const auto& [estimator, estimate] : summary.estimates) {
+    const Readable shown = readable(estimate);
+    angle = decimals_for(shown.sigma_deg, angle);
+    rate = decimals_for(shown.sigma_rpm, rate);
+  }
+  std::string text = fmt::format(
+      "  spin axis    ICRF, deg   {:>{}}  {:>{}}  {:>{}}  {:>{}}  {:>{}}\n", "RA", angle + 5, "Dec",
+      angle + 6, "sigma", angle + 3, "spin rate, rpm", rate + 10, "sigma", rate + 3);
   std::string origins;
   for (const auto& [estimator, estimate] : summary.estimates) {
     const Readable shown = readable(estimate);
-    text += fmt::format("               {:<12}{:9.4f}  {:+10.4f}  {:7.4f}  {:16.6f}  {:9.6f}\n",
-                        name_of(estimator), shown.ra_deg, shown.dec_deg, shown.sigma_deg, shown.rpm,
-                        shown.sigma_rpm);
-    origins += fmt::format("  {:<13}{}  {}\n", name_of(estimator), shown.utc, estimate.status);
+    text +=
+        fmt::format("               {:<12}{:{}.{}f}  {:+{}.{}f}  {:{}.{}f}  {:{}.{}f}  {:{}.{}f}\n",
+                    name_of(estimator), shown.ra_deg, angle + 5, angle, shown.dec_deg, angle + 6,
+                    angle, shown.sigma_deg, angle + 3, angle, shown.rpm, rate + 10, rate,
+                    shown.sigma_rpm, rate + 3, rate);
+    origins += fmt::format("  {:<13}{}  {}\n", name_of(estimator), shown.utc,
+                           sentence_of(estimate.assessment));
   }
   return text + origins;
 }
@@ -102,6 +116,7 @@ nlohmann::json to_json(const Disagreement& disagreement) {
 
 nlohmann::json to_json(const SpinEstimate& estimate) {
   nlohmann::json object = json_of(estimate);
+  object["reasons"] = nlohmann::json::parse(to_json_text(estimate.assessment.reasons));
   object["utc"] = format_utc(estimate.t);
   return object;
 }
@@ -173,7 +188,7 @@ std::string to_text(const SpinEstimate& estimate) {
   const Readable shown = readable(estimate);
   return fmt::format("axis RA {:.4f} Dec {:.4f} deg, sigma {:.4f} deg, {:.6f} rpm, {}: {}",
                      shown.ra_deg, shown.dec_deg, shown.sigma_deg, shown.rpm,
-                     name_of(estimate.estimator), estimate.status);
+                     name_of(estimate.estimator), sentence_of(estimate.assessment));
 }
 
 Expected<std::string> report(const Processor& processor, const std::filesystem::path& db,

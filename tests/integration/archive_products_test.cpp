@@ -53,7 +53,7 @@ SpinEstimate estimate_at(std::int64_t t_tai_ns, SpinEstimator estimator, double 
           .covariance_rad2 = Eigen::Matrix2d{{4e-8, 1e-8}, {1e-8, 5e-8}},
           .spin_rate_rad_s = 100.0 * std::numbers::pi / 30.0,
           .spin_rate_sigma_rad_s = 0.01 * std::numbers::pi / 30.0,
-          .status = "OK"};
+          .assessment = {Quality::Ok}};
 }
 
 TEST_F(ArchiveProducts, ProductsOfTwoRunsStandSideBySide) {

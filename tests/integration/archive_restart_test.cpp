@@ -283,7 +283,10 @@ SpinEstimate estimate_at(std::int64_t t_tai_ns, SpinEstimator estimator) {
           .covariance_rad2 = (Eigen::Matrix2d{} << 4e-6, 1e-6, 1e-6, 9e-6).finished(),
           .spin_rate_rad_s = 6.0,
           .spin_rate_sigma_rad_s = 0.1,
-          .status = "OK 5 fixes"};
+          .assessment = {Quality::Ok,
+                         {{ReasonCode::Fixes, {{"count", std::int64_t{5}}}},
+                          {ReasonCode::ModelOff, {{"deg", 0.5}}},
+                          {ReasonCode::ChannelGated, {{"channel", "sun1"}}}}}};
 }
 
 TEST_F(ArchiveRestart, ResultsInForceComeBackAsTheyWereGiven) {
@@ -315,7 +318,7 @@ TEST_F(ArchiveRestart, ResultsInForceComeBackAsTheyWereGiven) {
   EXPECT_TRUE(estimate.covariance_rad2.isApprox(last.covariance_rad2, 1e-14));
   EXPECT_NEAR(estimate.spin_rate_rad_s, last.spin_rate_rad_s, 1e-14);
   EXPECT_NEAR(estimate.spin_rate_sigma_rad_s, last.spin_rate_sigma_rad_s, 1e-14);
-  EXPECT_EQ(estimate.status, last.status);
+  EXPECT_EQ(estimate.assessment, last.assessment);
 }
 
 TEST_F(ArchiveRestart, ResultsThatWereGivenBeforeAreKnownButNotAFixThatIsDecidedNow) {

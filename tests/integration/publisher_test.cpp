@@ -49,6 +49,8 @@ SpinFix a_fix() {
           .accepted = true};
 }
 
+Reason revolutions(std::int64_t count) { return {ReasonCode::Revolutions, {{"count", count}}}; }
+
 SpinEstimate an_estimate() {
   SpinEstimate estimate{.t = tai_from_ns(kTestTime_tai_ns),
                         .estimator = SpinEstimator::Mean,
@@ -56,7 +58,7 @@ SpinEstimate an_estimate() {
                         .covariance_rad2 = {},
                         .spin_rate_rad_s = 100.0 * 2.0 * std::numbers::pi / 60.0,
                         .spin_rate_sigma_rad_s = 0.5 * 2.0 * std::numbers::pi / 60.0,
-                        .status = "120 revolutions"};
+                        .assessment = {Quality::Doubtful, {revolutions(120)}}};
   estimate.covariance_rad2 << 0.25, -0.125, -0.125, 2.0;
   estimate.covariance_rad2 *= kRad_deg * kRad_deg;
   return estimate;
@@ -113,7 +115,8 @@ TEST(ResultPublisher, PublishesAnEstimateInDegreesAndRpm) {
   EXPECT_NEAR(taken[0].covariance_deg2[2], 2.0, kRounding);
   EXPECT_NEAR(taken[0].spin_rate_rpm, 100.0, kRounding);
   EXPECT_NEAR(taken[0].sigma_rpm, 0.5, kRounding);
-  EXPECT_STREQ(taken[0].status, "120 revolutions");
+  EXPECT_STREQ(taken[0].status, "DOUBTFUL, 120 revolutions");
+  EXPECT_EQ(taken[0].quality, spindrift_QUALITY_DOUBTFUL);
   EXPECT_STREQ(taken[0].run_id, "run-1");
   EXPECT_STREQ(taken[0].service, kService);
 }
@@ -239,13 +242,20 @@ TEST(ToIdl, RefusesANameThatDoesNotFit) {
   EXPECT_FALSE(to_idl(kService, health).has_value());
 }
 
-TEST(ToIdl, CutsStatusTextBetweenCharacters) {
+TEST(ToIdl, CutsStatusTextBetweenWords) {
   SpinEstimate estimate = an_estimate();
-  estimate.status = std::string(64, 'x');
-  EXPECT_EQ(to_idl(kOrigin, estimate).value().status, estimate.status);
+  estimate.assessment.reasons.assign(3, revolutions(1234));
+  EXPECT_STREQ(to_idl(kOrigin, estimate).value().status,
+               "DOUBTFUL, 1234 revolutions, 1234 revolutions, 1234...");
+}
+
+TEST(ToIdl, CutsLongWordsBetweenCharacters) {
+  Health health = a_health();
+  health.status = std::string(64, 'x');
+  EXPECT_EQ(to_idl(kService, health).value().sample.status, health.status);
   // Two bytes, of which the first alone would have a place.
-  estimate.status = std::string(60, 'x') + "\u00e9" + std::string(9, 'x');
-  EXPECT_EQ(to_idl(kOrigin, estimate).value().status, std::string(60, 'x') + "...");
+  health.status = std::string(60, 'x') + "\u00e9" + std::string(9, 'x');
+  EXPECT_EQ(to_idl(kService, health).value().sample.status, std::string(60, 'x') + "...");
 }
 
 /// What a subscriber that comes afterwards has of `count` pulses of source "replay".

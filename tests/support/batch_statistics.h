@@ -76,7 +76,7 @@ inline void add_pass(const PassKind& kind, SpinningBody body, const SensorBiases
   const Eigen::Vector3d start = start_near(body, 0.017, rng);
   const auto solution = solve_batch(told, kind.orbit, counted(body, pulses), {{start}});
   ++sums.passes;
-  if (!solution || !solution->estimate.status.starts_with("OK")) {
+  if (!solution || !is_unopposed(solution->estimate.assessment.quality)) {
     ++sums.failures;
     return;
   }

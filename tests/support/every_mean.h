@@ -16,6 +16,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
+#include "services/words/assessment_words.h"
 #include "tests/support/dirt.h"
 #include "tests/support/product_text.h"
 #include "tests/support/random_pass.h"
@@ -47,11 +48,11 @@ inline int check_every_mean(const SpinOutput& output, const Eigen::Vector3d& axi
     }
     EXPECT_TRUE(std::any_of(fixes.begin(), fixes.end(), [&](const SpinFix& fix) {
       return lies_at(*mean, fix);
-    })) << mean->status;
-    if (mean->status.starts_with("OK")) {
+    })) << sentence_of(mean->assessment);
+    if (is_unopposed(mean->assessment.quality)) {
       ++ok;
       EXPECT_LT(angle_between_rad(mean->axis_icrf, axis_icrf), kMostSigmas * sigma_rad(*mean))
-          << mean->status;
+          << sentence_of(mean->assessment);
     }
   }
   return ok;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipelines/spin/types/products.h"
+#include "services/words/assessment_words.h"
 
 namespace spindrift::testing {
 namespace {
@@ -77,7 +78,7 @@ Line line_of(const SpinEstimate& estimate) {
   Line line;
   line << "estimate" << estimate.t << name_of(estimate.estimator) << estimate.axis_icrf
        << estimate.covariance_rad2 << estimate.spin_rate_rad_s << estimate.spin_rate_sigma_rad_s
-       << estimate.status;
+       << sentence_of(estimate.assessment);
   return line;
 }
 

@@ -16,6 +16,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sequential/sequential.h"
+#include "services/words/assessment_words.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/spinning_body.h"
 
@@ -50,7 +51,7 @@ inline std::vector<SpinEstimate> estimates(const SpinConfig& config,
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const auto estimate = estimator.update(seen[i].revolution, seen[i].sky, fixes(i));
     if (estimate) {
-      EXPECT_LE(estimate->status.size(), 63U) << estimate->status;
+      EXPECT_LE(sentence_of(estimate->assessment).size(), 63U) << sentence_of(estimate->assessment);
       EXPECT_EQ(estimate->estimator, SpinEstimator::Sequential);
       all.push_back(*estimate);
     }

@@ -124,7 +124,7 @@ TEST(Coded, FramesOfASlowBodyThatDriftsAreTakenFromTheFirstTurns) {
     // One frame a turn, and every turn counted.
     EXPECT_EQ(number_of(db, "SELECT max(revolution) - min(revolution) + 1 FROM revolution"),
               number_of(db, "SELECT count(*) FROM coded_frame") - 1);
-    EXPECT_EQ(number_of(db, "SELECT count(*) FROM pass_answer WHERE status LIKE 'OK%'"), 3);
+    EXPECT_EQ(number_of(db, "SELECT count(*) FROM pass_answer WHERE quality = 'OK'"), 3);
     const auto truth = nlohmann::json::parse(text_of(pass / "truth.json"));
     for (const std::string estimator : {"mean", "sequential", "batch"}) {
       EXPECT_LT(error_deg(db, estimator, truth), 0.06) << estimator;

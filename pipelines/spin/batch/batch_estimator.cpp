@@ -10,7 +10,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/added_biases.h"
-#include "pipelines/spin/batch/batch_status.h"
+#include "pipelines/spin/batch/batch_assessment.h"
 #include "pipelines/spin/batch/bias_choice.h"
 #include "pipelines/spin/batch/edge_noise.h"
 #include "pipelines/spin/batch/first_clock.h"
@@ -112,7 +112,7 @@ ConingEstimate coning_of(const Explained& found, double excess_noise) {
   return coning;
 }
 
-/// All but its status, and what an estimate of all biases would leave open.
+/// All but its assessment, and what an estimate of all biases would leave open.
 /// @param open_rad2 What the choice among biases does, of the axis: tilts.
 /// @param louder So many times the stated noise is that of the model.
 BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2, double louder) {
@@ -132,7 +132,7 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
                               turned.transpose(),
            .spin_rate_rad_s = best.fit.state.rate_rad_s + best.fit.state.drift_rad_s2 * half_s,
            .spin_rate_sigma_rad_s = std::sqrt(observed.last_rate_variance(half_s) * excess_noise),
-           .status = {}},
+           .assessment = {}},
       .drift_rad_s2 = best.fit.state.drift_rad_s2,
       .drift_sigma_rad_s2 = std::sqrt(observed.drift_variance(half_s) * excess_noise),
       .bound_rad = std::sqrt(bound_rad2.trace()),
@@ -210,13 +210,15 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
   const BiasSet suspected = config.batch.biases.value_or(seen_biases(information));
   solution.undetermined = Observability{information, suspected}.undetermined();
   const auto wanted = most_wanted_bias(information, best.estimated);
-  solution.estimate.status =
-      status_of(solution, {.or_axis_icrf = solved->of.or_axis_icrf,
-                           .left_out = solved->left_out,
-                           .estimated = best.estimated,
-                           .at_bound = best.fit.at_bound,
-                           .coning_by_edges = !config.batch.biases.has_value(),
-                           .wanted = wanted ? std::optional{wanted->bias} : std::nullopt});
+  solution.estimate.assessment = assess(
+      solution,
+      {.or_axis_icrf = solved->of.or_axis_icrf,
+       .revolutions = solved->model.half_s() * solution.estimate.spin_rate_rad_s / std::numbers::pi,
+       .left_out = solved->left_out,
+       .estimated = best.estimated,
+       .at_bound = best.fit.at_bound,
+       .coning_by_edges = !config.batch.biases.has_value(),
+       .wanted = wanted ? std::optional{wanted->bias} : std::nullopt});
   return Heard{.solution = std::move(solution),
                .noise = noise_seen(solved->model, solved->edges, best.fit.state)};
 }

@@ -8,8 +8,9 @@
 /// asks for; where it does not say, the edges decide, one bias after the other, as long as one
 /// explains the residuals beyond doubt.
 ///
-/// The status begins with
+/// Its quality is
 ///     OK         all is well
+///     CONVERGING likewise, but of too few revolutions (convergence.h)
 ///     AMBIGUOUS  another axis, named, fits as well
 ///     DOUBTFUL   the edges scatter more than their noise, many are outliers, most of them lie
 ///                before a change, or fit no axis; a bias or coning is not to be believed, or the

@@ -96,7 +96,7 @@ StartingAxes PassEdges::starts(const std::optional<SpinPrior>& prior) const {
       add((*estimate)->axis_icrf);
     }
   }
-  const bool settled = sequential_ && sequential_->status.starts_with("OK");
+  const bool settled = sequential_ && is_unopposed(sequential_->assessment.quality);
   if (last_fix_ && !settled) {
     add(last_fix_->axis_icrf);
     for (const SpinAlternate& alternate : last_fix_->alternates) {

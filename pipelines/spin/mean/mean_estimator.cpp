@@ -1,14 +1,12 @@
 #include "pipelines/spin/mean/mean_estimator.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/time/utc.h"
+#include "pipelines/spin/types/convergence.h"
 
 namespace spindrift {
 namespace {
@@ -212,47 +210,56 @@ SpinEstimate MeanEstimator::estimate(const Revolution& revolution) const {
       .covariance_rad2 = mean_ ? covariance_rad2() : anywhere_covariance_rad2(),
       .spin_rate_rad_s = rate_rad_s,
       .spin_rate_sigma_rad_s = rate_rad_s / revolution.period.period_s * revolution.period.sigma_s,
-      .status = status()};
+      .assessment = assess()};
 }
 
 /// Empty where nothing speaks against it but its residuals.
-std::string MeanEstimator::doubt() const {
+std::optional<Reason> MeanEstimator::doubt() const {
+  using enum ReasonCode;
   if (mean_->count < kFewestFixes) {
-    return fmt::format("fewer than {}", kFewestFixes);
+    return Reason{FewFixes, {{"needed", std::int64_t{kFewestFixes}}}};
   }
   if (tells_less_than_a_fix()) {
-    return "plain average: beams too near the limb";
+    return Reason{BeamsNearLimb};
   }
   if (!fits_the_fixes()) {
-    return fmt::format("plain average: least squares {:.2g} deg off", degrees(off_the_fixes_rad()));
+    return Reason{LeastSquaresOff, {{"deg", degrees(off_the_fixes_rad())}}};
   }
   if (excess_noise() > verdict_.excess_noise) {
-    return fmt::format("fixes scatter {:.1f} x their noise", std::sqrt(excess_noise()));
+    return Reason{FixesScatter, {{"factor", std::sqrt(excess_noise())}}};
   }
   if (mean_->settled_share < kMostlySettled) {
-    return fmt::format("{:.0f} % of such graze or are ambiguous",
-                       100.0 * (1.0 - mean_->settled_share));
+    return Reason{FewSettled, {{"open_percent", 100.0 * (1.0 - mean_->settled_share)}}};
   }
-  return {};
+  return std::nullopt;
 }
 
-std::string MeanEstimator::status() const {
+Assessment MeanEstimator::assess() const {
+  using enum ReasonCode;
   if (!mean_) {
-    return "LOST, awaiting a fix";
+    return {Quality::Lost, {{AwaitingFix}}};
   }
-  const std::string fixes = fmt::format("{} {}", mean_->count, mean_->count == 1 ? "fix" : "fixes");
-  if (const std::string doubted = doubt(); !doubted.empty()) {
-    return fmt::format("DOUBTFUL, {}, {}", fixes, doubted);
+  Assessment assessment{unopposed_quality(static_cast<double>(mean_->count)),
+                        {{Fixes, {{"count", static_cast<std::int64_t>(mean_->count)}}}}};
+  if (auto doubted = doubt()) {
+    assessment.quality = Quality::Doubtful;
+    assessment.reasons.push_back(*std::move(doubted));
+    return assessment;
   }
   const bool noisy = verdict_.excess_noise > 1.0;
-  const bool off = verdict_.error_rad > 0.0;
-  if (!noisy && !off) {
-    return fmt::format("OK, {}{}", fixes, began_ ? " since " + format_utc(*began_, 0) : "");
+  if (noisy || verdict_.beyond_allowance) {
+    assessment.quality = Quality::Doubtful;
   }
-  return fmt::format(
-      "{}{}{}{}", verdict_.beyond_allowance || noisy ? "DOUBTFUL, " : "OK, ", fixes,
-      off ? fmt::format(", model off by {:.2g} deg", degrees(verdict_.error_rad)) : "",
-      noisy ? fmt::format(", noise x {:.1f}", std::sqrt(verdict_.excess_noise)) : "");
+  if (verdict_.error_rad > 0.0) {
+    assessment.reasons.push_back({ModelOff, {{"deg", degrees(verdict_.error_rad)}}});
+  }
+  if (noisy) {
+    assessment.reasons.push_back({Noise, {{"factor", std::sqrt(verdict_.excess_noise)}}});
+  }
+  if (began_ && assessment.reasons.size() == 1) {
+    assessment.reasons.push_back({Since, {{"since_tai_ns", tai_ns(*began_)}}});
+  }
+  return assessment;
 }
 
 }  // namespace spindrift

@@ -13,8 +13,9 @@
 ///
 /// Its covariance holds the noise of the fixes, what it may have moved it by that others were left
 /// out for their noise (fixes_by_case.h), and what the residuals show to be wrong with noise and
-/// model. Cases that it may move by more than they help are not in it. The status begins with
+/// model. Cases that it may move by more than they help are not in it. Its quality is
 ///     OK         all is well, or the model is off within its allowance
+///     CONVERGING likewise, but of too few fixes (convergence.h)
 ///     DOUBTFUL   the residuals scatter more than their noise, or the model is off by more; or most
 ///                fixes like those that it rests on were left out; or it is a plain average, or
 ///                of fixes that differ, or of so few that nothing checks them
@@ -27,7 +28,6 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "pipelines/spin/mean/angle_equations.h"
@@ -92,8 +92,8 @@ class MeanEstimator {
   bool tells_less_than_a_fix() const;
   double off_the_fixes_rad() const;
   bool fits_the_fixes() const;
-  std::string doubt() const;
-  std::string status() const;
+  std::optional<Reason> doubt() const;
+  Assessment assess() const;
 
   SpinConfig config_;
   std::deque<Kept> kept_;  ///< The last revolutions.

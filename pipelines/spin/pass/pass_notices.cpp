@@ -1,7 +1,5 @@
 #include "pipelines/spin/pass/pass_notices.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,7 +8,6 @@
 #include "pipelines/spin/association/period_search.h"
 #include "pipelines/spin/measurement/edge_use.h"
 #include "pipelines/spin/types/model_allowance.h"
-#include "pipelines/time/utc.h"
 
 namespace spindrift {
 namespace {
@@ -18,8 +15,6 @@ namespace {
 constexpr double kPriorSigmas = 5.0;
 // Of a pass of few turns a large share is left out before its spin period is found.
 constexpr std::int64_t kFewestToJudge = 100;
-// What is said of it, is said once.
-constexpr std::string_view kPrior = "prior";
 
 double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
 
@@ -30,27 +25,16 @@ bool is_of_the_edge(Rejection rejection) {
          rejection != Rejection::NoOrbit;
 }
 
-/// Why the fixes of that case leave several candidates.
-std::string_view what_is_missing(int geometry_case) {
-  switch (geometry_case) {
-    case 4:
-      return ", for want of good sun2 edges";
-    case 5:
-    case 6:
-      return ", for want of good sun edges and of one beam's chords";
-    case 7:
-      return ", for want of good sun1 edges";
-    default:
-      return "";
-  }
-}
+NamedValue at(TaiTime t) { return {"t_tai_ns", tai_ns(t)}; }
+
+std::string text_of(PulseChannel channel) { return std::string{name_of(channel)}; }
 
 }  // namespace
 
 /// The first notice of its kind.
-void PassNotices::say_first(std::string_view kind, const std::string& notice) {
-  if (said_.emplace(kind).second) {
-    say(notice);
+void PassNotices::say_first(NoticeCode kind, Notice notice) {
+  if (said_.insert(kind).second) {
+    say(std::move(notice));
   }
 }
 
@@ -65,47 +49,40 @@ void PassNotices::used(std::span<const SpinProduct> products) {
   }
 }
 
-void PassNotices::edge_came_late() {
-  say_once("pulses arrive after their time was processed: they are stored and left out");
-}
+void PassNotices::edge_came_late() { say_once({NoticeCode::LateEdges}); }
 
-void PassNotices::edge_out_of_time() {
-  say_once(
-      "pulses stamped far from the times of all others are left out: a sender's clock is wrong");
-}
+void PassNotices::edge_out_of_time() { say_once({NoticeCode::EdgesOutOfTime}); }
 
 void PassNotices::associated(const Association& association) {
   left_over_any_ = left_over_any_ || !association.left_over.empty();
   closed_any_ = closed_any_ || !association.closed.empty();
   for (const InterferingChannels& channels : association.began_to_interfere) {
-    say(
-        fmt::format("{}: {} and {} come too near to each other (spin.screening.interference_s = "
-                    "{}): as long as they do, their edges are left out",
-                    format_utc(channels.first), name_of(channels.one), name_of(channels.other),
-                    config_.screening.interference_s));
+    say({NoticeCode::InterferenceBegins,
+         {at(channels.first),
+          {"one", text_of(channels.one)},
+          {"other", text_of(channels.other)},
+          {"interference_s", config_.screening.interference_s}}});
   }
 }
 
 void PassNotices::counted_on(const Revolution& revolution) {
   if (const auto& off_turns = revolution.count_sigma_turns) {
-    say(
-        fmt::format("after a silence the count of revolutions is uncertain by about {:.1f}, from "
-                    "revolution {} on",
-                    *off_turns, revolution.number));
+    say({NoticeCode::CountUncertain, {{"turns", *off_turns}, {"revolution", revolution.number}}});
   }
 }
 
 void PassNotices::outside_orbit(const Error& error) {
   ++outside_orbit_;
   last_outside_orbit_ = error.message;
-  say_first("orbit", fmt::format("orbit: {}; revolutions outside it give no axis", error.message));
+  say_once({NoticeCode::OutsideOrbit, {{"why", error.message}}});
 }
 
 void PassNotices::without_fix(std::int64_t revolution, const Error& error) {
   ++without_fix_;
   last_without_fix_ = error.message;
-  say_first("fix", fmt::format("revolution {} is the first that gives no fix: {}", revolution,
-                               error.message));
+  if (revolution != cut_short_) {
+    say_once({NoticeCode::NoFix, {{"revolution", revolution}, {"why", error.message}}});
+  }
 }
 
 void PassNotices::has_fix(const SpinFix& fix, std::optional<PriorVerdict> prior) {
@@ -122,76 +99,62 @@ void PassNotices::has_fix(const SpinFix& fix, std::optional<PriorVerdict> prior)
 
 void PassNotices::settled_by_dispersion(TaiTime t, const SteadyBranch& branch) {
   const RaDec axis = ra_dec_of(branch.axis.axis_icrf);
-  say(fmt::format(
-      "{}: the dispersion settles on the axis near ra {:.2f} dec {:.2f} deg: over {:.0f} "
-      "fixes its candidates stay where they are and the others drift, ratio of the "
-      "scatters {:.1f} ({})",
-      format_utc(t), degrees(axis.ra_rad), degrees(axis.dec_rad), branch.axis.count,
-      branch.scatter_ratio,
-      branch.log_likelihood_ratio
-          ? fmt::format("likelihood ratio e^{:.0f}", *branch.log_likelihood_ratio)
-          : "F-test"));
+  Notice notice{NoticeCode::DispersionSettles,
+                {at(t),
+                 {"ra_deg", degrees(axis.ra_rad)},
+                 {"dec_deg", degrees(axis.dec_rad)},
+                 {"fixes", branch.axis.count},
+                 {"scatter_ratio", branch.scatter_ratio}}};
+  if (const auto& ratio = branch.log_likelihood_ratio) {
+    notice.code = NoticeCode::LikelihoodSettles;
+    notice.values.push_back({"log_likelihood_ratio", *ratio});
+  }
+  say(std::move(notice));
 }
 
-void PassNotices::most_contradict_themselves() {
-  say_once(
-      "the measurements of most revolutions contradict each other: no fix is accepted, as others "
-      "may agree by accident; check the mission's mounting angles, azimuths and orbit");
-}
+void PassNotices::most_contradict_themselves() { say_once({NoticeCode::RevolutionsContradict}); }
 
 void PassNotices::silent_where_it_must_see(Side side) {
-  say_once(
-      fmt::format("the {} beam, said to be healthy, is silent where the axis says it must see the "
-                  "Earth: such fixes are not accepted; if the beam has failed, say healthy = false",
-                  side == Side::North ? "north" : "south"));
+  if (!std::exchange(silence_said_.at(index_of(side)), true)) {
+    say({NoticeCode::HealthyBeamSilent, {{"beam", side == Side::North ? "north" : "south"}}});
+  }
 }
 
-void PassNotices::fix_contradicts_itself() {
-  say_once(
-      "measurements contradict each other, their fixes are not accepted: the length of the axis or "
-      "the size of the Earth's disc comes out wrong; check the mission's mounting angles, azimuths "
-      "and orbit");
-}
+void PassNotices::fix_contradicts_itself() { say_once({NoticeCode::FixContradictsItself}); }
 
 /// What the prior chose is not of the axis that the edges show.
 void PassNotices::prior_contradicted(TaiTime t) {
   prior_contradicted_ = true;
-  say_first(kPrior, fmt::format("{}: the edges contradict the prior of the mission: the axis is "
-                                "another one, the mean begins anew",
-                                format_utc(t)));
+  say_first(NoticeCode::PriorContradicted, {NoticeCode::PriorContradicted, {at(t)}});
 }
 
 /// A prior that has nothing to choose may be wrong as well.
 void PassNotices::estimated(const SpinEstimate& estimate) {
-  last_status_ = estimate.status;
-  if (!config_.prior || !estimate.status.starts_with("OK")) {
+  quality_ = estimate.assessment.quality;
+  fixes_graze_ = has(estimate.assessment, ReasonCode::FixesGraze);
+  if (!config_.prior || !is_unopposed(*quality_)) {
     return;
   }
   const double apart_rad = angle_between_rad(config_.prior->axis_icrf, estimate.axis_icrf);
   const double sigma_rad =
       std::hypot(config_.prior->sigma_rad, std::sqrt(estimate.covariance_rad2.trace()));
   if (apart_rad > std::hypot(kPriorSigmas * sigma_rad, kModelLimit_rad)) {
-    say_first(kPrior,
-              fmt::format("{}: the axis is {:.1f} deg from the prior of the mission "
-                          "(spin.prior), {:.0f} times the sigma of both: the edges decide "
-                          "without it",
-                          format_utc(estimate.t), degrees(apart_rad), apart_rad / sigma_rad));
+    say_first(NoticeCode::PriorContradicted,
+              {NoticeCode::PriorFar,
+               {at(estimate.t), {"deg", degrees(apart_rad)}, {"sigmas", apart_rad / sigma_rad}}});
   }
 }
 
 void PassNotices::axis_moved(TaiTime t, double apart_rad) {
-  say(
-      fmt::format("{}: the axis is {:.2f} deg from the mean so far: it has moved, or the mean was "
-                  "wrong; the mean begins anew",
-                  format_utc(t), degrees(apart_rad)));
+  say({NoticeCode::AxisMoved, {at(t), {"deg", degrees(apart_rad)}}});
 }
 
-std::string PassNotices::channels_where(bool heard, bool described) const {
-  std::string channels;
+std::vector<std::string> PassNotices::channels_where(bool heard, bool described) const {
+  std::vector<std::string> channels;
   for (std::size_t i = 0; i < kPulseChannels; ++i) {
     const auto channel = static_cast<PulseChannel>(i);
     if (heard_.at(i) == heard && has_sensor(config_, channel) == described) {
-      channels += fmt::format("{}{}", channels.empty() ? "" : ", ", name_of(channel));
+      channels.push_back(text_of(channel));
     }
   }
   return channels;
@@ -200,36 +163,32 @@ std::string PassNotices::channels_where(bool heard, bool described) const {
 void PassNotices::pass_ended(std::span<const InterferingChannels> interfering,
                              const SequentialEstimator& sequential) {
   if (!closed_any_ && left_over_any_) {
-    say(
-        fmt::format("no spin period was found in the edges, of rates from {} to {} rpm: no "
-                    "revolution, and no axis",
-                    kSlowestSearched_rpm, kFastestSearched_rpm));
+    say({NoticeCode::NoPeriod,
+         {{"slowest_rpm", kSlowestSearched_rpm}, {"fastest_rpm", kFastestSearched_rpm}}});
   }
   if (closed_any_) {
     say_what_was_left_out();
   }
-  if (const std::string silent = channels_where(false, true); closed_any_ && !silent.empty()) {
-    say(fmt::format("no edge at all came from {}", silent));
+  if (auto silent = channels_where(false, true); closed_any_ && !silent.empty()) {
+    say({NoticeCode::SilentChannels, {{"channels", std::move(silent)}}});
   }
-  if (const std::string unknown = channels_where(true, false); !unknown.empty()) {
-    say(fmt::format(
-        "the mission describes no sensor for {}: their edges are left out; a beam needs "
-        "[spin.ir.north] or [spin.ir.south]",
-        unknown));
+  if (auto unknown = channels_where(true, false); !unknown.empty()) {
+    say({NoticeCode::ChannelsWithoutSensor, {{"channels", std::move(unknown)}}});
   }
   for (const InterferingChannels& channels : interfering) {
     if (channels.revolutions < kFewestInterfering) {
       continue;
     }
-    say(fmt::format(
-        "{} and {} were too near to each other in {} revolutions from {} to {}: their edges there "
-        "are left out",
-        name_of(channels.one), name_of(channels.other), channels.revolutions,
-        format_utc(channels.first), format_utc(channels.last)));
+    say({NoticeCode::Interfered,
+         {{"one", text_of(channels.one)},
+          {"other", text_of(channels.other)},
+          {"revolutions", channels.revolutions},
+          {"first_tai_ns", tai_ns(channels.first)},
+          {"last_tai_ns", tai_ns(channels.last)}}});
   }
   if (outside_orbit_ > 1) {
-    say(fmt::format("orbit: {} revolutions outside it gave no axis, the last: {}", outside_orbit_,
-                    last_outside_orbit_));
+    say({NoticeCode::MuchOutsideOrbit,
+         {{"revolutions", outside_orbit_}, {"why", last_outside_orbit_}}});
   }
   say_what_the_axis_lacks(sequential);
 }
@@ -246,10 +205,9 @@ void PassNotices::say_what_was_left_out() {
   const auto most =
       std::max_element(left_out_.begin(), left_out_.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
-  say(fmt::format(
-      "{:.0f} % of all edges do not fit and are left out, most as '{}': the count of "
-      "revolutions, and what is made of the others, may be wrong",
-      100.0 * static_cast<double>(all) / static_cast<double>(edges_), name_of(most->first)));
+  say({NoticeCode::EdgesLeftOut,
+       {{"percent", 100.0 * static_cast<double>(all) / static_cast<double>(edges_)},
+        {"most", std::string{name_of(most->first)}}}});
 }
 
 /// It takes fixes that are accepted and do not graze.
@@ -257,68 +215,51 @@ void PassNotices::say_why_no_mean() {
   if (mean_began_ || last_case_ == 0) {
     return;
   }
-  std::string why;
-  const auto add = [&](std::int64_t fixes, std::string_view what) {
-    if (fixes > 0) {
-      why += fmt::format("{}{} {}", why.empty() ? "" : ", ", fixes, what);
-    }
-  };
-  add(grazing_, "graze (their candidates come together within the noise)");
-  add(ambiguous_, "are ambiguous");
-  add(otherwise_not_accepted_, "are not accepted");
-  say(fmt::format("the estimator 'mean' never began: of {} fixes, {}",
-                  grazing_ + ambiguous_ + otherwise_not_accepted_, why));
+  say({NoticeCode::MeanNeverBegan,
+       {{"fixes", grazing_ + ambiguous_ + otherwise_not_accepted_},
+        {"grazing", grazing_},
+        {"ambiguous", ambiguous_},
+        {"not_accepted", otherwise_not_accepted_}}});
 }
 
-std::string PassNotices::why_ambiguous() const {
-  if (last_status_.ends_with("fixes graze")) {
-    return fmt::format(
-        "nearly all fixes graze: the true axis may be missing among their candidates, so that {} "
-        "settle "
-        "it",
-        config_.prior ? "the prior of the mission (spin.prior) does not" : "no prior would");
+Notice PassNotices::why_ambiguous() const {
+  using enum NoticeCode;
+  const NamedValue of_case{"geometry_case", std::int64_t{last_case_}};
+  if (fixes_graze_) {
+    return {config_.prior ? AmbiguousPriorNoHelp : AmbiguousFixesGraze, {of_case}};
   }
   if (!config_.prior) {
-    return "a prior in the mission file would choose among the candidates";
+    return {AmbiguousNoPrior, {of_case}};
   }
   if (prior_contradicted_) {
-    return "the edges contradict the prior of the mission (spin.prior)";
+    return {AmbiguousAgainstPrior, {of_case}};
   }
   if (prior_verdict_ == PriorVerdict::FarFromAll) {
-    return "the prior of the mission (spin.prior) does not settle it: no candidate is within three "
-           "sigmas of it";
+    return {AmbiguousFarFromPrior, {of_case}};
   }
   if (prior_verdict_ == PriorVerdict::NearSeveral) {
-    return fmt::format(
-        "the prior of the mission (spin.prior) does not settle it: within its sigma of {:g} deg, "
-        "several candidates are equally near to it",
-        degrees(config_.prior->sigma_rad));
+    return {AmbiguousNearPrior, {of_case, {"prior_sigma_deg", degrees(config_.prior->sigma_rad)}}};
   }
-  return "the edges do not bear out the candidate that the prior of the mission (spin.prior) "
-         "chooses";
+  return {AmbiguousPriorNotBorne, {of_case}};
 }
 
 void PassNotices::say_what_the_axis_lacks(const SequentialEstimator& sequential) {
-  if (last_status_.empty() && last_case_ != 0) {
-    say("the estimator 'sequential' never began: its fixes leave the axis, or a candidate for it, "
-        "uncertain by more than 3 deg");
+  if (!quality_ && last_case_ != 0) {
+    say({NoticeCode::SequentialNeverBegan});
   }
-  if (last_status_.starts_with("OK") &&
+  if (quality_ && is_unopposed(*quality_) &&
       sequential.model_leverage() > SequentialEstimator::kPoorLeverage) {
-    constexpr double kModelError_deg = kModelError_rad * 180.0 / std::numbers::pi;
-    say(
-        fmt::format("poor leverage: errors of {:.2f} deg in mounting or limb move the axis by "
-                    "{:.1f} deg; sigma includes no more of them than the edges show",
-                    kModelError_deg, sequential.model_leverage() * kModelError_deg));
+    const double error_deg = degrees(kModelError_rad);
+    say({NoticeCode::LittleLeverage,
+         {{"error_deg", error_deg}, {"moved_deg", sequential.model_leverage() * error_deg}}});
   }
-  if (last_case_ == 0 && without_fix_ > 1) {
-    say(fmt::format("no axis: {} revolutions gave no fix, the last: {}", without_fix_,
-                    last_without_fix_));
+  // One alone has been told of, unless it was cut short.
+  if (last_case_ == 0 && without_fix_ > (said_.contains(NoticeCode::NoFix) ? 1 : 0)) {
+    say({NoticeCode::NoAxis, {{"revolutions", without_fix_}, {"why", last_without_fix_}}});
   }
   say_why_no_mean();
-  if (last_status_.starts_with("AMBIGUOUS")) {
-    say(fmt::format("the axis is ambiguous to the end{}: {}", what_is_missing(last_case_),
-                    why_ambiguous()));
+  if (quality_ == Quality::Ambiguous) {
+    say(why_ambiguous());
   }
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// What a person should know of a pass, in words: as it happens, each thing once, and at the end
+/// What a person should know of a pass: as it happens, each thing once, and at the end
 /// what is known for certain only then.
 
 #pragma once
@@ -11,11 +11,11 @@
 #include <set>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "pipelines/core/notice.h"
 #include "pipelines/spin/association/association.h"
 #include "pipelines/spin/disambiguation/disambiguation.h"
 #include "pipelines/spin/disambiguation/dispersion.h"
@@ -24,6 +24,7 @@
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/products.h"
 #include "pipelines/spin/types/pulse.h"
+#include "pipelines/spin/types/side.h"
 
 namespace spindrift {
 
@@ -40,6 +41,8 @@ class PassNotices {
   void associated(const Association& association);
   void counted_on(const Revolution& revolution);
   void outside_orbit(const Error& error);
+  /// The end of the pass cuts the revolution, which may give no fix for that alone.
+  void cut_short(std::int64_t revolution) { cut_short_ = revolution; }
   void without_fix(std::int64_t revolution, const Error& error);
   /// @param fix Of the revolution itself.
   /// @param prior On its candidates, or on the last that it was asked about.
@@ -59,28 +62,33 @@ class PassNotices {
                   const SequentialEstimator& sequential);
 
   /// Those since the last call.
-  std::vector<std::string> take() { return std::exchange(pending_, {}); }
+  std::vector<Notice> take() { return std::exchange(pending_, {}); }
 
  private:
-  void say(std::string notice) { pending_.push_back(std::move(notice)); }
-  void say_once(const std::string& notice) { say_first(notice, notice); }
-  void say_first(std::string_view kind, const std::string& notice);
+  void say(Notice notice) { pending_.push_back(std::move(notice)); }
+  void say_once(Notice notice) {
+    const NoticeCode kind = notice.code;
+    say_first(kind, std::move(notice));
+  }
+  void say_first(NoticeCode kind, Notice notice);
   /// Those that brought edges or none, and that the mission describes or not.
-  std::string channels_where(bool heard, bool described) const;
+  std::vector<std::string> channels_where(bool heard, bool described) const;
   void say_what_was_left_out();
   void say_why_no_mean();
-  std::string why_ambiguous() const;
+  Notice why_ambiguous() const;
   void say_what_the_axis_lacks(const SequentialEstimator& sequential);
 
   SpinConfig config_;
-  std::vector<std::string> pending_;
-  std::set<std::string, std::less<>> said_;
+  std::vector<Notice> pending_;
+  std::set<NoticeCode> said_;
+  std::array<bool, kSides.size()> silence_said_{};
   std::array<bool, kPulseChannels> heard_{};
   std::int64_t edges_ = 0;
   std::map<Rejection, std::int64_t> left_out_;  ///< Of them.
   bool closed_any_ = false;                     ///< Revolution.
   bool left_over_any_ = false;                  ///< Edge of none.
-  std::string last_status_;                     ///< Of `sequential`; empty: it never began.
+  std::optional<Quality> quality_;              ///< Of `sequential`; empty: it never began.
+  bool fixes_graze_ = false;                    ///< That it rests on.
   int last_case_ = 0;                           ///< Of the last fix.
   std::optional<PriorVerdict> prior_verdict_;
   bool prior_contradicted_ = false;
@@ -88,10 +96,11 @@ class PassNotices {
   std::int64_t grazing_ = 0;    ///< Fixes.
   std::int64_t ambiguous_ = 0;  ///< Of the others; likewise the following.
   std::int64_t otherwise_not_accepted_ = 0;
-  std::int64_t without_fix_ = 0;    ///< Revolutions.
-  std::string last_without_fix_;    ///< Why the last of them has none.
-  std::int64_t outside_orbit_ = 0;  ///< Revolutions.
-  std::string last_outside_orbit_;  ///< Why the last of them has none.
+  std::optional<std::int64_t> cut_short_;  ///< Revolution.
+  std::int64_t without_fix_ = 0;           ///< Revolutions.
+  std::string last_without_fix_;           ///< Why the last of them has none.
+  std::int64_t outside_orbit_ = 0;         ///< Revolutions.
+  std::string last_outside_orbit_;         ///< Why the last of them has none.
 };
 
 }  // namespace spindrift

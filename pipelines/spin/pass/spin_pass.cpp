@@ -91,7 +91,11 @@ SpinOutput SpinPass::finish() {
   const ReorderWindow::Rest rest = reorder_.release_all();
   sort_out(rest.in_time, out);
   associate(interference_.finish(), out);
-  collect(associator_.finish(), out);
+  Association last = associator_.finish();
+  if (!last.closed.empty()) {
+    notices_.cut_short(last.closed.back().number);
+  }
+  collect(std::move(last), out);
   if (!started_) {
     settle_first(out);
   }

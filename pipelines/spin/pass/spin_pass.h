@@ -16,9 +16,9 @@
 #include <cstddef>
 #include <deque>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "pipelines/core/notice.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/spin/association/association.h"
 #include "pipelines/spin/disambiguation/disambiguation.h"
@@ -40,7 +40,7 @@ namespace spindrift {
 
 struct SpinOutput {
   std::vector<SpinProduct> products;  ///< In the order they arose.
-  std::vector<std::string> notices;   ///< What a person should know; each said once a pass.
+  std::vector<Notice> notices;        ///< What a person should know; each said once a pass.
 };
 
 class SpinPass {

@@ -1,7 +1,5 @@
 #include "pipelines/spin/sequential/sequential.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/types/convergence.h"
 #include "pipelines/spin/types/model_allowance.h"
 
 namespace spindrift {
@@ -51,7 +50,7 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
       .covariance_rad2 = covariance_rad2(),
       .spin_rate_rad_s = best.rate_rad_s(),
       .spin_rate_sigma_rad_s = best.rate_sigma_rad_s() * std::sqrt(verdict_.excess_noise),
-      .status = status()};
+      .assessment = assess()};
 }
 
 /// @return Whether filters began here.
@@ -137,7 +136,7 @@ bool SequentialEstimator::begin(const SpinFix& fix, std::span<const StartingPoin
   }
   if (!hypotheses_.empty() && !hypotheses_.provisional()) {
     ++restarts_;
-    restarted_ = gates_.most_gated() ? "edges gated" : "fixes differ";
+    restarted_ = gates_.most_gated() ? ReasonCode::RestartedGated : ReasonCode::RestartedByFixes;
   }
   hypotheses_ = std::move(started);
   poor_start_.begin(points.front());
@@ -241,62 +240,83 @@ bool SequentialEstimator::model_contradicts() const {
   return verdict_.beyond_allowance || verdict_.error_rad > kModelLimit_rad;
 }
 
-std::string SequentialEstimator::ambiguous_status() const {
+Assessment SequentialEstimator::assess_ambiguous() const {
+  using enum ReasonCode;
   const std::size_t count = hypotheses_.count();
-  const std::string_view none = ", or none: fixes graze";
-  if (count == 1) {
-    return hypotheses_.provisional()
-               ? fmt::format("AMBIGUOUS{}", none)
-               : fmt::format("AMBIGUOUS, no fix has settled it, {} revolutions",
-                             gates_.revolutions());
+  Assessment assessment{Quality::Ambiguous};
+  if (count > 1) {
+    const RaDec other = ra_dec_of(hypotheses_.all()[1].filter.axis_icrf());
+    assessment.reasons.push_back(
+        {OtherAxis, {{"ra_deg", degrees(other.ra_rad)}, {"dec_deg", degrees(other.dec_rad)}}});
   }
-  const RaDec other = ra_dec_of(hypotheses_.all()[1].filter.axis_icrf());
-  const std::string named = fmt::format("AMBIGUOUS, or ra {:.2f} dec {:.2f} deg",
-                                        degrees(other.ra_rad), degrees(other.dec_rad));
   if (hypotheses_.provisional()) {
-    return fmt::format("{}{}", named, none);
+    assessment.reasons.push_back({FixesGraze});
+  } else if (count > 2) {
+    assessment.reasons.push_back({MoreAxes, {{"count", static_cast<std::int64_t>(count - 2)}}});
+  } else {
+    if (count == 1) {
+      assessment.reasons.push_back({NothingSettled});
+    }
+    assessment.reasons.push_back({Revolutions, {{"count", gates_.revolutions()}}});
   }
-  return count > 2 ? fmt::format("{}, or {} more", named, count - 2)
-                   : fmt::format("{}, {} revolutions", named, gates_.revolutions());
+  return assessment;
 }
 
-std::string SequentialEstimator::status() const {
-  const std::int64_t revolutions = gates_.revolutions();
-  if (gates_.most_gated()) {
-    return fmt::format("LOST, {} edges gated, awaiting a fix", gates_.gated());
-  }
-  // What passed before the filters began might have contradicted the prior: until they have seen as
-  // much, nothing is said.
-  if (!hypotheses_.settled() && !(hypotheses_.prior_stands() && revolutions >= unheard_)) {
-    return ambiguous_status();
-  }
+/// Empty where nothing speaks against it. An error of the model that its allowance covers is none.
+std::optional<Reason> SequentialEstimator::doubt() const {
+  using enum ReasonCode;
   if (const auto channel = gates_.channel_mostly_gated()) {
-    return fmt::format("DOUBTFUL, most {} edges gated, {} revolutions", name_of(*channel),
-                       revolutions);
+    return Reason{ChannelGated, {{"channel", std::string{name_of(*channel)}}}};
   }
   if (gates_.many_gated()) {
-    return fmt::format("DOUBTFUL, many edges gated, {} revolutions", revolutions);
+    return Reason{ManyGated};
   }
   if (verdict_.excess_noise > 1.0) {
-    return fmt::format("DOUBTFUL, residuals {:.1f} x stated noise, {} revolutions",
-                       std::sqrt(verdict_.excess_noise), revolutions);
+    return Reason{Noise, {{"factor", std::sqrt(verdict_.excess_noise)}}};
   }
   if (verdict_.error_rad > 0.0) {
-    return fmt::format("{}, model off by {:.2g} deg, {} revolutions",
-                       model_contradicts() ? "DOUBTFUL" : "OK", degrees(verdict_.error_rad),
-                       revolutions);
+    return model_contradicts() ? std::optional{model_off()} : std::nullopt;
   }
   // Filters that began at several places and were beaten have searched more than one.
   if (poor_start_.unconfirmed() && !hypotheses_.settled_by_edges()) {
-    return fmt::format("DOUBTFUL, poor fixes to confirm it yet, {} revolutions", revolutions);
+    return Reason{PoorStart};
   }
-  const std::string counts =
-      fmt::format("OK, {} revolutions, {} edges gated{}", revolutions, gates_.gated(),
-                  model_leverage() > kPoorLeverage ? ", poor leverage" : "");
+  return std::nullopt;
+}
+
+Reason SequentialEstimator::model_off() const {
+  return {ReasonCode::ModelOff, {{"deg", degrees(verdict_.error_rad)}}};
+}
+
+Assessment SequentialEstimator::assess() const {
+  using enum ReasonCode;
+  const Reason gated{EdgesGated, {{"count", gates_.gated()}}};
+  if (gates_.most_gated()) {
+    return {Quality::Lost, {gated, {AwaitingFix}}};
+  }
+  // What passed before the filters began might have contradicted the prior: until they have seen as
+  // much, nothing is said.
+  if (!hypotheses_.settled() && !(hypotheses_.prior_stands() && gates_.revolutions() >= unheard_)) {
+    return assess_ambiguous();
+  }
+  const Reason revolutions{Revolutions, {{"count", gates_.revolutions()}}};
+  if (auto doubted = doubt()) {
+    return {Quality::Doubtful, {*std::move(doubted), revolutions}};
+  }
+  const Quality unopposed = unopposed_quality(static_cast<double>(gates_.revolutions()));
+  if (verdict_.error_rad > 0.0) {
+    return {unopposed, {model_off(), revolutions}};
+  }
+  Assessment assessment{unopposed, {revolutions, gated}};
+  if (model_leverage() > kPoorLeverage) {
+    assessment.reasons.push_back({PoorLeverage});
+  }
   if (prior_refuted_) {
-    return counts + ", prior refuted";
+    assessment.reasons.push_back({PriorRefuted});
+  } else if (restarted_) {
+    assessment.reasons.push_back({*restarted_});
   }
-  return restarted_.empty() ? counts : fmt::format("{}, restart: {}", counts, restarted_);
+  return assessment;
 }
 
 }  // namespace spindrift

@@ -6,15 +6,17 @@
 /// published, and the others are dropped when a later fix settles the matter or the edges
 /// themselves do (hypotheses.h). Likewise where only a PRIOR settled the fix: its candidate is
 /// published, and the others stay until the edges beat them; where they beat the prior's, the axis
-/// is theirs, and the status says so. Candidates known badly are averaged with those of the
+/// is theirs, and the assessment says so. Candidates known badly are averaged with those of the
 /// following fixes, until all are known well enough (starting_points.h); grazing ones start filters
 /// only where there are no others for long, and then nothing but an accepted fix settles it. A
 /// filter that finds most edges where it does not expect them, or whose fixes name another axis
 /// (contradiction.h), starts again at the next accepted fix, and says so; where the fixes name
 /// several, it is AMBIGUOUS again.
 ///
-/// The status begins with
+/// Its quality is
 ///     OK         all is well
+///     CONVERGING likewise, but it has seen too few revolutions for its edges to have shown what is
+///                not (convergence.h)
 ///     AMBIGUOUS  another axis, named, fits as well or nearly so, or nothing has settled it; the
 ///                covariance is that of the candidate published, were it true. "or 2 more": so many
 ///                others do, which the fixes list among their alternates. "or none: fixes graze",
@@ -23,7 +25,7 @@
 ///                it
 ///     DOUBTFUL   the edges scatter more than their noise, or show errors of the model beyond its
 ///                allowance, or of half a degree whatever they may be: the covariance is raised to
-///                cover it (below that likewise, and the status is OK, "model off by"); or most
+///                cover it (below that likewise, and it is OK, "model off by"); or most
 ///                edges of the channel named are not where this axis has them
 ///     LOST       most edges are not: the axis is no longer, or never was, the true one; the
 ///                covariance is that of an axis which may point anywhere
@@ -34,8 +36,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
-#include <string_view>
 
 #include "pipelines/spin/association/association.h"
 #include "pipelines/spin/mean/model_check.h"
@@ -72,8 +72,9 @@ class SequentialEstimator {
   /// What errors of the model, one radian each, move the axis by, all ways together, rad: of the
   /// geometry alone. Estimates include only what the edges show of such errors. There must be one.
   double model_leverage() const;
-  /// Beyond it the status says so. Where beams cross the Earth well apart, an axis moves by three
-  /// or four times the errors of the model; where both look across the same middle of it, by ten.
+  /// Beyond it the assessment says so. Where beams cross the Earth well apart, an axis moves by
+  /// three or four times the errors of the model; where both look across the same middle of it, by
+  /// ten.
   static constexpr double kPoorLeverage = 6.0;
 
   /// The axis that the edges settled beyond doubt among several.
@@ -94,8 +95,10 @@ class SequentialEstimator {
   void work_in(const Revolution& revolution, const Sky& sky);
   Eigen::Matrix2d covariance_rad2() const;
   bool model_contradicts() const;
-  std::string ambiguous_status() const;
-  std::string status() const;
+  Assessment assess_ambiguous() const;
+  std::optional<Reason> doubt() const;
+  Reason model_off() const;
+  Assessment assess() const;
 
   SpinConfig config_;
   Hypotheses hypotheses_;  ///< None before the first fix.
@@ -119,7 +122,7 @@ class SequentialEstimator {
   std::int64_t unheard_ = 0;  ///< Revolutions with fixes before the first that could start it.
   int restarts_ = 0;
   bool prior_refuted_ = false;
-  std::string_view restarted_;  ///< Why; empty: never.
+  std::optional<ReasonCode> restarted_;  ///< Why; empty: never.
 };
 
 }  // namespace spindrift

@@ -6,11 +6,11 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "pipelines/core/assessment.h"
 #include "pipelines/spin/types/pulse.h"
 #include "pipelines/time/tai_time.h"
 
@@ -109,7 +109,7 @@ struct SpinEstimate {
   Eigen::Matrix2d covariance_rad2;  ///< Tangent plane at the axis: east, north.
   double spin_rate_rad_s;
   double spin_rate_sigma_rad_s;
-  std::string status;
+  Assessment assessment;
 };
 
 using SpinProduct =

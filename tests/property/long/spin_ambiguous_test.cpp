@@ -8,13 +8,14 @@
 #include <cstdint>
 #include <numbers>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "pipelines/spin/types/model_allowance.h"
+#include "services/words/assessment_words.h"
+#include "tests/support/assessed.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/random_pass.h"
@@ -40,26 +41,25 @@ bool lists(const SpinFix& fix, const Eigen::Vector3d& true_icrf) {
   return found;
 }
 
-/// The axis of the estimate, or the one that its status names.
+/// The axis of the estimate, or the one that its assessment names.
 bool names(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
   const double sigma_rad = testing::sigma_rad(estimate);
   if (is_near(estimate.axis_icrf, sigma_rad, true_icrf)) {
     return true;
   }
-  std::istringstream words{estimate.status};
-  std::string word;
-  double ra_deg = 0.0;
-  double dec_deg = 0.0;
-  // "AMBIGUOUS, or ra 181.50 dec 53.18 deg"
-  return words >> word >> word >> word >> ra_deg >> word >> dec_deg &&
+  const auto& reasons = estimate.assessment.reasons;
+  const double ra_deg = testing::number_of(reasons, ReasonCode::OtherAxis, "ra_deg");
+  const double dec_deg = testing::number_of(reasons, ReasonCode::OtherAxis, "dec_deg");
+  return has(estimate.assessment, ReasonCode::OtherAxis) &&
          is_near(direction_icrf({.ra_rad = ra_deg * kDegree_rad, .dec_rad = dec_deg * kDegree_rad}),
                  sigma_rad, true_icrf);
 }
 
 /// It says that there are no candidates but the two it names.
 bool claims_to_name_all(const SpinEstimate& estimate) {
-  return estimate.status.starts_with("AMBIGUOUS, or ra") &&
-         estimate.status.ends_with("revolutions");
+  return estimate.assessment.quality == Quality::Ambiguous &&
+         has(estimate.assessment, ReasonCode::OtherAxis) &&
+         has(estimate.assessment, ReasonCode::Revolutions);
 }
 
 std::vector<SpinEstimate> of_sequential(const SpinOutput& output) {
@@ -93,14 +93,14 @@ TEST(SpinAmbiguous, CandidatesThatNothingSettlesAreSaidToBeAmbiguousToTheEnd) {
     const auto estimates = of_sequential(output);
     EXPECT_GT(estimates.size(), 200U);
     for (const SpinEstimate& estimate : estimates) {
-      EXPECT_TRUE(estimate.status.starts_with("AMBIGUOUS")) << estimate.status;
-      EXPECT_TRUE(names(estimate, body.axis_icrf)) << estimate.status;
+      EXPECT_TRUE(estimate.assessment.quality == Quality::Ambiguous)
+          << sentence_of(estimate.assessment);
+      EXPECT_TRUE(names(estimate, body.axis_icrf)) << sentence_of(estimate.assessment);
     }
-    EXPECT_TRUE(
-        std::any_of(output.notices.begin(), output.notices.end(), [](const std::string& notice) {
-          return notice.starts_with(
-              "the axis is ambiguous to the end, for want of good sun1 edges");
-        }));
+    EXPECT_TRUE(std::any_of(output.notices.begin(), output.notices.end(), [](const Notice& notice) {
+      return notice.code == NoticeCode::AmbiguousNoPrior &&
+             notice.values.front() == NamedValue{"geometry_case", std::int64_t{7}};
+    }));
   }
 }
 
@@ -123,7 +123,7 @@ TEST(SpinAmbiguous, WhatClaimsToNameAllCandidatesNamesTheTrueOne) {
       if (claims_to_name_all(estimate)) {
         ++claiming;
         missed += names(estimate, drawn.body.axis_icrf) ? 0 : 1;
-        last = names(estimate, drawn.body.axis_icrf) ? last : estimate.status;
+        last = names(estimate, drawn.body.axis_icrf) ? last : sentence_of(estimate.assessment);
       }
     }
     EXPECT_EQ(missed, 0) << last;

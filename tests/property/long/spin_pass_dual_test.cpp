@@ -18,6 +18,8 @@
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
+#include "services/words/assessment_words.h"
+#include "tests/support/assessed.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
@@ -66,12 +68,6 @@ Orbit random_orbit(std::mt19937_64& rng) {
           .value()};
 }
 
-bool says(const SpinOutput& output, const std::string& words) {
-  return std::any_of(output.notices.begin(), output.notices.end(), [&](const std::string& notice) {
-    return notice.find(words) != std::string::npos;
-  });
-}
-
 struct Outcome {
   bool fix_accepted = false;
   bool sure = false;  ///< `sequential` ends with OK.
@@ -86,7 +82,9 @@ Outcome judged(const SpinOutput& output, const Eigen::Vector3d& true_icrf) {
   const bool by_dispersion = std::any_of(last.begin(), last.end(), [](const auto& fix) {
     return fix.second.resolution == Resolution::Dispersion;
   });
-  EXPECT_EQ(says(output, "ratio of the scatters"), by_dispersion);
+  EXPECT_EQ(testing::has(output.notices, NoticeCode::DispersionSettles) ||
+                testing::has(output.notices, NoticeCode::LikelihoodSettles),
+            by_dispersion);
   for (const auto& [number, fix] : last) {
     if (fix.accepted) {
       outcome.fix_accepted = true;
@@ -97,11 +95,11 @@ Outcome judged(const SpinOutput& output, const Eigen::Vector3d& true_icrf) {
   }
   for (const SpinEstimate& estimate : all_of<SpinEstimate>(output)) {
     if (estimate.estimator == SpinEstimator::Sequential) {
-      outcome.sure = estimate.status.starts_with("OK");
+      outcome.sure = is_unopposed(estimate.assessment.quality);
       if (outcome.sure) {
         EXPECT_LT(angle_between_rad(estimate.axis_icrf, true_icrf),
                   kSigmas * testing::sigma_rad(estimate))
-            << estimate.status;
+            << sentence_of(estimate.assessment);
       }
     }
   }
@@ -252,12 +250,12 @@ std::map<std::string, PriorOutcome> with_prior(bool at_the_truth) {
         }
       }
       // Of an axis whose fixes all graze no prior makes sure.
-      outcome.estimated += last && !last->status.ends_with("graze") ? 1 : 0;
-      if (last && last->status.starts_with("OK")) {
+      outcome.estimated += last && !has(last->assessment, ReasonCode::FixesGraze) ? 1 : 0;
+      if (last && is_unopposed(last->assessment.quality)) {
         ++outcome.sure;
         EXPECT_LT(angle_between_rad(last->axis_icrf, body.axis_icrf),
                   kSigmas * testing::sigma_rad(*last))
-            << last->status;
+            << sentence_of(last->assessment);
       }
     }
   }
@@ -324,7 +322,7 @@ TEST(SpinPassDual, APriorSettlesAPassWithoutSun1) {
           (kAxisWithoutSun1_icrf + tangent_basis(kAxisWithoutSun1_icrf) * off_rad).normalized(),
       .sigma_rad = 5.0 * kDegree_rad});
   const SpinEstimate last = testing::last_estimate(output, SpinEstimator::Sequential);
-  EXPECT_TRUE(last.status.starts_with("OK")) << last.status;
+  EXPECT_TRUE(is_unopposed(last.assessment.quality)) << sentence_of(last.assessment);
   EXPECT_LT(angle_between_rad(last.axis_icrf, kAxisWithoutSun1_icrf),
             kSigmas * testing::sigma_rad(last));
   EXPECT_LT(testing::sigma_rad(last), 0.5 * kDegree_rad);
@@ -332,7 +330,8 @@ TEST(SpinPassDual, APriorSettlesAPassWithoutSun1) {
 
 TEST(SpinPassDual, ASilentBeamThatIsSaidToBeHealthyIsToldAndItsFixesNotAccepted) {
   const SpinOutput output = without_north(true);
-  EXPECT_TRUE(says(output, "the north beam, said to be healthy, is silent"));
+  EXPECT_THAT(output.notices,
+              ::testing::Contains(Notice{NoticeCode::HealthyBeamSilent, {{"beam", "north"}}}));
   const auto fixes = all_of<SpinFix>(output);
   EXPECT_GT(fixes.size(), 40U);
   EXPECT_TRUE(std::none_of(fixes.begin(), fixes.end(), [](const SpinFix& fix) {
@@ -342,7 +341,8 @@ TEST(SpinPassDual, ASilentBeamThatIsSaidToBeHealthyIsToldAndItsFixesNotAccepted)
 
 TEST(SpinPassDual, ASilentBeamThatMayHaveFailedIsNoContradiction) {
   const SpinOutput output = without_north(false);
-  EXPECT_FALSE(says(output, "silent"));
+  EXPECT_FALSE(testing::has(output.notices, NoticeCode::HealthyBeamSilent));
+  EXPECT_FALSE(testing::has(output.notices, NoticeCode::SilentChannels));
   const auto fixes = all_of<SpinFix>(output);
   EXPECT_GT(std::count_if(fixes.begin(), fixes.end(), [](const auto& fix) { return fix.accepted; }),
             40);

@@ -13,6 +13,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
+#include "services/words/assessment_words.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/random_pass.h"
@@ -45,11 +46,12 @@ TEST(SpinRandomGeometry, MeansLieWithinWhatTheyPromise) {
     const Eigen::Vector2d error_rad = testing::error_rad(mean.axis_icrf, drawn.body.axis_icrf);
     const double squared = error_rad.dot(mean.covariance_rad2.ldlt().solve(error_rad));
     // One in e^-9 = 1 in 8000 for each.
-    EXPECT_LT(squared, 18.0) << mean.status;
+    EXPECT_LT(squared, 18.0) << sentence_of(mean.assessment);
     squares += squared;
     worst = std::max(worst, squared);
-    const bool is_selection = mean.status.ends_with("% of such graze or are ambiguous");
-    EXPECT_TRUE(is_selection || !mean.status.starts_with("DOUBTFUL")) << mean.status;
+    const bool is_selection = has(mean.assessment, ReasonCode::FewSettled);
+    EXPECT_TRUE(is_selection || mean.assessment.quality != Quality::Doubtful)
+        << sentence_of(mean.assessment);
     selected += is_selection ? 1 : 0;
     ++means;
   }

@@ -12,6 +12,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
+#include "tests/support/assessed.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
@@ -49,9 +50,9 @@ Tally tally_of(int passes, const std::function<void(SpinConfig&)>& differ) {
     for (const SpinEstimate& estimate : testing::all_of<SpinEstimate>(output)) {
       if (estimate.estimator == SpinEstimator::Sequential) {
         ++tally.estimates;
-        doubted = doubted || estimate.status.starts_with("DOUBTFUL") ||
-                  estimate.status.starts_with("LOST");
-        tally.sure_and_wrong += estimate.status.starts_with("OK") &&
+        doubted = doubted || estimate.assessment.quality == Quality::Doubtful ||
+                  estimate.assessment.quality == Quality::Lost;
+        tally.sure_and_wrong += is_unopposed(estimate.assessment.quality) &&
                                         angle_between_rad(estimate.axis_icrf, body.axis_icrf) >
                                             3.0 * testing::sigma_rad(estimate)
                                     ? 1
@@ -61,7 +62,7 @@ Tally tally_of(int passes, const std::function<void(SpinConfig&)>& differ) {
     const SpinEstimate last = testing::last_estimate(output, SpinEstimator::Sequential);
     ++tally.passes;
     tally.doubted_ever += doubted ? 1 : 0;
-    tally.doubted += last.status.starts_with("DOUBTFUL") ? 1 : 0;
+    tally.doubted += last.assessment.quality == Quality::Doubtful ? 1 : 0;
     tally.covered +=
         angle_between_rad(last.axis_icrf, body.axis_icrf) < 3.0 * testing::sigma_rad(last) ? 1 : 0;
   }
@@ -111,10 +112,7 @@ int told_of_poor_leverage(const Orbit& orbit, testing::SpinningBody body) {
     const SpinOutput output =
         testing::run(SpinPass{body.config, orbit},
                      testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
-    told += std::any_of(output.notices.begin(), output.notices.end(),
-                        [](const auto& notice) { return notice.starts_with("poor leverage"); })
-                ? 1
-                : 0;
+    told += testing::has(output.notices, NoticeCode::LittleLeverage) ? 1 : 0;
   }
   return told;
 }

@@ -16,6 +16,7 @@
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "pipelines/spin/batch/pass_edges.h"
 #include "pipelines/spin/pass/spin_pass.h"
+#include "services/words/assessment_words.h"
 #include "tests/support/batch_pass.h"
 #include "tests/support/dirt.h"
 #include "tests/support/product_text.h"
@@ -68,7 +69,7 @@ TEST(SpinBatchChange, IsNotMadeOfTheDirtOfASteadyPass) {
                             scene.rng));
     if (solution) {
       ++solutions;
-      EXPECT_FALSE(solution->changed) << solution->estimate.status;
+      EXPECT_FALSE(solution->changed) << sentence_of(solution->estimate.assessment);
     }
   }
   EXPECT_GT(solutions, 150);
@@ -101,14 +102,14 @@ TEST(SpinBatchChange, DoesNotExplainAFalseAxis) {
     const auto solution = solved(
         hard.body.config, hard.orbit,
         dirty_pulses(hard.body, hard.around, 0.0, 120.0, {.lost = 0.03, .spoilt = 0.02}, rng));
-    if (!solution || !solution->estimate.status.starts_with("OK")) {
+    if (!solution || !is_unopposed(solution->estimate.assessment.quality)) {
       continue;
     }
     const SpinEstimate& estimate = solution->estimate;
     EXPECT_LT(angle_between_rad(estimate.axis_icrf, hard.body.axis_icrf),
               5.0 * testing::sigma_rad(estimate))
-        << estimate.status;
-    EXPECT_FALSE(solution->changed) << estimate.status;
+        << sentence_of(estimate.assessment);
+    EXPECT_FALSE(solution->changed) << sentence_of(estimate.assessment);
   }
 }
 
@@ -133,11 +134,11 @@ TEST(SpinBatchChange, IsFoundInDirtAndDated) {
     scene.body = testing::random_body(scene.around, 3.0 * kDegree_rad, scene.rng);
     const auto solution = solved_moved(scene, 240.0, by_deg * kDegree_rad);
     ASSERT_TRUE(solution) << solution.error().message;
-    SCOPED_TRACE(solution->estimate.status);
+    SCOPED_TRACE(sentence_of(solution->estimate.assessment));
     ASSERT_TRUE(solution->changed);
     // A sixty-fourth of the pass, and the one beside it.
     EXPECT_NEAR(seconds_between(testing::kTransferStart, *solution->changed), 240.0, 20.0);
-    EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
+    EXPECT_TRUE(is_unopposed(solution->estimate.assessment.quality));
     EXPECT_LT(angle_between_rad(solution->estimate.axis_icrf, scene.body.axis_icrf),
               4.0 * testing::sigma_rad(solution->estimate));
   }
@@ -147,9 +148,9 @@ TEST(SpinBatchChange, IsDoubtedWhereItLeavesOutMostOfThePass) {
   testing::BatchScene scene{3104};
   const auto solution = solved_moved(scene, 450.0, 2.0 * kDegree_rad);
   ASSERT_TRUE(solution) << solution.error().message;
-  EXPECT_THAT(solution->estimate.status, StartsWith("DOUBTFUL"));
-  EXPECT_THAT(solution->estimate.status, HasSubstr("most of the pass"));
-  EXPECT_THAT(solution->estimate.status, Not(HasSubstr("no one axis fits")));
+  EXPECT_EQ(solution->estimate.assessment.quality, Quality::Doubtful);
+  EXPECT_TRUE(has(solution->estimate.assessment, ReasonCode::MostBeforeChange));
+  EXPECT_FALSE(has(solution->estimate.assessment, ReasonCode::NoAxisBeforeChange));
 }
 
 }  // namespace

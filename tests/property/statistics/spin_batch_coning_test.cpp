@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "services/words/assessment_words.h"
 #include "tests/support/wobbling_pass.h"
 
 namespace spindrift {
@@ -26,10 +27,10 @@ TEST(SpinBatchConing, IsNotMadeUpInAHundredCleanPasses) {
   for (int pass = 0; pass < 100; ++pass) {
     const auto solution = passes.solved(passes.edges(passes.drawn()));
     ASSERT_TRUE(solution) << solution.error().message;
-    EXPECT_FALSE(solution->coning.verdict.detected) << solution->estimate.status;
-    EXPECT_THAT(solution->estimate.status, Not(HasSubstr("coning")));
+    EXPECT_FALSE(solution->coning.verdict.detected) << sentence_of(solution->estimate.assessment);
+    EXPECT_FALSE(has(solution->estimate.assessment, ReasonCode::Coning));
     ASSERT_TRUE(solution->nutation);
-    EXPECT_FALSE(solution->nutation->found) << solution->estimate.status;
+    EXPECT_FALSE(solution->nutation->found) << sentence_of(solution->estimate.assessment);
     // It does not widen what is known of the axis.
     EXPECT_NEAR(std::sqrt(solution->estimate.covariance_rad2.trace()) / solution->bound_rad, 1.003,
                 0.001);
@@ -70,16 +71,16 @@ TEST(SpinBatchConing, OfADegreeIsFoundUnaskedWhereItCanBe) {
                            .azimuth_rad = 2.0 * std::numbers::pi * passes.uniform()};
     const auto solution = passes.solved(passes.edges(truth));
     ASSERT_TRUE(solution) << solution.error().message;
-    SCOPED_TRACE(solution->estimate.status);
+    SCOPED_TRACE(sentence_of(solution->estimate.assessment));
     if (!solution->coning.verdict.detected) {
-      EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
+      EXPECT_TRUE(is_unopposed(solution->estimate.assessment.quality));
       EXPECT_GT(solution->coning.verdict.detectable_rad, truth.motion.coning.tilt_rad);
       continue;
     }
     ++found;
     // Nobody has asked for it: it may be something else.
-    EXPECT_THAT(solution->estimate.status, StartsWith("DOUBTFUL"));
-    EXPECT_THAT(solution->estimate.status, HasSubstr(", coning "));
+    EXPECT_EQ(solution->estimate.assessment.quality, Quality::Doubtful);
+    EXPECT_TRUE(has(solution->estimate.assessment, ReasonCode::Coning));
     EXPECT_NEAR(solution->coning.verdict.tilt_rad, truth.motion.coning.tilt_rad,
                 3.0 * solution->coning.tilt_sigma_rad);
     EXPECT_NEAR(azimuth_off_rad(*solution, truth.motion.coning), 0.0,
@@ -98,10 +99,10 @@ TEST(SpinBatchConing, ThatAMisplacedBeamLooksLikeIsDoubtedAndInTheSigma) {
     truth.south->azimuth_rad += (0.05 + 0.15 * passes.uniform()) * kDegree_rad;
     const auto solution = passes.solved(passes.edges(truth));
     ASSERT_TRUE(solution) << solution.error().message;
-    SCOPED_TRACE(solution->estimate.status);
+    SCOPED_TRACE(sentence_of(solution->estimate.assessment));
     if (solution->coning.verdict.detected) {
       ++coning;
-      EXPECT_THAT(solution->estimate.status, StartsWith("DOUBTFUL"));
+      EXPECT_EQ(solution->estimate.assessment.quality, Quality::Doubtful);
       EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);
     }
   }

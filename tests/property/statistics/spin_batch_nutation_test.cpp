@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "services/words/assessment_words.h"
+#include "tests/support/assessed.h"
 #include "tests/support/wobbling_pass.h"
 
 namespace spindrift {
@@ -31,8 +33,8 @@ TEST(SpinBatchNutation, IsTakenOutAndTheAxisReachesTheBound) {
     truth.motion.nutation = passes.random_nutation(0.2 * kDegree_rad);
     const auto solution = passes.solved(passes.edges(truth));
     ASSERT_TRUE(steady && solution) << pass;
-    SCOPED_TRACE(solution->estimate.status);
-    EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
+    SCOPED_TRACE(sentence_of(solution->estimate.assessment));
+    EXPECT_TRUE(is_unopposed(solution->estimate.assessment.quality));
     EXPECT_EQ(solution->noise, 1.0);
     ASSERT_TRUE(solution->nutation && solution->nutation->found);
     const FoundNutation& found = *solution->nutation->found;
@@ -72,8 +74,8 @@ TEST(SpinBatchNutation, OfDegreesIsTakenOutToo) {
     truth.motion.nutation = passes.random_nutation(half_angle_deg * kDegree_rad);
     const auto solution = passes.solved(passes.edges(truth));
     ASSERT_TRUE(solution) << solution.error().message;
-    SCOPED_TRACE(solution->estimate.status);
-    EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
+    SCOPED_TRACE(sentence_of(solution->estimate.assessment));
+    EXPECT_TRUE(is_unopposed(solution->estimate.assessment.quality));
     EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);  // One in a thousand.
     ASSERT_TRUE(solution->nutation->found);
     const FoundNutation& found = *solution->nutation->found;
@@ -89,8 +91,8 @@ TEST(SpinBatchNutation, ThatGrowsManyTimesIsFollowedFromStretchToStretch) {
   truth.motion.nutation.growth_per_s = 4.0 / 5400.0;
   const auto solution = passes.solved(passes.edges(truth));
   ASSERT_TRUE(solution) << solution.error().message;
-  SCOPED_TRACE(solution->estimate.status);
-  EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
+  SCOPED_TRACE(sentence_of(solution->estimate.assessment));
+  EXPECT_TRUE(is_unopposed(solution->estimate.assessment.quality));
   EXPECT_EQ(solution->noise, 1.0);
   EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);
   ASSERT_TRUE(solution->nutation->found);
@@ -109,8 +111,8 @@ TEST(SpinBatchNutation, ThatHasDiedOutIsTakenOutOfWhereItWas) {
   truth.motion.nutation.growth_per_s = -6.0 / 5400.0;
   const auto solution = passes.solved(passes.edges(truth));
   ASSERT_TRUE(solution) << solution.error().message;
-  EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
-  EXPECT_EQ(solution->noise, 1.0) << solution->estimate.status;
+  EXPECT_TRUE(is_unopposed(solution->estimate.assessment.quality));
+  EXPECT_EQ(solution->noise, 1.0) << sentence_of(solution->estimate.assessment);
   EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);
 }
 
@@ -122,9 +124,17 @@ TEST(SpinBatchNutation, IsNotTakenForABiasNorABiasForIt) {
     truth.north->chord_excess_rad = 0.3 * kDegree_rad;
     const auto solution = passes.solved(passes.edges(truth));
     ASSERT_TRUE(solution) << solution.error().message;
-    SCOPED_TRACE(solution->estimate.status);
-    EXPECT_THAT(solution->estimate.status, HasSubstr("north chord +0."));
-    EXPECT_THAT(solution->estimate.status, HasSubstr("nutation 0."));
+    SCOPED_TRACE(sentence_of(solution->estimate.assessment));
+    EXPECT_GT(testing::number_of(solution->estimate.assessment.reasons, ReasonCode::Bias, "value"),
+              0.0);
+    EXPECT_LT(testing::number_of(solution->estimate.assessment.reasons, ReasonCode::Bias, "value"),
+              1.0);
+    EXPECT_GT(
+        testing::number_of(solution->estimate.assessment.reasons, ReasonCode::Nutation, "deg"),
+        0.0);
+    EXPECT_LT(
+        testing::number_of(solution->estimate.assessment.reasons, ReasonCode::Nutation, "deg"),
+        1.0);
     EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);
     EXPECT_EQ(solution->noise, 1.0);
   }
@@ -149,7 +159,7 @@ TEST(SpinBatchNutation, DoesNotHideAManoeuvreNorIsOneForIt) {
     }
     const auto solution = passes.solved(edges);
     ASSERT_TRUE(solution) << solution.error().message;
-    SCOPED_TRACE(solution->estimate.status);
+    SCOPED_TRACE(sentence_of(solution->estimate.assessment));
     ASSERT_TRUE(solution->changed);
     EXPECT_NEAR(seconds_between(moved, *solution->changed), 0.0, 20.0);
     EXPECT_EQ(solution->nutation->found.has_value(), half_angle_deg > 0.0);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "pipelines/spin/batch/clock_break.h"
+#include "services/words/assessment_words.h"
 #include "tests/support/wobbling_pass.h"
 
 namespace spindrift {
@@ -41,12 +42,12 @@ TEST(SpinBatchRateStep, OfAnySizeIsDatedToATurnOrSoAndSolvedFromThereOn) {
     const SpinTruth truth = passes.drawn();
     const auto solution = passes.solved(stepped(passes, truth, step_rpm));
     ASSERT_TRUE(solution) << solution.error().message;
-    SCOPED_TRACE(solution->estimate.status);
+    SCOPED_TRACE(sentence_of(solution->estimate.assessment));
     ASSERT_TRUE(solution->changed);
     // The smaller the step, the later its edges leave the noise.
     EXPECT_NEAR(seconds_between(truth.start, *solution->changed), kStepAt_s,
                 std::abs(step_rpm) < 0.04 ? 10.0 : 4.0);
-    EXPECT_THAT(solution->estimate.status, StartsWith("OK"));
+    EXPECT_TRUE(is_unopposed(solution->estimate.assessment.quality));
     EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);  // One in a thousand.
     EXPECT_NEAR(solution->estimate.spin_rate_rad_s, truth.motion.rate_rad_s + step_rpm * kRpm_rad_s,
                 4.0 * solution->estimate.spin_rate_sigma_rad_s);

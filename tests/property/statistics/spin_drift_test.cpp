@@ -12,6 +12,8 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
+#include "services/words/assessment_words.h"
+#include "tests/support/assessed.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
@@ -98,7 +100,7 @@ TEST(SpinDrift, RateAndAxisMeanWhatTheirSigmasSay) {
         EXPECT_GT(seconds_between(testing::kTransferStart, last.t), duration_s - 3.0 * 60.0 / rpm);
         EXPECT_LT(angle_between_rad(last.axis_icrf, body.axis_icrf),
                   4.0 * testing::sigma_rad(last));
-        EXPECT_EQ(last.status.find("restart"), std::string::npos) << last.status;
+        EXPECT_FALSE(testing::restarted(last.assessment)) << sentence_of(last.assessment);
         // Half an rpm an hour, seen for a minute.
         EXPECT_LT(last.spin_rate_sigma_rad_s, 0.5 / 60.0 * kRpm_rad_s);
       }

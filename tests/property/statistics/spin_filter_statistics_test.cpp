@@ -187,7 +187,7 @@ TEST(SpinFilterStatistics, AnEvenDriftOfTheRateIsFollowed) {
             worst, std::abs(last->spin_rate_rad_s - true_rad_s) / last->spin_rate_sigma_rad_s);
       }
       EXPECT_LT(worst, 4.0);
-      EXPECT_EQ(last->status.substr(0, 2), "OK");
+      EXPECT_TRUE(is_unopposed(last->assessment.quality));
       const Eigen::Vector2d error_rad = testing::error_rad(last->axis_icrf, body.axis_icrf);
       axis += error_rad.dot(last->covariance_rad2.ldlt().solve(error_rad));
       ++passes;

@@ -11,6 +11,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
+#include "services/words/assessment_words.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 
@@ -53,10 +54,11 @@ TEST(SpinGrazing, NoRowIsOkThatIsNotNearTheAxis) {
     int wrong = 0;
     std::string first;
     for (const SpinEstimate& estimate : testing::all_of<SpinEstimate>(output)) {
-      if (estimate.estimator == SpinEstimator::Sequential && estimate.status.starts_with("OK") &&
+      if (estimate.estimator == SpinEstimator::Sequential &&
+          is_unopposed(estimate.assessment.quality) &&
           angle_between_rad(estimate.axis_icrf, body.axis_icrf) >
               kSigmas * testing::sigma_rad(estimate)) {
-        first = wrong == 0 ? estimate.status : first;
+        first = wrong == 0 ? sentence_of(estimate.assessment) : first;
         ++wrong;
       }
     }

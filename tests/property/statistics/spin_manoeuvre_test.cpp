@@ -12,6 +12,8 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
+#include "services/words/assessment_words.h"
+#include "tests/support/assessed.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
@@ -49,7 +51,7 @@ struct Scene {
 };
 
 void expect_near(const SpinEstimate& estimate, const testing::SpinningBody& body) {
-  SCOPED_TRACE(estimate.status);
+  SCOPED_TRACE(sentence_of(estimate.assessment));
   const double off_rad = angle_between_rad(estimate.axis_icrf, body.axis_icrf);
   EXPECT_LT(off_rad, 0.2 * kDegree_rad);
   EXPECT_LT(off_rad, 4.0 * testing::sigma_rad(estimate));
@@ -70,12 +72,13 @@ TEST(SpinManoeuvre, EstimatesFollowAnAxisThatMoves) {
     const SpinEstimate sequential = testing::last_estimate(output, SpinEstimator::Sequential);
     expect_near(mean, after);
     expect_near(sequential, after);
-    EXPECT_THAT(mean.status, HasSubstr("since"));
-    EXPECT_LE(mean.status.size(), 63U);
-    EXPECT_THAT(sequential.status, StartsWith("OK"));
+    EXPECT_TRUE(has(mean.assessment, ReasonCode::Since));
+    EXPECT_LE(sentence_of(mean.assessment).size(), 63U);
+    EXPECT_TRUE(is_unopposed(sequential.assessment.quality));
     EXPECT_EQ(std::count_if(output.notices.begin(), output.notices.end(),
-                            [](const std::string& notice) {
-                              return notice.find("the mean begins anew") != std::string::npos;
+                            [](const Notice& notice) {
+                              return notice.code == NoticeCode::AxisMoved ||
+                                     notice.code == NoticeCode::PriorContradicted;
                             }),
               1);
   }
@@ -92,7 +95,8 @@ TEST(SpinManoeuvre, EstimatesFollowARateThatSteps) {
     const SpinOutput output = scene.run(before, after, rng);
     expect_near(testing::last_estimate(output, SpinEstimator::Mean), after);
     expect_near(testing::last_estimate(output, SpinEstimator::Sequential), after);
-    EXPECT_THAT(testing::last_estimate(output, SpinEstimator::Sequential).status, StartsWith("OK"));
+    EXPECT_TRUE(
+        is_unopposed(testing::last_estimate(output, SpinEstimator::Sequential).assessment.quality));
   }
 }
 
@@ -104,10 +108,10 @@ TEST(SpinManoeuvre, NothingIsSaidOfOneWhereThereIsNone) {
     const testing::SpinningBody body = testing::random_body(scene.around, 8.0 * kDegree_rad, rng);
     const SpinOutput output =
         testing::run(SpinPass{body.config, scene.orbit}, scene.seen(body, 0.0, 60.0, rng));
-    EXPECT_THAT(testing::last_estimate(output, SpinEstimator::Sequential).status,
-                Not(HasSubstr("restart")));
-    EXPECT_THAT(testing::last_estimate(output, SpinEstimator::Mean).status,
-                Not(HasSubstr("since")));
+    EXPECT_FALSE(
+        testing::restarted(testing::last_estimate(output, SpinEstimator::Sequential).assessment));
+    EXPECT_FALSE(
+        has(testing::last_estimate(output, SpinEstimator::Mean).assessment, ReasonCode::Since));
   }
 }
 

@@ -14,6 +14,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
+#include "services/words/assessment_words.h"
 #include "tests/support/dirt.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
@@ -57,7 +58,7 @@ TEST(SpinMeanSelection, LostEdgesLeaveTheErrorsWhatTheirSigmasPromise) {
     const auto received = testing::dirty(scene.pulses(rng), 1.0,
                                          {.lost = 0.05, .spoilt = 0.03, .spurious = 0.02}, rng);
     const SpinEstimate mean = scene.means(received.pulses).back();
-    EXPECT_TRUE(mean.status.starts_with("OK")) << mean.status;
+    EXPECT_TRUE(is_unopposed(mean.assessment.quality)) << sentence_of(mean.assessment);
     const Eigen::Vector2d error_rad = testing::error_rad(mean.axis_icrf, scene.body.axis_icrf);
     squares += error_rad.dot(mean.covariance_rad2.ldlt().solve(error_rad));
   }
@@ -80,8 +81,8 @@ TEST(SpinMeanSelection, TheFewFixesThatDoNotGrazeMakeNoMeanThatIsOk) {
     const std::vector<SpinEstimate> means = scene.means(scene.pulses(rng));
     for (const SpinEstimate& mean : means) {
       const double off_rad = angle_between_rad(mean.axis_icrf, scene.body.axis_icrf);
-      EXPECT_TRUE(mean.status.starts_with("DOUBTFUL")) << mean.status;
-      EXPECT_LT(off_rad, 3.0 * testing::sigma_rad(mean)) << mean.status;
+      EXPECT_TRUE(mean.assessment.quality == Quality::Doubtful) << sentence_of(mean.assessment);
+      EXPECT_LT(off_rad, 3.0 * testing::sigma_rad(mean)) << sentence_of(mean.assessment);
     }
     if (!means.empty()) {
       squares_rad2 += std::pow(angle_between_rad(means.back().axis_icrf, scene.body.axis_icrf), 2) /

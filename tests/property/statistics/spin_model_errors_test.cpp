@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipelines/spin/pass/spin_pass.h"
+#include "services/words/assessment_words.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
@@ -45,10 +46,10 @@ std::vector<Mistake> mistakes(double size_rad) {
 struct Outcome {
   std::string mistake;
   double sigmas;  ///< The error over what the mean says of it.
-  std::string status;
+  Assessment assessment;
 
-  bool model_off() const { return status.find("model off by") != std::string::npos; }
-  bool doubtful() const { return status.starts_with("DOUBTFUL"); }
+  bool model_off() const { return has(assessment, ReasonCode::ModelOff); }
+  bool doubtful() const { return assessment.quality == Quality::Doubtful; }
 };
 
 /// Every mistake on every body, whose north chords are too long by `excess_rad`.
@@ -78,7 +79,7 @@ std::vector<Outcome> outcomes_of(const std::vector<Mistake>& mistakes, double ex
       outcomes.push_back({.mistake = mistake.name,
                           .sigmas = testing::error_rad(mean.axis_icrf, body.axis_icrf).norm() /
                                     testing::sigma_rad(mean),
-                          .status = mean.status});
+                          .assessment = mean.assessment});
     }
   }
   return outcomes;
@@ -92,7 +93,7 @@ TEST(SpinModelErrors, OfADegreeAreCoveredWhereverTheyShow) {
   int azimuths_believed = 0;
   int mounts_uncovered = 0;
   for (const Outcome& outcome : outcomes_of(mistakes(1.0 * kDegree_rad), 0.0, 16)) {
-    SCOPED_TRACE(outcome.mistake + ": " + outcome.status);
+    SCOPED_TRACE(outcome.mistake + ": " + sentence_of(outcome.assessment));
     const bool azimuth = outcome.mistake.ends_with("azimuth");
     const bool separation = outcome.mistake == "separation";
     const bool uncovered = !(outcome.sigmas < 3.5);
@@ -114,7 +115,7 @@ TEST(SpinModelErrors, OfADegreeAreCoveredWhereverTheyShow) {
 TEST(SpinModelErrors, OfThreeTenthsOfADegreeAreCoveredWhereverTheyShow) {
   int shown = 0;
   for (const Outcome& outcome : outcomes_of(mistakes(0.3 * kDegree_rad), 0.0, 16)) {
-    SCOPED_TRACE(outcome.mistake + ": " + outcome.status);
+    SCOPED_TRACE(outcome.mistake + ": " + sentence_of(outcome.assessment));
     shown += outcome.model_off() ? 1 : 0;
     EXPECT_TRUE(outcome.model_off() || !outcome.mistake.ends_with("azimuth"));
     EXPECT_LT(outcome.model_off() ? outcome.sigmas : 0.0, 3.5);
@@ -127,7 +128,7 @@ TEST(SpinModelErrors, OfAChordAreCovered) {
   const Mistake none{"none", [](SpinConfig&) {}};
   for (const double excess_rad : {0.3 * kDegree_rad, -0.3 * kDegree_rad}) {
     for (const Outcome& outcome : outcomes_of({none}, excess_rad, 4)) {
-      SCOPED_TRACE(outcome.status);
+      SCOPED_TRACE(sentence_of(outcome.assessment));
       EXPECT_TRUE(outcome.model_off());
       EXPECT_LT(outcome.sigmas, 3.5);
     }

@@ -20,6 +20,7 @@
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "pipelines/spin/batch/pass_edges.h"
 #include "pipelines/spin/pass/spin_pass.h"
+#include "services/words/assessment_words.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 
@@ -97,8 +98,9 @@ std::vector<testing::Edge> edges_of(const NarrowPass& pass, const testing::Spinn
 
 void expect_no_wrong_row_is_ok(const SpinOutput& output, const Eigen::Vector3d& true_icrf) {
   for (const SpinEstimate& estimate : testing::all_of<SpinEstimate>(output)) {
-    if (estimate.estimator == SpinEstimator::Sequential && estimate.status.starts_with("OK")) {
-      EXPECT_LT(error_sigmas(estimate, true_icrf), kSigmas) << estimate.status;
+    if (estimate.estimator == SpinEstimator::Sequential &&
+        is_unopposed(estimate.assessment.quality)) {
+      EXPECT_LT(error_sigmas(estimate, true_icrf), kSigmas) << sentence_of(estimate.assessment);
     }
   }
 }
@@ -118,10 +120,11 @@ TEST_P(SpinNarrowChord, EveryPassIsSolved) {
         body, orbit, testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
     expect_no_wrong_row_is_ok(found.output, body.axis_icrf);
     const SpinEstimate last = testing::last_estimate(found.output, SpinEstimator::Sequential);
-    EXPECT_TRUE(last.status.starts_with("OK")) << last.status;
+    EXPECT_TRUE(is_unopposed(last.assessment.quality)) << sentence_of(last.assessment);
     EXPECT_LT(error_sigmas(last, body.axis_icrf), kSigmas);
     ASSERT_TRUE(found.batch) << found.batch.error().message;
-    EXPECT_TRUE(found.batch->estimate.status.starts_with("OK")) << found.batch->estimate.status;
+    EXPECT_TRUE(is_unopposed(found.batch->estimate.assessment.quality))
+        << sentence_of(found.batch->estimate.assessment);
     EXPECT_LT(error_sigmas(found.batch->estimate, body.axis_icrf), kSigmas);
   }
 }
@@ -152,7 +155,8 @@ TEST(SpinLongestChord, NoWrongRowIsOkAndMostPassesAreSolved) {
         testing::run(SpinPass{body.config, orbit},
                      testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
     expect_no_wrong_row_is_ok(output, body.axis_icrf);
-    solved += testing::last_estimate(output, SpinEstimator::Sequential).status.starts_with("OK");
+    solved +=
+        is_unopposed(testing::last_estimate(output, SpinEstimator::Sequential).assessment.quality);
   }
   EXPECT_GT(solved, 15);
 }

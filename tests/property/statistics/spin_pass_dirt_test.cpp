@@ -17,6 +17,8 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
+#include "services/words/assessment_words.h"
+#include "tests/support/assessed.h"
 #include "tests/support/dirt.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
@@ -52,7 +54,7 @@ void expect_numbers(const SpinOutput& output) {
     ASSERT_TRUE(estimate.covariance_rad2.allFinite());
     ASSERT_TRUE(std::isfinite(estimate.spin_rate_rad_s));
     ASSERT_TRUE(std::isfinite(estimate.spin_rate_sigma_rad_s));
-    ASSERT_LE(estimate.status.size(), 63U) << estimate.status;
+    ASSERT_LE(sentence_of(estimate.assessment).size(), 63U) << sentence_of(estimate.assessment);
   }
 }
 
@@ -87,7 +89,7 @@ struct Scene {
 
 void expect_found(const SpinOutput& output, const SpinningBody& body) {
   const SpinEstimate sequential = testing::last_estimate(output, SpinEstimator::Sequential);
-  EXPECT_TRUE(sequential.status.starts_with("OK")) << sequential.status;
+  EXPECT_TRUE(is_unopposed(sequential.assessment.quality)) << sentence_of(sequential.assessment);
   const double off_rad = angle_between_rad(sequential.axis_icrf, body.axis_icrf);
   EXPECT_LT(off_rad, 4.0 * testing::sigma_rad(sequential));
   EXPECT_LT(testing::sigma_rad(sequential), 0.3 * kDegree_rad);
@@ -220,10 +222,7 @@ TEST(SpinPassDirt, AfterAnHourOfSilenceTheCountIsRightOrSaidToBeUncertain) {
         std::erase_if(pulses, [](const Pulse& pulse) { return pulse.channel != Sun1; });
       }
       const SpinOutput output = scene.run(body, pulses);
-      const bool said =
-          std::any_of(output.notices.begin(), output.notices.end(), [](const std::string& notice) {
-            return notice.starts_with("after a silence the count of revolutions is uncertain by");
-          });
+      const bool said = testing::has(output.notices, NoticeCode::CountUncertain);
       // Eight turns leave the drift open, ten minutes do not.
       EXPECT_EQ(said, heard_s < 60.0);
       if (!said) {
@@ -315,11 +314,13 @@ TEST(SpinPassDirt, SwappedBeamsGiveNoConfidentAxis) {
     std::sort(pulses.begin(), pulses.end());
     for (const SpinEstimate& estimate : all_of<SpinEstimate>(scene.run(body, pulses))) {
       // The first one is the fix that it starts from, no edge has spoken yet.
-      if (estimate.estimator == SpinEstimator::Sequential && estimate.status.starts_with("OK") &&
-          !estimate.status.starts_with("OK, 0 ")) {
+      if (estimate.estimator == SpinEstimator::Sequential &&
+          is_unopposed(estimate.assessment.quality) &&
+          testing::number_of(estimate.assessment.reasons, ReasonCode::Revolutions, "count") !=
+              0.0) {
         EXPECT_LT(angle_between_rad(estimate.axis_icrf, body.axis_icrf),
                   5.0 * testing::sigma_rad(estimate) + kDegree_rad)
-            << estimate.status;
+            << sentence_of(estimate.assessment);
       }
     }
   }

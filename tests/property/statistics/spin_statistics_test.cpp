@@ -10,6 +10,7 @@
 #include <string>
 
 #include "pipelines/spin/pass/spin_pass.h"
+#include "services/words/assessment_words.h"
 #include "tests/support/information_limit.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
@@ -48,9 +49,9 @@ SquaredErrors squared_errors_of(int passes, std::uint64_t seed) {
                      testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
     const SpinEstimate mean = testing::last_estimate(output, SpinEstimator::Mean);
     const SpinEstimate sequential = testing::last_estimate(output, SpinEstimator::Sequential);
-    EXPECT_TRUE(sequential.status.starts_with("OK")) << sequential.status;
-    EXPECT_FALSE(mean.status.starts_with("DOUBTFUL")) << mean.status;
-    sums.model_off += mean.status.find("model off") != std::string::npos ? 1 : 0;
+    EXPECT_TRUE(is_unopposed(sequential.assessment.quality)) << sentence_of(sequential.assessment);
+    EXPECT_FALSE(mean.assessment.quality == Quality::Doubtful) << sentence_of(mean.assessment);
+    sums.model_off += has(mean.assessment, ReasonCode::ModelOff) ? 1 : 0;
     sums.mean += squared_error(mean, body.axis_icrf);
     sums.sequential += squared_error(sequential, body.axis_icrf);
     sums.rate += std::pow((mean.spin_rate_rad_s - body.rate_rad_s) / mean.spin_rate_sigma_rad_s, 2);

@@ -33,7 +33,7 @@ ArchiveBatch results(std::size_t count, const std::string& run_id = "results") {
                                             .covariance_rad2 = Eigen::Matrix2d::Identity(),
                                             .spin_rate_rad_s = 1.0,
                                             .spin_rate_sigma_rad_s = 1.0,
-                                            .status = {}});
+                                            .assessment = {}});
   return batch;
 }
 

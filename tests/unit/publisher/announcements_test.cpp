@@ -17,24 +17,30 @@ Product fix(std::int64_t revolution, bool accepted, Resolution resolution) {
                  .accepted = accepted};
 }
 
-Product estimate(const std::string& status) {
+/// Told apart by how many fixes it rests on.
+Product estimate(std::int64_t fixes) {
   return SpinEstimate{.t = {},
                       .estimator = SpinEstimator::Mean,
                       .axis_icrf = Eigen::Vector3d::UnitZ(),
                       .covariance_rad2 = Eigen::Matrix2d::Identity(),
                       .spin_rate_rad_s = 1.0,
                       .spin_rate_sigma_rad_s = 0.1,
-                      .status = status};
+                      .assessment = {Quality::Ok, {{ReasonCode::Fixes, {{"count", fixes}}}}}};
 }
 
-/// Spacecraft, and revolution of a fix or status of an estimate.
+/// Spacecraft, and revolution of a fix or number of fixes of an estimate.
 std::vector<std::string> shown(const std::vector<Announcement>& announcements) {
   std::vector<std::string> texts;
   for (const Announcement& announcement : announcements) {
     const auto* fix = std::get_if<SpinFix>(&announcement.product);
-    texts.push_back(announcement.spacecraft + " " +
-                    (fix != nullptr ? std::to_string(fix->revolution)
-                                    : std::get<SpinEstimate>(announcement.product).status));
+    if (fix != nullptr) {
+      texts.push_back(announcement.spacecraft + " " + std::to_string(fix->revolution));
+      continue;
+    }
+    const Reason& rests_on =
+        std::get<SpinEstimate>(announcement.product).assessment.reasons.front();
+    texts.push_back(announcement.spacecraft + " fixes " +
+                    std::to_string(std::get<std::int64_t>(rests_on.values.front().value)));
   }
   return texts;
 }
@@ -43,40 +49,40 @@ TEST(Announcements, LeavesOutAFixThatIsNeitherAcceptedNorAmbiguous) {
   Announcements waiting;
   waiting.add("SPINNER", "run-1",
               std::vector{fix(1, true, Resolution::Geometry), fix(2, false, Resolution::Geometry),
-                          fix(3, false, Resolution::Ambiguous), estimate("four")});
+                          fix(3, false, Resolution::Ambiguous), estimate(4)});
   EXPECT_EQ(shown(waiting.take_all()),
-            (std::vector<std::string>{"SPINNER 1", "SPINNER 3", "SPINNER four"}));
+            (std::vector<std::string>{"SPINNER 1", "SPINNER 3", "SPINNER fixes 4"}));
 }
 
 TEST(Announcements, KeepsAllAsLongAsTheyAreFew) {
   Announcements waiting;
   for (std::size_t i = 0; i < Announcements::kMaxWaiting; ++i) {
-    waiting.add("SPINNER", "run-1", std::vector{estimate(std::to_string(i))});
+    waiting.add("SPINNER", "run-1", std::vector{estimate(static_cast<std::int64_t>(i))});
   }
   EXPECT_EQ(waiting.take_all().size(), Announcements::kMaxWaiting);
 }
 
 TEST(Announcements, KeepsTheLatestOfEachSpacecraftAndKindWhenTheyPileUp) {
   Announcements waiting;
-  waiting.add("QUIET", "run-1", std::vector{estimate("only")});
+  waiting.add("QUIET", "run-1", std::vector{estimate(1)});
   for (std::size_t i = 0; i < Announcements::kMaxWaiting; ++i) {
     waiting.add("SPINNER", "run-1",
                 std::vector{fix(static_cast<std::int64_t>(i), true, Resolution::Prior),
-                            estimate("after " + std::to_string(i))});
+                            estimate(static_cast<std::int64_t>(i))});
   }
   const auto texts = shown(waiting.take_all());
   const std::string last = std::to_string(Announcements::kMaxWaiting - 1);
   EXPECT_LE(texts.size(), Announcements::kMaxWaiting);
-  EXPECT_EQ(texts.front(), "QUIET only");
+  EXPECT_EQ(texts.front(), "QUIET fixes 1");
   EXPECT_EQ(texts.at(texts.size() - 2), "SPINNER " + last);
-  EXPECT_EQ(texts.back(), "SPINNER after " + last);
+  EXPECT_EQ(texts.back(), "SPINNER fixes " + last);
 }
 
 TEST(Announcements, GivesWhatWaitsAndThenNothingOnceClosed) {
   Announcements waiting;
-  waiting.add("SPINNER", "run-1", std::vector{estimate("last")});
+  waiting.add("SPINNER", "run-1", std::vector{estimate(7)});
   waiting.close();
-  EXPECT_EQ(shown(waiting.take_all()), std::vector<std::string>{"SPINNER last"});
+  EXPECT_EQ(shown(waiting.take_all()), std::vector<std::string>{"SPINNER fixes 7"});
   EXPECT_TRUE(waiting.take_all().empty());
 }
 

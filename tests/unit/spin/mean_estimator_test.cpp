@@ -8,6 +8,7 @@
 #include <random>
 
 #include "pipelines/frames/celestial.h"
+#include "services/words/assessment_words.h"
 #include "tests/support/axis_scene.h"
 #include "tests/support/product_text.h"
 
@@ -45,12 +46,18 @@ class Pass {
   std::int64_t number_ = 0;
 };
 
+Reason fixes(std::int64_t count) { return {ReasonCode::Fixes, {{"count", count}}}; }
+
+Assessment too_few(std::int64_t count) {
+  return {Quality::Doubtful, {fixes(count), {ReasonCode::FewFixes, {{"needed", std::int64_t{3}}}}}};
+}
+
 TEST(MeanEstimator, OneOrTwoFixesAreDoubtfulAndThreeAreNot) {
   Pass pass;
-  EXPECT_EQ(pass.next().status, "DOUBTFUL, 1 fix, fewer than 3");
-  EXPECT_EQ(pass.next().status, "DOUBTFUL, 2 fixes, fewer than 3");
+  EXPECT_EQ(pass.next().assessment, too_few(1));
+  EXPECT_EQ(pass.next().assessment, too_few(2));
   const SpinEstimate mean = pass.next();
-  EXPECT_EQ(mean.status, "OK, 3 fixes");
+  EXPECT_EQ(mean.assessment, (Assessment{Quality::Converging, {fixes(3)}}));
   EXPECT_LT(pass.off_rad(mean), 3.0 * testing::sigma_rad(mean));
 }
 
@@ -60,11 +67,11 @@ TEST(MeanEstimator, WhatIsGivenUpIsLostUntilAFixComes) {
   pass.next();
   const SpinEstimate last = pass.next();
   for (const SpinEstimate& lost : {pass.begin_anew(), pass.begin_anew()}) {
-    EXPECT_EQ(lost.status, "LOST, awaiting a fix");
+    EXPECT_EQ(lost.assessment, (Assessment{Quality::Lost, {{ReasonCode::AwaitingFix}}}));
     EXPECT_EQ(lost.axis_icrf, last.axis_icrf);
     EXPECT_GT(testing::sigma_rad(lost), 90.0 * kDegree_rad);
   }
-  EXPECT_EQ(pass.next().status, "DOUBTFUL, 1 fix, fewer than 3");
+  EXPECT_EQ(pass.next().assessment, too_few(1));
 }
 
 TEST(MeanEstimator, FixesThatAreNotWhatTheirAnglesSayAreDoubtful) {
@@ -73,8 +80,9 @@ TEST(MeanEstimator, FixesThatAreNotWhatTheirAnglesSayAreDoubtful) {
     Pass pass;
     for (int i = 0; i < 20; ++i) {
       const SpinEstimate mean = pass.next(turned_deg * kDegree_rad);
-      EXPECT_TRUE(mean.status.starts_with("DOUBTFUL")) << mean.status;
-      EXPECT_TRUE(i < 2 || pass.off_rad(mean) < 3.0 * testing::sigma_rad(mean)) << mean.status;
+      EXPECT_TRUE(mean.assessment.quality == Quality::Doubtful) << sentence_of(mean.assessment);
+      EXPECT_TRUE(i < 2 || pass.off_rad(mean) < 3.0 * testing::sigma_rad(mean))
+          << sentence_of(mean.assessment);
     }
   }
 }

@@ -19,15 +19,14 @@ PulseUse use(std::int64_t t_ns, PulseChannel channel, std::optional<std::int64_t
           .rejected_by = rejected_by};
 }
 
-SpinEstimate estimate(SpinEstimator estimator, const Eigen::Vector3d& axis_icrf,
-                      std::string status) {
+SpinEstimate estimate(SpinEstimator estimator, const Eigen::Vector3d& axis_icrf, Quality quality) {
   return {.t = {},
           .estimator = estimator,
           .axis_icrf = axis_icrf,
           .covariance_rad2 = Eigen::Matrix2d::Identity(),
           .spin_rate_rad_s = 1.0,
           .spin_rate_sigma_rad_s = 1.0,
-          .status = std::move(status)};
+          .assessment = {quality}};
 }
 
 SpinFix fix(const Eigen::Vector3d& axis_icrf, const Eigen::Vector3d& alternate_icrf) {
@@ -94,11 +93,11 @@ TEST(PassEdges, BeginAtTheEstimatesAndWhereTheseAreAmbiguousAtAllCandidates) {
   EXPECT_EQ(pass.starts(prior).axes_icrf, std::vector<Eigen::Vector3d>{-z});
   pass.note(fix(x, y));
   EXPECT_EQ(pass.starts(prior).axes_icrf.size(), 2U);
-  pass.note(estimate(SpinEstimator::Sequential, x, "AMBIGUOUS, or ra 90 dec 0 deg"));
+  pass.note(estimate(SpinEstimator::Sequential, x, Quality::Ambiguous));
   EXPECT_EQ(pass.starts(prior).axes_icrf.size(), 2U);
-  pass.note(estimate(SpinEstimator::Mean, z, "OK, 20 fixes"));
+  pass.note(estimate(SpinEstimator::Mean, z, Quality::Ok));
   EXPECT_EQ(pass.starts(prior).axes_icrf.size(), 3U);
-  pass.note(estimate(SpinEstimator::Sequential, x, "OK, 20 revolutions"));
+  pass.note(estimate(SpinEstimator::Sequential, x, Quality::Ok));
   const auto starts = pass.starts(prior).axes_icrf;
   ASSERT_EQ(starts.size(), 2U);
   EXPECT_EQ(starts[0], x);
@@ -109,10 +108,10 @@ TEST(PassEdges, BeginAtEstimatesThatDifferByADegree) {
   // One of them may have a narrow chord, the other none.
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
   PassEdges pass;
-  pass.note(estimate(SpinEstimator::Sequential, x, "DOUBTFUL"));
-  pass.note(estimate(SpinEstimator::Mean, {std::cos(0.01), std::sin(0.01), 0.0}, "OK"));
+  pass.note(estimate(SpinEstimator::Sequential, x, Quality::Doubtful));
+  pass.note(estimate(SpinEstimator::Mean, {std::cos(0.01), std::sin(0.01), 0.0}, Quality::Ok));
   EXPECT_EQ(pass.starts({}).axes_icrf.size(), 2U);
-  pass.note(estimate(SpinEstimator::Mean, {std::cos(0.001), std::sin(0.001), 0.0}, "OK"));
+  pass.note(estimate(SpinEstimator::Mean, {std::cos(0.001), std::sin(0.001), 0.0}, Quality::Ok));
   EXPECT_EQ(pass.starts({}).axes_icrf.size(), 1U);
 }
 

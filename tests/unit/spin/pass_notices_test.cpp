@@ -5,7 +5,9 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <utility>
 
+#include "services/words/notice_words.h"
 #include "tests/support/spinning_body.h"
 
 namespace spindrift {
@@ -29,20 +31,29 @@ Association of_one_revolution() {
           .left_over = {}};
 }
 
+/// As people read them.
+std::vector<std::string> taken(PassNotices& notices) {
+  std::vector<std::string> sentences;
+  for (const Notice& notice : notices.take()) {
+    sentences.push_back(sentence_of(notice));
+  }
+  return sentences;
+}
+
 std::vector<std::string> at_the_end(PassNotices& notices) {
   notices.take();
   notices.pass_ended({}, SequentialEstimator{kConfig});
-  return notices.take();
+  return taken(notices);
 }
 
-SpinEstimate estimate_of(const char* status) {
+SpinEstimate estimate_of(Assessment assessment) {
   return {.t = tai_from_ns(1'795'143'637'000'000'000),
           .estimator = SpinEstimator::Sequential,
           .axis_icrf = Eigen::Vector3d::UnitX(),
           .covariance_rad2 = Eigen::Matrix2d::Identity() * 1e-8,
           .spin_rate_rad_s = 6.28,
           .spin_rate_sigma_rad_s = 1e-6,
-          .status = status};
+          .assessment = std::move(assessment)};
 }
 
 SpinFix fix_of(int geometry_case, Resolution resolution, bool grazing = false) {
@@ -59,14 +70,14 @@ SpinFix fix_of(int geometry_case, Resolution resolution, bool grazing = false) {
 }
 
 /// What the end says of an axis that is ambiguous, of the mission with its prior or without.
-std::string said_of_ambiguous(const char* status, const std::optional<SpinPrior>& prior,
+std::string said_of_ambiguous(const Assessment& assessment, const std::optional<SpinPrior>& prior,
                               std::optional<PriorVerdict> verdict, bool contradicted = false) {
   SpinConfig config = kConfig;
   config.prior = prior;
   PassNotices notices{config};
   notices.mean_began();
   notices.has_fix(fix_of(4, Resolution::Ambiguous), verdict);
-  notices.estimated(estimate_of(status));
+  notices.estimated(estimate_of(assessment));
   if (contradicted) {
     notices.prior_contradicted(tai_from_ns(1'795'143'637'000'000'000));
   }
@@ -109,17 +120,17 @@ TEST(PassNotices, EachThingIsSaidOnce) {
   notices.edge_came_late();
   notices.edge_came_late();
   notices.edge_out_of_time();
-  EXPECT_THAT(notices.take(),
+  EXPECT_THAT(taken(notices),
               ElementsAre(HasSubstr("after their time"), HasSubstr("far from the times")));
   notices.edge_came_late();
-  EXPECT_THAT(notices.take(), IsEmpty());
+  EXPECT_THAT(taken(notices), IsEmpty());
 }
 
 TEST(PassNotices, TheFirstOutsideTheOrbitIsNamedAndTheEndSaysHowMany) {
   PassNotices notices{kConfig};
   notices.outside_orbit(kBefore);
   notices.outside_orbit(kAfter);
-  EXPECT_THAT(notices.take(), ElementsAre(HasSubstr("before its first state")));
+  EXPECT_THAT(taken(notices), ElementsAre(HasSubstr("before its first state")));
   EXPECT_THAT(at_the_end(notices), ElementsAre(HasSubstr("2 revolutions outside it gave no axis, "
                                                          "the last: after its last state")));
 }
@@ -152,7 +163,7 @@ TEST(PassNotices, WithoutAnyRevolutionThePeriodIsWhatIsMissing) {
 }
 
 TEST(PassNotices, TheEndSaysWhyTheAxisIsAmbiguous) {
-  EXPECT_THAT(said_of_ambiguous("AMBIGUOUS: two candidates", {}, {}),
+  EXPECT_THAT(said_of_ambiguous({Quality::Ambiguous}, {}, {}),
               StartsWith("the axis is ambiguous to the end, for want of good sun2 edges: a prior "
                          "in the mission file would choose"));
 }
@@ -160,7 +171,7 @@ TEST(PassNotices, TheEndSaysWhyTheAxisIsAmbiguous) {
 TEST(PassNotices, WhereTheMissionHasAPriorTheEndSaysWhyItDoesNotSettleTheAxis) {
   const SpinPrior prior{.axis_icrf = Eigen::Vector3d::UnitX(), .sigma_rad = 0.5};
   const auto said = [&](std::optional<PriorVerdict> verdict, bool contradicted = false) {
-    return said_of_ambiguous("AMBIGUOUS: two candidates", prior, verdict, contradicted);
+    return said_of_ambiguous({Quality::Ambiguous}, prior, verdict, contradicted);
   };
   EXPECT_THAT(said(PriorVerdict::FarFromAll),
               EndsWith("no candidate is within three sigmas of it"));
@@ -173,10 +184,10 @@ TEST(PassNotices, WhereTheMissionHasAPriorTheEndSaysWhyItDoesNotSettleTheAxis) {
 }
 
 TEST(PassNotices, WhereAllFixesGrazeNoPriorIsSaidToSettleTheAxis) {
-  const char* const status = "AMBIGUOUS, or none: fixes graze";
-  EXPECT_THAT(said_of_ambiguous(status, {}, {}), EndsWith("no prior would settle it"));
+  const Assessment grazing{Quality::Ambiguous, {{ReasonCode::FixesGraze}}};
+  EXPECT_THAT(said_of_ambiguous(grazing, {}, {}), EndsWith("no prior would settle it"));
   const SpinPrior prior{.axis_icrf = Eigen::Vector3d::UnitX(), .sigma_rad = 0.009};
-  EXPECT_THAT(said_of_ambiguous(status, prior, PriorVerdict::Chooses),
+  EXPECT_THAT(said_of_ambiguous(grazing, prior, PriorVerdict::Chooses),
               EndsWith("the prior of the mission (spin.prior) does not settle it"));
 }
 
@@ -188,7 +199,7 @@ TEST(PassNotices, TheEndSaysWhyNoFixIsInTheMean) {
   SpinFix contradictory = fix_of(1, Resolution::Geometry);
   contradictory.accepted = false;
   notices.has_fix(contradictory, {});
-  notices.estimated(estimate_of("DOUBTFUL"));
+  notices.estimated(estimate_of({Quality::Doubtful}));
   EXPECT_THAT(at_the_end(notices),
               ElementsAre("the estimator 'mean' never began: of 4 fixes, 2 graze (their candidates "
                           "come together within the noise), 1 are ambiguous, 1 are not accepted"));
@@ -212,7 +223,7 @@ TEST(PassNotices, ADispersionThatSettlesIsToldWithItsRatio) {
   branch.log_likelihood_ratio = 34.4;
   notices.settled_by_dispersion(t, branch);
   EXPECT_THAT(
-      notices.take(),
+      taken(notices),
       ElementsAre("2026-11-20T03:00:00.000Z: the dispersion settles on the axis near ra 90.00 dec "
                   "0.00 deg: over 42 fixes its candidates stay where they are and the others "
                   "drift, ratio of the scatters 25.3 (F-test)",
@@ -224,22 +235,40 @@ TEST(PassNotices, FixesWithoutAnEstimateAreSaidToBeTooUncertain) {
   notices.without_fix(0, {ErrorCode::Unobservable, "no chord"});
   notices.has_fix(fix_of(1, Resolution::Geometry), {});
   notices.mean_began();
-  EXPECT_THAT(notices.take(), ElementsAre("revolution 0 is the first that gives no fix: no chord"));
+  EXPECT_THAT(taken(notices), ElementsAre("revolution 0 is the first that gives no fix: no chord"));
   EXPECT_THAT(at_the_end(notices), ElementsAre(HasSubstr("'sequential' never began")));
+}
+
+TEST(PassNotices, TheRevolutionThatTheEndCutsShortIsNotTheFirstWithoutAFix) {
+  PassNotices notices{kConfig};
+  notices.has_fix(fix_of(1, Resolution::Geometry), {});
+  notices.mean_began();
+  notices.estimated(estimate_of({Quality::Ambiguous}));
+  notices.cut_short(9);
+  notices.without_fix(9, {ErrorCode::Unobservable, "no chord"});
+  EXPECT_THAT(taken(notices), IsEmpty());
+}
+
+TEST(PassNotices, AnOnlyRevolutionThatIsCutShortIsWhyThereIsNoAxis) {
+  PassNotices notices{kConfig};
+  notices.cut_short(0);
+  notices.without_fix(0, {ErrorCode::Unobservable, "no chord"});
+  EXPECT_THAT(at_the_end(notices),
+              ElementsAre("no axis: 1 revolutions gave no fix, the last: no chord"));
 }
 
 TEST(PassNotices, APriorThatIsFarFromTheAxisIsNamedOnceThoughNothingHadToBeChosen) {
   SpinConfig config = kConfig;
   config.prior = {.axis_icrf = Eigen::Vector3d::UnitX(), .sigma_rad = 0.017};
-  SpinEstimate estimate = estimate_of("OK, 9 revolutions, 0 edges gated");
+  SpinEstimate estimate = estimate_of({Quality::Ok});
   PassNotices notices{config};
   notices.estimated(estimate);
-  EXPECT_THAT(notices.take(), IsEmpty());
+  EXPECT_THAT(taken(notices), IsEmpty());
   estimate.axis_icrf = {std::cos(0.2), std::sin(0.2), 0.0};
   notices.estimated(estimate);
   notices.estimated(estimate);
   EXPECT_THAT(
-      notices.take(),
+      taken(notices),
       ElementsAre(HasSubstr("11.5 deg from the prior of the mission (spin.prior), 12 times")));
 }
 

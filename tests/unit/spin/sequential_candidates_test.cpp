@@ -11,6 +11,8 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sequential/sequential.h"
+#include "services/words/assessment_words.h"
+#include "tests/support/assessed.h"
 #include "tests/support/sequential_scene.h"
 
 namespace spindrift {
@@ -59,8 +61,8 @@ TEST(Sequential, AFixThatComesNearABranchOfAlternatesDoesNotStartThere) {
   });
   ASSERT_FALSE(all.empty());
   EXPECT_LT(error_deg(all.front(), scene.body.axis_icrf), 10.0);
-  EXPECT_THAT(all.back().status, StartsWith("OK"));
-  EXPECT_THAT(all.back().status, Not(HasSubstr("restart")));
+  EXPECT_TRUE(is_unopposed(all.back().assessment.quality));
+  EXPECT_FALSE(testing::restarted(all.back().assessment));
   EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
 }
 
@@ -81,7 +83,8 @@ TEST(Sequential, GrazingFixesStartItWhereThereAreNoOthersAndSettleNothing) {
   ASSERT_LT(all.size(), seen.size() - 10);
   const std::size_t good = all.size() - (seen.size() - kFirstGood);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    EXPECT_THAT(all[i].status, StartsWith(i < good ? "AMBIGUOUS" : "OK")) << i;
+    const Quality quality = all[i].assessment.quality;
+    EXPECT_TRUE(i < good ? quality == Quality::Ambiguous : is_unopposed(quality)) << i;
   }
   EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
 }
@@ -104,9 +107,9 @@ TEST(Sequential, NeverFollowsAFalseAxisSilently) {
       const SpinEstimate last = estimates(scene.body.config, seen, at_first(wrong)).back();
       const bool right = squared_error(last, scene.body.axis_icrf) < kOneInTenThousand &&
                          error_deg(last, scene.body.axis_icrf) < 1.0;
-      EXPECT_EQ(last.status.starts_with("OK"), right)
-          << off_deg << " deg, direction " << direction << ": " << last.status << ", off by "
-          << error_deg(last, scene.body.axis_icrf) << " deg";
+      EXPECT_EQ(is_unopposed(last.assessment.quality), right)
+          << off_deg << " deg, direction " << direction << ": " << sentence_of(last.assessment)
+          << ", off by " << error_deg(last, scene.body.axis_icrf) << " deg";
       lost += right ? 0 : 1;
     }
   }
@@ -126,7 +129,8 @@ TEST(Sequential, SaysAmbiguousUntilAFixSettlesIt) {
                              : std::vector<SpinFix>{};
   });
   for (std::size_t i = 0; i < all.size(); ++i) {
-    EXPECT_THAT(all[i].status, StartsWith(i < settled_at ? "AMBIGUOUS" : "OK")) << i;
+    const Quality quality = all[i].assessment.quality;
+    EXPECT_TRUE(i < settled_at ? quality == Quality::Ambiguous : is_unopposed(quality)) << i;
   }
   EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
 }
@@ -141,10 +145,13 @@ TEST(Sequential, NamesTheAlternativeThatItDoesNotPublish) {
       {.axis_icrf = scene.turned_about_earth(10.0), .covariance_rad2 = start.covariance_rad2}};
   const auto all = estimates(scene.body.config, {seen.front()}, at_first(start));
   const RaDec other = ra_dec_of(start.alternates.front().axis_icrf);
-  std::array<char, 64> named{};
-  std::snprintf(named.data(), named.size(), "AMBIGUOUS, or ra %.2f dec %.2f deg",
-                other.ra_rad / kDegree_rad, other.dec_rad / kDegree_rad);
-  EXPECT_THAT(all.back().status, StartsWith(named.data()));
+  const Assessment& last = all.back().assessment;
+  EXPECT_EQ(last.quality, Quality::Ambiguous);
+  using testing::number_of;
+  EXPECT_NEAR(number_of(last.reasons, ReasonCode::OtherAxis, "ra_deg"), other.ra_rad / kDegree_rad,
+              0.005);
+  EXPECT_NEAR(number_of(last.reasons, ReasonCode::OtherAxis, "dec_deg"),
+              other.dec_rad / kDegree_rad, 0.005);
 }
 
 TEST(Sequential, EdgesBeyondDoubtSettleIt) {
@@ -156,8 +163,8 @@ TEST(Sequential, EdgesBeyondDoubtSettleIt) {
                                      : ambiguous(scene.fix(), other, scene.body.axis_icrf);
     const auto all =
         estimates(scene.body.config, seen, [&](std::size_t) { return std::vector{start}; });
-    EXPECT_THAT(all.front().status, StartsWith("AMBIGUOUS"));
-    EXPECT_THAT(all.back().status, StartsWith("OK"));
+    EXPECT_EQ(all.front().assessment.quality, Quality::Ambiguous);
+    EXPECT_TRUE(is_unopposed(all.back().assessment.quality));
     EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
   }
 }
@@ -169,7 +176,7 @@ TEST(Sequential, TheLikeliestCandidateOfOneFixIsNotTheAxisForThat) {
   const Eigen::Vector3d other = scene.turned_about(scene.around.sun_icrf(0.0), 6.0);
   const SpinFix start = ambiguous(scene.fix(), scene.body.axis_icrf, other);
   for (const SpinEstimate& estimate : estimates(scene.body.config, seen, at_first(start))) {
-    EXPECT_THAT(estimate.status, StartsWith("AMBIGUOUS"));
+    EXPECT_EQ(estimate.assessment.quality, Quality::Ambiguous);
   }
 }
 
@@ -186,8 +193,8 @@ TEST(Sequential, WhereNearlyAllFixesGrazeNoneNamesAllCandidates) {
   });
   ASSERT_FALSE(all.empty());
   for (const SpinEstimate& estimate : all) {
-    EXPECT_THAT(estimate.status,
-                ::testing::AnyOf(HasSubstr("or none: fixes graze"), StartsWith("LOST")));
+    EXPECT_TRUE(has(estimate.assessment, ReasonCode::FixesGraze) ||
+                estimate.assessment.quality == Quality::Lost);
   }
 }
 
@@ -197,7 +204,7 @@ TEST(Sequential, TheBetterOfTwoFalseAxesIsNotTrue) {
   const SpinFix start =
       ambiguous(scene.fix(), scene.turned_about_earth(25.0), scene.turned_about_earth(-15.0));
   for (const SpinEstimate& estimate : estimates(scene.body.config, seen, at_first(start))) {
-    EXPECT_THAT(estimate.status, Not(StartsWith("OK")));
+    EXPECT_FALSE(is_unopposed(estimate.assessment.quality));
   }
 }
 
@@ -213,11 +220,11 @@ TEST(Sequential, ACandidateThatOnlyLaterFixesNameIsFollowed) {
                : ambiguous(scene.fix(), scene.turned_about(sun_icrf, 25.0), scene.body.axis_icrf)};
   });
   for (const SpinEstimate& estimate : all) {
-    if (estimate.status.starts_with("OK")) {
+    if (is_unopposed(estimate.assessment.quality)) {
       EXPECT_LT(squared_error(estimate, scene.body.axis_icrf), kOneInTenThousand);
     }
   }
-  EXPECT_THAT(all.back().status, StartsWith("OK"));
+  EXPECT_TRUE(is_unopposed(all.back().assessment.quality));
 }
 
 TEST(Sequential, WhatIsSettledIsOpenAgainWhereFixesNameOtherAxes) {
@@ -231,8 +238,8 @@ TEST(Sequential, WhatIsSettledIsOpenAgainWhereFixesNameOtherAxes) {
         i == 0 ? wrong
                : ambiguous(scene.fix(), scene.turned_about_earth(-30.0), scene.body.axis_icrf)};
   });
-  EXPECT_THAT(all[20].status, StartsWith("OK"));
-  EXPECT_THAT(all.back().status, StartsWith("AMBIGUOUS"));
+  EXPECT_TRUE(is_unopposed(all[20].assessment.quality));
+  EXPECT_EQ(all.back().assessment.quality, Quality::Ambiguous);
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
 /// @file
-/// The words of a status of the estimator `batch`.
+/// Quality and reasons of a solution of the estimator `batch`.
 
 #pragma once
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 
 #include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/batch/since_change.h"
@@ -15,6 +14,7 @@ namespace spindrift {
 /// What a solution does not say of itself.
 struct BatchDoubts {
   std::optional<Eigen::Vector3d> or_axis_icrf;  ///< Fits as well.
+  double revolutions;                           ///< That the edges are of.
   std::optional<LeftOut> left_out;
   BiasSet estimated;
   BiasSet at_bound;
@@ -26,6 +26,6 @@ struct BatchDoubts {
 bool rests_on_few(const BatchSolution& solution, const LeftOut& left_out);
 
 /// As batch_estimator.h has it.
-std::string status_of(const BatchSolution& solution, const BatchDoubts& doubts);
+Assessment assess(const BatchSolution& solution, const BatchDoubts& doubts);
 
 }  // namespace spindrift

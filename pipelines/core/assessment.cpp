@@ -1,0 +1,61 @@
+#include "pipelines/core/assessment.h"
+
+#include <algorithm>
+#include <array>
+
+namespace spindrift {
+
+std::string_view name_of(Quality quality) {
+  static constexpr std::array<std::string_view, kQualities> kNames = {
+      "CONVERGING", "OK", "AMBIGUOUS", "DOUBTFUL", "LOST"};
+  return kNames.at(static_cast<std::size_t>(quality));
+}
+
+std::string_view name_of(ReasonCode code) {
+  static constexpr std::array<std::string_view, kReasonCodes> kNames = {"fixes",
+                                                                        "few_fixes",
+                                                                        "beams_near_limb",
+                                                                        "least_squares_off",
+                                                                        "fixes_scatter",
+                                                                        "few_settled",
+                                                                        "since",
+                                                                        "awaiting_fix",
+                                                                        "model_off",
+                                                                        "noise",
+                                                                        "revolutions",
+                                                                        "edges_gated",
+                                                                        "channel_gated",
+                                                                        "many_gated",
+                                                                        "poor_start",
+                                                                        "poor_leverage",
+                                                                        "prior_refuted",
+                                                                        "restarted_gated",
+                                                                        "restarted_by_fixes",
+                                                                        "other_axis",
+                                                                        "more_axes",
+                                                                        "fixes_graze",
+                                                                        "nothing_settled",
+                                                                        "edges",
+                                                                        "outliers",
+                                                                        "changed",
+                                                                        "most_before_change",
+                                                                        "no_axis_before_change",
+                                                                        "nutation",
+                                                                        "other_nutation_period",
+                                                                        "coning",
+                                                                        "coning_or_misplaced",
+                                                                        "no_coning",
+                                                                        "bias",
+                                                                        "bias_far_off",
+                                                                        "bias_open",
+                                                                        "bias_at_bound",
+                                                                        "bias_wanted"};
+  return kNames.at(static_cast<std::size_t>(code));
+}
+
+bool has(const Assessment& assessment, ReasonCode code) {
+  return std::any_of(assessment.reasons.begin(), assessment.reasons.end(),
+                     [code](const Reason& reason) { return reason.code == code; });
+}
+
+}  // namespace spindrift

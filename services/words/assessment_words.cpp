@@ -1,0 +1,71 @@
+#include "services/words/assessment_words.h"
+
+#include <array>
+
+#include "services/words/filled.h"
+
+namespace spindrift {
+namespace {
+
+using enum ReasonCode;
+constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kPatterns{{
+    {Fixes, "{count} fixes"},
+    {FewFixes, "fewer than {needed}"},
+    {BeamsNearLimb, "plain average: beams too near the limb"},
+    {LeastSquaresOff, "plain average: least squares {deg:.2g} deg off"},
+    {FixesScatter, "fixes scatter {factor:.1f} x their noise"},
+    {FewSettled, "{open_percent:.0f} % of such graze or are ambiguous"},
+    {Since, "since {since_tai_ns}"},
+    {AwaitingFix, "awaiting a fix"},
+    {ModelOff, "model off by {deg:.2g} deg"},
+    {Noise, "noise x {factor:.1f}"},
+    {Revolutions, "{count} revolutions"},
+    {EdgesGated, "{count} edges gated"},
+    {ChannelGated, "most {channel} edges gated"},
+    {ManyGated, "many edges gated"},
+    {PoorStart, "poor fixes to confirm it yet"},
+    {PoorLeverage, "poor leverage"},
+    {PriorRefuted, "prior refuted"},
+    {RestartedGated, "restart: edges gated"},
+    {RestartedByFixes, "restart: fixes differ"},
+    {OtherAxis, "or ra {ra_deg:.2f} dec {dec_deg:.2f} deg"},
+    {MoreAxes, "or {count} more"},
+    {FixesGraze, "or none: fixes graze"},
+    {NothingSettled, "no fix has settled it"},
+    {Edges, "{count} edges"},
+    {Outliers, "{count} outliers"},
+    {Changed, "since {since_tai_ns}, where attitude or rate changed"},
+    {MostBeforeChange, "{edges} edges before that are left out: most of the pass"},
+    {NoAxisBeforeChange, "no one axis fits the edges before that"},
+    {Nutation, "nutation {deg:.3f} deg, period {period_s:.3f} s"},
+    {OtherNutationPeriod, "or period {period_s:.3f} s"},
+    {Coning, "coning {deg:.3f} +/- {sigma_deg:.3f} deg"},
+    {ConingOrMisplaced, "or a misplaced sensor (coning in [spin.batch] decides)"},
+    {NoConing, "no coning above {detectable_deg:.3f} deg"},
+    {Bias, "{bias} {value:+.3f} +/- {sigma:.3f} {unit}"},
+    {BiasFarOff, "more than {prior_sigmas:.0f} times its prior"},
+    {BiasOpen, "{bias} not determined"},
+    {BiasAtBound, "{bias} runs to its bound"},
+    {BiasWanted, "residuals ask for {bias}"},
+}};
+static_assert(are_by_code(kPatterns));
+
+std::string words_of(const Reason& reason) {
+  constexpr int kWholeSeconds = 0;
+  const Reason one_fix{Fixes, {{"count", std::int64_t{1}}}};
+  return reason == one_fix
+             ? "1 fix"
+             : filled(pattern_of(kPatterns, reason.code), reason.values, kWholeSeconds);
+}
+
+}  // namespace
+
+std::string sentence_of(const Assessment& assessment) {
+  std::string sentence{name_of(assessment.quality)};
+  for (const Reason& reason : assessment.reasons) {
+    sentence += ", " + words_of(reason);
+  }
+  return sentence;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,134 @@
+#include "services/words/notice_words.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "services/words/filled.h"
+
+namespace spindrift {
+namespace {
+
+using enum NoticeCode;
+constexpr std::array<Pattern<NoticeCode>, kNoticeCodes> kPatterns{{
+    {LateEdges, "pulses arrive after their time was processed: they are stored and left out"},
+    {EdgesOutOfTime,
+     "pulses stamped far from the times of all others are left out: a sender's clock is wrong"},
+    {InterferenceBegins,
+     "{t_tai_ns}: {one} and {other} come too near to each other (spin.screening.interference_s "
+     "= {interference_s}): as long as they do, their edges are left out"},
+    {Interfered,
+     "{one} and {other} were too near to each other in {revolutions} revolutions from "
+     "{first_tai_ns} to {last_tai_ns}: their edges there are left out"},
+    {CountUncertain,
+     "after a silence the count of revolutions is uncertain by about {turns:.1f}, from "
+     "revolution {revolution} on"},
+    {NoPeriod,
+     "no spin period was found in the edges, of rates from {slowest_rpm} to {fastest_rpm} rpm: "
+     "no revolution, and no axis"},
+    {EdgesLeftOut,
+     "{percent:.0f} % of all edges do not fit and are left out, most as '{most}': the count of "
+     "revolutions, and what is made of the others, may be wrong"},
+    {SilentChannels, "no edge at all came from {channels}"},
+    {ChannelsWithoutSensor,
+     "the mission describes no sensor for {channels}: their edges are left out; a beam needs "
+     "[spin.ir.north] or [spin.ir.south]"},
+    {OutsideOrbit, "orbit: {why}; revolutions outside it give no axis"},
+    {MuchOutsideOrbit, "orbit: {revolutions} revolutions outside it gave no axis, the last: {why}"},
+    {NoFix, "revolution {revolution} is the first that gives no fix: {why}"},
+    {NoAxis, "no axis: {revolutions} revolutions gave no fix, the last: {why}"},
+    {DispersionSettles,
+     "{t_tai_ns}: the dispersion settles on the axis near ra {ra_deg:.2f} dec {dec_deg:.2f} "
+     "deg: over {fixes:.0f} fixes its candidates stay where they are and the others drift, "
+     "ratio of the scatters {scatter_ratio:.1f} (F-test)"},
+    {LikelihoodSettles,
+     "{t_tai_ns}: the dispersion settles on the axis near ra {ra_deg:.2f} dec {dec_deg:.2f} "
+     "deg: over {fixes:.0f} fixes its candidates stay where they are and the others drift, "
+     "ratio of the scatters {scatter_ratio:.1f} (likelihood ratio e^{log_likelihood_ratio:.0f})"},
+    {RevolutionsContradict,
+     "the measurements of most revolutions contradict each other: no fix is accepted, as "
+     "others may agree by accident; check the mission's mounting angles, azimuths and orbit"},
+    {FixContradictsItself,
+     "measurements contradict each other, their fixes are not accepted: the length of the axis "
+     "or the size of the Earth's disc comes out wrong; check the mission's mounting angles, "
+     "azimuths and orbit"},
+    {HealthyBeamSilent,
+     "the {beam} beam, said to be healthy, is silent where the axis says it must see the "
+     "Earth: such fixes are not accepted; if the beam has failed, say healthy = false"},
+    {PriorContradicted,
+     "{t_tai_ns}: the edges contradict the prior of the mission: the axis is another one, the "
+     "mean begins anew"},
+    {PriorFar,
+     "{t_tai_ns}: the axis is {deg:.1f} deg from the prior of the mission (spin.prior), "
+     "{sigmas:.0f} times the sigma of both: the edges decide without it"},
+    {AxisMoved,
+     "{t_tai_ns}: the axis is {deg:.2f} deg from the mean so far: it has moved, or the mean "
+     "was wrong; the mean begins anew"},
+    {MeanNeverBegan,
+     "the estimator 'mean' never began: of {fixes} fixes, {grazing} graze (their candidates "
+     "come together within the noise), {ambiguous} are ambiguous, {not_accepted} are not "
+     "accepted"},
+    {SequentialNeverBegan,
+     "the estimator 'sequential' never began: its fixes leave the axis, or a candidate for it, "
+     "uncertain by more than 3 deg"},
+    {LittleLeverage,
+     "poor leverage: errors of {error_deg:.2f} deg in mounting or limb move the axis by "
+     "{moved_deg:.1f} deg; sigma includes no more of them than the edges show"},
+    {AmbiguousNoPrior,
+     "the axis is ambiguous to the end{missing}: a prior in the mission file would choose "
+     "among the candidates"},
+    {AmbiguousFixesGraze,
+     "the axis is ambiguous to the end{missing}: nearly all fixes graze: the true axis may be "
+     "missing among their candidates, so that no prior would settle it"},
+    {AmbiguousPriorNoHelp,
+     "the axis is ambiguous to the end{missing}: nearly all fixes graze: the true axis may be "
+     "missing among their candidates, so that the prior of the mission (spin.prior) does not "
+     "settle it"},
+    {AmbiguousAgainstPrior,
+     "the axis is ambiguous to the end{missing}: the edges contradict the prior of the mission "
+     "(spin.prior)"},
+    {AmbiguousFarFromPrior,
+     "the axis is ambiguous to the end{missing}: the prior of the mission (spin.prior) does "
+     "not settle it: no candidate is within three sigmas of it"},
+    {AmbiguousNearPrior,
+     "the axis is ambiguous to the end{missing}: the prior of the mission (spin.prior) does "
+     "not settle it: within its sigma of {prior_sigma_deg:g} deg, several candidates are "
+     "equally near to it"},
+    {AmbiguousPriorNotBorne,
+     "the axis is ambiguous to the end{missing}: the edges do not bear out the candidate that "
+     "the prior of the mission (spin.prior) chooses"},
+}};
+static_assert(are_by_code(kPatterns));
+
+/// Why fixes of a case leave several candidates.
+std::string_view what_is_missing(std::int64_t geometry_case) {
+  switch (geometry_case) {
+    case 4:
+      return ", for want of good sun2 edges";
+    case 5:
+    case 6:
+      return ", for want of good sun edges and of one beam's chords";
+    case 7:
+      return ", for want of good sun1 edges";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+std::string sentence_of(const Notice& notice) {
+  constexpr int kMilliseconds = 3;
+  std::vector<NamedValue> values = notice.values;
+  const auto of_case = std::find_if(values.begin(), values.end(), [](const NamedValue& value) {
+    return value.name == "geometry_case";
+  });
+  if (of_case != values.end()) {
+    const auto geometry_case = std::get<std::int64_t>(of_case->value);
+    values.push_back({"missing", std::string{what_is_missing(geometry_case)}});
+  }
+  return filled(pattern_of(kPatterns, notice.code), values, kMilliseconds);
+}
+
+}  // namespace spindrift

@@ -1,0 +1,20 @@
+/// @file
+/// Reasons as the archive has them: a JSON array of objects with `code` and the values by name.
+
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipelines/core/assessment.h"
+
+namespace spindrift {
+
+std::string to_json_text(std::span<const Reason> reasons);
+
+/// What is no reason that this program knows is left out.
+std::vector<Reason> reasons_of(std::string_view json);
+
+}  // namespace spindrift

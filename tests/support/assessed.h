@@ -1,0 +1,40 @@
+/// @file
+/// What tests ask of an assessment.
+
+#pragma once
+
+#include <algorithm>
+#include <variant>
+
+#include "pipelines/core/assessment.h"
+#include "pipelines/core/notice.h"
+
+namespace spindrift::testing {
+
+/// The estimator `sequential` gave up an earlier axis.
+inline bool restarted(const Assessment& assessment) {
+  return has(assessment, ReasonCode::RestartedGated) ||
+         has(assessment, ReasonCode::RestartedByFixes);
+}
+
+/// Of the first such reason or notice; -1 where there is none, or it has no such number.
+template <class Code>
+double number_of(const std::vector<Coded<Code>>& said, Code code, std::string_view name) {
+  for (const Coded<Code>& one : said) {
+    for (const NamedValue& value : one.values) {
+      if (one.code == code && value.name == name) {
+        const auto* const real = std::get_if<double>(&value.value);
+        const auto* const whole = std::get_if<std::int64_t>(&value.value);
+        return real != nullptr ? *real : whole != nullptr ? static_cast<double>(*whole) : -1.0;
+      }
+    }
+  }
+  return -1.0;
+}
+
+inline bool has(const std::vector<Notice>& notices, NoticeCode code) {
+  return std::any_of(notices.begin(), notices.end(),
+                     [code](const Notice& notice) { return notice.code == code; });
+}
+
+}  // namespace spindrift::testing

@@ -1,0 +1,57 @@
+#include "services/words/assessment_words.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/test_paths.h"
+#include "tests/support/text_of.h"
+
+namespace spindrift {
+namespace {
+
+using enum ReasonCode;
+
+TEST(AssessmentWords, BeginWithTheQualityAndGiveTheReasonsInOrder) {
+  EXPECT_EQ(sentence_of({Quality::Ok,
+                         {{Revolutions, {{"count", std::int64_t{600}}}},
+                          {EdgesGated, {{"count", std::int64_t{2}}}},
+                          Reason{PoorLeverage, {}}}}),
+            "OK, 600 revolutions, 2 edges gated, poor leverage");
+  EXPECT_EQ(sentence_of({Quality::Doubtful,
+                         {{Fixes, {{"count", std::int64_t{1}}}},
+                          {FewFixes, {{"needed", std::int64_t{3}}}}}}),
+            "DOUBTFUL, 1 fix, fewer than 3");
+  EXPECT_EQ(sentence_of({Quality::Lost, {Reason{AwaitingFix, {}}}}), "LOST, awaiting a fix");
+  EXPECT_EQ(
+      sentence_of({Quality::Ambiguous, {{OtherAxis, {{"ra_deg", 181.504}, {"dec_deg", -53.176}}}}}),
+      "AMBIGUOUS, or ra 181.50 dec -53.18 deg");
+}
+
+TEST(AssessmentWords, ShowTimesAsUtcAndBiasesWithTheirUnits) {
+  EXPECT_EQ(
+      sentence_of(
+          {Quality::Converging,
+           {{Since, {{"since_tai_ns", std::int64_t{1'795'143'637'000'000'000}}}},
+            {Bias, {{"bias", "north_chord"}, {"value", 0.1}, {"sigma", 0.02}, {"unit", "deg"}}}}}),
+      "CONVERGING, since 2026-11-20T03:00:00Z, north_chord +0.100 +/- 0.020 deg");
+}
+
+TEST(AssessmentWords, StandWithoutAValueThatADamagedArchiveLost) {
+  EXPECT_EQ(sentence_of({Quality::Ok, {Reason{ModelOff, {}}}}), "OK, model off by {deg:.2g} deg");
+}
+
+TEST(AssessmentWords, AreDocumentedWithTheirCodes) {
+  const std::string documented = text_of(source_folder() / "schemas/status.md");
+  for (int i = 0; i < kReasonCodes; ++i) {
+    EXPECT_THAT(
+        documented,
+        ::testing::HasSubstr("\n| `" + std::string{name_of(static_cast<ReasonCode>(i))} + "` |"));
+  }
+  for (int i = 0; i < kQualities; ++i) {
+    EXPECT_THAT(documented, ::testing::HasSubstr(
+                                "\n| `" + std::string{name_of(static_cast<Quality>(i))} + "` |"));
+  }
+}
+
+}  // namespace
+}  // namespace spindrift
