@@ -47,7 +47,7 @@ struct Coded {
   bool operator==(const Coded&) const = default;
 };
 
-/// Why an answer has its quality, and what it rests on. schemas/README.md says of each what it
+/// Why an answer has its quality, and what it rests on. schemas/status.md says of each what it
 /// means.
 enum class ReasonCode {
   Fixes,                ///< count

@@ -27,7 +27,7 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kPatterns{{
     {PoorLeverage, "poor leverage"},
     {PriorRefuted, "prior refuted"},
     {RestartedGated, "restart: edges gated"},
-    {RestartedByFixes, "restart: fixes differ"},
+    {RestartedByFixes, "restarted by fixes"},
     {OtherAxis, "or ra {ra_deg:.2f} dec {dec_deg:.2f} deg"},
     {MoreAxes, "or {count} more"},
     {FixesGraze, "or none: fixes graze"},

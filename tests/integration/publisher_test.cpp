@@ -244,7 +244,7 @@ TEST(ToIdl, RefusesANameThatDoesNotFit) {
 
 TEST(ToIdl, CutsStatusTextBetweenWords) {
   SpinEstimate estimate = an_estimate();
-  estimate.assessment.reasons.assign(3, revolutions(1234));
+  estimate.assessment.reasons.assign(4, revolutions(1234));
   EXPECT_STREQ(to_idl(kOrigin, estimate).value().status,
                "DOUBTFUL, 1234 revolutions, 1234 revolutions, 1234...");
 }

@@ -20,7 +20,7 @@ SpinEstimate an_estimate() {
           .covariance_rad2 = Eigen::Matrix2d::Identity(),
           .spin_rate_rad_s = 6.0,
           .spin_rate_sigma_rad_s = 0.1,
-          .status = "OK"};
+          .assessment = {.quality = Quality::Ok}};
 }
 
 BatchSolution a_solution() {

@@ -49,7 +49,8 @@ class Pass {
 Reason fixes(std::int64_t count) { return {ReasonCode::Fixes, {{"count", count}}}; }
 
 Assessment too_few(std::int64_t count) {
-  return {Quality::Doubtful, {fixes(count), {ReasonCode::FewFixes, {{"needed", std::int64_t{3}}}}}};
+  return {Quality::Doubtful,
+          {fixes(count), Reason{ReasonCode::FewFixes, {{"needed", std::int64_t{3}}}}}};
 }
 
 TEST(MeanEstimator, OneOrTwoFixesAreDoubtfulAndThreeAreNot) {
@@ -67,7 +68,7 @@ TEST(MeanEstimator, WhatIsGivenUpIsLostUntilAFixComes) {
   pass.next();
   const SpinEstimate last = pass.next();
   for (const SpinEstimate& lost : {pass.begin_anew(), pass.begin_anew()}) {
-    EXPECT_EQ(lost.assessment, (Assessment{Quality::Lost, {{ReasonCode::AwaitingFix}}}));
+    EXPECT_EQ(lost.assessment, (Assessment{Quality::Lost, {Reason{ReasonCode::AwaitingFix, {}}}}));
     EXPECT_EQ(lost.axis_icrf, last.axis_icrf);
     EXPECT_GT(testing::sigma_rad(lost), 90.0 * kDegree_rad);
   }

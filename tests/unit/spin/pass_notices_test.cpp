@@ -184,7 +184,7 @@ TEST(PassNotices, WhereTheMissionHasAPriorTheEndSaysWhyItDoesNotSettleTheAxis) {
 }
 
 TEST(PassNotices, WhereAllFixesGrazeNoPriorIsSaidToSettleTheAxis) {
-  const Assessment grazing{Quality::Ambiguous, {{ReasonCode::FixesGraze}}};
+  const Assessment grazing{Quality::Ambiguous, {Reason{ReasonCode::FixesGraze, {}}}};
   EXPECT_THAT(said_of_ambiguous(grazing, {}, {}), EndsWith("no prior would settle it"));
   const SpinPrior prior{.axis_icrf = Eigen::Vector3d::UnitX(), .sigma_rad = 0.009};
   EXPECT_THAT(said_of_ambiguous(grazing, prior, PriorVerdict::Chooses),
