@@ -35,6 +35,7 @@ enum class NoticeCode {
   MeanNeverBegan,          ///< fixes, grazing, ambiguous, not_accepted
   SequentialNeverBegan,    ///< -
   LittleLeverage,          ///< error_deg, moved_deg
+  NotFinite,               ///< table, column
   AmbiguousNoPrior,        ///< geometry_case; likewise the following
   AmbiguousFixesGraze,     ///< -
   AmbiguousPriorNoHelp,    ///< - , as fixes graze

@@ -3,9 +3,12 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <iterator>
+#include <memory>
 #include <utility>
 #include <variant>
 
+#include "pipelines/spin/batch/batch_estimator.h"
 #include "services/clock/wall_clock.h"
 #include "services/words/notice_words.h"
 
@@ -13,6 +16,23 @@ namespace spindrift {
 namespace {
 
 constexpr std::chrono::minutes kBetweenBatches{1};
+
+Expected<BatchSolution> solve(const SpinConfig& config, const Orbit& orbit, PassEdges edges) {
+  const auto starts = edges.starts(config.prior);
+  return spindrift::solve_batch(config, orbit, std::move(edges).edges(), starts);
+}
+
+/// Its estimate, and what else it says.
+/// @return Unobservable when any of it is withheld.
+Expected<std::vector<Product>> products_of(const BatchSolution& solution) {
+  std::vector<Product> products{solution.estimate, std::make_shared<const BatchSolution>(solution)};
+  for (const Product& product : products) {
+    if (const auto why = why_withheld(product)) {
+      return Unexpected{{ErrorCode::Unobservable, sentence_of(*why)}};
+    }
+  }
+  return products;
+}
 
 }  // namespace
 
@@ -74,6 +94,7 @@ std::vector<ArchiveBatch> PassRun::compute(const PassInput& input) {
 template <class Sample>
 void PassRun::compute(const Sample& sample, Computed& computed) {
   SpinOutput output = pass_.push(sample);
+  withheld_.take_from(output);
   note(output);
   if (again_from_ && sample.t >= *again_from_) {
     computed.front().continuation = Continuation{.t = *std::exchange(again_from_, {})};
@@ -88,12 +109,17 @@ void PassRun::compute(const Sample& sample, Computed& computed) {
   }
 }
 
-BatchTask PassRun::batch_task(PassEdges edges) const {
-  return {.run_id = summary_.run_id,
-          .spacecraft_id = spacecraft_id_,
-          .config = &config_,
-          .orbit = &orbit_,
-          .pass = std::move(edges)};
+BackgroundTask PassRun::batch_task() const {
+  return {.spacecraft_id = spacecraft_id_,
+          // Configuration and orbit stay as they are.
+          .solve = [this, solved = batch(), edges = edges_]() -> Expected<ArchiveBatch> {
+            const auto solution = solve(config_, orbit_, edges);
+            return solution.and_then(&products_of).map([&](std::vector<Product> products) {
+              ArchiveBatch with_solution = solved;
+              with_solution.products = std::move(products);
+              return with_solution;
+            });
+          }};
 }
 
 /// By the time of telemetry, so that the same telemetry gives the same solutions. What is stored
@@ -104,16 +130,17 @@ void PassRun::note_time(TaiTime t) {
   }
   if (next_batch_ && !again_from_) {
     edges_.keep_last(kLastRevolutions);
-    due_.push_back(batch_task(edges_));
+    due_.push_back(batch_task());
   }
   next_batch_ = t + kBetweenBatches;
 }
 
-std::vector<BatchTask> PassRun::take_batch_tasks() { return std::exchange(due_, {}); }
+std::vector<BackgroundTask> PassRun::take_background_tasks() { return std::exchange(due_, {}); }
 
 ArchiveBatch PassRun::finish() {
   ArchiveBatch last = batch();
   SpinOutput output = pass_.finish();
+  withheld_.take_from(output);
   const std::size_t due = due_.size();
   note(output);
   due_.erase(due_.begin() + static_cast<std::ptrdiff_t>(due), due_.end());  // The last is below.
@@ -128,14 +155,19 @@ ArchiveBatch PassRun::finish() {
     spdlog::warn("{}: more edges than the batch solution can hold: it rests on the last {}",
                  spacecraft_id_, PassEdges::kMost);
   }
-  if (auto solution = solve(batch_task(std::exchange(edges_, {})))) {
+  solve_batch(last);
+  return last;
+}
+
+void PassRun::solve_batch(ArchiveBatch& last) {
+  const auto solution = solve(config_, orbit_, std::exchange(edges_, {}));
+  if (auto products = solution.and_then(&products_of)) {
     summary_.count(solution->estimate);
     summary_.batch = *solution;
-    add_products(*std::move(solution), last);
+    std::move(products->begin(), products->end(), std::back_inserter(last.products));
   } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {
-    spdlog::warn("{}: no batch solution: {}", spacecraft_id_, solution.error().message);
+    spdlog::warn("{}: no batch solution: {}", spacecraft_id_, products.error().message);
   }
-  return last;
 }
 
 std::vector<RunSummary> PassRun::summaries() const {

@@ -10,12 +10,14 @@
 #include <variant>
 #include <vector>
 
+#include "pipelines/spin/batch/pass_edges.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "services/archive/records.h"
 #include "services/mission/mission.h"
-#include "services/processor/batch_task.h"
+#include "services/processor/background_task.h"
 #include "services/processor/pass_input.h"
 #include "services/processor/run_summary.h"
+#include "services/processor/withheld.h"
 
 namespace spindrift {
 
@@ -40,7 +42,7 @@ class PassRun {
   std::vector<ArchiveBatch> compute(const PassInput& input);
 
   /// What became due while computing; to be solved by whoever has the time.
-  std::vector<BatchTask> take_batch_tasks();
+  std::vector<BackgroundTask> take_background_tasks();
 
   /// The pass has ended: what was still held, its batch solution, and the end of the run.
   ArchiveBatch finish();
@@ -57,7 +59,8 @@ class PassRun {
   void compute(const Sample& sample, Computed& computed);
   void note(const SpinOutput& output);
   void note_time(TaiTime t);
-  BatchTask batch_task(PassEdges edges) const;
+  BackgroundTask batch_task() const;
+  void solve_batch(ArchiveBatch& last);
 
   std::string spacecraft_id_;
   SpinConfig config_;
@@ -69,7 +72,8 @@ class PassRun {
   BatchPlan plan_;
   PassEdges edges_;
   std::optional<TaiTime> next_batch_;
-  std::vector<BatchTask> due_;
+  std::vector<BackgroundTask> due_;
+  Withheld withheld_;
 };
 
 }  // namespace spindrift

@@ -179,9 +179,9 @@ std::vector<ArchiveBatch> Processor::compute(const PassInput& work) {
   return std::visit([&](auto& pass) { return pass.compute(work); }, passes_.at(work.spacecraft));
 }
 
-std::vector<BatchTask> Processor::take_batch_tasks(const PassInput& work) {
+std::vector<BackgroundTask> Processor::take_background_tasks(const PassInput& work) {
   auto* const spin = std::get_if<PassRun>(&passes_.at(work.spacecraft));
-  return spin == nullptr ? std::vector<BatchTask>{} : spin->take_batch_tasks();
+  return spin == nullptr ? std::vector<BackgroundTask>{} : spin->take_background_tasks();
 }
 
 std::vector<ArchiveBatch> Processor::take(SampleBatch samples) {

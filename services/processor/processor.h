@@ -59,7 +59,7 @@ class Processor {
   std::vector<ArchiveBatch> compute(const PassInput& work);
 
   /// What became due in the last `compute` of that work.
-  std::vector<BatchTask> take_batch_tasks(const PassInput& work);
+  std::vector<BackgroundTask> take_background_tasks(const PassInput& work);
 
   /// Both, for those who have one thread.
   std::vector<ArchiveBatch> take(SampleBatch samples);

@@ -9,7 +9,6 @@
 
 #include "services/archive/records.h"
 #include "services/mission/mission.h"
-#include "services/processor/batch_task.h"
 #include "services/processor/pass_input.h"
 #include "services/processor/run_summary.h"
 

@@ -3,12 +3,19 @@
 
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 
-#include "services/products/products.h"
+#include "services/products/product_kind.h"
 
 namespace spindrift {
+
+inline bool is_finite(double value) { return std::isfinite(value); }
+inline bool is_finite(const std::optional<double>& value) {
+  return !value || std::isfinite(*value);
+}
 
 /// Where a product is not finite.
 struct NotFinite {
@@ -16,7 +23,25 @@ struct NotFinite {
   std::string_view column;
 };
 
-/// The first such place in its rows. Empty: all its numbers are finite.
-std::optional<NotFinite> not_finite(const Product& product);
+/// The first such place in the rows of a product of any kind. Empty: all its numbers are finite.
+template <class Kind>
+std::optional<NotFinite> not_finite(const Kind& product) {
+  std::optional<NotFinite> found;
+  const auto look = [&]<class Get>(std::string_view table, const ProductColumn<Get>& column,
+                                   const auto& row) {
+    using Value = std::invoke_result_t<Get, decltype(row)>;
+    if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, std::optional<double>>) {
+      if (!found && !is_finite(column.get(row))) {
+        found = NotFinite{.table = table, .column = column.name};
+      }
+    }
+  };
+  for_each_table<Kind>([&]<class Table>() {
+    for_each_row<Table>(product, [&](const auto& row) {
+      with_columns<Table>([&](const auto&... column) { (look(Table::kName, column, row), ...); });
+    });
+  });
+  return found;
+}
 
 }  // namespace spindrift

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "services/spindrift/batch_solving.h"
+#include "services/spindrift/background_solving.h"
 #include "services/spindrift/submit_all.h"
 
 namespace spindrift {
@@ -33,7 +33,7 @@ void let_samples_come_first() {
 Expected<void> Computing::take(PassInput input, std::size_t batches_behind) {
   const bool is_little = sample_count(input) <= kFewSamples && batches_behind <= kFewBatches;
   // The thread that routes must not wait for batch solutions either.
-  if (is_little && waiting_ == 0 && tasks_.size() < kMostBatchTasks / 2) {
+  if (is_little && waiting_ == 0 && tasks_.size() < kMostBackgroundTasks / 2) {
     return compute(input);
   }
   leave_to_backlog(std::move(input));
@@ -63,7 +63,7 @@ Expected<void> Computing::compute(const PassInput& input) {
   } else if (auto stored = submit_all(archive_, processor_.compute(input)); !stored) {
     return stored;
   }
-  for (BatchTask& task : processor_.take_batch_tasks(input)) {
+  for (BackgroundTask& task : processor_.take_background_tasks(input)) {
     tasks_.push(std::move(task));
   }
   return {};

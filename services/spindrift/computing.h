@@ -22,7 +22,7 @@ class Computing {
  public:
   /// All of them outlive it. @param tasks Batch solutions that become due.
   Computing(Processor& processor, Archive& archive, BoundedQueue<PassInput>& backlog,
-            BoundedQueue<BatchTask>& tasks, const Patience& patience)
+            BoundedQueue<BackgroundTask>& tasks, const Patience& patience)
       : processor_{processor},
         archive_{archive},
         backlog_{backlog},
@@ -48,7 +48,7 @@ class Computing {
   Processor& processor_;
   Archive& archive_;
   BoundedQueue<PassInput>& backlog_;
-  BoundedQueue<BatchTask>& tasks_;
+  BoundedQueue<BackgroundTask>& tasks_;
   const Patience& patience_;
   std::atomic<std::size_t> waiting_ = 0;  ///< 0: the thread that works off is at rest.
   std::size_t samples_left_ = 0;

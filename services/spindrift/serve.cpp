@@ -21,7 +21,7 @@
 #include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"
 #include "services/spindrift/announcer.h"
-#include "services/spindrift/batch_solving.h"
+#include "services/spindrift/background_solving.h"
 #include "services/spindrift/comparison_notice.h"
 #include "services/spindrift/computing.h"
 #include "services/spindrift/heartbeat.h"
@@ -109,10 +109,10 @@ Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& ta
 Expected<void> route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
                                  BoundedQueue<PassInput>& backlog, Processor& processor,
                                  Archive& archive, const Patience& patience, LinkWatch& links) {
-  BoundedQueue<BatchTask> tasks{kMostBatchTasks};
+  BoundedQueue<BackgroundTask> tasks{kMostBackgroundTasks};
   Computing computing{processor, archive, backlog, tasks, patience};
   Expected<void> worked_off;
-  std::thread solving{[&] { solve_batches(tasks, archive, patience); }};
+  std::thread solving{[&] { solve_in_background(tasks, archive, patience); }};
   std::thread working_off{[&] { worked_off = computing.work_off(); }};
   const auto routed = route(std::move(again), taken, processor, archive, computing, links);
   backlog.close();

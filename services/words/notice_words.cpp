@@ -75,6 +75,9 @@ constexpr std::array<Pattern<NoticeCode>, kNoticeCodes> kPatterns{{
     {LittleLeverage,
      "poor leverage: errors of {error_deg:.2f} deg in mounting or limb move the axis by "
      "{moved_deg:.1f} deg; sigma includes no more of them than the edges show"},
+    {NotFinite,
+     "results are withheld: {column} of {table} is not a finite number. The samples are stored; "
+     "look for a value in the mission file that no instrument has"},
     {AmbiguousNoPrior,
      "the axis is ambiguous to the end{missing}: a prior in the mission file would choose "
      "among the candidates"},

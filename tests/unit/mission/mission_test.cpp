@@ -339,7 +339,7 @@ TEST(Mission, HoldsEveryKeyToItsRange) {
       {"spacecraft.kind", {"'spin'", "'three_axis'"}, {"'Spin'", "''", "true"}},
       {"spin.sun_sensor.slit_cant_deg",
        {"1", "45", "89"},
-       {"9e-299", "0", "0.99", "89.1", "-45", "nan", "'45'"}},
+       {"9e-299", "0", "0.99", "89.1", "89.99999999999999", "-45", "nan", "'45'"}},
       {"spin.sun_sensor.slit_separation_deg", {"-179.9", "0", "179.9"}, {"-180", "180", "inf"}},
       {"spin.ir.north.mount_angle_deg", {"1", "179"}, {"1e-308", "0", "0.9", "179.1", "-inf"}},
       {"spin.ir.north.azimuth_deg", {"-360", "360"}, {"-360.1", "360.1"}},

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "services/products/products.h"
+
 namespace spindrift {
 namespace {
 
@@ -42,11 +44,12 @@ BatchSolution a_solution() {
           .coning = {}};
 }
 
-Product shared(BatchSolution solution) {
+BatchProduct shared(BatchSolution solution) {
   return std::make_shared<const BatchSolution>(std::move(solution));
 }
 
-std::string place_in(const Product& product) {
+template <class Kind>
+std::string place_in(const Kind& product) {
   const auto found = not_finite(product);
   return found ? std::string{found->table} + "." + std::string{found->column} : "";
 }

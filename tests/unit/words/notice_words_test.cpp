@@ -26,5 +26,11 @@ TEST(NoticeWords, SayWhichEdgesAnAmbiguousAxisLacks) {
             "(spin.prior)");
 }
 
+TEST(NoticeWords, SayWhatIsNotFinite) {
+  EXPECT_EQ(sentence_of({NotFinite, {{"table", "spin_fix"}, {"column", "sigma_deg"}}}),
+            "results are withheld: sigma_deg of spin_fix is not a finite number. The samples are "
+            "stored; look for a value in the mission file that no instrument has");
+}
+
 }  // namespace
 }  // namespace spindrift

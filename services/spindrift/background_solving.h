@@ -1,22 +1,23 @@
 /// @file
-/// The batch solutions of each minute, on a thread that gives way to all others.
+/// The slow solutions that runs hand out, on a thread that gives way to all others.
 
 #pragma once
 
 #include <cstddef>
 
 #include "services/archive/archive.h"
-#include "services/processor/batch_task.h"
+#include "services/processor/background_task.h"
 #include "services/queue/bounded_queue.h"
 #include "services/spindrift/patience.h"
 
 namespace spindrift {
 
 /// That wait: those of a minute of many spacecraft, or of hours in a replay.
-inline constexpr std::size_t kMostBatchTasks = 256;
+inline constexpr std::size_t kMostBackgroundTasks = 256;
 
 /// Solves until `tasks` is closed and empty, or patience ends: the end of a run has a solution of
 /// its own.
-void solve_batches(BoundedQueue<BatchTask>& tasks, Archive& archive, const Patience& patience);
+void solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& archive,
+                         const Patience& patience);
 
 }  // namespace spindrift

@@ -1,4 +1,4 @@
-#include "services/spindrift/batch_solving.h"
+#include "services/spindrift/background_solving.h"
 
 #include <pthread.h>
 #include <sched.h>
@@ -30,18 +30,19 @@ void give_way_to_other_threads() {
 
 /// In a thread that does nothing else: one that gives way must not hold the archive's locks, and
 /// without privileges none can cease to give way.
-Expected<BatchSolution> solve_giving_way(const BatchTask& task) {
+Expected<ArchiveBatch> solve_giving_way(const BackgroundTask& task) {
   return std::async(std::launch::async,
                     [&task] {
                       give_way_to_other_threads();
-                      return solve(task);
+                      return task.solve();
                     })
       .get();
 }
 
 }  // namespace
 
-void solve_batches(BoundedQueue<BatchTask>& tasks, Archive& archive, const Patience& patience) {
+void solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& archive,
+                         const Patience& patience) {
   std::map<std::string, std::string> said;
   while (const auto task = tasks.take()) {
     if (patience.ended) {
@@ -53,7 +54,7 @@ void solve_batches(BoundedQueue<BatchTask>& tasks, Archive& archive, const Patie
       if (std::exchange(reason, solution.error().message) != solution.error().message) {
         spdlog::warn("{}: no batch solution: {}", task->spacecraft_id, reason);
       }
-    } else if (!archive.submit(archived(*task, *std::move(solution)))) {
+    } else if (!archive.submit(*std::move(solution))) {
       tasks.close();  // Those who compute meet the same archive, and say so.
     }
   }

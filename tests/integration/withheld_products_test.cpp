@@ -1,0 +1,108 @@
+// Spacecraft whose missions make numbers that are none.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/mission/mission.h"
+#include "services/processor/processor.h"
+#include "services/processor/withheld.h"
+#include "services/telemetry_files/telemetry_files.h"
+#include "services/telemetry_files/telemetry_stream.h"
+#include "tests/integration/archive_fixture.h"
+#include "tests/support/samples.h"
+#include "tests/support/test_paths.h"
+
+namespace spindrift {
+namespace {
+
+const std::filesystem::path kPass = recorded_passes() / "nominal";
+constexpr std::int64_t kEdges = 240;
+constexpr double kRadPerDeg = 0.017453292519943295;
+
+SpinConfig nominal() { return *load_mission(kPass / "mission.toml").value().spin(); }
+
+/// Of values that no mission file may have.
+std::vector<SpinConfig> configs_of_no_instrument() {
+  std::vector<SpinConfig> configs(4, nominal());
+  configs[0].north->mount_angle_rad = 1e-308 * kRadPerDeg;
+  configs[1].sun_sensor.slit_cant_rad = 9e-299 * kRadPerDeg;
+  configs[2].sun_sensor.slit_cant_rad = 89.99999999999999 * kRadPerDeg;
+  configs[3].sun_sensor.slit_cant_rad = std::numeric_limits<double>::quiet_NaN();
+  return configs;
+}
+
+std::vector<TelemetrySample<Pulse>> edges_of(const std::string& spacecraft) {
+  const std::vector<TelemetryFile> files{{.path = kPass / "pulses.csv", .kind = Kind<Pulse>{}}};
+  auto edges = TelemetryStream::open(files, spacecraft).value().next().value().samples.of<Pulse>();
+  edges.resize(kEdges);
+  return edges;
+}
+
+struct WithheldProducts : testing::ArchiveFixture {
+  /// Stores the edges of two spacecraft and what is made of them.
+  void process(const SpinConfig& odd) const {
+    std::vector<Mission> missions(2, load_mission(kPass / "mission.toml").value());
+    missions[0].spacecraft_id = "ODD";
+    missions[0].config = odd;
+    missions[1].spacecraft_id = "SOUND";
+    auto processor =
+        Processor::make(missions, {.mode = "process", .telemetry = {"pulses.csv"}}).value();
+    const auto archive = open();
+    const auto store = [&](std::vector<ArchiveBatch> batches) {
+      for (ArchiveBatch& batch : batches) {
+        ASSERT_TRUE(archive->submit(std::move(batch)));
+      }
+    };
+    store(processor.begin());
+    for (const Mission& mission : missions) {
+      store(processor.take(testing::batch_of_samples<Pulse>(edges_of(mission.spacecraft_id))));
+    }
+    store(processor.finish());
+    const auto stored = archive->flush();
+    EXPECT_TRUE(stored) << stored.error().message;
+  }
+
+  std::int64_t count_of(const std::string& spacecraft, const std::string& rows) const {
+    return number("SELECT count(*) FROM run JOIN " + rows + " WHERE run.spacecraft_id = '" +
+                  spacecraft + "'");
+  }
+};
+
+TEST_F(WithheldProducts, StopNeitherTheirRunNorArchiveNorAnotherSpacecraft) {
+  for (const SpinConfig& config : configs_of_no_instrument()) {
+    std::filesystem::remove(path());
+    process(config);
+    for (const std::string spacecraft : {"ODD", "SOUND"}) {
+      EXPECT_EQ(count_of(spacecraft, "pulse USING (spacecraft_id)"), kEdges);
+      EXPECT_EQ(count_of(spacecraft, "pulse_use USING (run_id)"), kEdges);
+    }
+    EXPECT_EQ(number("SELECT count(*) FROM run WHERE finished_utc IS NOT NULL"), 2);
+    EXPECT_GT(count_of("SOUND", "spin_fix USING (run_id)"), 30);
+  }
+}
+
+TEST(Withheld, LeavesOutWhatIsNotFiniteAndSaysWhyOnce) {
+  const RevolutionProduct sound{.revolution = 1, .t_sun1 = {}, .period_s = 1.0};
+  const RevolutionProduct endless{
+      .revolution = 2, .t_sun1 = {}, .period_s = std::numeric_limits<double>::infinity()};
+  Withheld withheld;
+  SpinOutput output{.products = {endless, sound, endless}, .notices = {}};
+  withheld.take_from(output);
+  ASSERT_EQ(output.products.size(), 1U);
+  const Notice why{.code = NoticeCode::NotFinite,
+                   .values = {{"table", "revolution"}, {"column", "period_s"}}};
+  EXPECT_EQ(output.notices, std::vector<Notice>{why});
+
+  SpinOutput later{.products = {endless}, .notices = {}};
+  withheld.take_from(later);
+  EXPECT_TRUE(later.products.empty());
+  EXPECT_TRUE(later.notices.empty());
+}
+
+}  // namespace
+}  // namespace spindrift
