@@ -149,6 +149,14 @@ CREATE TABLE orbit_state_sample (
   PRIMARY KEY (spacecraft_id, t_tai_ns)
 ) STRICT, WITHOUT ROWID;
 
+-- Before the sample of this arrival the stream of the run's spacecraft had been silent for a second of
+-- wall-clock time, and what had come was computed: an edge from before that is late.
+CREATE TABLE stream_silence (
+  run_id  TEXT NOT NULL REFERENCES run,
+  arrival INTEGER NOT NULL,
+  PRIMARY KEY (run_id, arrival)
+) STRICT, WITHOUT ROWID;
+
 -- What came in and what became of it, by run.
 
 -- Rows that could not be read or are impossible.

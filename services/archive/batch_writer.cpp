@@ -66,6 +66,7 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                     "UPDATE run SET first_tai_ns = min(ifnull(first_tai_ns, ?1), ?1)"
                     " WHERE run_id = ?2"},
       samples_{insert_statements(database)},
+      stream_silence_{database, "INSERT INTO stream_silence (run_id, arrival) VALUES (?, ?)"},
       rejected_input_{database,
                       "INSERT INTO rejected_input (run_id, source, session, line, reason)"
                       " VALUES (?, ?, ?, ?, ?) ON CONFLICT DO NOTHING"},
@@ -104,6 +105,9 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
       insert(batch.run_id, sample);
     }
   });
+  for (const std::int64_t arrival : batch.silences) {
+    execute(stream_silence_, batch.run_id, arrival);
+  }
   for (const RejectedInput& rejected : batch.rejected) {
     insert(batch.run_id, rejected);
   }

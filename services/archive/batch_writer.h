@@ -45,6 +45,7 @@ class BatchWriter {
   SQLite::Statement run_unfinished_;
   SQLite::Statement run_earliest_;
   std::vector<SQLite::Statement> samples_;  ///< In the order of the list of kinds.
+  SQLite::Statement stream_silence_;
   SQLite::Statement rejected_input_;
   SQLite::Statement source_count_;
   ProductWriter products_;

@@ -53,8 +53,9 @@ struct ArchiveBatch {
   std::string spacecraft_id;
   std::optional<RunStart> start = {};
   std::optional<Continuation> continuation = {};
-  std::optional<TaiTime> earliest = {};  ///< A sample of it is earlier than the run's earliest.
-  TelemetrySamples samples = {};         ///< With their order of arrival in the run.
+  std::optional<TaiTime> earliest = {};     ///< A sample of it is earlier than the run's earliest.
+  TelemetrySamples samples = {};            ///< With their order of arrival in the run.
+  std::vector<std::int64_t> silences = {};  ///< Each before the sample of that arrival.
   std::vector<RejectedInput> rejected = {};
   std::vector<Product> products = {};
   std::vector<SourceCount> source_counts = {};
@@ -64,7 +65,8 @@ struct ArchiveBatch {
 /// Rows that `batch` asks for, those the archive already holds included.
 inline std::size_t row_count(const ArchiveBatch& batch) {
   return count_of(batch.samples) + batch.rejected.size() + batch.products.size() +
-         batch.source_counts.size() + (batch.start ? 1 : 0) + (batch.finished_utc ? 1 : 0);
+         batch.source_counts.size() + batch.silences.size() + (batch.start ? 1 : 0) +
+         (batch.finished_utc ? 1 : 0);
 }
 
 }  // namespace spindrift

@@ -67,7 +67,8 @@ std::vector<StoredPass> find_runs(const SQLite::Database& database,
                     .rejected_inputs = query.getColumn(6).getInt64(),
                     .source_counts = {},
                     .last_origins = {},
-                    .values = {}});
+                    .values = {},
+                    .silences = {}});
   }
   return runs;
 }
@@ -83,6 +84,15 @@ void read_source_counts(const SQLite::Database& database, StoredPass& pass) {
                                   .gaps = query.getColumn(2).getInt64(),
                                   .duplicates = query.getColumn(3).getInt64(),
                                   .disordered = query.getColumn(4).getInt64()});
+  }
+}
+
+void read_silences(const SQLite::Database& database, StoredPass& pass) {
+  SQLite::Statement query{database,
+                          "SELECT arrival FROM stream_silence WHERE run_id = ? ORDER BY arrival"};
+  query.bind(1, pass.run_id);
+  while (query.executeStep()) {
+    pass.silences.push_back(query.getColumn(0).getInt64());
   }
 }
 
@@ -161,6 +171,7 @@ Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path
     std::vector<StoredPass> passes = find_runs(database, spacecraft_id, start);
     for (StoredPass& pass : passes) {
       read_source_counts(database, pass);
+      read_silences(database, pass);
       if (pass.earliest) {
         TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
           read_values<Value>(database, spacecraft_id, pass);

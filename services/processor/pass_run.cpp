@@ -77,11 +77,14 @@ std::vector<ArchiveBatch> PassRun::compute(const PassInput& input) {
   }
   Computed computed;
   computed.fill(batch());
-  in_order_of_arrival(input.values, [&]<class Value>(const Arrived<Value>& arrived) {
+  const auto take = [&]<class Value>(const Arrived<Value>& arrived) {
     // Of the other kinds of telemetry it knows nothing.
     if constexpr (requires { pass_.push(arrived.value); }) {
-      compute(arrived.value, computed);
+      keep(pass_.push(arrived.value), arrived.value.t, computed);
     }
+  };
+  in_order_of_arrival(input.values, input.silences, take, [&](std::int64_t /*place*/) {
+    keep(pass_.fall_silent(), std::nullopt, computed);
   });
   for (ArchiveBatch& batch : computed) {
     if (!batch.products.empty() || batch.continuation) {
@@ -91,12 +94,10 @@ std::vector<ArchiveBatch> PassRun::compute(const PassInput& input) {
   return batches;
 }
 
-template <class Sample>
-void PassRun::compute(const Sample& sample, Computed& computed) {
-  SpinOutput output = pass_.push(sample);
+void PassRun::keep(SpinOutput output, std::optional<TaiTime> t, Computed& computed) {
   withheld_.take_from(output);
   note(output);
-  if (again_from_ && sample.t >= *again_from_) {
+  if (again_from_ && t && *t >= *again_from_) {
     computed.front().continuation = Continuation{.t = *std::exchange(again_from_, {})};
   }
   if (again_from_) {

@@ -55,8 +55,8 @@ class PassRun {
   ArchiveBatch batch() const;
   /// First the results, then what may be stored later (detail_lane.h), each kind by itself.
   using Computed = std::array<ArchiveBatch, 1 + std::variant_size_v<Product>>;
-  template <class Sample>
-  void compute(const Sample& sample, Computed& computed);
+  /// @param t Of the sample that made it; none: a silence did.
+  void keep(SpinOutput output, std::optional<TaiTime> t, Computed& computed);
   void note(const SpinOutput& output);
   void note_time(TaiTime t);
   BackgroundTask batch_task() const;

@@ -58,7 +58,7 @@ void append(std::vector<Value>& values, std::vector<Value> more) {
 void add(SpacecraftRun::Taken taken, Routed& routed) {
   append(routed.samples, std::move(taken.batches));
   for (PassInput& input : taken.inputs) {
-    if (sample_count(input) > 0) {
+    if (!is_empty(input)) {
       routed.work.push_back(std::move(input));
     }
   }
@@ -173,6 +173,14 @@ void Processor::distribute(SamplesOfKind<Value>& samples,
       place->push_back(std::move(sample));
     }
   }
+}
+
+Routed Processor::fall_silent(const std::vector<std::string>& spacecraft) {
+  Routed routed;
+  for (const std::string& id : spacecraft) {
+    add(runs_[index_of_.at(id)].fall_silent(), routed);
+  }
+  return routed;
 }
 
 std::vector<ArchiveBatch> Processor::compute(const PassInput& work) {

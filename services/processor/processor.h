@@ -56,6 +56,10 @@ class Processor {
   /// here is another service's: it is counted and not stored.
   Routed route(SampleBatch samples);
 
+  /// The streams of these spacecraft, which have missions here, gave nothing for so long that what
+  /// is held is to be computed. As `route`, on its thread.
+  Routed fall_silent(const std::vector<std::string>& spacecraft);
+
   std::vector<ArchiveBatch> compute(const PassInput& work);
 
   /// What became due in the last `compute` of that work.

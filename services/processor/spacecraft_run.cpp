@@ -62,6 +62,7 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
              .first_arrival = tai_ns(tai_now())},
       run_id_{new_run_id()},
       next_arrival_{start_.first_arrival},
+      silent_before_{next_arrival_},
       tables_{mission.tables} {}
 
 ArchiveBatch SpacecraftRun::batch() const {
@@ -112,11 +113,14 @@ void SpacecraftRun::go_on(const StoredPass& stored, Taken& out) {
   out.batches.push_back(batch());
   out.batches.back().continuation = Continuation{.t = TaiTime::max()};
   out.inputs.push_back({.spacecraft = index_, .run_id = run_id_});
-  in_order_of_arrival(stored.values, [&](const auto& arrived) {
-    next_arrival_ = std::max(next_arrival_, arrived.arrival + 1);
-    received_.count(arrived.value);
-    place(arrived, out);
-  });
+  in_order_of_arrival(
+      stored.values, stored.silences,
+      [&](const auto& arrived) {
+        next_arrival_ = std::max(next_arrival_, arrived.arrival + 1);
+        received_.count(arrived.value);
+        place(arrived, out);
+      },
+      [&](std::int64_t arrival) { hand_on_silence(arrival, out.inputs); });
 }
 
 SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples) {
@@ -130,6 +134,23 @@ SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples) {
   last.rejected = std::move(samples.rejected);
   last.source_counts = source_counts(samples.counts);
   return out;
+}
+
+SpacecraftRun::Taken SpacecraftRun::fall_silent() {
+  if (silent_before_ == next_arrival_) {
+    return {};
+  }
+  Taken out = nothing_taken();
+  out.batches.back().silences.push_back(next_arrival_);
+  hand_on_silence(next_arrival_, out.inputs);
+  return out;
+}
+
+void SpacecraftRun::hand_on_silence(std::int64_t arrival, std::vector<PassInput>& inputs) {
+  silent_before_ = arrival;
+  // Samples that came again have an arrival and are not stored: the next one is behind them.
+  next_arrival_ = std::max(next_arrival_, arrival);
+  inputs.back().silences.push_back(static_cast<std::int64_t>(sample_count(inputs.back())));
 }
 
 void SpacecraftRun::note_earliest(ArchiveBatch& batch) {

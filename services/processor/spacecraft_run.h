@@ -74,6 +74,9 @@ class SpacecraftRun {
   };
   Taken take(SampleBatch samples);
 
+  /// Nothing came for a while: a silence among the samples. None when none has come since the last.
+  Taken fall_silent();
+
   /// In place of `begin`: the runs of `stored`, oldest first, at the point to which their samples
   /// brought them. The last of them is the one that goes on.
   Taken go_on(const std::vector<StoredPass>& stored);
@@ -98,6 +101,7 @@ class SpacecraftRun {
   void place(const Arrived<Value>& arrived, Taken& out);
   template <class Value>
   void hand_on(const Value& value, std::vector<PassInput>& inputs) const;
+  void hand_on_silence(std::int64_t arrival, std::vector<PassInput>& inputs);
   void release_held(std::vector<PassInput>& inputs);
   void begin_new_pass(Taken& out);
   void tell_both();
@@ -110,6 +114,7 @@ class SpacecraftRun {
   RunStart start_;
   std::string run_id_;
   std::int64_t next_arrival_;
+  std::int64_t silent_before_;  ///< The arrival before which it was silent last.
   Received received_;
   std::map<std::string, Received> received_before_;  ///< Of the earlier runs, by run_id.
   std::optional<TaiTime> earliest_;

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -46,15 +47,20 @@ class BoundedQueue {
   std::optional<T> take() {
     std::unique_lock lock{mutex_};
     filled_.wait(lock, [this] { return closed_ || !items_.empty(); });
-    if (items_.empty()) {
-      return std::nullopt;
-    }
-    std::optional<T> taken{std::move(items_.front())};
-    items_.pop_front();
-    queued_ -= weigh_(*taken);
-    lock.unlock();
-    room_.notify_all();
-    return taken;
+    return take_first(lock);
+  }
+
+  /// As `take`, but waits no longer than until `deadline`; then empty, too.
+  std::optional<T> take_until(std::chrono::steady_clock::time_point deadline) {
+    std::unique_lock lock{mutex_};
+    filled_.wait_until(lock, deadline, [this] { return closed_ || !items_.empty(); });
+    return take_first(lock);
+  }
+
+  /// Closed and empty: nothing is to come.
+  bool is_drained() const {
+    const std::lock_guard lock{mutex_};
+    return closed_ && items_.empty();
   }
 
   void close() {
@@ -72,6 +78,18 @@ class BoundedQueue {
   }
 
  private:
+  std::optional<T> take_first(std::unique_lock<std::mutex>& lock) {
+    if (items_.empty()) {
+      return std::nullopt;
+    }
+    std::optional<T> taken{std::move(items_.front())};
+    items_.pop_front();
+    queued_ -= weigh_(*taken);
+    lock.unlock();
+    room_.notify_all();
+    return taken;
+  }
+
   const std::size_t capacity_;
   const Weigh weigh_;
   mutable std::mutex mutex_;

@@ -18,6 +18,7 @@
 #include "services/ingest/telemetry_subscriber.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
+#include "services/processor/silence_watch.h"
 #include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"
 #include "services/spindrift/announcer.h"
@@ -71,15 +72,29 @@ std::string service_name() {
 }
 
 /// Before the archive may make them wait.
-void note_arrivals(const std::vector<ArchiveBatch>& samples, LinkWatch& links) {
+void note_arrivals(const std::vector<ArchiveBatch>& samples, LinkWatch& links,
+                   SilenceWatch& silences) {
   const auto now = std::chrono::steady_clock::now();
   for (const ArchiveBatch& batch : samples) {
     batch.samples.for_each([&](const auto& of_kind) {
       if (!of_kind.empty()) {
         links.note(batch.spacecraft_id, of_kind.back().value.t, now);
+        silences.note(batch.spacecraft_id, now);
       }
     });
   }
+}
+
+/// What is taken next; or that streams are silent, which only holds while nothing waits in `taken`.
+Routed next_routed(BoundedQueue<SampleBatch>& taken, Processor& processor, LinkWatch& links,
+                   SilenceWatch& silences) {
+  const auto next_silence = silences.next();
+  if (auto batch = next_silence ? taken.take_until(*next_silence) : taken.take()) {
+    Routed routed = processor.route(std::move(*batch));
+    note_arrivals(routed.samples, links, silences);
+    return routed;
+  }
+  return processor.fall_silent(silences.take_silent(std::chrono::steady_clock::now()));
 }
 
 /// First `again`. Then hands what is taken to the archive and on to be computed, until `taken` is
@@ -90,9 +105,9 @@ Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& ta
   for (PassInput& input : again) {
     computing.leave_to_backlog(std::move(input));
   }
-  while (auto batch = taken.take()) {
-    Routed routed = processor.route(std::move(*batch));
-    note_arrivals(routed.samples, links);
+  SilenceWatch silences;
+  while (!taken.is_drained()) {
+    Routed routed = next_routed(taken, processor, links, silences);
     auto stored = submit_all(archive, std::move(routed.samples));
     for (auto input = routed.work.begin(); stored && input != routed.work.end(); ++input) {
       stored = computing.take(std::move(*input), taken.size());

@@ -122,6 +122,23 @@ void in_order_of_arrival(All&& all, See&& see) {
   }
 }
 
+/// The same with silences among the elements.
+/// @param silences In order; `fall_silent` is called with each before the element of that arrival.
+template <class All, class See, class FallSilent>
+void in_order_of_arrival(All&& all, const std::vector<std::int64_t>& silences, See&& see,
+                         FallSilent&& fall_silent) {
+  auto next = silences.begin();
+  in_order_of_arrival(all, [&](auto& element) {
+    for (; next != silences.end() && *next <= element.arrival; ++next) {
+      fall_silent(*next);
+    }
+    see(element);
+  });
+  for (; next != silences.end(); ++next) {
+    fall_silent(*next);
+  }
+}
+
 /// Where a sample stands among all of its spacecraft: the natural key of what is stored, and the
 /// order in which equal times are given from files.
 struct TelemetryOrder {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <random>
 #include <vector>
 
@@ -65,6 +66,46 @@ TEST(SpinOrder, OfArrivalWithinTheWindowChangesNoProduct) {
       ASSERT_EQ(texts_of(run(SpinPass{pass.config, pass.orbit}, arrivals)),
                 texts_of(run(SpinPass{pass.config, pass.orbit}, pulses)));
     }
+  }
+}
+
+/// Silent after one in `every` samples.
+template <class Sample>
+SpinOutput run_with_silences(SpinPass pass, const std::vector<Sample>& samples, int every,
+                             std::mt19937_64& rng) {
+  std::bernoulli_distribution is_silent{1.0 / every};
+  SpinOutput all;
+  const auto keep = [&all](SpinOutput output) {
+    std::move(output.products.begin(), output.products.end(), std::back_inserter(all.products));
+  };
+  for (const Sample& sample : samples) {
+    keep(pass.push(sample));
+    if (is_silent(rng)) {
+      keep(pass.fall_silent());
+    }
+  }
+  keep(pass.finish());
+  return all;
+}
+
+TEST(SpinOrder, SilencesInAnOrderedStreamChangeNoProduct) {
+  std::mt19937_64 rng{112};
+  for (const auto* const name : {"nominal", "dirty", "gms5", "north-only"}) {
+    SCOPED_TRACE(name);
+    RecordedPass pass = recorded_pass(name);
+    std::sort(pass.pulses.begin(), pass.pulses.end());
+    const auto expected = texts_of(run(SpinPass{pass.config, pass.orbit}, pass.pulses));
+    for (const int every : {1, 7, 300}) {
+      ASSERT_EQ(
+          texts_of(run_with_silences(SpinPass{pass.config, pass.orbit}, pass.pulses, every, rng)),
+          expected);
+    }
+  }
+  const RecordedPass coded = recorded_pass("coded");
+  for (const int every : {1, 7, 300}) {
+    ASSERT_EQ(
+        texts_of(run_with_silences(SpinPass{coded.config, coded.orbit}, coded.frames, every, rng)),
+        texts_of(run(coded)));
   }
 }
 

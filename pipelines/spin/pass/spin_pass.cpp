@@ -79,6 +79,17 @@ SpinOutput SpinPass::push(const CodedFrame& frame) {
   return out;
 }
 
+SpinOutput SpinPass::fall_silent() {
+  SpinOutput out;
+  for (const CodedFrame& due : frames_.fall_silent()) {
+    take(due, out);
+  }
+  sort_out(reorder_.fall_silent(), out);
+  notices_.used(out.products);
+  out.notices = notices_.take();
+  return out;
+}
+
 SpinOutput SpinPass::finish() {
   SpinOutput out;
   const FrameReorderWindow::Rest frames = frames_.release_all();

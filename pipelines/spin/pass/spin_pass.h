@@ -54,6 +54,11 @@ class SpinPass {
   /// The same edges, timed on board.
   SpinOutput push(const CodedFrame& frame);
 
+  /// Nothing comes for now: what is held back for the order of time is computed, and what comes
+  /// from before that later is late. The open revolution stays open, and edges that the next ones
+  /// may spoil stay held.
+  SpinOutput fall_silent();
+
   /// The pass has ended: settles all that is still held.
   SpinOutput finish();
 

@@ -1,6 +1,8 @@
 #include "pipelines/spin/telemetry_order/reorder_window.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <utility>
 
 #include "pipelines/time/time_span.h"
@@ -116,33 +118,53 @@ std::vector<Sample> BasicReorderWindow<Sample>::release() {
 }
 
 template <class Sample>
+std::vector<Sample> BasicReorderWindow<Sample>::fall_silent() {
+  std::vector<Sample> due = release();
+  const auto end = end_in_time();
+  if (released_.empty() &&
+      std::distance(held_.cbegin(), end) < static_cast<std::ptrdiff_t>(kBelieved)) {
+    return due;
+  }
+  for (auto sample = held_.cbegin(); sample != end; ++sample) {
+    due.push_back(*sample);
+    remember(*sample);
+  }
+  held_.erase(held_.cbegin(), end);
+  return due;
+}
+
+/// @return The first of too few to be accepted that are far ahead of all before.
+template <class Sample>
+typename std::set<Sample>::const_iterator BasicReorderWindow<Sample>::end_in_time() const {
+  std::size_t left = held_.size();
+  for (auto sample = held_.begin(); sample != held_.end(); ++sample, --left) {
+    const bool is_first = sample == held_.begin();
+    if (is_first && released_.empty()) {
+      continue;
+    }
+    const TaiTime before = is_first ? released_.back().t : std::prev(sample)->t;
+    if (span_between(before, sample->t) > kFarAhead && left < kBelieved) {
+      return sample;
+    }
+  }
+  return held_.end();
+}
+
+template <class Sample>
 typename BasicReorderWindow<Sample>::Rest BasicReorderWindow<Sample>::release_all() {
   Rest rest{.in_time = std::exchange(due_, {}), .out_of_time = {}};
   held_.merge(far_ahead_);
   while (set_aside_early()) {
   }
-  std::vector<Sample> samples{held_.begin(), held_.end()};
-  held_.clear();
-  far_ahead_.clear();
-  auto end = samples.end();
-  for (auto sample = samples.begin(); sample != samples.end(); ++sample) {
-    const bool is_first = sample == samples.begin();
-    if (is_first && released_.empty()) {
-      continue;
-    }
-    const TaiTime before = is_first ? released_.back().t : std::prev(sample)->t;
-    if (span_between(before, sample->t) > kFarAhead &&
-        samples.end() - sample < static_cast<std::ptrdiff_t>(kBelieved)) {
-      end = sample;
-      break;
-    }
-  }
-  rest.in_time.insert(rest.in_time.end(), samples.begin(), end);
+  const auto end = end_in_time();
+  rest.in_time.insert(rest.in_time.end(), held_.cbegin(), end);
   rest.out_of_time = std::exchange(early_, {});
-  rest.out_of_time.insert(rest.out_of_time.end(), end, samples.end());
-  for (auto sample = samples.begin(); sample != end; ++sample) {
+  rest.out_of_time.insert(rest.out_of_time.end(), end, held_.cend());
+  for (auto sample = held_.cbegin(); sample != end; ++sample) {
     remember(*sample);
   }
+  held_.clear();
+  far_ahead_.clear();
   return rest;
 }
 

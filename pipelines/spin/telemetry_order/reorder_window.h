@@ -49,6 +49,11 @@ class BasicReorderWindow {
   /// Samples whose turn has come, in order of time and channel.
   std::vector<Sample> release();
 
+  /// The stream has fallen silent: all that are held in time, as if younger samples had come. Those
+  /// far ahead stay set aside. While nothing is accepted yet and too few are in time, none: nobody
+  /// can tell whose clock is right.
+  std::vector<Sample> fall_silent();
+
   struct Rest {
     std::vector<Sample> in_time;      ///< In order of time and channel.
     std::vector<Sample> out_of_time;  ///< Far ahead or far before, and too few to be accepted.
@@ -60,6 +65,7 @@ class BasicReorderWindow {
   bool is_far_ahead(const Sample& sample) const;
   void believe();
   bool set_aside_early();
+  typename std::set<Sample>::const_iterator end_in_time() const;
   void remember(const Sample& sample);
 
   std::set<Sample> held_;

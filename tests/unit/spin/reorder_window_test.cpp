@@ -32,6 +32,32 @@ TEST(ReorderWindow, HoldsAPulseForOneSecondOfTelemetryTime) {
   EXPECT_THAT(window.release(), ElementsAre(pulse_at(0)));
 }
 
+TEST(ReorderWindow, GivesOutAllInTimeWhenTheStreamFallsSilent) {
+  ReorderWindow window;
+  for (std::int64_t i = 0; i < 10; ++i) {
+    window.add(pulse_at(i * kSecond_ns));
+    window.release();
+  }
+  window.add(pulse_at(1000 * kSecond_ns));
+  EXPECT_THAT(window.fall_silent(), ElementsAre(pulse_at(9 * kSecond_ns)));
+  EXPECT_THAT(window.fall_silent(), IsEmpty());
+  EXPECT_EQ(window.add(pulse_at(9 * kSecond_ns - 1)), Late);
+  EXPECT_EQ(window.add(pulse_at(9 * kSecond_ns)), Duplicate);
+  EXPECT_EQ(window.add(pulse_at(9 * kSecond_ns + 1)), Held);
+  EXPECT_EQ(window.release_all().out_of_time.size(), 1U);
+}
+
+TEST(ReorderWindow, GivesOutNothingOfTheFirstFewWhenTheStreamFallsSilent) {
+  ReorderWindow window;
+  window.add(pulse_at(2'000'000'000 * kSecond_ns));
+  for (std::int64_t i = 0; i < 7; ++i) {
+    window.add(pulse_at(i));
+    EXPECT_THAT(window.fall_silent(), IsEmpty());
+  }
+  window.add(pulse_at(7));
+  EXPECT_EQ(window.fall_silent().size(), 8U);
+}
+
 TEST(ReorderWindow, ReleasesInOrderOfTimeThenChannel) {
   ReorderWindow window;
   window.add(pulse_at(5, SouthOut));

@@ -148,6 +148,33 @@ TEST(SpinPass, TakesAnIntervalOfMoreThanAPeriodForAnEdgeOfTheNextRevolution) {
   }
 }
 
+TEST(SpinPass, ComputesASilentStreamUpToTheOpenRevolution) {
+  const RecordedPass pass = recorded_pass("coded");
+  SpinPass spin{pass.config, pass.orbit};
+  constexpr std::size_t kFrames = 50;
+  std::vector<PulseUse> uses;
+  const auto note = [&uses](const SpinOutput& output) {
+    const auto some = all_of<PulseUse>(output);
+    uses.insert(uses.end(), some.begin(), some.end());
+  };
+  for (std::size_t i = 0; i < kFrames; ++i) {
+    note(spin.push(pass.frames[i]));
+  }
+  const auto is_last_told = [&] {
+    return std::any_of(uses.begin(), uses.end(), [&](const PulseUse& use) {
+      return use.pulse == Pulse{.t = pass.frames[kFrames - 2].t, .channel = PulseChannel::Sun1};
+    });
+  };
+  EXPECT_FALSE(is_last_told());
+  note(spin.fall_silent());
+  EXPECT_TRUE(is_last_told());
+
+  const auto late = all_of<PulseUse>(spin.push(
+      Pulse{.t = shifted(pass.frames[kFrames - 1].t, -0.01), .channel = PulseChannel::Sun2}));
+  ASSERT_EQ(late.size(), 1U);
+  EXPECT_EQ(late.front().rejected_by, Rejection::Late);
+}
+
 TEST(SpinPass, AcceptsNearlyAllOfACleanPass) {
   const auto uses = all_of<PulseUse>(run(recorded_pass("nominal")));
   const auto rejected =

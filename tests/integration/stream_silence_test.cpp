@@ -1,0 +1,115 @@
+// Silences of a stream: among the samples, in the archive, and after a restart.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/mission/mission.h"
+#include "services/processor/processor.h"
+#include "services/processor/silence_watch.h"
+#include "services/telemetry_files/telemetry_files.h"
+#include "services/telemetry_files/telemetry_stream.h"
+#include "tests/integration/archive_fixture.h"
+#include "tests/support/archive_rows.h"
+#include "tests/support/samples.h"
+#include "tests/support/test_paths.h"
+
+namespace spindrift {
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::filesystem::path kPass = recorded_passes() / "nominal";
+constexpr std::size_t kBefore = 120;
+constexpr std::size_t kAll = 180;
+
+Processor new_processor() {
+  return Processor::make({load_mission(kPass / "mission.toml").value()},
+                         {.mode = "live", .telemetry = {"DDS domain 0, partition live"}})
+      .value();
+}
+
+struct StreamSilence : testing::ArchiveFixture {
+  using Samples = std::vector<TelemetrySample<Pulse>>;
+
+  static Samples edges() {
+    const std::vector<TelemetryFile> files{{.path = kPass / "pulses.csv", .kind = Kind<Pulse>{}}};
+    Samples all =
+        TelemetryStream::open(files, "SPINNER").value().next().value().samples.of<Pulse>();
+    all.resize(kAll);
+    return all;
+  }
+
+  static void submit(Archive& archive, std::vector<ArchiveBatch> batches) {
+    for (ArchiveBatch& batch : batches) {
+      ASSERT_TRUE(archive.submit(std::move(batch)));
+    }
+  }
+
+  static void work(Processor& processor, Routed routed, Archive& archive) {
+    submit(archive, std::move(routed.samples));
+    for (const PassInput& input : routed.work) {
+      submit(archive, processor.compute(input));
+    }
+  }
+
+  /// Edges, a silence, one from just before it, and more edges.
+  void receive() const {
+    const Samples all = edges();
+    const auto middle = all.begin() + kBefore;
+    TelemetrySample<Pulse> late = *std::prev(middle);
+    late.value.t -= 20ms;
+    late.origin.seq = 1'000'000;
+    const auto archive = open();
+    Processor processor = new_processor();
+    submit(*archive, processor.begin());
+    const auto take = [&](Samples samples) {
+      work(processor, processor.route(testing::batch_of_samples<Pulse>(std::move(samples))),
+           *archive);
+    };
+    take({all.begin(), middle});
+    work(processor, processor.fall_silent({"SPINNER"}), *archive);
+    EXPECT_TRUE(processor.fall_silent({"SPINNER"}).samples.empty());
+    take({late});
+    take({middle, all.end()});
+    EXPECT_TRUE(archive->close());
+  }
+};
+
+TEST_F(StreamSilence, IsStoredAndRepeatedByARestart) {
+  receive();
+  EXPECT_EQ(number("SELECT count(*) FROM stream_silence"), 1);
+  EXPECT_EQ(
+      number("SELECT count(*) FROM pulse WHERE arrival < (SELECT arrival FROM stream_silence)"),
+      kBefore);
+  EXPECT_EQ(number("SELECT count(*) FROM pulse_use WHERE rejected_by = 'late'"), 1);
+  const auto rows = product_rows(path());
+
+  Processor processor = new_processor();
+  auto gone_on = processor.go_on(path()).value();
+  const auto archive = open();
+  work(processor, std::move(gone_on.routed), *archive);
+  EXPECT_TRUE(archive->close());
+  EXPECT_EQ(product_rows(path()), rows);
+}
+
+TEST(SilenceWatch, TellsOnceWhoWasNotHeardForASecond) {
+  SilenceWatch watch;
+  const SilenceWatch::Instant start{};
+  EXPECT_FALSE(watch.next());
+  watch.note("A", start);
+  watch.note("B", start + 300ms);
+  EXPECT_EQ(watch.next(), start + 1s);
+  EXPECT_TRUE(watch.take_silent(start + 999ms).empty());
+  EXPECT_EQ(watch.take_silent(start + 1s), std::vector<std::string>{"A"});
+  EXPECT_EQ(watch.next(), start + 1300ms);
+  watch.note("B", start + 1200ms);
+  EXPECT_TRUE(watch.take_silent(start + 1300ms).empty());
+}
+
+}  // namespace
+}  // namespace spindrift

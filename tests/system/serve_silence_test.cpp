@@ -1,0 +1,66 @@
+// `spindrift serve` when its stream falls silent without the pass ending.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <string>
+#include <vector>
+
+#include "tests/support/archive_rows.h"
+#include "tests/support/eventually.h"
+#include "tests/support/program.h"
+#include "tests/support/recorded_files.h"
+#include "tests/support/service.h"
+
+namespace spindrift {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::vector<Pulse> pulses_of_nominal() {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "processed.db";
+  Program process{{"process", "--mission", (kPasses / "nominal" / "mission.toml").string(),
+                   "--telemetry", (kPasses / "nominal").string(), "--db", db.string()}};
+  EXPECT_EQ(process.exit_status(), 0) << process.log();
+  return pulses_in(db);
+}
+
+TEST(Serve, ComputesASilentStreamToItsEndAndRepeatsThatAfterAKill) {
+  constexpr std::size_t kEdges = 360;
+  constexpr std::int64_t kEdgesOfARevolution = 6;
+  std::vector<Pulse> pulses = pulses_of_nominal();
+  pulses.resize(kEdges);
+  Service service{"nominal"};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  ASSERT_TRUE((FrontEnd{service.bus(), "SPINNER", pulses}.send_until(1.0)));
+  const auto number = [&](const std::string& query) { return number_of(service.db(), query); };
+  ASSERT_TRUE(eventually([&] {
+    return number("SELECT count(*) FROM pulse_use WHERE revolution IS NOT NULL") >=
+           static_cast<std::int64_t>(kEdges) - 2 * kEdgesOfARevolution;
+  }));
+  ASSERT_TRUE(eventually([&] { return number("SELECT count(*) FROM stream_silence") == 1; }));
+
+  const Pulse late{.t = pulses[kEdges - kEdgesOfARevolution].t - 20ms,
+                   .channel = PulseChannel::Sun2};
+  ASSERT_TRUE((FrontEnd{service.bus(), "SPINNER", {late}}.send_until(1.0)));
+  ASSERT_TRUE(eventually(
+      [&] { return number("SELECT count(*) FROM pulse_use WHERE rejected_by = 'late'") == 1; }));
+
+  service.program().signal(SIGKILL);
+  EXPECT_EQ(service.program().exit_status(), -1);
+  std::vector<std::string> before = product_rows(service.db());
+  std::sort(before.begin(), before.end());
+  service.start();
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  EXPECT_TRUE(eventually([&] {
+    std::vector<std::string> after = product_rows(service.db());
+    std::sort(after.begin(), after.end());
+    return std::includes(after.begin(), after.end(), before.begin(), before.end());
+  }));
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+}
+
+}  // namespace
+}  // namespace spindrift
