@@ -1,7 +1,7 @@
 # A pipeline is pure computation on values. These are all the libraries that one may link; DDS,
 # SQLite, threads, logging and the services are refused when CMake configures.
 set_property(GLOBAL PROPERTY SPINDRIFT_PIPELINE_MAY_LINK
-  Ceres::ceres Eigen3::Eigen fmt::fmt PkgConfig::ERFA tl::expected)
+  Boost::headers Ceres::ceres Eigen3::Eigen fmt::fmt PkgConfig::ERFA tl::expected)
 
 # spindrift_pipeline(FOLDER ...): spindrift_library() under that rule.
 function(spindrift_pipeline name)

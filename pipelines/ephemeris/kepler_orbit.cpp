@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/wgs84.h"
 
 namespace spindrift {
@@ -23,7 +24,7 @@ Unexpected refused(std::string message) {
 /// ever descend: the first that does not is rounding, and the root is found. (No convergence limit
 /// is needed at any e < 1.)
 double eccentric_anomaly_rad(double mean_anomaly_rad, double eccentricity) {
-  const double wrapped_rad = std::remainder(mean_anomaly_rad, 2.0 * std::numbers::pi);
+  const double wrapped_rad = std::remainder(mean_anomaly_rad, kTurn_rad);
   const double mean_rad = std::abs(wrapped_rad);
   double eccentric_rad = std::min(mean_rad + eccentricity, std::numbers::pi);
   for (double next_rad = eccentric_rad;; eccentric_rad = next_rad) {

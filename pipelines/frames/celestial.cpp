@@ -3,12 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipelines/frames/angle.h"
+
 namespace spindrift {
-namespace {
-
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-
-}  // namespace
+namespace {}  // namespace
 
 Eigen::Vector3d direction_icrf(const RaDec& place) {
   const double cos_dec = std::cos(place.dec_rad);

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <random>
 #include <utility>
+
+#include "pipelines/frames/angle.h"
 
 namespace spindrift {
 namespace {
@@ -22,7 +23,7 @@ class Chance {
   /// Standard normal, by Box and Muller.
   double normal() {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-    return radius * std::cos(2.0 * std::numbers::pi * uniform());
+    return radius * std::cos(kTurn_rad * uniform());
   }
 
  private:
@@ -50,13 +51,12 @@ bool is_silent(const PulseLink& link, double t_s) {
 void send(const PulseLink& link, const TrueEdge& edge, Chance& chance, ReceivedPass& pass,
           Arrivals& arrivals) {
   const ChannelFaults& faults = link.channels.at(index_of(edge.channel));
-  const bool sun = edge.channel == PulseChannel::Sun1 || edge.channel == PulseChannel::Sun2;
   const bool lost = chance.uniform() < faults.lost;
   const bool spoilt = chance.uniform() < faults.spoilt;
   const bool doubled = chance.uniform() < faults.doubled;
   const double way = chance.either_way();
   const double again_s = (1.0 - chance.uniform()) * link.doubled_max_s;
-  const double noise_s = (sun ? link.noise.sun_s : link.noise.infrared_s) * chance.normal();
+  const double noise_s = edge_sigma_s(link.noise, edge.channel) * chance.normal();
   const bool silent = is_silent(link, edge.t_s);
   pass.missing += lost || faults.dead || silent ? 1 : 0;
   if (lost || faults.dead) {

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/wgs84.h"
 #include "pipelines/time/utc.h"
@@ -16,8 +17,7 @@
 namespace spindrift {
 namespace {
 
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-constexpr double kNarrowestHalf_rad = 0.25 * std::numbers::pi / 180.0;
+constexpr double kNarrowestHalf_rad = 0.25 * kRadPerDeg;
 
 // A step this small changes no nanosecond; the last one is a hundred times better than it is long.
 constexpr double kConverged_s = 1e-10;

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/statistics/significance.h"
+
 namespace spindrift {
 namespace {
 
-// Half of all Gaussian deviations are less than this many sigmas.
-constexpr double kMedianDeviation = 0.6745;
-// By so much a deviation beyond that widens the scatter, one within narrows it.
+// By so much a deviation beyond the median one widens the scatter, one within narrows it.
 constexpr double kScaleStep = 1.05;
 constexpr double kMostScale = 30.0;
 

@@ -7,13 +7,13 @@
 #include <numeric>
 #include <span>
 
+#include "pipelines/statistics/significance.h"
+
 namespace spindrift {
 namespace {
 
 constexpr std::size_t kFewValues = 10;
 constexpr int kMostRounds = 20;
-// Standard deviation of a Gaussian over its median absolute deviation.
-constexpr double kSigmaPerMad = 1.482602218505602;
 
 double median_of_sorted(std::span<const double> sorted) {
   const std::size_t middle = sorted.size() / 2;

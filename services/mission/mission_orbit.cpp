@@ -5,18 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "pipelines/frames/angle.h"
 #include "services/toml_schema/text_file.h"
 #include "services/toml_schema/values.h"
 
 namespace spindrift {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 Expected<MissionOrbit> orbit_from_oem(const std::string& oem, const std::filesystem::path& folder) {
   const auto refused = [&](const std::string& reason) {

@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "pipelines/ephemeris/oem_holes.h"
 #include "pipelines/ephemeris/state_jump.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 /// Empty: none.
 std::string doubt_about_name(const OrbitEphemeris& ephemeris, std::string_view spacecraft_id) {

@@ -9,6 +9,7 @@
 
 #include "pipelines/ephemeris/earth_pole.h"
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/utc.h"
 #include "services/mission/mission_orbit.h"
 #include "services/mission/mission_spin.h"
@@ -99,13 +100,11 @@ void check_rate(TomlDocument& document) {
     return;
   }
   const double last_rpm = *rate_rpm + *drift_rpm_h * *duration_s / kSecondsPerHour;
-  constexpr double kSlowest_rpm = 5.0;
-  constexpr double kFastest_rpm = 200.0;
-  if (!(last_rpm >= kSlowest_rpm && last_rpm <= kFastest_rpm)) {
+  if (!(last_rpm >= kSlowestSpin_rpm && last_rpm <= kFastestSpin_rpm)) {
     add_problem(document, "attitude.rate_drift_rpm_h",
                 fmt::format("attitude.rate_drift_rpm_h = {}: the rate ends at {:.3f} rpm: must lie "
                             "in [{}, {}] rpm",
-                            *drift_rpm_h, last_rpm, kSlowest_rpm, kFastest_rpm));
+                            *drift_rpm_h, last_rpm, kSlowestSpin_rpm, kFastestSpin_rpm));
   }
 }
 

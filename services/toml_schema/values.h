@@ -4,11 +4,11 @@
 #pragma once
 
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "pipelines/frames/angle.h"
 #include "services/toml_schema/scalar.h"
 
 namespace spindrift {
@@ -32,7 +32,7 @@ inline double number(const TomlValues& values, std::string_view key) {
 
 /// Of a key in degrees.
 inline double radians(const TomlValues& values, std::string_view key) {
-  return number(values, key) * (std::numbers::pi / 180.0);
+  return number(values, key) * kRadPerDeg;
 }
 
 /// Likewise; empty where the key is absent.

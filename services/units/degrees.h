@@ -7,12 +7,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 
 namespace spindrift {
 
-inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 inline constexpr double kRpmPerRad_s = 30.0 / std::numbers::pi;
 inline constexpr double kRpmPerHourPerRad_s2 = kRpmPerRad_s * 3600.0;
 

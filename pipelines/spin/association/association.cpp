@@ -125,7 +125,7 @@ void Associator::try_to_start(bool at_end, Association& out) {
     return;
   }
   sun1_known_ = reference_ == PulseChannel::Sun1;
-  intervals_.begin_anew(noise_of(config_.noise, reference_));
+  intervals_.begin_anew(edge_sigma_s(config_.noise, reference_));
   phases_.set_period(clock_->period_s());
   phases_.set_reference(reference_);
   if (lost_clock_) {
@@ -182,7 +182,7 @@ void Associator::restart_after_step(const Pulse& pulse) {
   const double phase = clock_->phase_turns(pulse.t);
   const double expected = phases_.at(reference_, phase);
   const double turn = std::round(phase - expected);
-  const double noise_s = noise_of(config_.noise, reference_);
+  const double noise_s = edge_sigma_s(config_.noise, reference_);
   const bool good =
       clock_->accepts(turn + phases_.at(reference_, turn), pulse.t, noise_s, reference_wander(),
                       {.sigma = config_.screening.sigma, .most = gate_turns(reference_)});
@@ -350,7 +350,7 @@ void Associator::judge_reference(Revolution& revolution) {
     return;
   }
   const auto turn = static_cast<double>(revolution.number);
-  const double noise_s = std::hypot(noise_of(config_.noise, reference_),
+  const double noise_s = std::hypot(edge_sigma_s(config_.noise, reference_),
                                     displaced_turns(revolution, reference_) * clock_->period_s());
   const bool good =
       clock_->follow(turn + phases_.at(reference_, turn), *edge, noise_s, reference_wander(),
@@ -425,7 +425,7 @@ void Associator::change_reference(PulseChannel channel, std::int64_t turn) {
   phases_.set_reference(channel);
   turns_without_reference_ = 0;
   rate_step_.forget();
-  intervals_.begin_anew(noise_of(config_.noise, channel));
+  intervals_.begin_anew(edge_sigma_s(config_.noise, channel));
   const bool is_sun1 = channel == PulseChannel::Sun1;
   if (is_sun1 || (channel == PulseChannel::Sun2 && !sun1_known_)) {
     // The Sun stands still: phase and drift of its edge are the clock's errors.

@@ -6,8 +6,10 @@
 #include <numbers>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/spin/association/expected_phases.h"
 #include "pipelines/spin/association/period_search.h"
+#include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -30,11 +32,8 @@ constexpr double kSamePeriod = 0.01;
 // A pass begins where so many edges follow within so many turns.
 constexpr std::ptrdiff_t kFewestOfRun = 3;
 constexpr double kOneRun_turns = 10.0;
-// Slower or faster than this is no spin period.
-constexpr double kShortestNote_s = 0.1;
-constexpr double kLongestNote_s = 60.0;
 // One sigma of a rate that lies anywhere between those of a low orbit in either sense.
-constexpr double kEarthRate_rad_s = 1.2e-3 / std::numbers::sqrt3;
+constexpr double kUnknownEarthRate_rad_s = kEarthRate_rad_s / std::numbers::sqrt3;
 
 auto same_period_as(const PeriodNote& one) {
   return [one](const PeriodNote& note) {
@@ -99,15 +98,14 @@ double defined_phase_turns(const SpinConfig& config, PulseChannel channel) {
     case Sun1:
       return 0.0;
     case Sun2:
-      return config.sun_sensor.slit_separation_rad / (2.0 * std::numbers::pi);
+      return config.sun_sensor.slit_separation_rad / kTurn_rad;
     default:
       return 0.5;
   }
 }
 
 double apparent_motion_s(PulseChannel channel, double period_s) {
-  return sees_the_sun(channel) ? 0.0
-                               : kEarthRate_rad_s * period_s * period_s / (2.0 * std::numbers::pi);
+  return sees_the_sun(channel) ? 0.0 : kUnknownEarthRate_rad_s * period_s * period_s / kTurn_rad;
 }
 
 SpinClock::Setting setting_of(const Comb& comb, double noise_s) {
@@ -134,7 +132,7 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
                                       bool at_end) {
   for (const PulseChannel channel : kByPreference) {
     const std::vector<TaiTime> edges = times_of(waiting, channel);
-    const double noise_s = noise_of(config.noise, channel);
+    const double noise_s = edge_sigma_s(config.noise, channel);
     const std::size_t fewest =
         at_end ? kFewestAtEnd : (channel == Sun1 ? kFewestSun1 : kFewestOthers);
     const auto comb = find_comb(edges, noise_s, fewest);
@@ -154,7 +152,7 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
                                       bool at_end) {
   std::vector<PeriodNote> sane;
   std::copy_if(notes.begin(), notes.end(), std::back_inserter(sane), [](const PeriodNote& note) {
-    return note.period_s > kShortestNote_s && note.period_s < kLongestNote_s;
+    return note.period_s > kShortestPeriod_s && note.period_s < kLongestPeriod_s;
   });
   if (sane.size() < (at_end ? 1 : kNotesToAgree)) {
     return std::nullopt;

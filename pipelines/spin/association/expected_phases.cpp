@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/spin/association/phase_line.h"
 
 namespace spindrift {
@@ -15,9 +15,6 @@ namespace {
 
 using enum PulseChannel;
 
-// The Earth's apparent motion: from the lowest orbits it turns by 1.2e-3 rad/s, and about an axis
-// far from the orbit's pole faster.
-constexpr double kEarthRate_rad_s = 1.2e-3;
 constexpr double kEarthWander_rad_s2 = 2e-6;
 constexpr double kMostEarthRates = 3.0;
 // The Sun's phase shifts when the axis moves.
@@ -64,25 +61,23 @@ bool is_no_chance(const std::vector<PhasePoint>& points, const PhaseLine& line, 
 }  // namespace
 
 double earth_wander_turns(PulseChannel channel, double period_s) {
-  return sees_the_sun(channel)
-             ? kSunWander
-             : kEarthWander_rad_s2 * period_s * period_s / (2.0 * std::numbers::pi);
+  return sees_the_sun(channel) ? kSunWander : kEarthWander_rad_s2 * period_s * period_s / kTurn_rad;
 }
 
 ExpectedPhases::ExpectedPhases(const SpinConfig& config)
     : noise_{config.noise},
       gate_sigma_{config.screening.sigma},
       interference_s_{config.screening.interference_s},
-      slit_separation_turns_{config.sun_sensor.slit_separation_rad / (2.0 * std::numbers::pi)} {}
+      slit_separation_turns_{config.sun_sensor.slit_separation_rad / kTurn_rad} {}
 
 double ExpectedPhases::noise_turns(PulseChannel channel) const {
-  return noise_of(noise_, channel) / period_s_;
+  return edge_sigma_s(noise_, channel) / period_s_;
 }
 
 double ExpectedPhases::most_drift(PulseChannel channel) const {
   return sees_the_sun(channel) && sees_the_sun(reference_)
              ? kSunDrift
-             : kMostEarthRates * kEarthRate_rad_s * period_s_ / (2.0 * std::numbers::pi);
+             : kMostEarthRates * kEarthRate_rad_s * period_s_ / kTurn_rad;
 }
 
 double ExpectedPhases::wander(PulseChannel channel) const {

@@ -17,13 +17,9 @@
 
 namespace spindrift {
 
-constexpr bool sees_the_sun(PulseChannel channel) {
-  return channel == PulseChannel::Sun1 || channel == PulseChannel::Sun2;
-}
-/// Standard deviation of the time of one edge.
-constexpr double noise_of(const PulseNoise& noise, PulseChannel channel) {
-  return sees_the_sun(channel) ? noise.sun_s : noise.infrared_s;
-}
+/// The Earth's apparent motion: from the lowest orbits it turns by so much, and about an axis far
+/// from the orbit's pole faster.
+inline constexpr double kEarthRate_rad_s = 1.2e-3;
 /// Edges so far beyond the interference window are biased by an eightieth of their noise: those
 /// that came nearer are missing from them.
 inline constexpr double kInterferenceSigmas = 2.5;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipelines/spin/association/phase_line.h"
+#include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -26,9 +27,7 @@ constexpr double kLeastShare = 0.65;
 constexpr double kLeastFilled = 0.45;
 // A longer gap is a silence, not lost edges.
 constexpr double kMostLost = 5.0;
-
-// 3 rpm an hour.
-constexpr double kMostDrift_per_s2 = 3.0 / 60.0 / 3600.0;
+constexpr double kMostDrift_per_s2 = drift_per_s2(kMostDrift_rpm_h);
 // An uneven comb must leave this part of the scatter about an even one.
 constexpr double kFarBetter = 0.5;
 

@@ -22,9 +22,6 @@ struct Comb {
   double turns;         ///< That they span.
 };
 
-inline constexpr double kSlowestSearched_rpm = 4.0;
-inline constexpr double kFastestSearched_rpm = 240.0;
-
 /// Tries the intervals between neighbouring edges as the period, counts for each how many edges
 /// fall on its comb, and takes the longest period that explains nearly as many as any: half of it
 /// explains as many, twice of it half.

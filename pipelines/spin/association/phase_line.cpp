@@ -4,11 +4,11 @@
 #include <cassert>
 #include <cmath>
 
+#include "pipelines/statistics/significance.h"
+
 namespace spindrift {
 namespace {
 
-// Standard deviation of a Gaussian over its median absolute deviation.
-constexpr double kSigmaPerMad = 1.4826;
 constexpr double kAgree_sigma = 3.0;
 
 struct Line {
@@ -86,7 +86,7 @@ std::optional<PhaseLine> fit_phase_line(std::span<const PhasePoint> points, doub
   }
   // With few points the best line passes through half of them by construction.
   const double few = 1.0 + 5.0 / static_cast<double>(points.size());
-  const double scatter = std::max(noise, kSigmaPerMad * few * least_off);
+  const double scatter = std::max(noise, kRoundedSigmaPerMad * few * least_off);
   std::vector<PhasePoint> agreeing = near_to(best, kAgree_sigma * scatter, points);
   best = least_squares(agreeing, most_drift);
   return PhaseLine{.turn = best.turn,

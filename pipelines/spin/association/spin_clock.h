@@ -6,14 +6,14 @@
 #include <cstdint>
 
 #include "pipelines/spin/association/spin_period_window.h"
+#include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/statistics/drift_filter.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
 
-/// One sigma of a drift of which nothing is known, turns a second in a second: 2 rpm an hour, as in
-/// the spin filter.
-inline constexpr double kFirstDrift_per_s2 = 2.0 / 60.0 / 3600.0;
+/// One sigma of a drift of which nothing is known.
+inline constexpr double kFirstDrift_per_s2 = drift_per_s2(kFirstDrift_rpm_h);
 
 /// Phase n is where the sun1 edge of turn n is expected (or whatever stands in for it). The spin
 /// rate may drift evenly, by a few rpm an hour, and wander a little about that. As long as nothing

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/convergence.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 // Of the prior: what is so far off is no misplacement.
 constexpr double kFarOff_sigmas = 4.0;
 
@@ -46,7 +45,7 @@ void add_motion(const BatchSolution& solution, const BatchDoubts& doubts, Reason
   if (solution.nutation && solution.nutation->found) {
     const FoundNutation& nutation = *solution.nutation->found;
     reasons.push_back({Nutation,
-                       {{"deg", nutation.half_angle_rad.value / kDegree_rad},
+                       {{"deg", nutation.half_angle_rad.value / kRadPerDeg},
                         {"period_s", nutation.period_s.value}}});
     for (const double other_s : nutation.other_periods_s) {
       reasons.push_back({OtherNutationPeriod, {{"period_s", other_s}}});
@@ -55,13 +54,13 @@ void add_motion(const BatchSolution& solution, const BatchDoubts& doubts, Reason
   const ConingVerdict& coning = solution.coning.verdict;
   if (coning.detected) {
     reasons.push_back({Coning,
-                       {{"deg", coning.tilt_rad / kDegree_rad},
-                        {"sigma_deg", solution.coning.tilt_sigma_rad / kDegree_rad}}});
+                       {{"deg", coning.tilt_rad / kRadPerDeg},
+                        {"sigma_deg", solution.coning.tilt_sigma_rad / kRadPerDeg}}});
     if (doubts.coning_by_edges) {
       reasons.push_back({ConingOrMisplaced});
     }
   } else if (doubts.estimated[ConingX]) {
-    reasons.push_back({NoConing, {{"detectable_deg", coning.detectable_rad / kDegree_rad}}});
+    reasons.push_back({NoConing, {{"detectable_deg", coning.detectable_rad / kRadPerDeg}}});
   }
 }
 
@@ -73,7 +72,7 @@ void add_bias(const BiasEstimate& bias, Reasons& reasons) {
     return;
   }
   const bool is_angle = prior_of(bias.bias).is_angle;
-  const double unit = is_angle ? kDegree_rad : 1.0;
+  const double unit = is_angle ? kRadPerDeg : 1.0;
   reasons.push_back({ReasonCode::Bias,
                      {named(bias.bias),
                       {"value", bias.value / unit},
@@ -117,7 +116,7 @@ Assessment assess(const BatchSolution& solution, const BatchDoubts& doubts) {
     const RaDec other = ra_dec_of(*doubts.or_axis_icrf);
     reasons.push_back(
         {OtherAxis,
-         {{"ra_deg", other.ra_rad / kDegree_rad}, {"dec_deg", other.dec_rad / kDegree_rad}}});
+         {{"ra_deg", other.ra_rad / kRadPerDeg}, {"dec_deg", other.dec_rad / kRadPerDeg}}});
   }
   reasons.push_back({Edges, {{"count", solution.edges}}});
   if (doubts.left_out) {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/added_biases.h"
 #include "pipelines/spin/batch/batch_assessment.h"
@@ -23,9 +23,8 @@
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 // An axis known no better is not determined: cones about Sun or Earth, more or less.
-constexpr double kLost_rad = 10.0 * kDegree_rad;
+constexpr double kLost_rad = 10.0 * kRadPerDeg;
 // Noise that is more than stated by so much has too many edges for outliers, and weighs those of
 // slits and beams wrongly against each other.
 constexpr double kLouder = 1.25;
@@ -42,7 +41,7 @@ std::optional<Error> axis_left_open(const Eigen::Matrix2d& bound_rad2) {
   return Error{ErrorCode::Unobservable,
                fmt::format("these edges leave the axis open by {:.0f} deg: a cone about Sun or "
                            "Earth, or less",
-                           std::min(std::sqrt(bound_rad2.trace()) / kDegree_rad, 180.0))};
+                           std::min(std::sqrt(bound_rad2.trace()) / kRadPerDeg, 180.0))};
 }
 
 /// Where it began, whatever the solution slid to: near the Sun or the Earth the edges of one sensor

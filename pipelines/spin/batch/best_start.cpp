@@ -1,20 +1,20 @@
 #include "pipelines/spin/batch/best_start.h"
 
 #include <algorithm>
-#include <numbers>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/first_clock.h"
 #include "pipelines/spin/batch/pass_nutation.h"
 #include "pipelines/spin/batch/steady_residuals.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
 
 // Two ends of two starts are one solution within this.
-constexpr double kSameAxis_rad = 0.1 * std::numbers::pi / 180.0;
-constexpr double kPriorSigmas = 3.0;
+constexpr double kSameAxis_rad = 0.1 * kRadPerDeg;
 // Stated sigmas: a body that nutates, or noise not as stated.
 constexpr double kScattered = 1.3;
 constexpr std::size_t kFew = 6000;

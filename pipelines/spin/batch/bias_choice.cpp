@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "pipelines/spin/batch/observability.h"
+#include "pipelines/statistics/distributions.h"
 
 namespace spindrift {
 namespace {
 
-// Nine are looked at, each at a chance of 1.2e-5: chi-squares of one degree, of coning two.
-constexpr double kWanted = 19.2;
-constexpr double kConingWanted = 22.7;
+// Nine are looked at: chi-squares of one degree, of coning two.
+constexpr double kChance = 1.2e-5;
+const double kWanted = chi_square_beyond(kChance, 1.0);
+const double kConingWanted = chi_square_beyond(kChance, 2.0);
 
 using Unknowns = Eigen::Matrix<double, kBatchUnknowns, 1>;
 

@@ -6,19 +6,15 @@
 #include <iterator>
 #include <vector>
 
+#include "pipelines/statistics/significance.h"
+
 namespace spindrift {
 namespace {
-
-constexpr double kMedianOfNormal = 0.6745;
 
 double median_of(std::vector<double>& values) {
   const auto middle = values.begin() + std::ssize(values) / 2;
   std::nth_element(values.begin(), middle, values.end());
   return middle == values.end() ? 0.0 : *middle;
-}
-
-bool is_of_slit(std::size_t channel) {
-  return channel == index_of(PulseChannel::Sun1) || channel == index_of(PulseChannel::Sun2);
 }
 
 }  // namespace
@@ -35,12 +31,13 @@ PulseNoise noise_seen(const PassModel& model, std::span<const PassEdge> edges,
   std::vector<double> of_beams;
   for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
     const double median = median_of(off.at(channel));
-    std::vector<double>& deviations = is_of_slit(channel) ? of_slits : of_beams;
+    std::vector<double>& deviations =
+        sees_the_sun(static_cast<PulseChannel>(channel)) ? of_slits : of_beams;
     std::transform(off.at(channel).begin(), off.at(channel).end(), std::back_inserter(deviations),
                    [median](double value) { return std::abs(value - median); });
   }
   const auto times_stated = [](std::vector<double>& deviations) {
-    return std::max(1.0, median_of(deviations) / kMedianOfNormal);
+    return std::max(1.0, median_of(deviations) / kMedianDeviation);
   };
   const PulseNoise& stated = model.config().noise;
   return {.sun_s = stated.sun_s * times_stated(of_slits),

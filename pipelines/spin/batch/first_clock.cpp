@@ -5,16 +5,15 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/edge_prediction.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 // So many tell a parabola to a fraction of a degree.
 constexpr std::size_t kEnough = 4000;
 // The first parabola is off by a turn at most from one end to the other: little within a span.

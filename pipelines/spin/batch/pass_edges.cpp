@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <variant>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 
 namespace spindrift {
 namespace {
 
 // From so near a fit ends at the same place. The narrowest chord vanishes within a degree.
-constexpr double kSameStart_rad = 0.1 * std::numbers::pi / 180.0;
+constexpr double kSameStart_rad = 0.1 * kRadPerDeg;
 
 /// Not where it should be, or with nothing to compare it with; else it is one of several edges of
 /// an angle that failed its test.

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/statistics/distributions.h"
+
 namespace spindrift {
 namespace {
 
-// A chance of one in a million for noise as stated.
-constexpr double kSignificantSigmas = 4.75;
+// For noise as stated.
+const double kSignificantSigmas = normal_beyond(1e-6);
 
 }  // namespace
 

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/steady_residuals.h"
+#include "pipelines/statistics/significance.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -17,8 +18,6 @@ namespace {
 // search takes as much memory as 2 KiB an edge.
 constexpr std::size_t kStretchEdges = 10'000;
 // Of a pass, however many its stretches.
-constexpr double kFalseAlarm = 1e-4;
-constexpr double kQuarter_rad = 0.5 * std::numbers::pi;
 
 double phase_rad(const SpinState& state, double t_s) {
   return (state.rate_rad_s + 0.5 * state.drift_rad_s2 * t_s) * t_s;
@@ -79,7 +78,7 @@ FoundNutation as_fitted(const FoundNutation& found, const PassModel& model,
   fitted.half_angle_rad.value = tilt_rad.norm();
   fitted.growth_per_s.value = stretch.unknowns[2] / stretch.half_s();
   fitted.per_turn = stretch.per_turn + stretch.unknowns[3] / (stretch.half_s() * rate_rad_s);
-  fitted.period_s.value = 2.0 * std::numbers::pi / (rate_rad_s * fitted.per_turn);
+  fitted.period_s.value = kTurn_rad / (rate_rad_s * fitted.per_turn);
   fitted.lean_azimuth_rad.value =
       wrapped_rad(std::atan2(tilt_rad.y(), tilt_rad.x()) - kQuarter_rad);
   return fitted;

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
@@ -15,7 +16,6 @@ constexpr double kFarthestSigmas = 30.0;
 }  // namespace
 
 double scatter_of(std::span<const SteadyResidual> residuals) {
-  constexpr double kMedianOfNormal = 0.6745;
   std::vector<double> sizes(residuals.size());
   std::transform(residuals.begin(), residuals.end(), sizes.begin(),
                  [](const SteadyResidual& residual) {
@@ -23,7 +23,7 @@ double scatter_of(std::span<const SteadyResidual> residuals) {
                  });
   const auto middle = sizes.begin() + std::ssize(sizes) / 2;
   std::nth_element(sizes.begin(), middle, sizes.end());
-  return middle == sizes.end() ? 1.0 : std::max(1.0, *middle / kMedianOfNormal);
+  return middle == sizes.end() ? 1.0 : std::max(1.0, *middle / kMedianDeviation);
 }
 
 std::vector<SteadyResidual> steady_residuals(const PassModel& model,
@@ -36,7 +36,7 @@ std::vector<SteadyResidual> steady_residuals(const PassModel& model,
       const double expected_rad = met->phase_rad - met->off_rad;
       residuals.push_back({.channel = edge.pulse.channel,
                            .t_s = seconds_between(model.middle(), edge.pulse.t),
-                           .turns = expected_rad / (2.0 * std::numbers::pi),
+                           .turns = expected_rad / kTurn_rad,
                            .off_rad = met->off_rad,
                            .sigma_rad = met->sigma_rad,
                            .expected = met->expected});

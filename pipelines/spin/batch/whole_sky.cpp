@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/batch_fit.h"
 #include "pipelines/spin/batch/explained.h"
@@ -14,9 +14,8 @@
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 // Two ends are one axis within this.
-constexpr double kSameAxis_rad = kDegree_rad;
+constexpr double kSameAxis_rad = kRadPerDeg;
 constexpr int kAboutSun = 32;
 // 14 deg apart.
 constexpr int kPlaces = 200;
@@ -30,7 +29,7 @@ constexpr double kGolden = 0.6180339887498949;
 /// A spiral from pole to pole.
 Eigen::Vector3d place(int i) {
   const double z = 1.0 - (2.0 * i + 1.0) / kPlaces;
-  const double ra_rad = 2.0 * std::numbers::pi * kGolden * i;
+  const double ra_rad = kTurn_rad * kGolden * i;
   const double across = std::sqrt(1.0 - z * z);
   return {across * std::cos(ra_rad), across * std::sin(ra_rad), z};
 }
@@ -58,8 +57,8 @@ std::vector<Eigen::Vector3d> places_about(const Eigen::Vector3d& sun_icrf) {
   }
   const Eigen::Vector3d across = sun_icrf.unitOrthogonal();
   for (int i = 0; i < kAboutSun; ++i) {
-    const double off_rad = (3.0 + 3.0 * (i % 4)) * kDegree_rad;
-    const Eigen::AngleAxisd about{2.0 * std::numbers::pi * i / kAboutSun, sun_icrf};
+    const double off_rad = (3.0 + 3.0 * (i % 4)) * kRadPerDeg;
+    const Eigen::AngleAxisd about{kTurn_rad * i / kAboutSun, sun_icrf};
     const Eigen::Vector3d place = about * (Eigen::AngleAxisd{off_rad, across} * sun_icrf);
     places.push_back(place);
     places.emplace_back(-place);

@@ -3,22 +3,20 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "pipelines/spin/types/model_allowance.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
 
-// What a prediction may be off by, beside kModelLimit_rad.
-constexpr double kSigmas = 5.0;
 constexpr int kSilentRevolutions = 5;
-constexpr double kPriorSigmas = 3.0;
 // Near-tangent fixes may lack the true candidate: false ones lie near an axis that is known worse.
-constexpr double kWidest_rad = 3.0 * std::numbers::pi / 180.0;
+constexpr double kWidest_rad = 3.0 * kRadPerDeg;
 constexpr int kContradictionsInARow = 20;
 
 double sigma_of(const AxisCandidate& candidate) {
@@ -27,7 +25,7 @@ double sigma_of(const AxisCandidate& candidate) {
 
 /// What a beam should see from a candidate, wherever the Earth may be within noise and model.
 struct ChordRange {
-  double least_rad = 2.0 * std::numbers::pi;
+  double least_rad = kTurn_rad;
   double most_rad = 0.0;  ///< 0: it misses the disc. A whole turn: it never leaves it.
 };
 
@@ -38,14 +36,15 @@ ChordRange chords_from(const AxisCandidate& candidate, const Sightlines& sightli
   const Eigen::Vector2d towards =
       tangent_basis(axis).transpose() * sightlines.earth_icrf / std::sin(earth_rad);
   const double margin_rad =
-      kSigmas * std::sqrt(towards.dot(candidate.covariance_rad2 * towards)) + kModelLimit_rad;
+      kContradictionSigmas * std::sqrt(towards.dot(candidate.covariance_rad2 * towards)) +
+      kModelLimit_rad;
   constexpr int kPlaces = 5;  // Either side.
   ChordRange range;
   for (int place = -kPlaces; place <= kPlaces; ++place) {
     const double there_rad = std::abs(earth_rad + margin_rad * place / kPlaces);
     const bool misses = std::abs(there_rad - mount_angle_rad) > sightlines.disc_rad;
     const double chord_rad = predict_chord_rad(mount_angle_rad, there_rad, sightlines.disc_rad)
-                                 .value_or(misses ? 0.0 : 2.0 * std::numbers::pi);
+                                 .value_or(misses ? 0.0 : kTurn_rad);
     range.least_rad = std::min(range.least_rad, chord_rad);
     range.most_rad = std::max(range.most_rad, chord_rad);
   }
@@ -80,7 +79,7 @@ Nearest nearest_to(const KnownAxis& known, const AxisCandidates& found,
 /// The candidate that continues a steady axis, when no other may.
 std::optional<std::size_t> continues(const SteadyAxis& steady, const AxisCandidates& found,
                                      const std::vector<std::size_t>& possible) {
-  constexpr double kGate = kSigmas * kSigmas;
+  constexpr double kGate = kContradictionSigmas * kContradictionSigmas;
   std::optional<std::size_t> chosen;
   double least = 0.0;
   double second = 0.0;
@@ -177,7 +176,7 @@ bool Disambiguator::should_see(Side side, const Sightlines& sightlines,
     return false;
   }
   const ChordRange range = chords_from(candidate, sightlines, sensor->mount_angle_rad);
-  return range.least_rad > 0.0 && range.most_rad < 2.0 * std::numbers::pi;
+  return range.least_rad > 0.0 && range.most_rad < kTurn_rad;
 }
 
 std::optional<Side> Disambiguator::silent_where_seen(const Sightlines& sightlines,
@@ -200,7 +199,7 @@ bool Disambiguator::breaks_constraint(const RevolutionMeasurements& measured,
     }
     if (const auto chord = good_value_of(measured, kChords.at(index_of(side)))) {
       const ChordRange range = chords_from(candidate, sightlines, sensor->mount_angle_rad);
-      const double tolerance_rad = kSigmas * chord->sigma_rad + kModelLimit_rad;
+      const double tolerance_rad = kContradictionSigmas * chord->sigma_rad + kModelLimit_rad;
       return chord->value_rad < range.least_rad - tolerance_rad ||
              chord->value_rad > range.most_rad + tolerance_rad;
     }
@@ -300,7 +299,7 @@ void Disambiguator::follow(const Pending& pending, const std::optional<std::size
   const bool crosses =
       std::any_of(pending.possible.begin(), pending.possible.end(), [&](std::size_t i) {
         return squared_distance(steady_->axis_icrf, pending.found.candidates[i], steady_->count) <
-               kSigmas * kSigmas;
+               kContradictionSigmas * kContradictionSigmas;
       });
   contradictions_ = crosses ? 0 : contradictions_ + 1;
   if (contradictions_ >= kContradictionsInARow) {

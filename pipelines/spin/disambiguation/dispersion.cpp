@@ -7,8 +7,10 @@
 #include <limits>
 #include <numeric>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/model_allowance.h"
+#include "pipelines/statistics/distributions.h"
 
 namespace spindrift {
 namespace {
@@ -19,7 +21,7 @@ constexpr double kLevel = 1e-8;
 // the difference is what the other has drifted. e^30 to one. But where candidates are known so
 // badly, or near-tangent, their curvature would be taken for a drift.
 constexpr double kDecisive = 60.0;
-constexpr double kNearlyLinear_rad = 1.2 * 0.017453292519943295;
+constexpr double kNearlyLinear_rad = 1.2 * kRadPerDeg;
 // A branch whose scatter is much more than that of its noise does not stay where it is.
 constexpr double kSteadyVariance = 2.5;
 constexpr std::size_t kFewestBlocks = 3;
@@ -34,7 +36,7 @@ constexpr int kSkippedInARow = 5;
 // What the errors of the model change by while the geometry turns: the oblate Earth's limb.
 constexpr double kModelChange = 0.2;
 // Rounding and what nobody thought of.
-constexpr double kFloor_rad = 0.02 * 0.017453292519943295;
+constexpr double kFloor_rad = 0.02 * kRadPerDeg;
 
 /// From `from` to `to` along the great circle, in the tangent plane at `from`.
 Eigen::Vector2d offset_rad(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
@@ -45,22 +47,6 @@ Eigen::Vector2d offset_rad(const Eigen::Vector3d& from, const Eigen::Vector3d& t
 }
 
 }  // namespace
-
-double variance_ratio_tail(int a, int b, double ratio) {
-  const double share = b / (b + a * ratio);
-  if (!(share < 1.0)) {
-    return 1.0;
-  }
-  const int n = a + b - 1;
-  double term = std::exp(std::lgamma(n + 1.0) - std::lgamma(b + 1.0) - std::lgamma(n - b + 1.0) +
-                         b * std::log(share) + (n - b) * std::log1p(-share));
-  double sum = 0.0;
-  for (int k = b; k <= n; ++k) {
-    sum += term;
-    term *= (n - k) / (k + 1.0) * share / (1.0 - share);
-  }
-  return std::min(sum, 1.0);
-}
 
 double squared_distance(const Eigen::Vector3d& axis_icrf, const AxisCandidate& candidate,
                         double mean_of) {
@@ -308,7 +294,7 @@ std::optional<SteadyBranch> Dispersion::steady() const {
     }
     const double ratio = variance(other) / noise;
     least_ratio = std::min(least_ratio, ratio);
-    if (variance_ratio_tail(other.half_freedom, least->half_freedom, ratio) < kLevel) {
+    if (variance_ratio_tail(2.0 * other.half_freedom, 2.0 * least->half_freedom, ratio) < kLevel) {
       continue;
     }
     const double more_squares = other.squares - least->squares;

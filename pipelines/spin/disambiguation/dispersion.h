@@ -14,11 +14,6 @@
 
 namespace spindrift {
 
-/// P(F > ratio) for the ratio of two variances with 2a and 2b degrees of freedom, a, b > 0.
-/// Abramowitz and Stegun 26.5.24: for whole a and b the incomplete beta function is a sum of
-/// binomial terms.
-double variance_ratio_tail(int a, int b, double ratio);
-
 /// Squared distance between an axis and a candidate, in standard deviations of the candidate.
 /// @param mean_of How many such candidates `axis_icrf` is the mean of.
 double squared_distance(const Eigen::Vector3d& axis_icrf, const AxisCandidate& candidate,

@@ -8,35 +8,31 @@
 #include <numbers>
 #include <utility>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/spin/measurement/mixed_azimuth.h"
 #include "pipelines/spin/sensor_model/geometry.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
 
 constexpr double kGrazingSigmas = 3.0;
-// Where roots are missing, what is left must be the true one in all of the thousands of fixes.
-constexpr double kMissingSigmas = 5.0;
-// One root fits better than another only beyond so many sigmas of noise: of the thousands of fixes
-// of a pass, none is then the wrong one. And of the model, whose errors are drawn but once.
-constexpr double kToldApartSigmas = 5.0;
-constexpr double kToldApartModelSigmas = 3.0;
+// Of the model, whose errors are drawn but once.
+constexpr double kModelSigmas = 3.0;
 // A chord narrower than so many sigmas is near-tangent: where noise of five sigmas changes its
 // cosine, the second order is a quarter of the first.
 constexpr double kNarrowSigmas = 10.0;
-// The linear solution divides by Delta, which must not be its own noise.
-constexpr double kDeterminantSigmas = 5.0;
 
-double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
+double degrees(double angle_rad) { return angle_rad * kDegPerRad; }
 
 /// Cones that touch within noise and model. Where they miss each other by so little, the roots that
 /// are missing may be the true ones.
 /// @param excess By how much they miss each other; negative where they cross.
 void note_grazing(const Uncertain& excess, AxisSolutions& found) {
-  const double noise_sigmas = excess.value() > 0.0 ? kMissingSigmas : kGrazingSigmas;
+  const double noise_sigmas = excess.value() > 0.0 ? kContradictionSigmas : kGrazingSigmas;
   const bool grazing =
       std::abs(excess.value()) <=
-      std::hypot(noise_sigmas * noise_of(excess), kGrazingSigmas * model_uncertainty_of(excess));
+      std::hypot(noise_sigmas * noise_of(excess), kModelSigmas * model_uncertainty_of(excess));
   found.grazing = found.grazing || grazing;
 }
 
@@ -47,8 +43,8 @@ std::vector<Uncertain> possible_angles(const ConeRootsOf<Uncertain>& roots) {
   std::copy_if(roots.outside_rad.begin(), roots.outside_rad.end(), std::back_inserter(angles_rad),
                [](const Uncertain& root) {
                  return std::abs(std::remainder(root.value(), std::numbers::pi)) <=
-                        std::hypot(kMissingSigmas * noise_of(root),
-                                   kGrazingSigmas * model_uncertainty_of(root));
+                        std::hypot(kContradictionSigmas * noise_of(root),
+                                   kModelSigmas * model_uncertainty_of(root));
                });
   return angles_rad;
 }
@@ -108,8 +104,8 @@ Uncertain misfit(const FixInput& input, const AxisAngles& place) {
 /// that the true one fits worse.)
 bool fits_beyond_doubt(const FixInput& input, const AxisAngles& better, const AxisAngles& worse) {
   const auto beyond_doubt = [](const Uncertain& value) {
-    return value.value() > std::hypot(kToldApartSigmas * noise_of(value),
-                                      kToldApartModelSigmas * model_uncertainty_of(value));
+    return value.value() > std::hypot(kContradictionSigmas * noise_of(value),
+                                      kModelSigmas * model_uncertainty_of(value));
   };
   const Uncertain misfit_of_worse = misfit(input, worse);
   return beyond_doubt(misfit_of_worse) &&
@@ -138,7 +134,7 @@ void solve_one_chord(const FixInput& input, AxisSolutions& found) {
                             .dihedral_rad = *input.dihedral});
   };
   if (std::abs(delta.value()) >= input.config.geometry.determinant_usable &&
-      std::abs(delta.value()) > kDeterminantSigmas * noise_of(delta)) {
+      std::abs(delta.value()) > kContradictionSigmas * noise_of(delta)) {
     const Uncertain earth_angle_rad = earth_angle_linear(measured);
     if (earth_angle_rad > 0.0 && earth_angle_rad < std::numbers::pi) {
       add(earth_angle_rad);

@@ -5,9 +5,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/fix/axis_angles.h"
 #include "pipelines/spin/fix/fix_input.h"
@@ -15,12 +15,10 @@
 #include "pipelines/spin/measurement/beam_view.h"
 #include "pipelines/spin/measurement/uncertain.h"
 #include "pipelines/spin/sensor_model/geometry.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
-
-// What measurements may contradict each other by, beside kModelLimit_rad.
-constexpr double kContradictionSigmas = 5.0;
 
 Unexpected unobservable(std::string message) {
   return Unexpected{{ErrorCode::Unobservable, std::move(message)}};
@@ -156,7 +154,7 @@ Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
   if (in_line(input.sun_earth_rad)) {
     return unobservable(
         fmt::format("Sun and Earth stand {:.3f} deg apart: the axis needs between 3 and 177 deg",
-                    input.sun_earth_rad * 180.0 / std::numbers::pi));
+                    input.sun_earth_rad * kDegPerRad));
   }
   const AxisSolutions found = solve_on_horizon(input);
   if (found.places.empty()) {

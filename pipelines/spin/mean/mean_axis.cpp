@@ -3,15 +3,13 @@
 #include <cmath>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
 
 /// Of a fix: 1/rad^2.
 double weight_of(const Eigen::Matrix2d& covariance_rad2) { return 1.0 / covariance_rad2.trace(); }
-
-// Of a sum of squares, chi-square of at least one degree of freedom for each fix.
-constexpr double kScatterSigmas = 5.0;
 
 }  // namespace
 
@@ -37,7 +35,8 @@ double MeanAxis::excess_scatter() const {
     return 1.0;
   }
   const double scatter = (weight_sum_ - sum_icrf_.squaredNorm() / weight_sum_) / freedom;
-  return scatter > 1.0 + kScatterSigmas * std::sqrt(2.0 / freedom) ? scatter : 1.0;
+  // A sum of squares, chi-square of at least one degree of freedom for each fix.
+  return scatter > 1.0 + kContradictionSigmas * std::sqrt(2.0 / freedom) ? scatter : 1.0;
 }
 
 void AxisWindow::add(const SpinFix& fix) {

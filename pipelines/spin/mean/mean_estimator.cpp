@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/convergence.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
 
 // A mean that is known so well (1 deg) is near enough for angles to be linear about it.
-constexpr double kLinear_rad = std::numbers::pi / 180.0;
+constexpr double kLinear_rad = kRadPerDeg;
 // Where a pass of the first fixes moves their mean by less, they are linear about it.
 constexpr double kConverged_rad = 1e-5;
 constexpr int kMostPasses = 8;
@@ -20,14 +21,12 @@ constexpr int kMostPasses = 8;
 constexpr std::size_t kFirstFixes = 8;
 // Where fewer of the fixes that there might be are settled, the mean is that of a selection.
 constexpr double kMostlySettled = 0.5;
-// A mean that is further from the plain average of its fixes is not theirs.
-constexpr double kFarSigmas = 5.0;
 // Of the squares: fixes that differ by more than wrong noise or model explain are not all true.
 constexpr double kScattered = 9.0;
 // Of two that differ nobody knows which is right.
 constexpr std::size_t kFewestFixes = 3;
 
-double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
+double degrees(double angle_rad) { return angle_rad * kDegPerRad; }
 
 }  // namespace
 
@@ -191,7 +190,8 @@ bool MeanEstimator::fits_the_fixes() const {
   const double noise_rad2 =
       fix_rad2() / static_cast<double>(average_.count()) + least_squares_covariance_rad2().trace();
   return !tells_less_than_a_fix() &&
-         off_the_fixes_rad() < std::sqrt(fix_rad2() + kFarSigmas * kFarSigmas * noise_rad2);
+         off_the_fixes_rad() <
+             std::sqrt(fix_rad2() + kContradictionSigmas * kContradictionSigmas * noise_rad2);
 }
 
 Eigen::Matrix2d MeanEstimator::covariance_if_moved_rad2() const {
@@ -202,7 +202,7 @@ Eigen::Matrix2d MeanEstimator::covariance_if_moved_rad2() const {
 }
 
 SpinEstimate MeanEstimator::estimate(const Revolution& revolution) const {
-  const double rate_rad_s = 2.0 * std::numbers::pi / revolution.period.period_s;
+  const double rate_rad_s = kTurn_rad / revolution.period.period_s;
   return {
       .t = revolution.t_start,
       .estimator = SpinEstimator::Mean,

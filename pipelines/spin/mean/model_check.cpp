@@ -6,6 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "pipelines/statistics/distributions.h"
+#include "pipelines/statistics/significance.h"
+
 namespace spindrift {
 namespace {
 
@@ -15,16 +18,14 @@ using SomeErrors = Eigen::VectorXd;
 using SomeErrorsMatrix = Eigen::MatrixXd;
 using Normal = Eigen::Matrix<double, AngleEquations::kUnknowns, AngleEquations::kUnknowns>;
 
-// Chances as sigmas of a normal variable: that right models are called wrong, one in ten thousand,
-// since a pass asks a thousand times;
-// that the errors are greater than said, one in ten.
-constexpr double kSignificant = 3.72;
+// As sigmas of a normal variable: that right models are called wrong, since a pass asks a thousand
+// times; that the errors are greater than said, one in ten. Their size goes by its digits.
+const double kSignificant = normal_beyond(kFalseAlarm);
 constexpr double kUpperEnd = 1.28;
 // A combination of errors that is known no better than this is not seen.
 constexpr double kUnseen_rad = 0.1;
 // The noise is judged by so many angles at most, lest a little more than stated be called wrong.
 constexpr double kNoiseAngles = 300.0;
-constexpr double kNoiseSigmas = 5.0;
 
 /// By Wilson and Hilferty.
 double chi_square_quantile(double freedom, double sigmas) {
@@ -151,7 +152,7 @@ double excess_noise(const AngleEquations& equations) {
   }
   const double excess = (equations.squares() - fitted) / freedom;
   const double scatter = std::sqrt(2.0 / std::min(freedom, kNoiseAngles));
-  return excess > 1.0 + kNoiseSigmas * scatter ? excess : 1.0;
+  return excess > 1.0 + kContradictionSigmas * scatter ? excess : 1.0;
 }
 
 }  // namespace

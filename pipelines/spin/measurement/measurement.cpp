@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 
 namespace spindrift {
@@ -65,7 +66,7 @@ std::optional<EarthCrossing> crossing_of(const SpinConfig& config, const Revolut
     return std::nullopt;
   }
   const double chord_rad = revolution.turned_rad(*in, *out);
-  if (!(chord_rad > 0.0 && chord_rad < 2.0 * std::numbers::pi)) {
+  if (!(chord_rad > 0.0 && chord_rad < kTurn_rad)) {
     return std::nullopt;
   }
   const double rate_rad_s = revolution.rate_rad_s(*in);

@@ -8,17 +8,15 @@
 #include <complex>
 #include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/nutation/tilt_signal.h"
 #include "pipelines/spin/nutation/tilt_spectrum.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-constexpr double kFalseAlarm = 1e-4;
-// One-sided, of a normal variable: 95 of 100.
-constexpr double kSurely = 1.645;
 // In chi-square: a thousand times as likely.
 constexpr double kMuchLikelier = 13.8;
 constexpr double kFewestTurns = 20.0;
@@ -150,7 +148,7 @@ double threshold_of(double width) {
 double detectable_rad(const TiltSignal& signal, double threshold) {
   const double seen = signal.freedom() / static_cast<double>(signal.edges());
   const double information = 0.5 * seen * signal.per_tilt().squaredNorm();
-  return (std::sqrt(2.0 * threshold) + kSurely) / std::sqrt(information);
+  return (std::sqrt(2.0 * threshold) + kDetectionSigmas) / std::sqrt(information);
 }
 
 FoundNutation nutation_of(const TiltSignal& signal, const Fit& fit,

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <complex>
 #include <iterator>
-#include <numbers>
 #include <numeric>
 #include <tuple>
+
+#include "pipelines/frames/angle.h"
 
 namespace spindrift {
 namespace {
@@ -148,7 +149,7 @@ Eigen::MatrixX2d TiltSignal::pattern(double per_turn) const {
   Eigen::MatrixX2d columns(edges(), 2);
   for (Eigen::Index i = 0; i < edges(); ++i) {
     const std::complex<double> q =
-        per_tilt_[i] * std::polar(1.0, -2.0 * std::numbers::pi * per_turn * turns_[i]);
+        per_tilt_[i] * std::polar(1.0, -kTurn_rad * per_turn * turns_[i]);
     columns.row(i) << q.real(), q.imag();
   }
   return columns;

@@ -2,21 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/association/period_search.h"
 #include "pipelines/spin/measurement/edge_use.h"
 #include "pipelines/spin/types/model_allowance.h"
+#include "pipelines/spin/types/spin_rate.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double kPriorSigmas = 5.0;
 // Of a pass of few turns a large share is left out before its spin period is found.
 constexpr std::int64_t kFewestToJudge = 100;
 
-double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
+double degrees(double angle_rad) { return angle_rad * kDegPerRad; }
 
 /// It is the edges themselves, or what the mission says of them, that does not fit.
 bool is_of_the_edge(Rejection rejection) {
@@ -138,7 +139,7 @@ void PassNotices::estimated(const SpinEstimate& estimate) {
   const double apart_rad = angle_between_rad(config_.prior->axis_icrf, estimate.axis_icrf);
   const double sigma_rad =
       std::hypot(config_.prior->sigma_rad, std::sqrt(estimate.covariance_rad2.trace()));
-  if (apart_rad > std::hypot(kPriorSigmas * sigma_rad, kModelLimit_rad)) {
+  if (apart_rad > std::hypot(kContradictionSigmas * sigma_rad, kModelLimit_rad)) {
     say_first(NoticeCode::PriorContradicted,
               {NoticeCode::PriorFar,
                {at(estimate.t), {"deg", degrees(apart_rad)}, {"sigmas", apart_rad / sigma_rad}}});

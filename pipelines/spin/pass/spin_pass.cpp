@@ -10,6 +10,7 @@
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "pipelines/spin/pass/revolution_products.h"
 #include "pipelines/spin/types/model_allowance.h"
+#include "pipelines/statistics/significance.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -17,8 +18,6 @@ namespace {
 
 // So many fixes must agree on an axis before it speaks for or against a candidate.
 constexpr std::size_t kEstablishedFixes = 10;
-// Beyond so many sigmas, and the model's limit, the axis is another one than before.
-constexpr double kMovedSigmas = 5.0;
 
 Eigen::Vector3d median_axis(const std::vector<Eigen::Vector3d>& axes) {
   Eigen::Vector3d median;
@@ -391,7 +390,7 @@ void SpinPass::start_again_where_moved(const SpinEstimate& sequential) {
   const double apart_rad = angle_between_rad(mean_.axis_icrf(), sequential.axis_icrf);
   const double sigma_rad =
       std::sqrt(mean_.covariance_if_moved_rad2().trace() + sequential.covariance_rad2.trace());
-  if (apart_rad <= std::hypot(kMovedSigmas * sigma_rad, kModelLimit_rad)) {
+  if (apart_rad <= std::hypot(kContradictionSigmas * sigma_rad, kModelLimit_rad)) {
     return;
   }
   restarts_heeded_ = sequential_.restarts();

@@ -2,16 +2,14 @@
 
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/spin/association/expected_phases.h"
 
 namespace spindrift {
 namespace {
 
 using enum PulseChannel;
-
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 double ahead_rad(double from_rad, double to_rad) {
   const double ahead = std::fmod(to_rad - from_rad, kTurn_rad);

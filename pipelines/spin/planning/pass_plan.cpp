@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <utility>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/spin/planning/pass_conditions.h"
 #include "pipelines/spin/sensor_model/edge_information.h"
 #include "pipelines/spin/sensor_model/edge_prediction.h"
@@ -61,8 +61,7 @@ class Planner {
       if (!geometry) {
         return Unexpected{geometry.error()};
       }
-      add_turns(geometry->expected,
-                node.weight * length_s * scene_.rate_rad_s() / (2.0 * std::numbers::pi));
+      add_turns(geometry->expected, node.weight * length_s * scene_.rate_rad_s() / kTurn_rad);
     }
     for (double after_s = kLook_s; after_s < length_s; after_s += kLook_s) {
       if (const auto looked = look_at(shifted(t_, after_s)); !looked) {

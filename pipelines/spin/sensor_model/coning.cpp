@@ -3,19 +3,14 @@
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/small_rotation.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
-
-constexpr double kQuarter_rad = 0.5 * std::numbers::pi;
-// Chi-square of two degrees of freedom: one in ten thousand.
-constexpr double kSignificant = 18.42;
-// One-sided, of a normal variable: 95 of 100.
-constexpr double kSurely = 1.645;
 
 /// A direction of the body, and how its angle from the axis and its azimuth (counted as slit 1
 /// turns) change.
@@ -85,12 +80,12 @@ ConingVerdict judge_coning(const Eigen::Vector2d& coning_rad,
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spectrum{covariance_rad2};
   const Eigen::Vector2d along = spectrum.eigenvectors().transpose() * coning_rad;
   const double chi_square = along.cwiseAbs2().cwiseQuotient(spectrum.eigenvalues()).sum();
-  return {
-      .tilt_rad = coning_rad.norm(),
-      // It leans a quarter of a turn behind its hinge, and behind is counted to the right.
-      .azimuth_rad = wrapped_rad(kQuarter_rad - hinge_rad),
-      .detected = chi_square > kSignificant,
-      .detectable_rad = (std::sqrt(kSignificant) + kSurely) * std::sqrt(spectrum.eigenvalues()[1])};
+  return {.tilt_rad = coning_rad.norm(),
+          // It leans a quarter of a turn behind its hinge, and behind is counted to the right.
+          .azimuth_rad = wrapped_rad(kQuarter_rad - hinge_rad),
+          .detected = chi_square > kFalseAlarmSquares,
+          .detectable_rad = (std::sqrt(kFalseAlarmSquares) + kDetectionSigmas) *
+                            std::sqrt(spectrum.eigenvalues()[1])};
 }
 
 }  // namespace spindrift

@@ -191,7 +191,7 @@ std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& s
 std::optional<PredictedEdge> edge_nearby(const SpinConfig& config, const Sky& sky,
                                          const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge,
                                          double phase_rad, double sigma_rad) {
-  if (edge.channel == PulseChannel::Sun1 || edge.channel == PulseChannel::Sun2) {
+  if (sees_the_sun(edge.channel)) {
     return std::nullopt;
   }
   const auto [side, crossing] = beam_of(edge.channel);

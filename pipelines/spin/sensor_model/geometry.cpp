@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/wgs84.h"
 
@@ -11,7 +12,7 @@ namespace spindrift {
 namespace {
 
 constexpr double kAlike = 0.01;
-constexpr double kInLine_rad = 3.0 * std::numbers::pi / 180.0;
+constexpr double kInLine_rad = 3.0 * kRadPerDeg;
 // Beyond it no infrared sensor sees a disc; what is said to be there is in metres.
 constexpr double kFarthest_km = 1.0e6;
 

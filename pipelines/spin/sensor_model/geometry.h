@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "pipelines/frames/angle.h"
 
 namespace spindrift {
 
@@ -114,7 +115,7 @@ ConeRootsOf<T> cone_roots(const T& a, const T& b, const T& c) {
   const T apart_rad = acos(cosine);
   for (T root : {T{centre_rad - apart_rad}, T{centre_rad + apart_rad}}) {
     if (root <= -std::numbers::pi) {
-      root += 2.0 * std::numbers::pi;
+      root += kTurn_rad;
     }
     const bool inside = root > 0.0 && root < std::numbers::pi;
     (inside ? roots.angles_rad : roots.outside_rad).push_back(root);

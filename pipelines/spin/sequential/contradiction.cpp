@@ -5,6 +5,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/model_allowance.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
@@ -13,7 +14,7 @@ struct Weight {
   int fixes;
   double sigmas;
 };
-constexpr Weight kWhereEdgesDoubt{.fixes = 10, .sigmas = 5.0};
+constexpr Weight kWhereEdgesDoubt{.fixes = 10, .sigmas = kContradictionSigmas};
 // Where they do not, single fixes may all be off to one side.
 constexpr Weight kFixesAlone{.fixes = 30, .sigmas = 8.0};
 

@@ -6,6 +6,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/model_allowance.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
@@ -17,10 +18,6 @@ constexpr double kBeyondDoubt = 20.0;
 // The edges are e^5 times likelier under another candidate: were this one true, that would happen
 // in one pass of 150 at most (Ville's inequality).
 constexpr double kUnlikely = 5.0;
-// A hypothesis fits when the sum of its squared innovations, chi-square of one degree of freedom
-// each, is within so many of its sigmas.
-constexpr double kFitSigmas = 5.0;
-
 // A stray edge may make a fix, and may do so twice.
 constexpr int kFewestFixes = 5;
 
@@ -37,10 +34,11 @@ bool agree(const SpinFilter& a, const SpinFilter& b) {
              std::min(a.axis_covariance_rad2().trace(), b.axis_covariance_rad2().trace());
 }
 
+/// The sum of its squared innovations is a chi-square of one degree of freedom each.
 bool fits(const Hypothesis& hypothesis) {
   return hypothesis.edges >= kFewestEdgesToFit &&
          hypothesis.squared_innovations <
-             hypothesis.edges + kFitSigmas * std::sqrt(2.0 * hypothesis.edges);
+             hypothesis.edges + kContradictionSigmas * std::sqrt(2.0 * hypothesis.edges);
 }
 
 }  // namespace

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/statistics/significance.h"
+
 namespace spindrift {
 namespace {
 
 // Of so many edges the mean squared innovation, 1 when all is well, says whether the noise is as
-// stated: chi-square of one degree of freedom each, beyond so many of its sigmas.
+// stated: chi-square of one degree of freedom each.
 constexpr double kFitEdges = 300.0;
 constexpr double kFewestEdges = 15.0;
-constexpr double kFitSigmas = 5.0;
 // Still significant for the fewest edges, and soon no more where the following ones are good.
 constexpr double kMostOfStart = 4.0;
 // From this share on the gated edges belong to the noise, and are not spurious.
@@ -54,7 +55,8 @@ void InnovationWatch::forget_the_start() {
 
 double InnovationWatch::excess_noise() const {
   const bool significant =
-      edges_ >= kFewestEdges && squared_innovation_ > 1.0 + kFitSigmas * std::sqrt(2.0 / edges_);
+      edges_ >= kFewestEdges &&
+      squared_innovation_ > 1.0 + kContradictionSigmas * std::sqrt(2.0 / edges_);
   return significant ? squared_innovation_ : 1.0;
 }
 

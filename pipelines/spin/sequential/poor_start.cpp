@@ -1,15 +1,15 @@
 #include "pipelines/spin/sequential/poor_start.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 
 namespace spindrift {
 namespace {
 
 // Across less, edges are linear.
-constexpr double kPoor_rad = 1.0 * std::numbers::pi / 180.0;
+constexpr double kPoor_rad = kRadPerDeg;
 // So near to a mean known to a degree; a better one is held to no more, as fixes of which the noise
 // leaves some out lie to one side.
 constexpr double kSigmas = 1.5;

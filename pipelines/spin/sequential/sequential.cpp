@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <utility>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/convergence.h"
 #include "pipelines/spin/types/model_allowance.h"
@@ -21,7 +21,7 @@ constexpr int kFewestGrazing = 20;
 constexpr double kRecentFix = 0.02;
 constexpr double kNearlyAll = 0.8;
 
-double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
+double degrees(double angle_rad) { return angle_rad * kDegPerRad; }
 
 }  // namespace
 

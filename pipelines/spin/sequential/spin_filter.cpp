@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/measurement/edge_use.h"
 #include "pipelines/spin/sensor_model/edge_prediction.h"
+#include "pipelines/spin/types/spin_rate.h"
 
 namespace spindrift {
 namespace {
@@ -19,12 +20,11 @@ constexpr double kAxisWander_rad_sqrt_s = 1e-6;
 // What is left beside an even drift. A rate that is constant is known better than the filter says;
 // the axis hardly depends on it.
 constexpr double kRateWander_rad_s_sqrt_s = 3e-6;
-// 2 rpm an hour: eddy currents, warming and leaks do less.
-constexpr double kFirstDrift_rad_s2 = 2.0 * (2.0 * std::numbers::pi / 60.0) / 3600.0;
+constexpr double kFirstDrift_rad_s2 = kFirstDrift_rpm_h * (kTurn_rad / 60.0) / 3600.0;
 // A day makes 0.02 rpm/h of it.
 constexpr double kDriftWander_rad_s2_sqrt_s = 2e-9;
 // One edge in a thousand is spurious and anywhere on the circle.
-const double kLogSpurious = std::log(1e-3 / (2.0 * std::numbers::pi));
+const double kLogSpurious = std::log(1e-3 / kTurn_rad);
 // A correction of the axis beyond this (0.06 deg) is linearised anew where it ends, up to so many
 // times: what two linearisations disagree on would count as knowledge of what no edge measures. The
 // narrower a chord, the steeper its edges and, squared, the more curved.
@@ -40,7 +40,7 @@ constexpr double kFirstRateShare = 1e-4;
 double square(double x) { return x * x; }
 
 double log_normal_density(double squared_innovation, double variance) {
-  return -0.5 * (squared_innovation + std::log(2.0 * std::numbers::pi * variance));
+  return -0.5 * (squared_innovation + std::log(kTurn_rad * variance));
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ std::optional<SpinFilter> SpinFilter::about(const Eigen::Vector3d& axis_icrf,
                                             const Sky& sky) {
   const auto q_icrf_spin = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis_icrf);
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin.conjugate().toRotationMatrix();
-  const double rate_rad_s = 2.0 * std::numbers::pi / revolution.period.period_s;
+  const double rate_rad_s = kTurn_rad / revolution.period.period_s;
   const GoodEdges edges{config, revolution};
   for (const Pulse& edge : edges.span()) {
     const auto predicted = predict_edge(config, sky, R_spin_icrf, edge);

@@ -4,18 +4,19 @@
 #include <algorithm>
 #include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/model_allowance.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
 
 // What is known worse is no place to linearise at: a filter would take what two linearisations
 // disagree on for knowledge of what no edge measures.
-constexpr double kPoorest_rad = 3.0 * std::numbers::pi / 180.0;
+constexpr double kPoorest_rad = 3.0 * kRadPerDeg;
 // So many branches are of fixes that agree on nothing.
 constexpr std::size_t kMostBranches = 16;
-constexpr double kContradictionSigmas = 5.0;
 
 StartingPoint middle_of(const MeanAxis& branch) {
   return {.axis_icrf = branch.axis_icrf(), .covariance_rad2 = branch.covariance_rad2()};

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "pipelines/statistics/significance.h"
+
 namespace spindrift {
 namespace {
 
@@ -11,8 +13,6 @@ constexpr std::size_t kWindow = 64;
 constexpr std::size_t kFewest = 10;
 // Of a full window's edges, so many more hardly change it.
 constexpr int kStale = 4;
-// Of normal noise, sigma over half the distance of the quartiles.
-constexpr double kSigmaPerHalf = 1.4826;
 // A step or a ramp crosses the middle once.
 constexpr int kFewestCrossings = 3;
 // Half the distance of so many has itself a sigma of 1.2 over the root of their number.
@@ -26,7 +26,7 @@ double noise_of(const std::deque<double>& recent) {
   std::sort(sorted.begin(), sorted.end());
   const double lower = sorted[sorted.size() / 4];
   const double upper = sorted[sorted.size() - 1 - sorted.size() / 4];
-  const double sigma = kSigmaPerHalf * 0.5 * (upper - lower);
+  const double sigma = kRoundedSigmaPerMad * 0.5 * (upper - lower);
   if (sigma < 1.0 + kSignificant / std::sqrt(static_cast<double>(recent.size()))) {
     return 1.0;
   }

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -12,7 +13,7 @@ namespace {
 
 constexpr std::chrono::nanoseconds kPulseHorizon{std::chrono::seconds{1}};
 constexpr double kFrameHorizon_turns = 2.5;
-constexpr double kSlowestTurn_s = 12.0;
+constexpr double kSlowestTurn_s = 60.0 / kSlowestSpin_rpm;
 
 }  // namespace
 

@@ -9,12 +9,10 @@
 #include <vector>
 
 #include "pipelines/spin/types/pulse.h"
+#include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
-
-/// Between two sun1. One revolution a minute, far slower than what is stabilised by its spin.
-inline constexpr double kLongestPeriod_s = 60.0;
 
 /// As far behind sun1 is an interval a plain time: an edge of the revolution that begins with sun1,
 /// or of the one behind it.

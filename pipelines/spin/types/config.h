@@ -30,9 +30,8 @@ struct PulseNoise {
   double infrared_s;
 };
 
-inline double edge_sigma_s(const PulseNoise& noise, PulseChannel channel) {
-  const bool sun = channel == PulseChannel::Sun1 || channel == PulseChannel::Sun2;
-  return sun ? noise.sun_s : noise.infrared_s;
+constexpr double edge_sigma_s(const PulseNoise& noise, PulseChannel channel) {
+  return sees_the_sun(channel) ? noise.sun_s : noise.infrared_s;
 }
 
 enum class HorizonModel { Sphere, Ellipsoid };

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "pipelines/frames/angle.h"
+
 namespace spindrift {
 
 /// What stays the same in every revolution and unlike noise does not average out: where the limb
@@ -25,10 +27,10 @@ struct ErrorInformation {
 /// One standard deviation of what stays the same in every revolution: the beam's mounting angle,
 /// the place of the limb, sun angle, azimuth. Infrared sensors and sun slits are aligned to a tenth
 /// of a degree, and the height of the CO2 layer moves the limb by about as much.
-inline constexpr double kModelError_rad = 0.15 * 0.017453292519943295;
+inline constexpr double kModelError_rad = 0.15 * kRadPerDeg;
 
 /// Beyond this, and several sigmas of the noise, two things contradict each other: all of the above
 /// at three sigmas, or the oblate Earth's 0.2 deg together with two of them.
-inline constexpr double kModelLimit_rad = 0.5 * 0.017453292519943295;
+inline constexpr double kModelLimit_rad = 0.5 * kRadPerDeg;
 
 }  // namespace spindrift

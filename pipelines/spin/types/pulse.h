@@ -21,6 +21,9 @@ inline constexpr std::array<std::string_view, kPulseChannels> kPulseChannelNames
     "sun1", "sun2", "north_in", "north_out", "south_in", "south_out"};
 
 constexpr std::size_t index_of(PulseChannel channel) { return static_cast<std::size_t>(channel); }
+constexpr bool sees_the_sun(PulseChannel channel) {
+  return channel == PulseChannel::Sun1 || channel == PulseChannel::Sun2;
+}
 constexpr std::string_view name_of(PulseChannel channel) {
   return kPulseChannelNames.at(index_of(channel));
 }

@@ -1,14 +1,12 @@
 #include "pipelines/spin/types/revolution.h"
 
-#include <numbers>
-
+#include "pipelines/frames/angle.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
 
 double Revolution::rate_rad_s(TaiTime t) const {
-  return 2.0 * std::numbers::pi *
-         (1.0 / period.period_s + period.drift_per_s2 * elapsed_s(t_start, t));
+  return kTurn_rad * (1.0 / period.period_s + period.drift_per_s2 * elapsed_s(t_start, t));
 }
 
 double Revolution::turned_rad(TaiTime from, TaiTime to) const {

@@ -2,19 +2,20 @@
 
 #include <array>
 
+#include "pipelines/frames/angle.h"
+
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = 0.017453292519943295;
 // Twice what alignments are good to (model_allowance.h): a bias that is asked for is suspected.
-constexpr double kAngle_rad = 0.3 * kDegree_rad;
-constexpr double kMostAngle_rad = 3.0 * kDegree_rad;
+constexpr double kAngle_rad = 0.3 * kRadPerDeg;
+constexpr double kMostAngle_rad = 3.0 * kRadPerDeg;
 // Seasons and latitude move the 14 to 16 um horizon by a few km (WGS-84 surface + 40 km nominal).
 constexpr double kHeight_km = 4.0;
 constexpr double kMostHeight_km = 30.0;
 // Balancing leaves some tenths of a degree between the sensors' axis and the principal axis.
-constexpr double kConing_rad = 0.5 * kDegree_rad;
-constexpr double kMostConing_rad = 5.0 * kDegree_rad;
+constexpr double kConing_rad = 0.5 * kRadPerDeg;
+constexpr double kMostConing_rad = 5.0 * kRadPerDeg;
 constexpr BiasPrior kConing{.name = "coning",
                             .words = "coning",
                             .is_angle = true,

@@ -136,7 +136,7 @@ Pass made(const Train& train, std::mt19937_64& rng) {
       const double earth_turns = (train.earth_drift + 0.5 * train.earth_bend * turn) * turn;
       const double drift = sees_the_sun(channel) ? 0.0 : earth_turns;
       const double t_s = sun1_s + (train.phases_turns.at(i) + drift) * period_s;
-      Pulse edge{.t = shifted(kStart, t_s + noise_of(noise, channel) * normal(rng)),
+      Pulse edge{.t = shifted(kStart, t_s + edge_sigma_s(noise, channel) * normal(rng)),
                  .channel = channel};
       if (uniform(rng) < train.dirt.spurious) {
         pass.pulses.push_back(

@@ -51,7 +51,7 @@ std::vector<Edge> edges_of(const Crossing& crossing, const PulseNoise& noise,
         0.0, 0.11, 0.40, 0.52, 0.43, 0.52 + apart_s(crossing, turn)};
     for (std::size_t i = 0; i < kPulseChannels; ++i) {
       const auto channel = static_cast<PulseChannel>(i);
-      const double off_s = noise_of(noise, channel) * normal(rng);
+      const double off_s = edge_sigma_s(noise, channel) * normal(rng);
       edges.push_back({.turn = turn,
                        .t_s = turn * kPeriod_s + behind_s.at(i) + off_s,
                        .channel = channel,

@@ -1,0 +1,15 @@
+/// @file
+/// Degrees and turns in radians.
+
+#pragma once
+
+#include <numbers>
+
+namespace spindrift {
+
+inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+inline constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+inline constexpr double kQuarter_rad = 0.25 * kTurn_rad;
+
+}  // namespace spindrift

@@ -1,0 +1,30 @@
+/// @file
+/// Limits that tests of many stages share, and factors of the normal distribution. Where fewer
+/// digits stand than are known, results are multiples of the number: more digits would change them.
+
+#pragma once
+
+namespace spindrift {
+
+/// Beyond so many standard deviations things contradict each other: noise alone does it once in
+/// 1.7 million, so that none of the thousands of measurements of a pass does.
+inline constexpr double kContradictionSigmas = 5.0;
+/// The same where the standard deviation is stated by people, as that of a prior is.
+inline constexpr double kPriorSigmas = 3.0;
+
+/// Chance that a search finds in noise alone what it looks for.
+inline constexpr double kFalseAlarm = 1e-4;
+/// Chi-square of two degrees of freedom that noise exceeds by that chance.
+inline constexpr double kFalseAlarmSquares = 18.42;
+/// So far above the limit of a search something is found in 95 of 100 cases, in sigmas.
+inline constexpr double kDetectionSigmas = 1.645;
+
+/// Half of all normal deviations are less than this many sigmas.
+inline constexpr double kMedianDeviation = 0.6745;
+/// Its inverse: standard deviation over median absolute deviation, or over half the distance of the
+/// quartiles.
+inline constexpr double kSigmaPerMad = 1.482602218505602;
+/// Of `sequential` and of the association.
+inline constexpr double kRoundedSigmaPerMad = 1.4826;
+
+}  // namespace spindrift
