@@ -12,4 +12,6 @@ inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 inline constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 inline constexpr double kQuarter_rad = 0.25 * kTurn_rad;
 
+constexpr double degrees(double angle_rad) { return angle_rad * kDegPerRad; }
+
 }  // namespace spindrift

@@ -6,7 +6,6 @@
 #include "pipelines/frames/angle.h"
 
 namespace spindrift {
-namespace {}  // namespace
 
 Eigen::Vector3d direction_icrf(const RaDec& place) {
   const double cos_dec = std::cos(place.dec_rad);

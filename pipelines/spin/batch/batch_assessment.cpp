@@ -44,9 +44,9 @@ void add_motion(const BatchSolution& solution, const BatchDoubts& doubts, Reason
   using enum ReasonCode;
   if (solution.nutation && solution.nutation->found) {
     const FoundNutation& nutation = *solution.nutation->found;
-    reasons.push_back({Nutation,
-                       {{"deg", nutation.half_angle_rad.value / kRadPerDeg},
-                        {"period_s", nutation.period_s.value}}});
+    reasons.push_back(
+        {Nutation,
+         {{"deg", degrees(nutation.half_angle_rad.value)}, {"period_s", nutation.period_s.value}}});
     for (const double other_s : nutation.other_periods_s) {
       reasons.push_back({OtherNutationPeriod, {{"period_s", other_s}}});
     }
@@ -54,13 +54,13 @@ void add_motion(const BatchSolution& solution, const BatchDoubts& doubts, Reason
   const ConingVerdict& coning = solution.coning.verdict;
   if (coning.detected) {
     reasons.push_back({Coning,
-                       {{"deg", coning.tilt_rad / kRadPerDeg},
-                        {"sigma_deg", solution.coning.tilt_sigma_rad / kRadPerDeg}}});
+                       {{"deg", degrees(coning.tilt_rad)},
+                        {"sigma_deg", degrees(solution.coning.tilt_sigma_rad)}}});
     if (doubts.coning_by_edges) {
       reasons.push_back({ConingOrMisplaced});
     }
   } else if (doubts.estimated[ConingX]) {
-    reasons.push_back({NoConing, {{"detectable_deg", coning.detectable_rad / kRadPerDeg}}});
+    reasons.push_back({NoConing, {{"detectable_deg", degrees(coning.detectable_rad)}}});
   }
 }
 
@@ -115,8 +115,7 @@ Assessment assess(const BatchSolution& solution, const BatchDoubts& doubts) {
     assessment.quality = Quality::Ambiguous;
     const RaDec other = ra_dec_of(*doubts.or_axis_icrf);
     reasons.push_back(
-        {OtherAxis,
-         {{"ra_deg", other.ra_rad / kRadPerDeg}, {"dec_deg", other.dec_rad / kRadPerDeg}}});
+        {OtherAxis, {{"ra_deg", degrees(other.ra_rad)}, {"dec_deg", degrees(other.dec_rad)}}});
   }
   reasons.push_back({Edges, {{"count", solution.edges}}});
   if (doubts.left_out) {

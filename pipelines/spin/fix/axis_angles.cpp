@@ -23,8 +23,6 @@ constexpr double kModelSigmas = 3.0;
 // cosine, the second order is a quarter of the first.
 constexpr double kNarrowSigmas = 10.0;
 
-double degrees(double angle_rad) { return angle_rad * kDegPerRad; }
-
 /// Cones that touch within noise and model. Where they miss each other by so little, the roots that
 /// are missing may be the true ones.
 /// @param excess By how much they miss each other; negative where they cross.

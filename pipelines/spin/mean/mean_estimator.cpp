@@ -26,8 +26,6 @@ constexpr double kScattered = 9.0;
 // Of two that differ nobody knows which is right.
 constexpr std::size_t kFewestFixes = 3;
 
-double degrees(double angle_rad) { return angle_rad * kDegPerRad; }
-
 }  // namespace
 
 void MeanEstimator::keep(std::int64_t revolution, const RevolutionMeasurements& measured,

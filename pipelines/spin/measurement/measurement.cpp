@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <initializer_list>
-#include <numbers>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
@@ -46,10 +45,11 @@ Measured azimuth_behind(PulseChannel slit, Side side, const Revolution& revoluti
              revolution.turned_rad(t_slit, *revolution.edge(kOutChannels.at(index_of(side)))));
   const double rate_rad_s = revolution.rate_rad_s(t_slit);
   EdgeNoise noise_rad = EdgeNoise::Zero();
-  noise_rad(static_cast<Eigen::Index>(slit)) = -rate_rad_s * config.noise.sun_s;
+  noise_rad(static_cast<Eigen::Index>(slit)) = -rate_rad_s * edge_sigma_s(config.noise, slit);
   for (const PulseChannel channel :
        {kInChannels.at(index_of(side)), kOutChannels.at(index_of(side))}) {
-    noise_rad(static_cast<Eigen::Index>(channel)) = 0.5 * rate_rad_s * config.noise.infrared_s;
+    noise_rad(static_cast<Eigen::Index>(channel)) =
+        0.5 * rate_rad_s * edge_sigma_s(config.noise, channel);
   }
   return with_period_noise(
       measured_from(wrapped_rad(middle_rad - sensor_of(config, side)->azimuth_rad), noise_rad),
@@ -71,8 +71,10 @@ std::optional<EarthCrossing> crossing_of(const SpinConfig& config, const Revolut
   }
   const double rate_rad_s = revolution.rate_rad_s(*in);
   EdgeNoise noise_rad = EdgeNoise::Zero();
-  noise_rad(static_cast<Eigen::Index>(in_channel)) = -rate_rad_s * config.noise.infrared_s;
-  noise_rad(static_cast<Eigen::Index>(out_channel)) = rate_rad_s * config.noise.infrared_s;
+  noise_rad(static_cast<Eigen::Index>(in_channel)) =
+      -rate_rad_s * edge_sigma_s(config.noise, in_channel);
+  noise_rad(static_cast<Eigen::Index>(out_channel)) =
+      rate_rad_s * edge_sigma_s(config.noise, out_channel);
   EarthCrossing crossing{
       .t_in = *in, .t_out = *out, .chord = measured_from(chord_rad, noise_rad), .dihedral = {}};
   crossing.chord->rejected_by = rejection_of(revolution, {in_channel, out_channel});
@@ -147,7 +149,7 @@ Measured mean_round_the_circle(const Measured& one, const Measured& other) {
 std::optional<Measured> sun_angle(const SunSensor& sensor, double delay_s, double rate_rad_s,
                                   double sun_pulse_sigma_s) {
   const double lag_rad = wrapped_rad(rate_rad_s * delay_s - sensor.slit_separation_rad);
-  if (!(std::abs(lag_rad) < 0.5 * std::numbers::pi)) {
+  if (!(std::abs(lag_rad) < kQuarter_rad)) {
     return std::nullopt;
   }
   const double tan_cant = std::tan(sensor.slit_cant_rad);

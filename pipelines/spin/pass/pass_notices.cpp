@@ -17,8 +17,6 @@ namespace {
 // Of a pass of few turns a large share is left out before its spin period is found.
 constexpr std::int64_t kFewestToJudge = 100;
 
-double degrees(double angle_rad) { return angle_rad * kDegPerRad; }
-
 /// It is the edges themselves, or what the mission says of them, that does not fit.
 bool is_of_the_edge(Rejection rejection) {
   return rejection != Rejection::Late && rejection != Rejection::OutOfTime &&

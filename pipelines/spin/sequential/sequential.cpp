@@ -21,8 +21,6 @@ constexpr int kFewestGrazing = 20;
 constexpr double kRecentFix = 0.02;
 constexpr double kNearlyAll = 0.8;
 
-double degrees(double angle_rad) { return angle_rad * kDegPerRad; }
-
 }  // namespace
 
 SequentialEstimator::SequentialEstimator(SpinConfig config)
