@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "pipelines/ephemeris/terrestrial_time.h"
+
 namespace spindrift {
 namespace {
 
@@ -14,8 +16,6 @@ using std::chrono::hours;
 constexpr double kAu_km = ERFA_DAU * 1e-3;
 constexpr double kAuPerDay_km_s = kAu_km / ERFA_DAYSEC;
 constexpr double kLight_km_s = ERFA_CMPS * 1e-3;
-constexpr double kHour_s = 3600.0;
-constexpr double kTaiEpoch_jd = 2440587.5;
 
 /// Unit vector to what is seen at `relative_km` by an observer with that velocity.
 Eigen::Vector3d aberrated(const Eigen::Vector3d& relative_km,
@@ -33,14 +33,12 @@ Eigen::Vector3d aberrated(const Eigen::Vector3d& relative_km,
 
 EarthMotion earth_motion(TaiTime t) {
   using RowMajor = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>;
-  const double tt_s = seconds_between(TaiTime{}, t) + ERFA_TTMTAI;
   // NOLINTBEGIN(*-avoid-c-arrays): ERFA's own types.
   double heliocentric_au_d[2][3];
   double barycentric_au_d[2][3];
   // NOLINTEND(*-avoid-c-arrays)
   // The status only warns of years outside 1900 to 2100: see the header.
-  static_cast<void>(
-      eraEpv00(kTaiEpoch_jd, tt_s / ERFA_DAYSEC, heliocentric_au_d, barycentric_au_d));
+  static_cast<void>(eraEpv00(kTaiEpoch_jd, tt_days(t), heliocentric_au_d, barycentric_au_d));
   const Eigen::Map<const RowMajor> heliocentric{&heliocentric_au_d[0][0]};
   const Eigen::Map<const RowMajor> barycentric{&barycentric_au_d[0][0]};
   return {.heliocentric_icrf_km = kAu_km * heliocentric.row(0).transpose(),

@@ -21,6 +21,8 @@ struct TaiClock {
 };
 using TaiTime = TaiClock::time_point;
 
+inline constexpr double kHour_s = 3600.0;
+
 constexpr TaiTime tai_from_ns(std::int64_t t_tai_ns) {
   return TaiTime{std::chrono::nanoseconds{t_tai_ns}};
 }

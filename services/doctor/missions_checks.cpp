@@ -10,7 +10,6 @@ namespace spindrift::doctor {
 namespace {
 
 constexpr double kDay_s = 86'400.0;
-constexpr double kHour_s = 3'600.0;
 
 std::string coverage_text(const Coverage& coverage) {
   return fmt::format("ephemeris from {} to {}", format_utc(coverage.from, 0),

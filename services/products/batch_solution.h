@@ -131,7 +131,6 @@ constexpr auto nutation_column(std::string_view name, Get get) {
 struct SpinNutationTable {
   static constexpr std::string_view kName = "spin_nutation";
   static constexpr std::array<std::string_view, 1> kKey{"t_tai_ns"};
-  static constexpr double kPerHour = 3600.0;  ///< Of 1/s.
 
   static bool has_row(const BatchProduct& solution) { return solution->nutation.has_value(); }
 
@@ -150,9 +149,9 @@ struct SpinNutationTable {
       nutation_column("period_s", [](const Found& f) { return f.period_s.value; }),
       nutation_column("period_sigma_s", [](const Found& f) { return f.period_s.sigma; }),
       nutation_column("growth_per_h",
-                      [](const Found& f) { return f.growth_per_s.value * kPerHour; }),
+                      [](const Found& f) { return f.growth_per_s.value * kHour_s; }),
       nutation_column("growth_sigma_per_h",
-                      [](const Found& f) { return f.growth_per_s.sigma * kPerHour; }),
+                      [](const Found& f) { return f.growth_per_s.sigma * kHour_s; }),
       nutation_column("lean_azimuth_deg",
                       [](const Found& f) { return f.lean_azimuth_rad.value * kDegPerRad; }),
       nutation_column("lean_azimuth_sigma_deg",

@@ -29,7 +29,6 @@ constexpr double kOrbitMargin_s = 30.0;
 // guessed.
 constexpr TaiTime kEarliest = tai_from_ns(63158400000000000);
 constexpr TaiTime kLatest = tai_from_ns(4102444800000000000);
-constexpr double kSecondsPerHour = 3600.0;
 
 std::optional<TaiTime> start_of(TomlDocument& document) {
   if (const auto t_tai_ns = value_if<std::int64_t>(document.values, "pass.start_tai_ns")) {
@@ -99,7 +98,7 @@ void check_rate(TomlDocument& document) {
   if (!rate_rpm || !drift_rpm_h || !duration_s) {
     return;
   }
-  const double last_rpm = *rate_rpm + *drift_rpm_h * *duration_s / kSecondsPerHour;
+  const double last_rpm = *rate_rpm + *drift_rpm_h * *duration_s / kHour_s;
   if (!(last_rpm >= kSlowestSpin_rpm && last_rpm <= kFastestSpin_rpm)) {
     add_problem(document, "attitude.rate_drift_rpm_h",
                 fmt::format("attitude.rate_drift_rpm_h = {}: the rate ends at {:.3f} rpm: must lie "
@@ -116,7 +115,7 @@ void check_growth(TomlDocument& document) {
   if (!half_angle_deg || !growth_per_h || !duration_s) {
     return;
   }
-  const double last_deg = *half_angle_deg * std::exp(*growth_per_h * *duration_s / kSecondsPerHour);
+  const double last_deg = *half_angle_deg * std::exp(*growth_per_h * *duration_s / kHour_s);
   constexpr double kMost_deg = 10.0;
   if (!(last_deg <= kMost_deg)) {
     add_problem(
@@ -133,8 +132,7 @@ Nutation nutation_of(const TomlValues& values) {
              ? Nutation{.half_angle_rad = *half_angle_deg / kDegPerRad,
                         .inertia_ratio = number(values, "attitude.nutation.inertia_ratio"),
                         .first_azimuth_rad = radians(values, "attitude.nutation.phase_deg"),
-                        .growth_per_s =
-                            number(values, "attitude.nutation.growth_per_h") / kSecondsPerHour}
+                        .growth_per_s = number(values, "attitude.nutation.growth_per_h") / kHour_s}
              : Nutation{};
 }
 
@@ -147,14 +145,14 @@ Coning coning_of(const TomlValues& values) {
 
 SpinMotion motion_of(const TomlValues& values) {
   const double rad_s_per_rpm = 1.0 / kRpmPerRad_s;
-  return {.axis_icrf = direction_icrf({.ra_rad = radians(values, "attitude.ra_deg"),
-                                       .dec_rad = radians(values, "attitude.dec_deg")}),
-          .rate_rad_s = number(values, "attitude.rate_rpm") * rad_s_per_rpm,
-          .rate_drift_rad_s2 =
-              number(values, "attitude.rate_drift_rpm_h") * rad_s_per_rpm / kSecondsPerHour,
-          .first_azimuth_rad = radians(values, "attitude.azimuth_deg"),
-          .nutation = nutation_of(values),
-          .coning = coning_of(values)};
+  return {
+      .axis_icrf = direction_icrf({.ra_rad = radians(values, "attitude.ra_deg"),
+                                   .dec_rad = radians(values, "attitude.dec_deg")}),
+      .rate_rad_s = number(values, "attitude.rate_rpm") * rad_s_per_rpm,
+      .rate_drift_rad_s2 = number(values, "attitude.rate_drift_rpm_h") * rad_s_per_rpm / kHour_s,
+      .first_azimuth_rad = radians(values, "attitude.azimuth_deg"),
+      .nutation = nutation_of(values),
+      .coning = coning_of(values)};
 }
 
 std::optional<TrueInfrared> true_infrared(const TomlValues& values,

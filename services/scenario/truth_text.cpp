@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/celestial.h"
@@ -11,8 +10,6 @@
 
 namespace spindrift {
 namespace {
-
-constexpr double kSecondsPerHour = 3600.0;
 
 nlohmann::json bad_edges(const SimulatedPass& pass) {
   nlohmann::json edges = nlohmann::json::array();
@@ -28,9 +25,9 @@ nlohmann::ordered_json nutation(const SpinMotion& motion) {
   const Nutation& nutation = motion.nutation;
   return {{"half_angle_deg", nutation.half_angle_rad * kDegPerRad},
           {"inertia_ratio", nutation.inertia_ratio},
-          {"period_s", 2.0 * std::numbers::pi / (motion.rate_rad_s * nutation.per_turn())},
+          {"period_s", kTurn_rad / (motion.rate_rad_s * nutation.per_turn())},
           {"phase_deg", nutation.first_azimuth_rad * kDegPerRad},
-          {"growth_per_h", nutation.growth_per_s * kSecondsPerHour}};
+          {"growth_per_h", nutation.growth_per_s * kHour_s}};
 }
 
 nlohmann::ordered_json coning(const Coning& coning) {

@@ -11,8 +11,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double kSecondsPerHour = 3600.0;
-
 struct Readable {
   double value;
   double sigma;
@@ -46,7 +44,7 @@ std::string nutation_text(const BatchSolution& solution) {
       "               grows by {:+.2f} +/- {:.2f} of it an hour\n",
       found.half_angle_rad.value * kDegPerRad, found.half_angle_rad.sigma * kDegPerRad,
       format_utc(solution.nutation_t, 0), found.period_s.value, found.period_s.sigma, others,
-      found.growth_per_s.value * kSecondsPerHour, found.growth_per_s.sigma * kSecondsPerHour);
+      found.growth_per_s.value * kHour_s, found.growth_per_s.sigma * kHour_s);
 }
 
 std::string coning_text(const ConingEstimate& coning) {
@@ -73,8 +71,8 @@ nlohmann::json nutation_json(const BatchSolution& solution) {
     json["period_s"] = found->period_s.value;
     json["period_sigma_s"] = found->period_s.sigma;
     json["other_periods_s"] = found->other_periods_s;
-    json["growth_per_h"] = found->growth_per_s.value * kSecondsPerHour;
-    json["growth_sigma_per_h"] = found->growth_per_s.sigma * kSecondsPerHour;
+    json["growth_per_h"] = found->growth_per_s.value * kHour_s;
+    json["growth_sigma_per_h"] = found->growth_per_s.sigma * kHour_s;
     json["lean_azimuth_deg"] = found->lean_azimuth_rad.value * kDegPerRad;
     json["lean_azimuth_sigma_deg"] = found->lean_azimuth_rad.sigma * kDegPerRad;
     json["at_utc"] = format_utc(solution.nutation_t);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
 #include "services/geometry/geometry_plot.h"
@@ -26,8 +27,6 @@ namespace spindrift {
 namespace {
 
 constexpr double kUsualRate_rpm = 60.0;
-constexpr double kSlowest_rpm = 5.0;
-constexpr double kFastest_rpm = 200.0;
 constexpr double kRows = 60.0;
 constexpr double kMostRows = 10'000.0;
 constexpr double kLongest_s = 7.0 * 86'400.0;
@@ -102,9 +101,9 @@ void check_step(double step_s, double span_s, Problems& problems) {
 }
 
 void check_rate(double rate_rpm, Problems& problems) {
-  if (!(rate_rpm >= kSlowest_rpm && rate_rpm <= kFastest_rpm)) {
-    problems.add(
-        fmt::format("--rpm {}: must lie in [{}, {}]", rate_rpm, kSlowest_rpm, kFastest_rpm));
+  if (!(rate_rpm >= kSlowestSpin_rpm && rate_rpm <= kFastestSpin_rpm)) {
+    problems.add(fmt::format("--rpm {}: must lie in [{}, {}]", rate_rpm, kSlowestSpin_rpm,
+                             kFastestSpin_rpm));
   }
 }
 

@@ -9,11 +9,12 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "pipelines/time/tai_time.h"
 
 namespace spindrift {
 
 inline constexpr double kRpmPerRad_s = 30.0 / std::numbers::pi;
-inline constexpr double kRpmPerHourPerRad_s2 = kRpmPerRad_s * 3600.0;
+inline constexpr double kRpmPerHourPerRad_s2 = kRpmPerRad_s * kHour_s;
 
 /// Right ascension in [0, 360), declination in [-90, 90].
 struct PlaceDeg {

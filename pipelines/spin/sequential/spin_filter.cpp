@@ -20,7 +20,7 @@ constexpr double kAxisWander_rad_sqrt_s = 1e-6;
 // What is left beside an even drift. A rate that is constant is known better than the filter says;
 // the axis hardly depends on it.
 constexpr double kRateWander_rad_s_sqrt_s = 3e-6;
-constexpr double kFirstDrift_rad_s2 = kFirstDrift_rpm_h * (kTurn_rad / 60.0) / 3600.0;
+constexpr double kFirstDrift_rad_s2 = kFirstDrift_rpm_h * (kTurn_rad / 60.0) / kHour_s;
 // A day makes 0.02 rpm/h of it.
 constexpr double kDriftWander_rad_s2_sqrt_s = 2e-9;
 // One edge in a thousand is spurious and anywhere on the circle.

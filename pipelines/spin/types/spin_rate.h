@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "pipelines/time/tai_time.h"
+
 namespace spindrift {
 
 /// 1 / (60 s): turns a minute.
@@ -17,7 +19,7 @@ inline constexpr double kLongestPeriod_s = 60.0;
 inline constexpr double kShortestPeriod_s = 0.1;
 
 /// Of the spin rate in turns a second, in a second.
-constexpr double drift_per_s2(double drift_rpm_h) { return drift_rpm_h / 60.0 / 3600.0; }
+constexpr double drift_per_s2(double drift_rpm_h) { return drift_rpm_h / 60.0 / kHour_s; }
 
 /// One sigma of a drift of which nothing is known: eddy currents, warming and leaks do less.
 inline constexpr double kFirstDrift_rpm_h = 2.0;
