@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
