@@ -1,0 +1,101 @@
+/// The first answers of a pass have been checked by little data: none of them that is wrong may say
+/// OK, whatever the body does and the mission file has wrong.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "pipelines/spin/pass/spin_pass.h"
+#include "tests/support/product_text.h"
+#include "tests/support/wobbling_pass.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+constexpr int kPasses = 20;
+constexpr double kDuration_s = 100.0;
+constexpr double kMostSigmas = 5.0;
+
+struct Tally {
+  int converging = 0;
+  int ok = 0;
+  int ok_and_wrong = 0;  ///< Beyond five sigmas.
+  int passes_wrong = 0;  ///< With such estimates.
+};
+
+void count(const SpinEstimate& estimate, const SpinTruth& truth, Tally& tally) {
+  const Eigen::Vector2d error = testing::error_rad(estimate.axis_icrf, truth.motion.axis_icrf);
+  const double squares = error.dot(estimate.covariance_rad2.inverse() * error);
+  tally.converging += estimate.assessment.quality == Quality::Converging ? 1 : 0;
+  if (estimate.assessment.quality == Quality::Ok) {
+    ++tally.ok;
+    tally.ok_and_wrong += squares > kMostSigmas * kMostSigmas ? 1 : 0;
+  }
+}
+
+/// Of passes in which body and mission are changed by `differ`.
+Tally tally_of(const std::function<void(testing::WobblingPasses&, SpinTruth&)>& differ) {
+  testing::WobblingPasses passes{2025, kDuration_s};
+  Tally tally;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    SpinTruth truth = passes.drawn();
+    differ(passes, truth);
+    std::vector<Pulse> pulses;
+    for (const PassEdge& edge : passes.edges(truth)) {
+      pulses.push_back(edge.pulse);
+    }
+    const SpinOutput output = testing::run(SpinPass{passes.config(), passes.orbit()}, pulses);
+    const int wrong_before = tally.ok_and_wrong;
+    for (const SpinEstimate& estimate : testing::all_of<SpinEstimate>(output)) {
+      count(estimate, truth, tally);
+    }
+    tally.passes_wrong += tally.ok_and_wrong > wrong_before ? 1 : 0;
+  }
+  ::testing::Test::RecordProperty("converging", tally.converging);
+  ::testing::Test::RecordProperty("ok", tally.ok);
+  return tally;
+}
+
+TEST(SpinFirstRows, OfAHealthyPassConvergeAndAreThenOk) {
+  const Tally tally = tally_of([](auto&, auto&) {});
+  EXPECT_GT(tally.converging, 0);
+  EXPECT_GT(tally.ok, tally.converging);
+  EXPECT_EQ(tally.ok_and_wrong, 0);
+}
+
+TEST(SpinFirstRows, AreNotOkAndWrongWhereTheBodyNutates) {
+  const Tally tally = tally_of([](testing::WobblingPasses& passes, SpinTruth& truth) {
+    truth.motion.nutation = passes.random_nutation((0.1 + 2.9 * passes.uniform()) * kDegree_rad);
+  });
+  EXPECT_GT(tally.converging, 0);
+  EXPECT_EQ(tally.ok_and_wrong, 0);
+}
+
+TEST(SpinFirstRows, AreNotOkAndWrongWhereOneBeamCrossesTheMiddle) {
+  const Tally tally = tally_of([](testing::WobblingPasses& passes, SpinTruth& truth) {
+    truth.south.reset();
+    passes.config().south.reset();
+  });
+  EXPECT_GT(tally.converging, 0);
+  EXPECT_EQ(tally.ok_and_wrong, 0);
+}
+
+TEST(SpinFirstRows, AreNotOkAndWrongWhereSensorsAreGrosslyMisplaced) {
+  const Tally tally = tally_of([](testing::WobblingPasses& passes, SpinTruth& truth) {
+    const auto up_to_two_deg = [&] { return (4.0 * passes.uniform() - 2.0) * kDegree_rad; };
+    truth.north->mount_angle_rad += up_to_two_deg();
+    truth.north->azimuth_rad += up_to_two_deg();
+    truth.south->mount_angle_rad += up_to_two_deg();
+  });
+  EXPECT_GT(tally.converging, 0);
+  // Twenty times what the mission file allows for: once in twenty passes five sigmas are just
+  // passed.
+  EXPECT_LE(tally.passes_wrong, 1);
+}
+
+}  // namespace
+}  // namespace spindrift
