@@ -68,6 +68,28 @@ TEST_F(ArchiveProducts, ProductsOfTwoRunsStandSideBySide) {
   EXPECT_EQ(number("SELECT count(*) FROM spin_fix WHERE revolution = 12"), 2);
 }
 
+TEST_F(ArchiveProducts, VerdictOfAPassIsThatOfBatchElseOfSequentialElseOfMean) {
+  const auto archive = open();
+  ArchiveBatch batch = start_of("0");
+  ASSERT_TRUE(archive->submit(batch));
+  std::vector<Product> estimates;
+  for (const SpinEstimator estimator :
+       {SpinEstimator::Mean, SpinEstimator::Sequential, SpinEstimator::Batch}) {
+    estimates.emplace_back(estimate_at(1, estimator, 20.0));
+    estimates.emplace_back(estimate_at(2, estimator, 30.0));
+    batch = start_of(std::to_string(estimates.size()));
+    batch.products = estimates;
+    ASSERT_TRUE(archive->submit(batch));
+  }
+  ASSERT_TRUE(archive->flush());
+
+  SQLite::Database database = reader();
+  EXPECT_THAT(column(database,
+                     "SELECT format('%s %.3g %s', ifnull(estimator, '-'), ifnull(dec_deg, 0), why)"
+                     " FROM pass_verdict ORDER BY run_id"),
+              ElementsAre("- 0 no estimate", "mean 30 OK", "sequential 30 OK", "batch 30 OK"));
+}
+
 TEST_F(ArchiveProducts, SpinFixIsStoredInDegreesWithItsCovariance) {
   ArchiveBatch batch = start_of("run-1");
   batch.products = {fix_at(100.0, -55.0)};
