@@ -1,5 +1,6 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
+#include <sqlite3.h>
 #include <sys/stat.h>
 
 #include <fstream>
@@ -52,8 +53,16 @@ std::vector<std::string> damages_of(SQLite::Database& database, bool everything)
   SQLite::Statement check{database,
                           everything ? "PRAGMA integrity_check(10)" : "PRAGMA quick_check(10)"};
   std::vector<std::string> damages;
-  while (check.executeStep()) {
-    damages.push_back(check.getColumn(0).getString());
+  try {
+    while (check.executeStep()) {
+      damages.push_back(check.getColumn(0).getString());
+    }
+  } catch (const SQLite::Exception& exception) {
+    // The check gives up at a page that it cannot pass: a finding too.
+    if (exception.getErrorCode() != SQLITE_CORRUPT) {
+      throw;
+    }
+    damages.emplace_back(exception.what());
   }
   return damages == std::vector<std::string>{"ok"} ? std::vector<std::string>{} : damages;
 }
