@@ -64,14 +64,14 @@ enum class ReasonCode {
   EdgesGated,           ///< count
   ChannelGated,         ///< channel
   ManyGated,            ///< -
-  PoorStart,            ///< -
+  StartUnconfirmed,     ///< -
   PoorLeverage,         ///< -
   PriorRefuted,         ///< -
   RestartedGated,       ///< -
   RestartedByFixes,     ///< -
   OtherAxis,            ///< ra_deg, dec_deg
   MoreAxes,             ///< count
-  FixesGraze,           ///< -
+  FixesNearTangent,     ///< -
   NothingSettled,       ///< -
   Edges,                ///< count
   Outliers,             ///< count

@@ -32,13 +32,13 @@ enum class NoticeCode {
   PriorContradicted,       ///< t_tai_ns
   PriorFar,                ///< t_tai_ns, deg, sigmas
   AxisMoved,               ///< t_tai_ns, deg
-  MeanNeverBegan,          ///< fixes, grazing, ambiguous, not_accepted
+  MeanNeverBegan,          ///< fixes, near_tangent, ambiguous, not_accepted
   SequentialNeverBegan,    ///< -
   LittleLeverage,          ///< error_deg, moved_deg
   NotFinite,               ///< table, column
   AmbiguousNoPrior,        ///< geometry_case; likewise the following
-  AmbiguousFixesGraze,     ///< -
-  AmbiguousPriorNoHelp,    ///< - , as fixes graze
+  AmbiguousNearTangent,    ///< -
+  AmbiguousPriorNoHelp,    ///< - , as fixes are near-tangent
   AmbiguousAgainstPrior,   ///< -
   AmbiguousFarFromPrior,   ///< -
   AmbiguousNearPrior,      ///< prior_sigma_deg

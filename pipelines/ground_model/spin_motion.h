@@ -68,14 +68,14 @@ struct SpinMotion {
   /// R_axes_sensors = R_axes_tipped Rz(azimuth). Exactly the identity where nothing wobbles.
   Eigen::Matrix3d R_axes_tipped(double t_s) const {
     const double turned_rad = azimuth_rad(t_s) - first_azimuth_rad;
-    return leaning(nutation.half_angle_at_rad(t_s),
-                   nutation.first_azimuth_rad + nutation.per_turn() * turned_rad) *
-           leaning(coning.tilt_rad, azimuth_rad(t_s) - coning.azimuth_rad);
+    return as_coned(nutation.half_angle_at_rad(t_s),
+                    nutation.first_azimuth_rad + nutation.per_turn() * turned_rad) *
+           as_coned(coning.tilt_rad, azimuth_rad(t_s) - coning.azimuth_rad);
   }
 
  private:
   /// Tips the third axis towards this azimuth.
-  static Eigen::Matrix3d leaning(double angle_rad, double towards_rad) {
+  static Eigen::Matrix3d as_coned(double angle_rad, double towards_rad) {
     const Eigen::Vector3d hinge{-std::sin(towards_rad), std::cos(towards_rad), 0.0};
     return Eigen::AngleAxisd{angle_rad, hinge}.toRotationMatrix();
   }

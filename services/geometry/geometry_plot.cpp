@@ -164,7 +164,7 @@ State state_of(const PassGeometry& geometry, PulseChannel channel) {
 
 State state_of(const PassGeometry& geometry, Side side) {
   const BeamView view = geometry.beams.at(index_of(side)).view;
-  if (view == BeamView::Grazes) {
+  if (view == BeamView::NearTangent) {
     return {.colour = kHalf};
   }
   const State in = state_of(geometry, kInChannels.at(index_of(side)));

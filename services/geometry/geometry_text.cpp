@@ -28,7 +28,7 @@ std::string_view name_of(BeamView view) {
       return "none";
     case BeamView::Misses:
       return "misses";
-    case BeamView::Grazes:
+    case BeamView::NearTangent:
       return "grazes";
     case BeamView::Crosses:
       return "crosses";

@@ -8,10 +8,10 @@ PassWatch::Verdict PassWatch::see(TaiTime t) {
     return Verdict::Within;
   }
   const bool silent = reached_ && t - *reached_ > kLongestSilence;
-  if (silent && ++beyond_ < kBelieved) {
+  if (silent && ++beyond_ < kEnoughToAccept) {
     return Verdict::Undecided;
   }
-  if (silent && within_ >= kBelieved) {
+  if (silent && within_ >= kEnoughToAccept) {
     return Verdict::NewPass;
   }
   within_ += beyond_ + (silent ? 0 : 1);

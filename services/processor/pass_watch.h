@@ -17,7 +17,7 @@ class PassWatch {
   /// Longer a silence does not last within a pass.
   static constexpr std::chrono::hours kLongestSilence{1};
   /// So many samples from beyond it are accepted, when none between them carries the pass on.
-  static constexpr std::size_t kBelieved = 8;
+  static constexpr std::size_t kEnoughToAccept = 8;
 
   /// Within: not later than the pass has come, which says nothing of those from beyond. Onward: the
   /// pass goes on, and what came from beyond was wrong. Undecided: from beyond. NewPass: accepted.

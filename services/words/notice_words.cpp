@@ -66,7 +66,8 @@ constexpr std::array<Pattern<NoticeCode>, kNoticeCodes> kPatterns{{
      "{t_tai_ns}: the axis is {deg:.2f} deg from the mean so far: it has moved, or the mean "
      "was wrong; the mean begins anew"},
     {MeanNeverBegan,
-     "the estimator 'mean' never began: of {fixes} fixes, {grazing} graze (their candidates "
+     "the estimator 'mean' never began: of {fixes} fixes, {near_tangent} are near-tangent (their "
+     "candidates "
      "come together within the noise), {ambiguous} are ambiguous, {not_accepted} are not "
      "accepted"},
     {SequentialNeverBegan,
@@ -81,11 +82,13 @@ constexpr std::array<Pattern<NoticeCode>, kNoticeCodes> kPatterns{{
     {AmbiguousNoPrior,
      "the axis is ambiguous to the end{missing}: a prior in the mission file would choose "
      "among the candidates"},
-    {AmbiguousFixesGraze,
-     "the axis is ambiguous to the end{missing}: nearly all fixes graze: the true axis may be "
+    {AmbiguousNearTangent,
+     "the axis is ambiguous to the end{missing}: nearly all fixes are near-tangent: the true axis "
+     "may be "
      "missing among their candidates, so that no prior would settle it"},
     {AmbiguousPriorNoHelp,
-     "the axis is ambiguous to the end{missing}: nearly all fixes graze: the true axis may be "
+     "the axis is ambiguous to the end{missing}: nearly all fixes are near-tangent: the true axis "
+     "may be "
      "missing among their candidates, so that the prior of the mission (spin.prior) does not "
      "settle it"},
     {AmbiguousAgainstPrior,

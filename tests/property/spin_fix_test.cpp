@@ -30,7 +30,7 @@ struct Scene {
   Eigen::Vector3d earth_icrf;
   double range_km;
 
-  Sightlines sightlines() const {
+  SunEarthDirections sun_earth() const {
     return {.sun_icrf = sun_icrf,
             .earth_icrf = earth_icrf,
             .disc_rad = earth_disc_half_angle_rad(range_km, 40.0).value(),
@@ -92,7 +92,7 @@ TEST(SpinFixProperty, RecoversTheAxisFromBothChords) {
   for (int trial = 0; trial < kTrials; ++trial) {
     SCOPED_TRACE(trial);
     const Scene scene = scenes.next();
-    const auto fix = testing::lone_fix(scene.body.config, scene.seen(), {}, scene.sightlines());
+    const auto fix = testing::lone_fix(scene.body.config, scene.seen(), {}, scene.sun_earth());
     if (!fix || fix->geometry_case != 1 || nearly_in_line(scene)) {
       continue;
     }
@@ -111,7 +111,7 @@ TEST(SpinFixProperty, RecoversTheAxisFromOneChordWhereTheDeterminantIsUsable) {
       SCOPED_TRACE(trial);
       const Scene scene = scenes.next();
       const auto fix =
-          testing::lone_fix(scene.body.config, scene.seen(), {left_out}, scene.sightlines());
+          testing::lone_fix(scene.body.config, scene.seen(), {left_out}, scene.sun_earth());
       if (!fix || !fix->alternates.empty() || nearly_in_line(scene)) {
         continue;
       }
@@ -131,11 +131,11 @@ TEST(SpinFixProperty, TurnsWithSunAndEarth) {
     const Revolution seen = scene.seen();
     const Eigen::Matrix3d turn =
         Eigen::AngleAxisd{scenes.between(0.0, kPi), scenes.direction()}.toRotationMatrix();
-    const Sightlines here = scene.sightlines();
-    const Sightlines there{.sun_icrf = turn * here.sun_icrf,
-                           .earth_icrf = turn * here.earth_icrf,
-                           .disc_rad = here.disc_rad,
-                           .earth_pole_icrf = turn * here.earth_pole_icrf};
+    const SunEarthDirections here = scene.sun_earth();
+    const SunEarthDirections there{.sun_icrf = turn * here.sun_icrf,
+                                   .earth_icrf = turn * here.earth_icrf,
+                                   .disc_rad = here.disc_rad,
+                                   .earth_pole_icrf = turn * here.earth_pole_icrf};
     const auto fix_here = testing::lone_fix(scene.body.config, seen, {}, here);
     const auto fix_there = testing::lone_fix(scene.body.config, seen, {}, there);
     ASSERT_EQ(fix_here.has_value(), fix_there.has_value());

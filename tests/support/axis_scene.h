@@ -11,7 +11,7 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/spin/types/products.h"
-#include "pipelines/spin/types/sightlines.h"
+#include "pipelines/spin/types/sun_earth_directions.h"
 #include "tests/support/lone_fix.h"
 #include "tests/support/spinning_body.h"
 
@@ -30,40 +30,40 @@ struct AxisScene {
 
   static constexpr double kRange_km = 16000.0;
 
-  Sightlines sightlines() const {
+  SunEarthDirections sun_earth() const {
     return {.sun_icrf = sun_icrf,
             .earth_icrf = earth_icrf,
             .disc_rad = std::asin(6418.137 / kRange_km),
             .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
   }
-  Surroundings around() const {
-    Surroundings around = at_rest(sun_icrf, kRange_km * earth_icrf);
+  SunEarthEphemeris around() const {
+    SunEarthEphemeris around = at_rest(sun_icrf, kRange_km * earth_icrf);
     around.horizon_km =
         earth == HorizonModel::Sphere ? spherical_horizon_km(40.0) : ellipsoidal_horizon_km(40.0);
     return around;
   }
   Revolution seen() const { return seen_among(around()); }
-  Revolution seen_among(const Surroundings& around) const {
+  Revolution seen_among(const SunEarthEphemeris& around) const {
     return revolution_seen(
         {.axis_icrf = axis_icrf, .rate_rad_s = rate_rad_s, .first_turn_rad = 0.1, .config = config},
         around, start);
   }
   /// The Earth moves from `start` on, across the line of sight.
   Revolution seen_while_earth_moves(const Eigen::Vector3d& motion_icrf_s) const {
-    Surroundings moving = around();
+    SunEarthEphemeris moving = around();
     moving.earth_icrf_km = [=, this](double t_s) -> Eigen::Vector3d {
       return kRange_km * (earth_icrf + t_s * motion_icrf_s);
     };
     return seen_among(moving);
   }
-  Sightlines sightlines_while_earth_moves(const Eigen::Vector3d& motion_icrf_s) const {
-    Sightlines moving = sightlines();
+  SunEarthDirections sightlines_while_earth_moves(const Eigen::Vector3d& motion_icrf_s) const {
+    SunEarthDirections moving = sun_earth();
     moving.t_earth = start;
     moving.earth_motion_icrf_s = motion_icrf_s;
     return moving;
   }
   Expected<SpinFix> fix(const std::set<SpinQuantity>& left_out = {}) const {
-    return lone_fix(config, seen(), left_out, sightlines());
+    return lone_fix(config, seen(), left_out, sun_earth());
   }
 };
 

@@ -17,7 +17,7 @@
 namespace spindrift::testing {
 
 /// Of so many turns from `kTransferStart` on, with the noise that the mission states.
-inline std::vector<Edge> edges_of_turns(const SpinningBody& body, const Surroundings& around,
+inline std::vector<Edge> edges_of_turns(const SpinningBody& body, const SunEarthEphemeris& around,
                                         double turns) {
   return edges_between(body, around, 0.0, turns * 2.0 * std::numbers::pi / body.rate_rad_s);
 }
@@ -52,7 +52,7 @@ inline SpinState true_state(const SpinningBody& body, const PassModel& model) {
 struct BatchScene {
   std::mt19937_64 rng;
   Orbit orbit = transfer_orbit();
-  Surroundings around = seen_from(orbit, spherical_horizon_km(40.0));
+  SunEarthEphemeris around = seen_from(orbit, spherical_horizon_km(40.0));
   SpinningBody body = random_body(around, 3.0 * std::numbers::pi / 180.0, rng);
 
   explicit BatchScene(std::uint64_t seed) : rng{seed} {}

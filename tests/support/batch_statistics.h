@@ -36,7 +36,7 @@ struct PassKind {
   double turns;
   BiasSet estimated;
   Orbit orbit = transfer_orbit();
-  Surroundings around = seen_from(orbit, spherical_horizon_km(40.0));
+  SunEarthEphemeris around = seen_from(orbit, spherical_horizon_km(40.0));
 };
 
 /// Shifts edges as a chord measured too wide and a wrong azimuth of the beams do.

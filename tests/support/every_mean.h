@@ -38,7 +38,7 @@ inline int check_every_mean(const SpinOutput& output, const Eigen::Vector3d& axi
   std::vector<SpinFix> fixes;
   for (const SpinProduct& product : output.products) {
     if (const auto* const fix = std::get_if<SpinFix>(&product)) {
-      if (fix->accepted && !fix->grazing) {
+      if (fix->accepted && !fix->near_tangent) {
         fixes.push_back(*fix);
       }
     }

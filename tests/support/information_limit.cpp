@@ -27,7 +27,7 @@ SpinningBody moved(SpinningBody body, Eigen::Index component, double step, doubl
 
 }  // namespace
 
-Eigen::Matrix2d cramer_rao_rad2(const SpinningBody& body, const Surroundings& around,
+Eigen::Matrix2d cramer_rao_rad2(const SpinningBody& body, const SunEarthEphemeris& around,
                                 double duration_s) {
   constexpr double kStep = 1e-4;  // rad; of the rate, rad over the whole pass.
   const auto truth = edges_between(body, around, 0.0, duration_s);

@@ -26,14 +26,14 @@ inline RevolutionMeasurements measured_without(const SpinConfig& config,
 
 inline Expected<SpinFix> lone_fix(const SpinConfig& config, const Revolution& revolution,
                                   const std::set<SpinQuantity>& left_out,
-                                  const Sightlines& sightlines) {
+                                  const SunEarthDirections& sun_earth) {
   const RevolutionMeasurements measured = measured_without(config, revolution, left_out);
-  const auto found = axis_candidates(config, measured, sightlines);
+  const auto found = axis_candidates(config, measured, sun_earth);
   if (!found) {
     return Unexpected{found.error()};
   }
   return Disambiguator{config}
-      .settle(revolution.number, *revolution.edge(PulseChannel::Sun1), measured, sightlines, *found,
+      .settle(revolution.number, *revolution.edge(PulseChannel::Sun1), measured, sun_earth, *found,
               std::nullopt)
       .back();
 }

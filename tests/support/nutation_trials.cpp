@@ -23,7 +23,7 @@ Nutation NutationTrials::random_nutation(double half_angle_deg) {
 NutationSearch NutationTrials::searched(const Nutation& nutation) {
   truth.motion.nutation = nutation;
   constexpr PulseNoise kNoise = {.sun_s = 1e-4, .infrared_s = 5e-4};
-  return find_nutation(steady_residuals(turning(truth, duration_s_), kNoise, rng_)).value();
+  return find_nutation(uniform_spin_residuals(turning(truth, duration_s_), kNoise, rng_)).value();
 }
 
 Deviations deviations(const FoundNutation& found, const Nutation& nutation) {

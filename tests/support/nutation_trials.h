@@ -9,7 +9,7 @@
 
 #include "pipelines/ground_model/spin_motion.h"
 #include "pipelines/spin/nutation/nutation.h"
-#include "tests/support/steady_residuals.h"
+#include "tests/support/uniform_spin_residuals.h"
 
 namespace spindrift::testing {
 

@@ -56,7 +56,7 @@ Orbit transfer_orbit() {
                    .value()};
 }
 
-Surroundings seen_from(const Orbit& orbit, const Eigen::Vector3d& horizon_km) {
+SunEarthEphemeris seen_from(const Orbit& orbit, const Eigen::Vector3d& horizon_km) {
   const auto at = [orbit](double t_s) { return orbit.at(shifted(kTransferStart, t_s)).value(); };
   return {
       .sun_icrf =
@@ -88,7 +88,7 @@ SpinningBody body_across_the_earth() {
       .config = usual_config()};
 }
 
-SpinningBody random_body(const Surroundings& around, double tilt_rad, std::mt19937_64& rng) {
+SpinningBody random_body(const SunEarthEphemeris& around, double tilt_rad, std::mt19937_64& rng) {
   std::uniform_real_distribution<double> uniform;
   const Eigen::Vector3d sun_icrf = around.sun_icrf(0.0);
   const Eigen::Vector3d earth_icrf = around.earth_icrf_km(0.0).normalized();

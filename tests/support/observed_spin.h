@@ -33,7 +33,7 @@ Orbit transfer_orbit();
 
 /// Sun and Earth as seen from the orbit, time counted from `kTransferStart`; the ellipsoid stands
 /// on the Earth's pole of date, all turned with it.
-Surroundings seen_from(const Orbit& orbit, const Eigen::Vector3d& horizon_km);
+SunEarthEphemeris seen_from(const Orbit& orbit, const Eigen::Vector3d& horizon_km);
 
 /// The scenarios' transfer orbit with another node.
 Orbit transfer_with_node(double raan_deg);
@@ -45,7 +45,7 @@ SpinningBody body_across_the_earth();
 
 /// Chord, dihedral and sun angle well observed: an axis across the Earth's direction within
 /// `tilt_rad`, the Sun within 25 deg of the body's equator.
-SpinningBody random_body(const Surroundings& around, double tilt_rad, std::mt19937_64& rng);
+SpinningBody random_body(const SunEarthEphemeris& around, double tilt_rad, std::mt19937_64& rng);
 
 /// What a fix of that sigma (each way) would say: the axis with an error drawn from it.
 SpinFix drawn_fix(const Eigen::Vector3d& axis_icrf, double sigma_rad, std::mt19937_64& rng);

@@ -17,7 +17,7 @@ namespace spindrift::testing {
 struct RandomPass {
   std::string name;  ///< What was drawn, to be read.
   Orbit orbit;
-  Surroundings around;  ///< Time from `kTransferStart`.
+  SunEarthEphemeris around;  ///< Time from `kTransferStart`.
   SpinningBody body;
   std::vector<PulseChannel> dead;
 

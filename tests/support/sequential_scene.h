@@ -66,7 +66,7 @@ inline Fixes at_first(const SpinFix& fix) {
 /// A body under the transfer orbit.
 struct Scene {
   Orbit orbit = transfer_orbit();
-  Surroundings around = seen_from(orbit, spherical_horizon_km(40.0));
+  SunEarthEphemeris around = seen_from(orbit, spherical_horizon_km(40.0));
   std::mt19937_64 rng{27};
   SpinningBody body = random_body(around, 4.0 * kDegree_rad, rng);
 

@@ -99,7 +99,7 @@ Eigen::Vector3d ellipsoidal_horizon_km(double h_km) {
   return {kEquatorialRadius_km + h_km, kEquatorialRadius_km + h_km, kPolarRadius_km + h_km};
 }
 
-Surroundings at_rest(const Eigen::Vector3d& sun_icrf, const Eigen::Vector3d& earth_icrf_km) {
+SunEarthEphemeris at_rest(const Eigen::Vector3d& sun_icrf, const Eigen::Vector3d& earth_icrf_km) {
   return {.sun_icrf = [sun_icrf](double) { return sun_icrf; },
           .earth_icrf_km = [earth_icrf_km](double) { return earth_icrf_km; },
           .horizon_km = spherical_horizon_km(40.0)};
@@ -120,8 +120,8 @@ SpinConfig usual_config() {
           .prior = {}};
 }
 
-std::vector<Edge> edges_between(const SpinningBody& body, const Surroundings& around, double from_s,
-                                double to_s) {
+std::vector<Edge> edges_between(const SpinningBody& body, const SunEarthEphemeris& around,
+                                double from_s, double to_s) {
   const double step_s = 2.0 * kPi / (body.rate_rad_s * kStepsPerTurn);
   std::vector<Edge> edges;
 
@@ -182,7 +182,8 @@ std::vector<Pulse> pulses_from(const std::vector<Edge>& edges, TaiTime start,
   return pulses;
 }
 
-Revolution revolution_seen(const SpinningBody& body, const Surroundings& around, TaiTime start) {
+Revolution revolution_seen(const SpinningBody& body, const SunEarthEphemeris& around,
+                           TaiTime start) {
   using enum PulseChannel;
   const double period_s = 2.0 * kPi / body.rate_rad_s;
   const std::vector<Edge> edges = edges_between(body, around, 0.0, 4.0 * period_s);

@@ -23,14 +23,14 @@ Eigen::Vector3d spherical_horizon_km(double h_km);
 Eigen::Vector3d ellipsoidal_horizon_km(double h_km);
 
 /// What stands around the body, `t_s` seconds after the beginning.
-struct Surroundings {
+struct SunEarthEphemeris {
   std::function<Eigen::Vector3d(double t_s)> sun_icrf;       ///< Any length.
   std::function<Eigen::Vector3d(double t_s)> earth_icrf_km;  ///< Spacecraft -> Earth's centre.
   Eigen::Vector3d horizon_km;                                ///< Semi-axes.
 };
 
 /// Sun and Earth at rest, and the spherical horizon 40 km up.
-Surroundings at_rest(const Eigen::Vector3d& sun_icrf, const Eigen::Vector3d& earth_icrf_km);
+SunEarthEphemeris at_rest(const Eigen::Vector3d& sun_icrf, const Eigen::Vector3d& earth_icrf_km);
 
 /// Turns right-handed about its axis, which is the body's +Z. Slit 1 is the half-plane of +X;
 /// what lies behind it lies towards -Y.
@@ -52,8 +52,8 @@ struct Edge {
 
 /// The edges from `from_s` to `to_s`, in order of time, good to 1e-12 s. Chords narrower than half
 /// a degree may go unseen.
-std::vector<Edge> edges_between(const SpinningBody& body, const Surroundings& around, double from_s,
-                                double to_s);
+std::vector<Edge> edges_between(const SpinningBody& body, const SunEarthEphemeris& around,
+                                double from_s, double to_s);
 
 /// The edges as telemetry, to the nearest nanosecond, in order.
 std::vector<Pulse> pulses_from(const std::vector<Edge>& edges, TaiTime start);
@@ -63,6 +63,7 @@ std::vector<Pulse> pulses_from(const std::vector<Edge>& edges, TaiTime start,
 
 /// One whole turn as the body's sensors see it: a sun1, the sun2 that belongs to it, and the first
 /// chord of either beam to begin behind sun1. The period is the true one.
-Revolution revolution_seen(const SpinningBody& body, const Surroundings& around, TaiTime start);
+Revolution revolution_seen(const SpinningBody& body, const SunEarthEphemeris& around,
+                           TaiTime start);
 
 }  // namespace spindrift::testing

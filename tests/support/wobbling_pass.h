@@ -76,7 +76,7 @@ class WobblingPasses {
   double duration_s_;
   std::mt19937_64 rng_;
   Orbit orbit_ = transfer_orbit();
-  Surroundings around_ = seen_from(orbit_, spherical_horizon_km(40.0));
+  SunEarthEphemeris around_ = seen_from(orbit_, spherical_horizon_km(40.0));
   SpinningBody body_ = body_across_the_earth();
 };
 

@@ -46,7 +46,7 @@ PulseUse left_over(const Pulse& pulse, std::optional<Rejection> rejected_by = {}
 Associator::Associator(const SpinConfig& config)
     : config_{config},
       phases_{config},
-      crowded_{config.screening.interference_s},
+      interfering_pairs_{config.screening.interference_s},
       intervals_{config.screening, config.noise.sun_s} {}
 
 void Associator::note_period(TaiTime t_sun1, double period_s) {
@@ -131,7 +131,7 @@ void Associator::try_to_start(bool at_end, Association& out) {
   if (lost_clock_) {
     const double guess = lost_clock_->phase_turns(clock_->t_of(0.0));
     first_open_ = std::max(first_open_, static_cast<std::int64_t>(std::llround(guess)));
-    clock_->count_on(first_open_);
+    clock_->add_turns(first_open_);
     lost_clock_.reset();
   }
   phases_.define(reference_, first_open_, defined_phase_turns(config_, reference_));
@@ -187,7 +187,7 @@ void Associator::restart_after_step(const Pulse& pulse) {
       clock_->accepts(turn + phases_.at(reference_, turn), pulse.t, noise_s, reference_wander(),
                       {.sigma = config_.screening.sigma, .most = gate_turns(reference_)});
   rate_step_.add(pulse.t, good);
-  const auto comb = rate_step_.new_comb(clock_->scale() * noise_s, clock_->period_s());
+  const auto comb = rate_step_.new_pulse_train(clock_->scale() * noise_s, clock_->period_s());
   if (!comb) {
     return;
   }
@@ -246,7 +246,7 @@ void Associator::place(const Pulse& pulse, bool spoilt, Association& out) {
   const bool lies_near = phases_.knows(pulse.channel) && count_of(pulse).near;
   if (pulse.channel != reference_ && !lies_near) {
     phases_.stray(pulse.channel, phase,
-                  spoilt ? crowded_.displacement_s() / clock_->period_s() : 0.0,
+                  spoilt ? interfering_pairs_.displacement_s() / clock_->period_s() : 0.0,
                   clock_sigma_turns(phase));
   }
   const auto spoilt_by = spoilt ? std::optional{Rejection::Interference} : std::nullopt;
@@ -320,7 +320,8 @@ void Associator::close_front(Association& out) {
   first_open_ = revolution.number + 1;
   revolution.count_sigma_turns = std::exchange(count_sigma_turns_, std::nullopt);
   const auto turn = static_cast<double>(revolution.number);
-  const auto began = crowded_.expect(phases_, turn, clock_sigma_turns(turn), clock_->t_of(turn));
+  const auto began =
+      interfering_pairs_.expect(phases_, turn, clock_sigma_turns(turn), clock_->t_of(turn));
   out.began_to_interfere.insert(out.began_to_interfere.end(), began.begin(), began.end());
   judge_reference(revolution);
   judge_others(revolution);
@@ -340,8 +341,8 @@ void Associator::close_front(Association& out) {
 /// the channels would seem too far from each other.
 double Associator::displaced_turns(const Revolution& revolution, PulseChannel channel) const {
   const bool displaced =
-      crowded_.contains(channel) || revolution.edge_rejections.at(index_of(channel));
-  return displaced ? crowded_.displacement_s() / clock_->period_s() : 0.0;
+      interfering_pairs_.contains(channel) || revolution.edge_rejections.at(index_of(channel));
+  return displaced ? interfering_pairs_.displacement_s() / clock_->period_s() : 0.0;
 }
 
 void Associator::judge_reference(Revolution& revolution) {
@@ -389,7 +390,7 @@ void Associator::judge_others(Revolution& revolution) {
 void Associator::judge_neighbours(Revolution& revolution) const {
   for (const PulseChannel channel : kChannels) {
     std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
-    if (revolution.edge(channel) && !rejection && crowded_.contains(channel)) {
+    if (revolution.edge(channel) && !rejection && interfering_pairs_.contains(channel)) {
       rejection = Rejection::Interference;
     }
   }

@@ -18,8 +18,8 @@
 #include <optional>
 #include <vector>
 
-#include "pipelines/spin/association/crowded_channels.h"
 #include "pipelines/spin/association/expected_phases.h"
+#include "pipelines/spin/association/interfering_pairs.h"
 #include "pipelines/spin/association/period_intervals.h"
 #include "pipelines/spin/association/rate_step.h"
 #include "pipelines/spin/association/spin_clock.h"
@@ -57,7 +57,9 @@ class Associator {
   Association finish();
 
   /// So far in the pass.
-  const std::vector<InterferingChannels>& interfering() const { return crowded_.interfering(); }
+  const std::vector<InterferingChannels>& interfering() const {
+    return interfering_pairs_.interfering();
+  }
 
  private:
   /// The turn whose edge a pulse is nearest to, and whether it is near enough to be that.
@@ -102,9 +104,9 @@ class Associator {
   PulseChannel reference_ = PulseChannel::Sun1;  ///< The channel that sets the clock.
   bool sun1_known_ = false;                      ///< Phase 0 is where sun1 is.
   int turns_without_reference_ = 0;
-  RateStepWatch rate_step_;
+  RateStepDetector rate_step_;
   ExpectedPhases phases_;
-  CrowdedChannels crowded_;
+  InterferingPairs interfering_pairs_;
   PeriodIntervals intervals_;
 
   std::deque<Revolution> open_;  ///< In order of number; only those with an edge.

@@ -108,7 +108,7 @@ double apparent_motion_s(PulseChannel channel, double period_s) {
   return sees_the_sun(channel) ? 0.0 : kUnknownEarthRate_rad_s * period_s * period_s / kTurn_rad;
 }
 
-SpinClock::Setting setting_of(const Comb& comb, double noise_s) {
+SpinClock::Setting setting_of(const PulseTrain& comb, double noise_s) {
   const double turns = std::max(1.0, comb.turns);
   const double hidden_turns = kHidden_scatters * comb.scatter_s / comb.period_s;
   const double span_s = turns * comb.period_s;
@@ -135,7 +135,7 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
     const double noise_s = edge_sigma_s(config.noise, channel);
     const std::size_t fewest =
         at_end ? kFewestAtEnd : (channel == Sun1 ? kFewestSun1 : kFewestOthers);
-    const auto comb = find_comb(edges, noise_s, fewest);
+    const auto comb = find_pulse_train(edges, noise_s, fewest);
     if (!comb) {
       continue;
     }

@@ -30,7 +30,7 @@ struct PeriodNote {
 
 /// By a comb, with phase 0 on its first tooth. Its edges are still to be followed one by one, so
 /// that the setting is left uncertain by what a drift may hide in their scatter.
-SpinClock::Setting setting_of(const Comb& comb, double noise_s);
+SpinClock::Setting setting_of(const PulseTrain& comb, double noise_s);
 
 /// By sun1; by another channel, sun2 rather than an infrared one, only when that has gone on for
 /// twenty edges without sun1.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pipelines/frames/angle.h"
-#include "pipelines/spin/association/phase_line.h"
+#include "pipelines/spin/association/robust_line.h"
 
 namespace spindrift {
 namespace {
@@ -48,7 +48,7 @@ std::size_t turns_among(const std::vector<PhasePoint>& points) {
 
 /// Whether so many turns have an edge within `off` of the line, or enough for edges that scatter
 /// more.
-bool is_no_chance(const std::vector<PhasePoint>& points, const PhaseLine& line, double off,
+bool is_no_chance(const std::vector<PhasePoint>& points, const RobustLine& line, double off,
                   std::size_t fewest_turns) {
   std::vector<PhasePoint> near;
   std::copy_if(
@@ -108,7 +108,7 @@ bool ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts,
     const double turn = std::round(count - place);
     return PhasePoint{.turn = turn, .phase = count - turn};
   });
-  const auto line = fit_phase_line(points, noise_turns(channel), most_drift(channel));
+  const auto line = fit_robust_line(points, noise_turns(channel), most_drift(channel));
   if (!is_no_chance(points, *line, gate_sigma_ * noise_turns(channel), fewest_turns)) {
     return false;
   }
@@ -215,7 +215,7 @@ bool ExpectedPhases::stray(PulseChannel channel, double count, double displaced_
   }
   const double scale = own.phase ? own.phase->scale() : 1.0;
   const double noise = std::hypot(scale * noise_turns(channel), displaced_turns);
-  const auto line = fit_phase_line(points, noise, most_drift(channel));
+  const auto line = fit_robust_line(points, noise, most_drift(channel));
   if ((own.known && line->scatter > gate_sigma_ * noise) || turns_among(line->agreeing) < needed ||
       line->agreeing.back().phase != points.back().phase) {
     return false;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipelines/spin/association/phase_line.h"
+#include "pipelines/spin/association/robust_line.h"
 #include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/time_span.h"
 
@@ -131,15 +131,16 @@ double bend_of(const Teeth& teeth, double noise, double period_s) {
   const double bend = *middle;
   Teeth straight = teeth;
   straighten(straight, bend);
-  const bool better = fit_phase_line(straight, noise, kNear * 2.0)->scatter <
-                      kFarBetter * fit_phase_line(teeth, noise, kNear * 2.0)->scatter;
+  const bool better = fit_robust_line(straight, noise, kNear * 2.0)->scatter <
+                      kFarBetter * fit_robust_line(teeth, noise, kNear * 2.0)->scatter;
   const bool possible = std::abs(bend) <= kMostDrift_per_s2 * period_s * period_s;
   return better && possible ? bend : 0.0;
 }
 
 }  // namespace
 
-std::optional<Comb> find_comb(std::span<const TaiTime> edges, double noise_s, std::size_t fewest) {
+std::optional<PulseTrain> find_pulse_train(std::span<const TaiTime> edges, double noise_s,
+                                           std::size_t fewest) {
   edges = edges.last(std::min(edges.size(), kMostEdges));
   if (edges.size() < fewest) {
     return std::nullopt;
@@ -164,7 +165,7 @@ std::optional<Comb> find_comb(std::span<const TaiTime> edges, double noise_s, st
   });
   const double bend = bend_of(points, noise_s / period_s, period_s);
   straighten(points, bend);
-  const auto line = fit_phase_line(points, noise_s / period_s, kNear * 2.0);
+  const auto line = fit_robust_line(points, noise_s / period_s, kNear * 2.0);
   const double limit = std::max(kOn, kOn_sigma * noise_s / period_s);
   const auto on_it = std::count_if(points.begin(), points.end(), [&](const PhasePoint& point) {
     return std::abs(point.phase - line->at(point.turn)) <= limit;
@@ -174,12 +175,12 @@ std::optional<Comb> find_comb(std::span<const TaiTime> edges, double noise_s, st
       static_cast<double>(on_it) < kLeastFilled * turns_heard(teeth)) {
     return std::nullopt;
   }
-  return Comb{.t = later_by_s(edges.front(), teeth.front().phase + line->at(0.0) * period_s),
-              .period_s = period_s * (1.0 + line->drift),
-              .drift_per_s2 = -bend / (period_s * period_s),
-              .scatter_s = line->scatter * period_s,
-              .edges = static_cast<std::size_t>(on_it),
-              .turns = points.back().turn};
+  return PulseTrain{.t = later_by_s(edges.front(), teeth.front().phase + line->at(0.0) * period_s),
+                    .period_s = period_s * (1.0 + line->drift),
+                    .drift_per_s2 = -bend / (period_s * period_s),
+                    .scatter_s = line->scatter * period_s,
+                    .edges = static_cast<std::size_t>(on_it),
+                    .turns = points.back().turn};
 }
 
 }  // namespace spindrift

@@ -13,7 +13,7 @@
 namespace spindrift {
 
 /// A comb of nearly equally spaced instants that most edges lie on.
-struct Comb {
+struct PulseTrain {
   TaiTime t;            ///< One of them, near the first edge that lies on it.
   double period_s;      ///< Their spacing at t.
   double drift_per_s2;  ///< Of their rate, 1/s: 0 unless that explains the edges far better.
@@ -31,6 +31,7 @@ struct Comb {
 /// @param fewest Fewer edges on the comb are no evidence.
 /// @return Empty where less than two thirds of the edges, or of the turns, fit any period between
 /// those of the slowest and the fastest rate searched.
-std::optional<Comb> find_comb(std::span<const TaiTime> edges, double noise_s, std::size_t fewest);
+std::optional<PulseTrain> find_pulse_train(std::span<const TaiTime> edges, double noise_s,
+                                           std::size_t fewest);
 
 }  // namespace spindrift

@@ -23,13 +23,13 @@ constexpr double kNearlyEvery = 0.8;
 // Turns of the clock, along all of the comb.
 constexpr double kSameTurns = 0.05;
 
-bool is_fraction(const Comb& comb, double period_s) {
+bool is_fraction(const PulseTrain& comb, double period_s) {
   return comb.period_s < kMuchFaster * period_s &&
          static_cast<double>(comb.edges) < kNearlyEvery * (comb.turns + 1.0);
 }
 
 /// The clock's own, of every second turn or fewer.
-bool is_multiple(const Comb& comb, double period_s) {
+bool is_multiple(const PulseTrain& comb, double period_s) {
   const double clock_turns = comb.period_s / period_s;
   const double whole = std::round(clock_turns);
   return whole > 1.0 && std::abs(clock_turns - whole) * comb.turns < kSameTurns;
@@ -37,14 +37,14 @@ bool is_multiple(const Comb& comb, double period_s) {
 
 }  // namespace
 
-void RateStepWatch::add(TaiTime t, bool good) {
+void RateStepDetector::add(TaiTime t, bool good) {
   recent_.push_back({.t = t, .good = good});
   if (recent_.size() > kRecent) {
     recent_.pop_front();
   }
 }
 
-std::optional<Comb> RateStepWatch::new_comb(double noise_s, double period_s) const {
+std::optional<PulseTrain> RateStepDetector::new_pulse_train(double noise_s, double period_s) const {
   const auto wrong = std::count_if(recent_.begin(), recent_.end(),
                                    [](const ReferenceEdge& edge) { return !edge.good; });
   if (wrong < kDoubtful || recent_.back().good) {
@@ -53,7 +53,7 @@ std::optional<Comb> RateStepWatch::new_comb(double noise_s, double period_s) con
   std::vector<TaiTime> edges(recent_.size());
   std::transform(recent_.begin(), recent_.end(), edges.begin(),
                  [](const ReferenceEdge& edge) { return edge.t; });
-  auto comb = find_comb(edges, noise_s, kFewestAfterStep);
+  auto comb = find_pulse_train(edges, noise_s, kFewestAfterStep);
   if (!comb || is_fraction(*comb, period_s) || is_multiple(*comb, period_s)) {
     return std::nullopt;
   }

@@ -12,7 +12,7 @@
 
 namespace spindrift {
 
-class RateStepWatch {
+class RateStepDetector {
  public:
   /// @param good The clock expects an edge there.
   void add(TaiTime t, bool good);
@@ -21,7 +21,7 @@ class RateStepWatch {
   /// is not good, and it is not the clock's own.
   /// @param noise_s Standard deviation of an edge as it was seen so far.
   /// @param period_s The clock's.
-  std::optional<Comb> new_comb(double noise_s, double period_s) const;
+  std::optional<PulseTrain> new_pulse_train(double noise_s, double period_s) const;
 
   void forget() { recent_.clear(); }
 

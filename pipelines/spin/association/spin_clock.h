@@ -49,7 +49,7 @@ class SpinClock {
               const DriftGate& gate_turns);
 
   /// Adds to the count of turns.
-  void count_on(std::int64_t turns) { epoch_turn_ += static_cast<double>(turns); }
+  void add_turns(std::int64_t turns) { epoch_turn_ += static_cast<double>(turns); }
 
   /// Puts phase `turn` by `phase_turns` later and lengthens the period by `drift` of itself.
   void shift(std::int64_t turn, double phase_turns, double drift);

@@ -51,7 +51,7 @@ void add_motion(const BatchSolution& solution, const BatchDoubts& doubts, Reason
       reasons.push_back({OtherNutationPeriod, {{"period_s", other_s}}});
     }
   }
-  const ConingVerdict& coning = solution.coning.verdict;
+  const ConingTest& coning = solution.coning.verdict;
   if (coning.detected) {
     reasons.push_back({Coning,
                        {{"deg", degrees(coning.tilt_rad)},
@@ -111,9 +111,9 @@ Assessment assess(const BatchSolution& solution, const BatchDoubts& doubts) {
   Assessment assessment{is_doubtful(solution, doubts) ? Quality::Doubtful
                                                       : unopposed_quality(doubts.revolutions)};
   Reasons& reasons = assessment.reasons;
-  if (doubts.or_axis_icrf) {
+  if (doubts.alternate_axis_icrf) {
     assessment.quality = Quality::Ambiguous;
-    const RaDec other = ra_dec_of(*doubts.or_axis_icrf);
+    const RaDec other = ra_dec_of(*doubts.alternate_axis_icrf);
     reasons.push_back(
         {OtherAxis, {{"ra_deg", degrees(other.ra_rad)}, {"dec_deg", degrees(other.dec_rad)}}});
   }

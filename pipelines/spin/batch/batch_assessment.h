@@ -6,15 +6,15 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "pipelines/spin/batch/after_changepoint.h"
 #include "pipelines/spin/batch/batch_solution.h"
-#include "pipelines/spin/batch/since_change.h"
 
 namespace spindrift {
 
 /// What a solution does not say of itself.
 struct BatchDoubts {
-  std::optional<Eigen::Vector3d> or_axis_icrf;  ///< Fits as well.
-  double revolutions;                           ///< That the edges are of.
+  std::optional<Eigen::Vector3d> alternate_axis_icrf;  ///< Fits as well.
+  double revolutions;                                  ///< That the edges are of.
   std::optional<LeftOut> left_out;
   BiasSet estimated;
   BiasSet at_bound;

@@ -9,14 +9,14 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/batch/added_biases.h"
+#include "pipelines/spin/batch/after_changepoint.h"
 #include "pipelines/spin/batch/batch_assessment.h"
 #include "pipelines/spin/batch/bias_choice.h"
+#include "pipelines/spin/batch/bias_selection.h"
 #include "pipelines/spin/batch/edge_noise.h"
-#include "pipelines/spin/batch/first_clock.h"
+#include "pipelines/spin/batch/initial_state.h"
 #include "pipelines/spin/batch/observability.h"
 #include "pipelines/spin/batch/pass_nutation.h"
-#include "pipelines/spin/batch/since_change.h"
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
 
@@ -47,7 +47,7 @@ std::optional<Error> axis_left_open(const Eigen::Matrix2d& bound_rad2) {
 /// Where it began, whatever the solution slid to: near the Sun or the Earth the edges of one sensor
 /// seem to tell more.
 std::optional<Error> axis_open_at_start(const Solved& solved, const Eigen::Vector3d& start_icrf) {
-  const auto start = first_state(solved.model, solved.edges, start_icrf);
+  const auto start = initial_state(solved.model, solved.edges, start_icrf);
   if (!start) {
     return std::nullopt;
   }
@@ -64,7 +64,7 @@ Error why_diverged(const Solved& solved) {
 }
 
 /// Of the biases not estimated, what one step from the state would make of all together.
-std::vector<BiasEstimate> all_biases(const Explained& found) {
+std::vector<BiasEstimate> all_biases(const EvaluatedFit& found) {
   const SensorBiases& now = found.fit.state.biases;
   const Observability together{found.information, seen_biases(found.information) | found.estimated};
   const Observability alone{found.information, found.estimated};
@@ -84,7 +84,7 @@ std::vector<BiasEstimate> all_biases(const Explained& found) {
   return biases;
 }
 
-double consider_sigma_rad(const Explained& found, double excess_noise) {
+double consider_sigma_rad(const EvaluatedFit& found, double excess_noise) {
   PassInformation information = found.information;
   information.information /= excess_noise;
   information.score /= excess_noise;
@@ -92,7 +92,7 @@ double consider_sigma_rad(const Explained& found, double excess_noise) {
   return unknown.rms_error_rad(information, found.fit.state.biases);
 }
 
-ConingEstimate coning_of(const Explained& found, double excess_noise) {
+ConingEstimate coning_of(const EvaluatedFit& found, double excess_noise) {
   const Observability observed{found.information, found.estimated | unknowns_of(ConingX)};
   const bool estimated = found.estimated[ConingX];
   SensorBiases biases = found.fit.state.biases;
@@ -104,7 +104,7 @@ ConingEstimate coning_of(const Explained& found, double excess_noise) {
   const Eigen::Vector2d along = coning_rad.stableNormalized();
   const Eigen::Vector2d across{-along.y(), along.x()};
   ConingEstimate coning{
-      .verdict = judge_coning(coning_rad, covariance_rad2),
+      .verdict = test_coning(coning_rad, covariance_rad2),
       .tilt_sigma_rad = std::sqrt(along.dot(covariance_rad2 * along)),
       .azimuth_sigma_rad = std::sqrt(across.dot(covariance_rad2 * across)) / coning_rad.norm()};
   coning.verdict.detected = coning.verdict.detected && estimated;
@@ -115,7 +115,7 @@ ConingEstimate coning_of(const Explained& found, double excess_noise) {
 /// @param open_rad2 What the choice among biases does, of the axis: tilts.
 /// @param louder So many times the stated noise is that of the model.
 BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2, double louder) {
-  const Explained& best = solved.of.best;
+  const EvaluatedFit& best = solved.of.best;
   const PassInformation& information = best.information;
   const Observability observed{information, best.estimated};
   const Eigen::Matrix2d bound_rad2 = observed.axis_covariance_rad2();
@@ -167,21 +167,21 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
     return unobservable(
         "no fix has given an axis to begin at, and the mission file has no [spin.prior]");
   }
-  auto solved =
-      solve_since_change(config, orbit, edges, starts, config.batch.biases.value_or(BiasSet{}));
+  auto solved = solve_after_changepoint(config, orbit, edges, starts,
+                                        config.batch.biases.value_or(BiasSet{}));
   if (!solved) {
     return Unexpected{solved.error()};
   }
   Eigen::Matrix2d open_rad2 = Eigen::Matrix2d::Zero();
   if (!config.batch.biases) {
-    auto added = add_wanted_biases(solved->model, solved->edges, solved->of.best);
+    auto added = select_biases(solved->model, solved->edges, solved->of.best);
     if (!added) {
       return Unexpected{added.error()};
     }
     solved->of.best = std::move(added->best);
     open_rad2 = added->open_rad2;
   }
-  const Explained& best = solved->of.best;
+  const EvaluatedFit& best = solved->of.best;
   const PassInformation& information = best.information;
   if (auto open = axis_open_at_start(*solved, starts.axes_icrf.front())) {
     return Unexpected{*std::move(open)};
@@ -208,10 +208,10 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
   }
   const BiasSet suspected = config.batch.biases.value_or(seen_biases(information));
   solution.undetermined = Observability{information, suspected}.undetermined();
-  const auto wanted = most_wanted_bias(information, best.estimated);
+  const auto wanted = most_significant_bias(information, best.estimated);
   solution.estimate.assessment = assess(
       solution,
-      {.or_axis_icrf = solved->of.or_axis_icrf,
+      {.alternate_axis_icrf = solved->of.alternate_axis_icrf,
        .revolutions = solved->model.half_s() * solution.estimate.spin_rate_rad_s / std::numbers::pi,
        .left_out = solved->left_out,
        .estimated = best.estimated,

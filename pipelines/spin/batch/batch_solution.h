@@ -27,7 +27,7 @@ struct BiasEstimate {
 
 /// The sensors' axis leans away from the principal axis.
 struct ConingEstimate {
-  ConingVerdict verdict;  ///< Detected only where it was estimated with the axis.
+  ConingTest verdict;  ///< Detected only where it was estimated with the axis.
   double tilt_sigma_rad;
   double azimuth_sigma_rad;
 };

@@ -60,27 +60,28 @@ Step step_with(const PassInformation& pass, BiasSet estimated, SensorBias bias) 
 
 }  // namespace
 
-double wanted_from(SensorBias bias) { return bias == ConingX ? kConingWanted : kWanted; }
+double significance_gain(SensorBias bias) { return bias == ConingX ? kConingWanted : kWanted; }
 
-std::vector<BiasGain> wanted_biases(const PassInformation& information, BiasSet estimated) {
+std::vector<BiasGain> significant_biases(const PassInformation& information, BiasSet estimated) {
   const double excess_noise =
       information.excess_noise(kMotionUnknowns + static_cast<int>(estimated.count()));
   std::vector<BiasGain> wanted;
   for (const SensorBias bias : not_among(estimated)) {
     const double gain = step_with(information, estimated, bias).gain / excess_noise;
-    if (gain > wanted_from(bias)) {
+    if (gain > significance_gain(bias)) {
       wanted.push_back({.bias = bias, .gain = gain});
     }
   }
-  const auto beyond = [](const BiasGain& one) { return one.gain - wanted_from(one.bias); };
+  const auto beyond = [](const BiasGain& one) { return one.gain - significance_gain(one.bias); };
   std::stable_sort(wanted.begin(), wanted.end(), [&](const BiasGain& one, const BiasGain& other) {
     return beyond(one) > beyond(other);
   });
   return wanted;
 }
 
-std::optional<BiasGain> most_wanted_bias(const PassInformation& information, BiasSet estimated) {
-  const std::vector<BiasGain> wanted = wanted_biases(information, estimated);
+std::optional<BiasGain> most_significant_bias(const PassInformation& information,
+                                              BiasSet estimated) {
+  const std::vector<BiasGain> wanted = significant_biases(information, estimated);
   return wanted.empty() ? std::nullopt : std::optional{wanted.front()};
 }
 

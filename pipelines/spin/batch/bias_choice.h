@@ -20,15 +20,16 @@ struct BiasGain {
 
 /// The gain from which on a bias explains what noise does not; for coning, which has two unknowns,
 /// it is higher.
-double wanted_from(SensorBias bias);
+double significance_gain(SensorBias bias);
 
 /// Those that would explain the residuals, beside those that are estimated already, best first.
 /// @param information At the best state with these.
 /// @return Empty where noise explains them as well: at a chance of 1e-4 a pass there is one.
-std::vector<BiasGain> wanted_biases(const PassInformation& information, BiasSet estimated);
+std::vector<BiasGain> significant_biases(const PassInformation& information, BiasSet estimated);
 
 /// The first of them.
-std::optional<BiasGain> most_wanted_bias(const PassInformation& information, BiasSet estimated);
+std::optional<BiasGain> most_significant_bias(const PassInformation& information,
+                                              BiasSet estimated);
 
 /// Mean square of what the axis would move by, were not `chosen` but another bias the true one,
 /// each weighted with how likely the residuals make it; tilts of the frame `spin`, rad^2.

@@ -6,7 +6,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/small_rotation.h"
-#include "pipelines/spin/measurement/surroundings.h"
+#include "pipelines/spin/measurement/sun_earth_ephemeris.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -22,7 +22,7 @@ const NutationStretch* stretch_at(const SpinState& state, TaiTime t) {
 }
 
 /// By axes that are tipped, to axes that are not.
-void untip(const NutationTilt& tilt, MetEdge& met) {
+void untip(const NutationTilt& tilt, ComparedEdge& met) {
   const Eigen::Vector3d tipped_rad{tilt.rotation_rad.x(), tilt.rotation_rad.y(), 0.0};
   const Eigen::Vector3d per_tipped = met.expected.phase_per_rotation;
   const Eigen::RowVector2d per_tilt =
@@ -45,7 +45,7 @@ Expected<PassModel> PassModel::make(const SpinConfig& config, const Orbit& orbit
   const TaiTime first = edges.front().pulse.t;
   const TaiTime last = edges.back().pulse.t;
   PassModel model{config, first, last};
-  Surroundings surroundings{orbit, config.horizon.co2_altitude_km};
+  SunEarthEphemeris surroundings{orbit, config.horizon.co2_altitude_km};
   for (const PassEdge& edge : edges) {
     const std::size_t span = model.span_of(edge.pulse.t);
     if (span < model.skies_.size()) {
@@ -73,7 +73,7 @@ const Sky& PassModel::sky_at(TaiTime t) const {
   return skies_[std::min(span_of(t), skies_.size() - 1)];
 }
 
-std::optional<MetEdge> PassModel::meet(const Pulse& edge, const SpinState& state) const {
+std::optional<ComparedEdge> PassModel::meet(const Pulse& edge, const SpinState& state) const {
   const double dt_s = seconds_between(middle_, edge.t);
   const double rate_there_rad_s = state.rate_rad_s + state.drift_rad_s2 * dt_s;
   const double phase_rad = (state.rate_rad_s + 0.5 * state.drift_rad_s2 * dt_s) * dt_s;
@@ -88,11 +88,11 @@ std::optional<MetEdge> PassModel::meet(const Pulse& edge, const SpinState& state
   if (!expected) {
     return std::nullopt;
   }
-  MetEdge met{.expected = *expected,
-              .phase_rad = phase_rad,
-              .off_rad = wrapped_rad(phase_rad - expected->phase_rad),
-              .sigma_rad = rate_there_rad_s * edge_sigma_s(config_.noise, edge.channel),
-              .rate_rad_s = rate_there_rad_s};
+  ComparedEdge met{.expected = *expected,
+                   .phase_rad = phase_rad,
+                   .off_rad = wrapped_rad(phase_rad - expected->phase_rad),
+                   .sigma_rad = rate_there_rad_s * edge_sigma_s(config_.noise, edge.channel),
+                   .rate_rad_s = rate_there_rad_s};
   if (tilt) {
     untip(*tilt, met);
   }

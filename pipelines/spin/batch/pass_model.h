@@ -53,7 +53,7 @@ inline constexpr int kBatchUnknowns = kMotionUnknowns + kSensorBiases;
 using EdgeSlopes = Eigen::Matrix<double, 1, kBatchUnknowns>;
 
 /// Where a state expects an edge, and where it came.
-struct MetEdge {
+struct ComparedEdge {
   PredictedEdge expected;  ///< Its change by rotation that of the frame `spin`, not of the tipped.
   double phase_rad;        ///< Azimuth of slit 1 when it came, counted on from turn to turn.
   double off_rad;          ///< More than expected by so much.
@@ -79,7 +79,7 @@ class PassModel {
                                   std::span<const PassEdge> edges);
 
   /// @return Empty where the state has no such edge; likewise the following.
-  std::optional<MetEdge> meet(const Pulse& edge, const SpinState& state) const;
+  std::optional<ComparedEdge> meet(const Pulse& edge, const SpinState& state) const;
   std::optional<EdgeResidual> residual(const Pulse& edge, const SpinState& state) const;
 
   const SpinConfig& config() const { return config_; }

@@ -7,7 +7,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/batch/steady_residuals.h"
+#include "pipelines/spin/batch/uniform_spin_residuals.h"
 #include "pipelines/statistics/significance.h"
 #include "pipelines/time/time_span.h"
 
@@ -49,7 +49,7 @@ PassNutation find_pass_nutation(const PassModel& model, std::span<const PassEdge
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t first = i * edges.size() / count;
     const auto part = edges.subspan(first, (i + 1) * edges.size() / count - first);
-    const auto search = find_nutation(steady_residuals(model, part, state));
+    const auto search = find_nutation(uniform_spin_residuals(model, part, state));
     if (!search) {
       continue;
     }

@@ -29,12 +29,12 @@ struct ChordRange {
   double most_rad = 0.0;  ///< 0: it misses the disc. A whole turn: it never leaves it.
 };
 
-ChordRange chords_from(const AxisCandidate& candidate, const Sightlines& sightlines,
+ChordRange chords_from(const AxisCandidate& candidate, const SunEarthDirections& sun_earth,
                        double mount_angle_rad) {
   const Eigen::Vector3d& axis = candidate.axis_icrf;
-  const double earth_rad = angle_between_rad(axis, sightlines.earth_icrf);
+  const double earth_rad = angle_between_rad(axis, sun_earth.earth_icrf);
   const Eigen::Vector2d towards =
-      tangent_basis(axis).transpose() * sightlines.earth_icrf / std::sin(earth_rad);
+      tangent_basis(axis).transpose() * sun_earth.earth_icrf / std::sin(earth_rad);
   const double margin_rad =
       kContradictionSigmas * std::sqrt(towards.dot(candidate.covariance_rad2 * towards)) +
       kModelLimit_rad;
@@ -42,8 +42,8 @@ ChordRange chords_from(const AxisCandidate& candidate, const Sightlines& sightli
   ChordRange range;
   for (int place = -kPlaces; place <= kPlaces; ++place) {
     const double there_rad = std::abs(earth_rad + margin_rad * place / kPlaces);
-    const bool misses = std::abs(there_rad - mount_angle_rad) > sightlines.disc_rad;
-    const double chord_rad = predict_chord_rad(mount_angle_rad, there_rad, sightlines.disc_rad)
+    const bool misses = std::abs(there_rad - mount_angle_rad) > sun_earth.disc_rad;
+    const double chord_rad = predict_chord_rad(mount_angle_rad, there_rad, sun_earth.disc_rad)
                                  .value_or(misses ? 0.0 : kTurn_rad);
     range.least_rad = std::min(range.least_rad, chord_rad);
     range.most_rad = std::max(range.most_rad, chord_rad);
@@ -64,7 +64,8 @@ Nearest nearest_to(const KnownAxis& known, const AxisCandidates& found,
   const auto nearest = *std::min_element(
       possible.begin(), possible.end(),
       [&](std::size_t a, std::size_t b) { return distance_rad(a) < distance_rad(b); });
-  const double known_rad = found.grazing ? std::min(known.sigma_rad, kWidest_rad) : known.sigma_rad;
+  const double known_rad =
+      found.near_tangent ? std::min(known.sigma_rad, kWidest_rad) : known.sigma_rad;
   const double sigma_rad = std::hypot(known_rad, sigma_of(found.candidates[nearest]));
   if (distance_rad(nearest) > kPriorSigmas * sigma_rad) {
     return {.candidate = nearest, .verdict = PriorVerdict::FarFromAll};
@@ -77,7 +78,7 @@ Nearest nearest_to(const KnownAxis& known, const AxisCandidates& found,
 }
 
 /// The candidate that continues a steady axis, when no other may.
-std::optional<std::size_t> continues(const SteadyAxis& steady, const AxisCandidates& found,
+std::optional<std::size_t> continues(const StationaryAxis& steady, const AxisCandidates& found,
                                      const std::vector<std::size_t>& possible) {
   constexpr double kGate = kContradictionSigmas * kContradictionSigmas;
   std::optional<std::size_t> chosen;
@@ -109,7 +110,7 @@ SpinFix fix_of(std::int64_t revolution, TaiTime t, const AxisCandidates& found, 
               .resolution = resolution,
               .norm = candidate.norm,
               .accepted = candidate.consistent && resolution != Resolution::Ambiguous,
-              .grazing = found.grazing};
+              .near_tangent = found.near_tangent};
   for (std::size_t i = 0; i < found.candidates.size(); ++i) {
     if (i != chosen) {
       fix.alternates.push_back({.axis_icrf = found.candidates[i].axis_icrf,
@@ -126,31 +127,31 @@ Disambiguator::Disambiguator(const SpinConfig& config)
 
 std::vector<SpinFix> Disambiguator::settle(std::int64_t revolution, TaiTime t,
                                            const RevolutionMeasurements& measured,
-                                           const Sightlines& sightlines,
+                                           const SunEarthDirections& sun_earth,
                                            const AxisCandidates& candidates,
                                            const std::optional<KnownAxis>& established) {
   note_silence(measured);
   newly_steady_.reset();
   if (candidates.told_apart) {
     SpinFix fix = fix_of(revolution, t, candidates, 0, Resolution::Geometry);
-    silent_where_seen_ = silent_where_seen(sightlines, candidates.candidates.front());
+    silent_where_seen_ = silent_despite_view(sun_earth, candidates.candidates.front());
     fix.accepted = fix.accepted && !silent_where_seen_;
     return {std::move(fix)};
   }
   silent_where_seen_.reset();
-  std::vector<std::size_t> possible = possible_of(measured, sightlines, candidates);
+  std::vector<std::size_t> possible = possible_of(measured, sun_earth, candidates);
   if (possible.empty()) {
     return {fix_of(revolution, t, candidates, 0, Resolution::Ambiguous)};
   }
-  if (possible.size() == 1 && candidates.candidates.size() > 1 && !candidates.grazing) {
+  if (possible.size() == 1 && candidates.candidates.size() > 1 && !candidates.near_tangent) {
     return {fix_of(revolution, t, candidates, possible.front(), Resolution::Constraint)};
   }
   const auto nearest = nearest_to_known(established, candidates, possible);
   // What the pass itself has established needs no further test.
-  if (nearest && (established || candidates.grazing)) {
+  if (nearest && (established || candidates.near_tangent)) {
     return {fix_of(revolution, t, candidates, *nearest, Resolution::Prior)};
   }
-  if (candidates.grazing) {
+  if (candidates.near_tangent) {
     dispersion_.note_unlike();
     return {fix_of(revolution, t, candidates, possible.front(), Resolution::Ambiguous)};
   }
@@ -169,28 +170,28 @@ void Disambiguator::note_silence(const RevolutionMeasurements& measured) {
   }
 }
 
-bool Disambiguator::should_see(Side side, const Sightlines& sightlines,
+bool Disambiguator::should_see(Side side, const SunEarthDirections& sun_earth,
                                const AxisCandidate& candidate) const {
   const auto& sensor = sensor_of(config_, side);
   if (!sensor || !sensor->healthy) {
     return false;
   }
-  const ChordRange range = chords_from(candidate, sightlines, sensor->mount_angle_rad);
+  const ChordRange range = chords_from(candidate, sun_earth, sensor->mount_angle_rad);
   return range.least_rad > 0.0 && range.most_rad < kTurn_rad;
 }
 
-std::optional<Side> Disambiguator::silent_where_seen(const Sightlines& sightlines,
-                                                     const AxisCandidate& candidate) const {
+std::optional<Side> Disambiguator::silent_despite_view(const SunEarthDirections& sun_earth,
+                                                       const AxisCandidate& candidate) const {
   const auto* const found = std::find_if(kSides.begin(), kSides.end(), [&](Side side) {
     const int silent = silent_revolutions_.at(index_of(side));
     return (silent >= kSilentRevolutions || (silent > 0 && !heard_.at(index_of(side)))) &&
-           should_see(side, sightlines, candidate);
+           should_see(side, sun_earth, candidate);
   });
   return found == kSides.end() ? std::nullopt : std::optional{*found};
 }
 
 bool Disambiguator::breaks_constraint(const RevolutionMeasurements& measured,
-                                      const Sightlines& sightlines,
+                                      const SunEarthDirections& sun_earth,
                                       const AxisCandidate& candidate) const {
   return std::any_of(kSides.begin(), kSides.end(), [&](Side side) {
     const auto& sensor = sensor_of(config_, side);
@@ -198,23 +199,23 @@ bool Disambiguator::breaks_constraint(const RevolutionMeasurements& measured,
       return false;
     }
     if (const auto chord = good_value_of(measured, kChords.at(index_of(side)))) {
-      const ChordRange range = chords_from(candidate, sightlines, sensor->mount_angle_rad);
+      const ChordRange range = chords_from(candidate, sun_earth, sensor->mount_angle_rad);
       const double tolerance_rad = kContradictionSigmas * chord->sigma_rad + kModelLimit_rad;
       return chord->value_rad < range.least_rad - tolerance_rad ||
              chord->value_rad > range.most_rad + tolerance_rad;
     }
     return silent_revolutions_.at(index_of(side)) >= kSilentRevolutions &&
-           should_see(side, sightlines, candidate);
+           should_see(side, sun_earth, candidate);
   });
 }
 
 std::vector<std::size_t> Disambiguator::possible_of(const RevolutionMeasurements& measured,
-                                                    const Sightlines& sightlines,
+                                                    const SunEarthDirections& sun_earth,
                                                     const AxisCandidates& found) const {
   std::vector<std::size_t> possible;
   for (std::size_t i = 0; i < found.candidates.size(); ++i) {
     const AxisCandidate& candidate = found.candidates[i];
-    if (candidate.consistent && !breaks_constraint(measured, sightlines, candidate)) {
+    if (candidate.consistent && !breaks_constraint(measured, sun_earth, candidate)) {
       possible.push_back(i);
     }
   }

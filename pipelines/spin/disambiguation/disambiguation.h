@@ -15,7 +15,7 @@
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/known_axis.h"
 #include "pipelines/spin/types/products.h"
-#include "pipelines/spin/types/sightlines.h"
+#include "pipelines/spin/types/sun_earth_directions.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -49,18 +49,18 @@ class Disambiguator {
   ///        mission's prior.
   /// @return Earlier fixes that this revolution settles, then its own.
   std::vector<SpinFix> settle(std::int64_t revolution, TaiTime t,
-                              const RevolutionMeasurements& measured, const Sightlines& sightlines,
-                              const AxisCandidates& candidates,
+                              const RevolutionMeasurements& measured,
+                              const SunEarthDirections& sun_earth, const AxisCandidates& candidates,
                               const std::optional<KnownAxis>& established);
 
   /// The beam that contradicts the last fix by its silence, where geometry left but one axis.
-  std::optional<Side> silent_where_seen() const { return silent_where_seen_; }
+  std::optional<Side> silent_despite_view() const { return silent_where_seen_; }
 
   /// On the last candidates that the mission's prior was asked about; empty: it never was.
   std::optional<PriorVerdict> prior_verdict() const { return prior_verdict_; }
 
   /// What the dispersion settled on with the last fix, and by how much; empty: it did not then.
-  const std::optional<SteadyBranch>& newly_steady() const { return newly_steady_; }
+  const std::optional<StationaryBranch>& newly_stationary() const { return newly_steady_; }
 
  private:
   struct Pending {
@@ -72,13 +72,14 @@ class Disambiguator {
   };
 
   void note_silence(const RevolutionMeasurements& measured);
-  bool should_see(Side side, const Sightlines& sightlines, const AxisCandidate& candidate) const;
-  std::optional<Side> silent_where_seen(const Sightlines& sightlines,
-                                        const AxisCandidate& candidate) const;
-  bool breaks_constraint(const RevolutionMeasurements& measured, const Sightlines& sightlines,
-                         const AxisCandidate& candidate) const;
+  bool should_see(Side side, const SunEarthDirections& sun_earth,
+                  const AxisCandidate& candidate) const;
+  std::optional<Side> silent_despite_view(const SunEarthDirections& sun_earth,
+                                          const AxisCandidate& candidate) const;
+  bool breaks_constraint(const RevolutionMeasurements& measured,
+                         const SunEarthDirections& sun_earth, const AxisCandidate& candidate) const;
   std::vector<std::size_t> possible_of(const RevolutionMeasurements& measured,
-                                       const Sightlines& sightlines,
+                                       const SunEarthDirections& sun_earth,
                                        const AxisCandidates& found) const;
   std::optional<std::size_t> nearest_to_known(const std::optional<KnownAxis>& established,
                                               const AxisCandidates& found,
@@ -93,8 +94,8 @@ class Disambiguator {
   std::optional<Side> silent_where_seen_;
   std::optional<PriorVerdict> prior_verdict_;
   Dispersion dispersion_;
-  std::optional<SteadyBranch> newly_steady_;
-  std::optional<SteadyAxis> steady_;
+  std::optional<StationaryBranch> newly_steady_;
+  std::optional<StationaryAxis> steady_;
   int contradictions_ = 0;       ///< Revolutions running that no candidate continued `steady_`.
   std::deque<Pending> pending_;  ///< AMBIGUOUS so far, or settled by the mission's prior alone.
 };

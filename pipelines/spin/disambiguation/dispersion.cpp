@@ -77,7 +77,7 @@ void Dispersion::Block::add(const Block& later) {
 
 Dispersion::Dispersion(std::size_t window) : window_{std::max(window, 2 * kFewestBlocks)} {}
 
-std::optional<SteadyBranch> Dispersion::add(std::span<const AxisCandidate> candidates) {
+std::optional<StationaryBranch> Dispersion::add(std::span<const AxisCandidate> candidates) {
   ++revolutions_;
   const Matching matching = match(candidates);
   if (!branches_.empty() && skips(candidates, matching)) {
@@ -109,7 +109,7 @@ Dispersion::Matching Dispersion::match(std::span<const AxisCandidate> candidates
   std::array<std::array<double, kMostBranches>, kMostBranches> distances{};
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     for (std::size_t j = 0; j < branches_.size(); ++j) {
-      const SteadyAxis& recent = branches_[j].recent;
+      const StationaryAxis& recent = branches_[j].recent;
       distances.at(i).at(j) = squared_distance(recent.axis_icrf, candidates[i], recent.count);
     }
   }
@@ -141,7 +141,7 @@ bool Dispersion::skips(std::span<const AxisCandidate> candidates, const Matching
   std::size_t linked = 0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (const auto& link = matching.links[i]) {
-      const SteadyAxis& recent = branches_[*link].recent;
+      const StationaryAxis& recent = branches_[*link].recent;
       ++linked;
       continued += squared_distance(recent.axis_icrf, candidates[i], recent.count) < kGate ? 1 : 0;
     }
@@ -264,7 +264,7 @@ bool Dispersion::nearly_linear() const {
   });
 }
 
-std::optional<SteadyBranch> Dispersion::steady() const {
+std::optional<StationaryBranch> Dispersion::steady() const {
   if (branches_.size() < 2) {
     return std::nullopt;
   }
@@ -308,7 +308,7 @@ std::optional<SteadyBranch> Dispersion::steady() const {
   for (const Block& block : branches_[static_cast<std::size_t>(least - scatters.begin())].blocks) {
     whole.add(block);
   }
-  return SteadyBranch{
+  return StationaryBranch{
       .axis = {.axis_icrf = whole.axis_sum.normalized(), .count = static_cast<double>(whole.count)},
       .scatter_ratio = least_ratio,
       .log_likelihood_ratio = log_likelihood_ratio};

@@ -20,14 +20,14 @@ double squared_distance(const Eigen::Vector3d& axis_icrf, const AxisCandidate& c
                         double mean_of);
 
 /// An axis that stays where it is, the mean of `count` candidates.
-struct SteadyAxis {
+struct StationaryAxis {
   Eigen::Vector3d axis_icrf;  ///< Unit.
   double count;
 };
 
 /// A branch that stays where it is, and what says so.
-struct SteadyBranch {
-  SteadyAxis axis;
+struct StationaryBranch {
+  StationaryAxis axis;
   /// Of the other branch that comes nearest to it: its variance over that of this one, each in
   /// units of its noise; this one's is taken to be at least its noise.
   double scatter_ratio;
@@ -54,7 +54,7 @@ class Dispersion {
   /// to which branch, or off the branches; when five follow each other like that, the branches have
   /// crossed, or moved: what is known of them is given up.
   /// @return The steady branch, when there is one.
-  std::optional<SteadyBranch> add(std::span<const AxisCandidate> candidates);
+  std::optional<StationaryBranch> add(std::span<const AxisCandidate> candidates);
 
   /// The candidates are no mirror images, or some are near-tangent and the rest a selection:
   /// their noise is unlike, and only the F-test decides from here on.
@@ -72,7 +72,7 @@ class Dispersion {
     void add(const Block& later);
   };
   struct Branch {
-    SteadyAxis recent;
+    StationaryAxis recent;
     std::vector<Block> blocks;
     long last_seen;
   };
@@ -96,7 +96,7 @@ class Dispersion {
   static Scatter scatter_of(std::span<const Block> blocks);
   std::span<const Block> closed_blocks(const Branch& branch) const;
   bool nearly_linear() const;
-  std::optional<SteadyBranch> steady() const;
+  std::optional<StationaryBranch> steady() const;
 
   std::size_t window_;
   std::vector<Branch> branches_;

@@ -16,7 +16,7 @@
 namespace spindrift {
 namespace {
 
-constexpr double kGrazingSigmas = 3.0;
+constexpr double kNearTangentSigmas = 3.0;
 // Of the model, whose errors are drawn but once.
 constexpr double kModelSigmas = 3.0;
 // A chord narrower than so many sigmas is near-tangent: where noise of five sigmas changes its
@@ -26,12 +26,12 @@ constexpr double kNarrowSigmas = 10.0;
 /// Cones that touch within noise and model. Where they miss each other by so little, the roots that
 /// are missing may be the true ones.
 /// @param excess By how much they miss each other; negative where they cross.
-void note_grazing(const Uncertain& excess, AxisSolutions& found) {
-  const double noise_sigmas = excess.value() > 0.0 ? kContradictionSigmas : kGrazingSigmas;
-  const bool grazing =
+void note_near_tangent(const Uncertain& excess, AxisSolutions& found) {
+  const double noise_sigmas = excess.value() > 0.0 ? kContradictionSigmas : kNearTangentSigmas;
+  const bool near_tangent =
       std::abs(excess.value()) <=
       std::hypot(noise_sigmas * noise_of(excess), kModelSigmas * model_uncertainty_of(excess));
-  found.grazing = found.grazing || grazing;
+  found.near_tangent = found.near_tangent || near_tangent;
 }
 
 /// Those in (0, 180) deg, and those outside that noise and model may have put there: opposite to
@@ -70,9 +70,9 @@ std::vector<Uncertain> earth_angles_from_one(const FixInput& input, AxisSolution
   const Uncertain a = certain(std::cos(chord.mount_angle_rad));
   const Uncertain b = std::sin(chord.mount_angle_rad) * Uncertain{cos(0.5 * chord.chord_rad)};
   ConeRootsOf<Uncertain> roots = cone_roots(a, b, Uncertain{cos(input.lone_disc_rad())});
-  note_grazing(roots.excess, found);
+  note_near_tangent(roots.excess, found);
   if (chord.chord_rad.value() < kNarrowSigmas * noise_of(chord.chord_rad)) {
-    found.grazing = true;
+    found.near_tangent = true;
   }
   if (!(roots.excess.value() < 0.0)) {
     found.reason = fmt::format(
@@ -157,7 +157,7 @@ void meet(const FixInput& input, const Uncertain& earth_angle_rad, AxisSolutions
       Uncertain{Uncertain{sin(sun_angle_rad)} * Uncertain{sin(earth_angle_rad)}};
   const Uncertain excess =
       cosine.value() < 0.0 ? Uncertain{-cosine - 1.0} : Uncertain{cosine - 1.0};
-  note_grazing(excess, found);
+  note_near_tangent(excess, found);
   if (!(excess.value() < 0.0)) {
     found.reason = fmt::format(
         "the cones of {:.4f} deg about the Sun and {:.4f} deg about the Earth do not meet, which "
@@ -177,7 +177,7 @@ void find_sun_angles(const FixInput& input, const Uncertain& earth_angle_rad,
   const Uncertain b = Uncertain{sin(earth_angle_rad)} * Uncertain{cos(*input.dihedral)};
   const ConeRootsOf<Uncertain> roots =
       cone_roots(Uncertain{cos(earth_angle_rad)}, b, certain(std::cos(input.sun_earth_rad)));
-  note_grazing(roots.excess, found);
+  note_near_tangent(roots.excess, found);
   const std::vector<Uncertain> sun_angles_rad = possible_angles(roots);
   if (sun_angles_rad.empty()) {
     found.reason = "no sun angle in (0, 180) deg fits the measured earth angle and dihedral";
@@ -199,7 +199,7 @@ void unmix(const FixInput& input, const Uncertain& earth_angle_rad, AxisSolution
   Uncertain miss = certain(slit.nearest_miss);
   miss.derivatives() =
       earth_angle_rad.derivatives().cwiseAbs() + input.mixed_azimuth->derivatives().cwiseAbs();
-  note_grazing(miss, found);
+  note_near_tangent(miss, found);
   if (slit.lags.empty()) {
     found.reason = "no sun angle that sun slit 2 can see fits the measured earth angle and azimuth";
   }
@@ -245,7 +245,7 @@ AxisSolutions solve_axis_angles(const FixInput& input) {
 }
 
 void rank(const FixInput& input, AxisSolutions& found) {
-  found.told_apart = found.places.size() == 1 && !found.grazing;
+  found.told_apart = found.places.size() == 1 && !found.near_tangent;
   if (found.places.size() < 2 || !has_one_chord_with_all_else(input)) {
     return;
   }
@@ -253,7 +253,7 @@ void rank(const FixInput& input, AxisSolutions& found) {
             [&](const AxisAngles& a, const AxisAngles& b) {
               return misfit(input, a).value() < misfit(input, b).value();
             });
-  found.told_apart = !found.grazing &&
+  found.told_apart = !found.near_tangent &&
                      std::abs(determinant(one_chord(input)).value()) >
                          input.config.geometry.determinant_ambiguous &&
                      fits_beyond_doubt(input, found.places[0], found.places[1]);

@@ -24,7 +24,7 @@ struct AxisAngles {
 struct AxisSolutions {
   std::vector<AxisAngles> places;
   bool told_apart = false;  ///< Only rank() knows.
-  bool grazing = false;
+  bool near_tangent = false;
   std::string reason;  ///< Why there is none.
 };
 

@@ -57,8 +57,8 @@ Eigen::Matrix2d moved_by_views(const BeamViews& beams, const Eigen::Matrix<doubl
 
 AxisCandidate candidate_at(const FixInput& input, const AxisAngles& place) {
   const Eigen::Matrix<Uncertain, 3, 1> axis =
-      axis_icrf(AxisInput<Uncertain>{.sun_icrf = input.sightlines.sun_icrf,
-                                     .earth_icrf = input.sightlines.earth_icrf,
+      axis_icrf(AxisInput<Uncertain>{.sun_icrf = input.sun_earth.sun_icrf,
+                                     .earth_icrf = input.sun_earth.earth_icrf,
                                      .sun_angle_rad = place.sun_angle_rad,
                                      .earth_angle_rad = place.earth_angle_rad,
                                      .dihedral_rad = place.dihedral_rad});
@@ -132,7 +132,7 @@ int geometry_case_of(const RevolutionMeasurements& measured) {
   return which == 0 ? 8 : 10;
 }
 
-bool contradicts_itself(const Expected<AxisCandidates>& found) {
+bool is_inconsistent(const Expected<AxisCandidates>& found) {
   if (!found) {
     return found.error().code == ErrorCode::InvalidInput;
   }
@@ -142,15 +142,15 @@ bool contradicts_itself(const Expected<AxisCandidates>& found) {
 
 Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
                                          const RevolutionMeasurements& measured,
-                                         const Sightlines& sightlines) {
+                                         const SunEarthDirections& sun_earth) {
   AxisCandidates result{.geometry_case = geometry_case_of(measured),
                         .candidates = {},
                         .told_apart = false,
-                        .grazing = false};
+                        .near_tangent = false};
   if (result.geometry_case < 1 || result.geometry_case > 7) {
     return unobservable(cone_in_words(result.geometry_case));
   }
-  const FixInput input = fix_input(config, measured, sightlines, views_of_sphere(sightlines));
+  const FixInput input = fix_input(config, measured, sun_earth, views_of_sphere(sun_earth));
   if (in_line(input.sun_earth_rad)) {
     return unobservable(
         fmt::format("Sun and Earth stand {:.3f} deg apart: the axis needs between 3 and 177 deg",
@@ -158,8 +158,8 @@ Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
   }
   const AxisSolutions found = solve_on_horizon(input);
   if (found.places.empty()) {
-    return found.grazing ? unobservable(found.reason)
-                         : Unexpected{{ErrorCode::InvalidInput, found.reason}};
+    return found.near_tangent ? unobservable(found.reason)
+                              : Unexpected{{ErrorCode::InvalidInput, found.reason}};
   }
   for (const AxisAngles& place : found.places) {
     result.candidates.push_back(candidate_at(input, place));
@@ -170,7 +170,7 @@ Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
     }
   }
   result.told_apart = found.told_apart;
-  result.grazing = found.grazing;
+  result.near_tangent = found.near_tangent;
   if (!input.both_chords() && result.geometry_case % 3 == 1) {
     ++result.geometry_case;  // Both chords, of beams mounted alike: only north's is used.
   }

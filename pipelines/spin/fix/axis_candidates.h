@@ -14,7 +14,7 @@
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/model_allowance.h"
-#include "pipelines/spin/types/sightlines.h"
+#include "pipelines/spin/types/sun_earth_directions.h"
 
 namespace spindrift {
 
@@ -36,7 +36,7 @@ struct AxisCandidates {
   bool told_apart;  ///< The geometry alone shows that the first is the true one.
   /// Near-tangent: within noise and model the cones touch rather than cross. The candidates hardly
   /// differ, are not linear in the noise, and their covariances are too small.
-  bool grazing;
+  bool near_tangent;
 };
 
 /// Which of the ten cases of spin.md the good measurements are; 0: none.
@@ -50,10 +50,10 @@ int geometry_case_of(const RevolutionMeasurements& measured);
 ///         measurements that no axis explains, within their noise; InvalidInput beyond it.
 Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
                                          const RevolutionMeasurements& measured,
-                                         const Sightlines& sightlines);
+                                         const SunEarthDirections& sun_earth);
 
 /// The measurements have enough in them for a fix, but no consistent one: sensors, orbit or edges
 /// are not what they are said to be.
-bool contradicts_itself(const Expected<AxisCandidates>& found);
+bool is_inconsistent(const Expected<AxisCandidates>& found);
 
 }  // namespace spindrift

@@ -25,20 +25,19 @@ std::optional<Uncertain> dihedral_of(const RevolutionMeasurements& measured,
   if (!north && !south) {
     return std::nullopt;
   }
-  const Measured mean =
-      north && south ? mean_round_the_circle(*north, *south) : (north ? *north : *south);
+  const Measured mean = north && south ? circular_mean(*north, *south) : (north ? *north : *south);
   return with_azimuth_errors(of_centre(mean, beams), north.has_value(), south.has_value());
 }
 
 }  // namespace
 
 FixInput fix_input(const SpinConfig& config, const RevolutionMeasurements& measured,
-                   const Sightlines& sightlines, const BeamViews& beams) {
+                   const SunEarthDirections& sun_earth, const BeamViews& beams) {
   FixInput input{.config = config,
                  .measured = measured,
-                 .sightlines = sightlines,
+                 .sun_earth = sun_earth,
                  .beams = beams,
-                 .sun_earth_rad = angle_between_rad(sightlines.sun_icrf, sightlines.earth_icrf),
+                 .sun_earth_rad = angle_between_rad(sun_earth.sun_icrf, sun_earth.earth_icrf),
                  .sun_angle = {},
                  .dihedral = dihedral_of(measured, beams),
                  .mixed_azimuth = {},
@@ -62,7 +61,7 @@ FixInput fix_input(const SpinConfig& config, const RevolutionMeasurements& measu
     }
   }
   if (input.both_chords() &&
-      mounted_alike(input.north()->mount_angle_rad, input.south()->mount_angle_rad)) {
+      mount_angles_coincide(input.north()->mount_angle_rad, input.south()->mount_angle_rad)) {
     input.chords[1].reset();
   }
   return input;

@@ -12,7 +12,7 @@
 #include "pipelines/spin/measurement/uncertain.h"
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "pipelines/spin/types/config.h"
-#include "pipelines/spin/types/sightlines.h"
+#include "pipelines/spin/types/sun_earth_directions.h"
 
 namespace spindrift {
 
@@ -20,7 +20,7 @@ namespace spindrift {
 struct FixInput {
   const SpinConfig& config;
   const RevolutionMeasurements& measured;
-  const Sightlines& sightlines;
+  const SunEarthDirections& sun_earth;
   BeamViews beams;  ///< That azimuths are corrected by.
   double sun_earth_rad;
   std::optional<Uncertain> sun_angle;
@@ -42,6 +42,6 @@ struct FixInput {
 
 /// Beams whose mounting angles coincide count as one: north.
 FixInput fix_input(const SpinConfig& config, const RevolutionMeasurements& measured,
-                   const Sightlines& sightlines, const BeamViews& beams);
+                   const SunEarthDirections& sun_earth, const BeamViews& beams);
 
 }  // namespace spindrift

@@ -17,9 +17,9 @@ constexpr double kAtRest_rad = 1e-8;
 // Roots that come this near to each other are one.
 constexpr double kSame_rad = 1e-6;
 
-Eigen::Vector3d axis_of(const Sightlines& sightlines, const AxisAngles& place) {
-  return axis_icrf(AxisInput<double>{.sun_icrf = sightlines.sun_icrf,
-                                     .earth_icrf = sightlines.earth_icrf,
+Eigen::Vector3d axis_of(const SunEarthDirections& sun_earth, const AxisAngles& place) {
+  return axis_icrf(AxisInput<double>{.sun_icrf = sun_earth.sun_icrf,
+                                     .earth_icrf = sun_earth.earth_icrf,
                                      .sun_angle_rad = place.sun_angle_rad.value(),
                                      .earth_angle_rad = place.earth_angle_rad.value(),
                                      .dihedral_rad = place.dihedral_rad.value()})
@@ -28,16 +28,16 @@ Eigen::Vector3d axis_of(const Sightlines& sightlines, const AxisAngles& place) {
 
 /// The root that `place` becomes, alone or not at all.
 AxisSolutions follow(const FixInput& on_sphere, const AxisAngles& place) {
-  const Sightlines& sightlines = on_sphere.sightlines;
-  Eigen::Vector3d axis_icrf = axis_of(sightlines, place);
+  const SunEarthDirections& sun_earth = on_sphere.sun_earth;
+  Eigen::Vector3d axis_icrf = axis_of(sun_earth, place);
   const auto off_rad = [&](const AxisAngles& other) {
-    return angle_between_rad(axis_of(sightlines, other), axis_icrf);
+    return angle_between_rad(axis_of(sun_earth, other), axis_icrf);
   };
   AxisSolutions found;
   for (int step = 0; step < kMostSteps; ++step) {
     found = solve_axis_angles(
-        fix_input(on_sphere.config, on_sphere.measured, sightlines,
-                  views_of_horizon(on_sphere.config, on_sphere.measured, sightlines, axis_icrf)));
+        fix_input(on_sphere.config, on_sphere.measured, sun_earth,
+                  views_of_horizon(on_sphere.config, on_sphere.measured, sun_earth, axis_icrf)));
     if (found.places.empty()) {
       return found;
     }
@@ -49,17 +49,17 @@ AxisSolutions follow(const FixInput& on_sphere, const AxisAngles& place) {
     if (moved_rad < kAtRest_rad) {
       return found;
     }
-    axis_icrf = axis_of(sightlines, nearest);
+    axis_icrf = axis_of(sun_earth, nearest);
   }
-  found.grazing = true;
+  found.near_tangent = true;
   return found;
 }
 
 bool is_among(const std::vector<AxisAngles>& places, const AxisAngles& place,
-              const Sightlines& sightlines) {
-  const Eigen::Vector3d axis_icrf = axis_of(sightlines, place);
+              const SunEarthDirections& sun_earth) {
+  const Eigen::Vector3d axis_icrf = axis_of(sun_earth, place);
   return std::any_of(places.begin(), places.end(), [&](const AxisAngles& other) {
-    return angle_between_rad(axis_of(sightlines, other), axis_icrf) < kSame_rad;
+    return angle_between_rad(axis_of(sun_earth, other), axis_icrf) < kSame_rad;
   });
 }
 
@@ -73,10 +73,10 @@ AxisSolutions solve_on_horizon(const FixInput& on_sphere) {
   AxisSolutions found;
   for (const AxisAngles& place : first.places) {
     AxisSolutions there = follow(on_sphere, place);
-    found.grazing = found.grazing || there.grazing;
+    found.near_tangent = found.near_tangent || there.near_tangent;
     found.reason = std::move(there.reason);
     if (!there.places.empty() &&
-        !is_among(found.places, there.places.front(), on_sphere.sightlines)) {
+        !is_among(found.places, there.places.front(), on_sphere.sun_earth)) {
       found.places.push_back(there.places.front());
     }
   }

@@ -37,11 +37,11 @@ struct Seen {
 
 class Slopes {
  public:
-  Slopes(const SpinConfig& config, const Sightlines& sightlines, const Eigen::Vector3d& axis)
+  Slopes(const SpinConfig& config, const SunEarthDirections& sun_earth, const Eigen::Vector3d& axis)
       : config_{config},
-        disc_rad_{sightlines.disc_rad},
-        sun_{axis, sightlines.sun_icrf},
-        earth_{axis, sightlines.earth_icrf} {}
+        disc_rad_{sun_earth.disc_rad},
+        sun_{axis, sun_earth.sun_icrf},
+        earth_{axis, sun_earth.earth_icrf} {}
 
   /// Empty for what is not linear.
   std::optional<Slope> of(SpinQuantity quantity, const Measured& value,
@@ -119,14 +119,14 @@ class Slopes {
 }  // namespace
 
 void AngleEquations::add(const SpinConfig& config, const RevolutionMeasurements& measured,
-                         const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf) {
+                         const SunEarthDirections& sun_earth, const Eigen::Vector3d& axis_icrf) {
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(reference_icrf_);
-  const Slopes slopes{config, sightlines, axis_icrf};
+  const Slopes slopes{config, sun_earth, axis_icrf};
   Eigen::Matrix<double, kMostAngles, kUnknowns> design;
   Eigen::Matrix<double, kMostAngles, 1> off_rad;
   Eigen::Matrix<double, kMostAngles, kPulseChannels> noise_rad;
   int rows = 0;
-  for (const Residual& residual : residuals(config, measured, sightlines, axis_icrf)) {
+  for (const Residual& residual : residuals(config, measured, sun_earth, axis_icrf)) {
     const Measured value = *good_value_of(measured, residual.quantity);
     if (const auto slope =
             slopes.of(residual.quantity, value, value.value_rad - residual.value_rad)) {

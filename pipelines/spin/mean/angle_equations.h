@@ -16,7 +16,7 @@
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/model_allowance.h"
-#include "pipelines/spin/types/sightlines.h"
+#include "pipelines/spin/types/sun_earth_directions.h"
 
 namespace spindrift {
 
@@ -31,7 +31,7 @@ class AngleEquations {
   /// The good angles of one revolution, those left out that are not linear.
   /// @param axis_icrf Unit; so near the true one that the others are linear in between.
   void add(const SpinConfig& config, const RevolutionMeasurements& measured,
-           const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf);
+           const SunEarthDirections& sun_earth, const Eigen::Vector3d& axis_icrf);
 
   /// @param other Of the same reference, and of other revolutions.
   AngleEquations& operator+=(const AngleEquations& other);

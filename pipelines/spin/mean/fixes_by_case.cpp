@@ -7,7 +7,7 @@
 
 namespace spindrift {
 
-double most_shift_sigmas(double share) {
+double largest_selection_shift_sigmas(double share) {
   const double left_out = 1.0 - share;
   if (!(left_out > 0.0)) {
     return 0.0;
@@ -60,10 +60,10 @@ void FixesByCase::take_back(int geometry_case, std::int64_t stretch) {
 }
 
 void FixesByCase::add(int geometry_case, std::int64_t stretch, const SpinConfig& config,
-                      const RevolutionMeasurements& measured, const Sightlines& sightlines,
+                      const RevolutionMeasurements& measured, const SunEarthDirections& sun_earth,
                       const Eigen::Vector3d& axis_icrf) {
   Group& group = group_of(geometry_case, stretch);
-  group.equations.add(config, measured, sightlines, axis_icrf);
+  group.equations.add(config, measured, sun_earth, axis_icrf);
   ++group.count;
 }
 
@@ -101,7 +101,7 @@ MeanOfCases FixesByCase::mean() const {
   std::optional<MeanOfCases> best;
   for (const Group& group : groups()) {
     const Eigen::Matrix2d information = group.equations.normal().topLeftCorner<2, 2>();
-    const double shift_sigmas = most_shift_sigmas(group.share());
+    const double shift_sigmas = largest_selection_shift_sigmas(group.share());
     equations += group.equations;
     count += group.count;
     shifts += shift_sigmas * shift_sigmas * static_cast<double>(group.count) * information;

@@ -27,13 +27,13 @@
 #include "pipelines/spin/mean/angle_equations.h"
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/types/config.h"
-#include "pipelines/spin/types/sightlines.h"
+#include "pipelines/spin/types/sun_earth_directions.h"
 
 namespace spindrift {
 
 /// What a selection of so many of all normal vectors is shifted by at most, in sigmas.
 /// @param share (0, 1].
-double most_shift_sigmas(double share);
+double largest_selection_shift_sigmas(double share);
 
 /// Mean of the cases that together leave the axis the least uncertain: what a selection adds may be
 /// less than what it shifts.
@@ -58,7 +58,7 @@ class FixesByCase {
   void take_back(int geometry_case, std::int64_t stretch);
   /// @param axis_icrf As AngleEquations.
   void add(int geometry_case, std::int64_t stretch, const SpinConfig& config,
-           const RevolutionMeasurements& measured, const Sightlines& sightlines,
+           const RevolutionMeasurements& measured, const SunEarthDirections& sun_earth,
            const Eigen::Vector3d& axis_icrf);
 
   /// Forgets the fixes, but not what was left out.

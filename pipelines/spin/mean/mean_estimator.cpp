@@ -29,8 +29,8 @@ constexpr std::size_t kFewestFixes = 3;
 }  // namespace
 
 void MeanEstimator::keep(std::int64_t revolution, const RevolutionMeasurements& measured,
-                         const Sightlines& sightlines) {
-  kept_.push_back({.revolution = revolution, .measured = measured, .sightlines = sightlines});
+                         const SunEarthDirections& sun_earth) {
+  kept_.push_back({.revolution = revolution, .measured = measured, .sun_earth = sun_earth});
   if (kept_.size() > static_cast<std::size_t>(config_.screening.window) + 1) {
     kept_.pop_front();
   }
@@ -43,7 +43,7 @@ bool MeanEstimator::take(const SpinFix& fix) {
   if (kept == kept_.rend() || (began_ && fix.t < *began_)) {
     return false;
   }
-  const bool settled = fix.accepted && !fix.grazing;
+  const bool settled = fix.accepted && !fix.near_tangent;
   if (settled && kept->fate != Fate::Settled) {
     settle(*kept, fix);
   } else if (!settled) {
@@ -56,8 +56,8 @@ bool MeanEstimator::take(const SpinFix& fix) {
 /// long as one of twenty is settled, and as many where one of a thousand is. As long as nothing
 /// tells branches apart it is not the noise that leaves their fixes open.
 void MeanEstimator::leave_out(Kept& kept, const SpinFix& fix) {
-  const bool by_noise = fix.grazing ? fix.accepted || fix.resolution == Resolution::Ambiguous
-                                    : mean_ && fix.resolution == Resolution::Ambiguous;
+  const bool by_noise = fix.near_tangent ? fix.accepted || fix.resolution == Resolution::Ambiguous
+                                         : mean_ && fix.resolution == Resolution::Ambiguous;
   if (by_noise && kept.fate == Fate::Open) {
     kept.fate = Fate::LeftOut;
     kept.geometry_case = fix.geometry_case;
@@ -85,21 +85,21 @@ void MeanEstimator::settle(Kept& kept, const SpinFix& fix) {
   mean_ = fixes_.mean();
   ++settled_;
   if (settled_ < kFirstFixes || std::has_single_bit(settled_)) {
-    linearise_anew();
+    relinearise();
   }
   if (mean_->covariance_rad2.trace() < kLinear_rad * kLinear_rad) {
-    verdict_ = judge_model(mean_->equations, 0.0);
+    verdict_ = test_model(mean_->equations, 0.0);
   }
 }
 
 void MeanEstimator::add(const Kept& kept, const Eigen::Vector3d& axis_icrf) {
-  fixes_.add(kept.geometry_case, kept.stretch, config_, kept.measured, kept.sightlines, axis_icrf);
+  fixes_.add(kept.geometry_case, kept.stretch, config_, kept.measured, kept.sun_earth, axis_icrf);
 }
 
 /// The first are added about a mean that rests on few. While all are kept, they are linear about
 /// what they have in common; afterwards the mean hardly moves. What does not converge among the
 /// fixes stays linear about their plain average.
-void MeanEstimator::linearise_anew() {
+void MeanEstimator::relinearise() {
   const auto settled = std::count_if(kept_.begin(), kept_.end(),
                                      [](const Kept& kept) { return kept.fate == Fate::Settled; });
   if (static_cast<std::size_t>(settled) != settled_) {
@@ -112,7 +112,7 @@ void MeanEstimator::linearise_anew() {
     if (angle_between_rad(axis, next) < kConverged_rad) {
       return;
     }
-    if (!fits_the_fixes()) {
+    if (!agrees_with_average()) {
       break;
     }
     axis = next;
@@ -132,23 +132,23 @@ void MeanEstimator::linearise_about(const Eigen::Vector3d& axis_icrf) {
 
 void MeanEstimator::begin_anew(TaiTime t) {
   const std::optional<Eigen::Vector3d> given_up =
-      mean_ ? std::optional{axis_icrf()} : given_up_icrf_;
+      mean_ ? std::optional{axis_icrf()} : abandoned_axis_icrf_;
   *this = MeanEstimator{config_};
   began_ = t;
-  given_up_icrf_ = given_up;
+  abandoned_axis_icrf_ = given_up;
 }
 
 Eigen::Vector3d MeanEstimator::axis_icrf() const {
-  return fits_the_fixes() ? mean_->equations.axis_icrf() : average_.axis_icrf();
+  return agrees_with_average() ? mean_->equations.axis_icrf() : average_.axis_icrf();
 }
 
 /// What may be wrong with a plain average does not average out: it is known as one fix is, and as
 /// well as it agrees with the least squares where these know the axis.
 Eigen::Matrix2d MeanEstimator::covariance_rad2() const {
-  if (fits_the_fixes()) {
+  if (agrees_with_average()) {
     return least_squares_covariance_rad2();
   }
-  const double off_rad = tells_less_than_a_fix() ? 0.0 : off_the_fixes_rad();
+  const double off_rad = less_informative_than_one_fix() ? 0.0 : distance_from_average_rad();
   return average_.covariance_rad2() * average_.excess_scatter() *
              static_cast<double>(average_.count()) +
          0.5 * off_rad * off_rad * Eigen::Matrix2d::Identity();
@@ -175,25 +175,25 @@ double MeanEstimator::fix_rad2() const {
 }
 
 /// Short chords are not linear; without them the angles that are left may not fix an axis.
-bool MeanEstimator::tells_less_than_a_fix() const {
+bool MeanEstimator::less_informative_than_one_fix() const {
   return mean_->equations.covariance_rad2().trace() > fix_rad2();
 }
 
-double MeanEstimator::off_the_fixes_rad() const {
+double MeanEstimator::distance_from_average_rad() const {
   return angle_between_rad(mean_->equations.axis_icrf(), average_.axis_icrf());
 }
 
 /// Besides noise that averages out, the plain average is off by less than a fix's own.
-bool MeanEstimator::fits_the_fixes() const {
+bool MeanEstimator::agrees_with_average() const {
   const double noise_rad2 =
       fix_rad2() / static_cast<double>(average_.count()) + least_squares_covariance_rad2().trace();
-  return !tells_less_than_a_fix() &&
-         off_the_fixes_rad() <
+  return !less_informative_than_one_fix() &&
+         distance_from_average_rad() <
              std::sqrt(fix_rad2() + kContradictionSigmas * kContradictionSigmas * noise_rad2);
 }
 
 Eigen::Matrix2d MeanEstimator::covariance_if_moved_rad2() const {
-  if (!fits_the_fixes()) {
+  if (!agrees_with_average()) {
     return average_.covariance_rad2() * static_cast<double>(average_.count());
   }
   return excess_noise() > 1.0 ? mean_->covariance_rad2 : covariance_rad2();
@@ -204,7 +204,7 @@ SpinEstimate MeanEstimator::estimate(const Revolution& revolution) const {
   return {
       .t = revolution.t_start,
       .estimator = SpinEstimator::Mean,
-      .axis_icrf = mean_ ? axis_icrf() : *given_up_icrf_,
+      .axis_icrf = mean_ ? axis_icrf() : *abandoned_axis_icrf_,
       .covariance_rad2 = mean_ ? covariance_rad2() : anywhere_covariance_rad2(),
       .spin_rate_rad_s = rate_rad_s,
       .spin_rate_sigma_rad_s = rate_rad_s / revolution.period.period_s * revolution.period.sigma_s,
@@ -217,11 +217,11 @@ std::optional<Reason> MeanEstimator::doubt() const {
   if (mean_->count < kFewestFixes) {
     return Reason{FewFixes, {{"needed", std::int64_t{kFewestFixes}}}};
   }
-  if (tells_less_than_a_fix()) {
+  if (less_informative_than_one_fix()) {
     return Reason{BeamsNearLimb};
   }
-  if (!fits_the_fixes()) {
-    return Reason{LeastSquaresOff, {{"deg", degrees(off_the_fixes_rad())}}};
+  if (!agrees_with_average()) {
+    return Reason{LeastSquaresOff, {{"deg", degrees(distance_from_average_rad())}}};
   }
   if (excess_noise() > verdict_.excess_noise) {
     return Reason{FixesScatter, {{"factor", std::sqrt(excess_noise())}}};

@@ -38,7 +38,7 @@
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/products.h"
 #include "pipelines/spin/types/revolution.h"
-#include "pipelines/spin/types/sightlines.h"
+#include "pipelines/spin/types/sun_earth_directions.h"
 
 namespace spindrift {
 
@@ -50,7 +50,7 @@ class MeanEstimator {
   /// The measurements of a revolution, before its fix is taken: a fix may be settled as late as the
   /// window of screening allows.
   void keep(std::int64_t revolution, const RevolutionMeasurements& measured,
-            const Sightlines& sightlines);
+            const SunEarthDirections& sun_earth);
 
   /// @return Whether it may be in the mean: it is accepted, does not graze, and is not of before
   ///         the mean began.
@@ -75,7 +75,7 @@ class MeanEstimator {
   struct Kept {
     std::int64_t revolution;
     RevolutionMeasurements measured;
-    Sightlines sightlines;
+    SunEarthDirections sun_earth;
     Fate fate = Fate::Open;
     int geometry_case = 0;  ///< Of its fix, unless open; likewise the following.
     std::int64_t stretch = 0;
@@ -84,14 +84,14 @@ class MeanEstimator {
   void leave_out(Kept& kept, const SpinFix& fix);
   void settle(Kept& kept, const SpinFix& fix);
   void add(const Kept& kept, const Eigen::Vector3d& axis_icrf);
-  void linearise_anew();
+  void relinearise();
   void linearise_about(const Eigen::Vector3d& axis_icrf);
   Eigen::Matrix2d least_squares_covariance_rad2() const;
   double excess_noise() const;
   double fix_rad2() const;
-  bool tells_less_than_a_fix() const;
-  double off_the_fixes_rad() const;
-  bool fits_the_fixes() const;
+  bool less_informative_than_one_fix() const;
+  double distance_from_average_rad() const;
+  bool agrees_with_average() const;
   std::optional<Reason> doubt() const;
   Assessment assess() const;
 
@@ -101,9 +101,9 @@ class MeanEstimator {
   std::size_t settled_ = 0;          ///< So many are in these.
   std::optional<MeanOfCases> mean_;  ///< The least squares.
   MeanAxis average_;                 ///< Of the same fixes.
-  ModelVerdict verdict_;
+  ModelTest verdict_;
   std::optional<TaiTime> began_;  ///< Empty: with the pass.
-  std::optional<Eigen::Vector3d> given_up_icrf_;
+  std::optional<Eigen::Vector3d> abandoned_axis_icrf_;
 };
 
 }  // namespace spindrift

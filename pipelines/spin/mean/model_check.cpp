@@ -110,7 +110,7 @@ const std::array<std::vector<int>, 8> kMistakes = {
 /// Mean products of the errors over all mistakes, each as likely as it explains the residuals. An
 /// error of which little is seen, as it moves the axis instead, is so found in its whole size where
 /// nothing else explains what is seen of it.
-void explain(const ErrorMatrix& information, const Errors& score, ModelVerdict& verdict) {
+void explain(const ErrorMatrix& information, const Errors& score, ModelTest& verdict) {
   struct Explanation {
     double log_weight;
     ErrorMatrix errors_rad2;
@@ -157,7 +157,7 @@ double excess_noise(const AngleEquations& equations) {
 
 }  // namespace
 
-ModelVerdict judge_model(const AngleEquations& equations, double allowed_rad) {
+ModelTest test_model(const AngleEquations& equations, double allowed_rad) {
   const Normal& normal = equations.normal();
   const auto axis = (normal.topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity()).ldlt();
   const Eigen::Matrix<double, 2, kModelErrors> coupling = normal.topRightCorner<2, kModelErrors>();
@@ -165,12 +165,13 @@ ModelVerdict judge_model(const AngleEquations& equations, double allowed_rad) {
                                   coupling.transpose() * axis.solve(coupling);
   const Errors score = equations.right().tail<kModelErrors>() -
                        coupling.transpose() * axis.solve(equations.right().head<2>());
-  return verdict_on({.information = information, .score = score}, excess_noise(equations),
-                    allowed_rad);
+  return test_model_errors({.information = information, .score = score}, excess_noise(equations),
+                           allowed_rad);
 }
 
-ModelVerdict verdict_on(const ErrorInformation& errors, double excess_noise, double allowed_rad) {
-  ModelVerdict verdict{.excess_noise = excess_noise};
+ModelTest test_model_errors(const ErrorInformation& errors, double excess_noise,
+                            double allowed_rad) {
+  ModelTest verdict{.excess_noise = excess_noise};
   const Spectrum spectrum{errors.information, errors.score, excess_noise};
   if (spectrum.freedom() == 0.0) {
     return verdict;

@@ -18,7 +18,7 @@
 namespace spindrift {
 
 /// What the residuals say of noise and model.
-struct ModelVerdict {
+struct ModelTest {
   /// How many times their variance is what the stated noise makes it, where significantly more than
   /// 1; else 1.
   double excess_noise = 1.0;
@@ -34,10 +34,11 @@ struct ModelVerdict {
 
 /// @param excess_noise How many times their variance is what the stated noise makes it.
 /// @param allowed_rad One standard deviation of errors that are known of, and no contradiction.
-ModelVerdict verdict_on(const ErrorInformation& errors, double excess_noise, double allowed_rad);
+ModelTest test_model_errors(const ErrorInformation& errors, double excess_noise,
+                            double allowed_rad);
 
 /// @param equations Of axes so near the true one that the angles are linear in between.
-/// @param allowed_rad As `verdict_on`.
-ModelVerdict judge_model(const AngleEquations& equations, double allowed_rad);
+/// @param allowed_rad As `test_model_errors`.
+ModelTest test_model(const AngleEquations& equations, double allowed_rad);
 
 }  // namespace spindrift

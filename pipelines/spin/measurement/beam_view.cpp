@@ -13,8 +13,9 @@ namespace {
 /// The Earth of the mission about one axis.
 class Earth {
  public:
-  Earth(const Horizon& horizon, const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf)
-      : axes_{horizon_axes(horizon)}, sightlines_{sightlines}, axis_icrf_{axis_icrf} {
+  Earth(const Horizon& horizon, const SunEarthDirections& sun_earth,
+        const Eigen::Vector3d& axis_icrf)
+      : axes_{horizon_axes(horizon)}, sightlines_{sun_earth}, axis_icrf_{axis_icrf} {
     R_icrf_spin_ << tangent_basis(axis_icrf), axis_icrf;
   }
 
@@ -107,21 +108,21 @@ class Earth {
   }
 
   HorizonAxes axes_;
-  const Sightlines& sightlines_;
+  const SunEarthDirections& sightlines_;
   Eigen::Vector3d axis_icrf_;
   Eigen::Matrix3d R_icrf_spin_;
 };
 
 }  // namespace
 
-BeamViews views_of_sphere(const Sightlines& sightlines) {
-  return {BeamView{.disc_rad = sightlines.disc_rad}, BeamView{.disc_rad = sightlines.disc_rad}};
+BeamViews views_of_sphere(const SunEarthDirections& sun_earth) {
+  return {BeamView{.disc_rad = sun_earth.disc_rad}, BeamView{.disc_rad = sun_earth.disc_rad}};
 }
 
 BeamViews views_of_horizon(const SpinConfig& config, const RevolutionMeasurements& measured,
-                           const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf) {
-  const Earth earth{config.horizon, sightlines, axis_icrf};
-  BeamViews views = views_of_sphere(sightlines);
+                           const SunEarthDirections& sun_earth, const Eigen::Vector3d& axis_icrf) {
+  const Earth earth{config.horizon, sun_earth, axis_icrf};
+  BeamViews views = views_of_sphere(sun_earth);
   for (const Side side : kSides) {
     const auto& beam = sensor_of(config, side);
     const auto& crossing = measured.crossing(side);

@@ -14,7 +14,7 @@
 
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/types/config.h"
-#include "pipelines/spin/types/sightlines.h"
+#include "pipelines/spin/types/sun_earth_directions.h"
 
 namespace spindrift {
 
@@ -34,11 +34,11 @@ struct BeamView {
 using BeamViews = std::array<BeamView, 2>;
 
 /// The spherical Earth at rest.
-BeamViews views_of_sphere(const Sightlines& sightlines);
+BeamViews views_of_sphere(const SunEarthDirections& sun_earth);
 
 /// @param axis_icrf Unit. Where a beam has no crossing, the sphere at rest is all it has.
 BeamViews views_of_horizon(const SpinConfig& config, const RevolutionMeasurements& measured,
-                           const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf);
+                           const SunEarthDirections& sun_earth, const Eigen::Vector3d& axis_icrf);
 
 /// Of the beam, or the mean of the beams, that an azimuth rests on.
 /// @param noise_rad Of the azimuth.

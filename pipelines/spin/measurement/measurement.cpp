@@ -112,7 +112,7 @@ std::optional<Measured> mixed_azimuth_of(const SpinConfig& config, const Revolut
     found.back().rejected_by = rejection_of(
         revolution, {Sun2, kInChannels.at(index_of(side)), kOutChannels.at(index_of(side))});
   }
-  Measured mean = mean_round_the_circle(found.front(), found.back());
+  Measured mean = circular_mean(found.front(), found.back());
   mean.rejected_by = found.front().rejected_by;
   return mean;
 }
@@ -140,7 +140,7 @@ auto slot_of(Measurements& measured, SpinQuantity quantity) -> decltype(&measure
 
 }  // namespace
 
-Measured mean_round_the_circle(const Measured& one, const Measured& other) {
+Measured circular_mean(const Measured& one, const Measured& other) {
   return measured_from(
       wrapped_rad(one.value_rad + 0.5 * wrapped_rad(other.value_rad - one.value_rad)),
       0.5 * (one.noise_rad + other.noise_rad));

@@ -43,7 +43,7 @@ inline constexpr std::array<SpinQuantity, 6> kMeasuredAngles = {
     SpinQuantity::NorthDihedral, SpinQuantity::SouthDihedral, SpinQuantity::MixedAzimuth};
 
 /// Of two measurements of the same angle, wrapped to (-pi, pi].
-Measured mean_round_the_circle(const Measured& one, const Measured& other);
+Measured circular_mean(const Measured& one, const Measured& other);
 
 /// All that the edges of one revolution determine, good or not.
 struct RevolutionMeasurements {

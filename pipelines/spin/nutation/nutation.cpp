@@ -181,8 +181,8 @@ FoundNutation nutation_of(const TiltSignal& signal, const Fit& fit,
   return found;
 }
 
-Expected<void> check_numbers(std::span<const SteadyResidual> residuals) {
-  const auto sound = [](const SteadyResidual& residual) {
+Expected<void> check_numbers(std::span<const UniformSpinResidual> residuals) {
+  const auto sound = [](const UniformSpinResidual& residual) {
     const auto& slopes = residual.expected.phase_per_rotation;
     return residual.sigma_rad > 0.0 && std::isfinite(residual.sigma_rad) &&
            std::isfinite(residual.off_rad) && std::isfinite(residual.t_s) &&
@@ -219,7 +219,7 @@ Expected<void> check_extent(const TiltSignal& signal) {
 
 }  // namespace
 
-Expected<NutationSearch> find_nutation(std::span<const SteadyResidual> residuals) {
+Expected<NutationSearch> find_nutation(std::span<const UniformSpinResidual> residuals) {
   if (auto sound = check_numbers(residuals); !sound) {
     return Unexpected{std::move(sound.error())};
   }

@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
-#include "pipelines/spin/nutation/steady_residual.h"
+#include "pipelines/spin/nutation/uniform_spin_residual.h"
 
 namespace spindrift {
 
@@ -53,6 +53,6 @@ struct NutationSearch {
 /// Time: proportional to the edges, some seconds for a day at 100 rpm.
 /// @return InvalidInput for numbers that are not finite, or a sigma not above 0; Unobservable where
 ///         the edges are too few, or too many, or hardly move with a tilt.
-Expected<NutationSearch> find_nutation(std::span<const SteadyResidual> residuals);
+Expected<NutationSearch> find_nutation(std::span<const UniformSpinResidual> residuals);
 
 }  // namespace spindrift

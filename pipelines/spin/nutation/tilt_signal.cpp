@@ -21,38 +21,39 @@ constexpr std::size_t kFewestEdges = 12;
 // Residuals without any noise are no reason to trust them without bound.
 constexpr double kLeastScatter = 1e-3;
 
-using Residuals = std::vector<const SteadyResidual*>;
+using Residuals = std::vector<const UniformSpinResidual*>;
 
-Residuals by_channel_and_time(std::span<const SteadyResidual> residuals) {
+Residuals by_channel_and_time(std::span<const UniformSpinResidual> residuals) {
   Residuals sorted(residuals.size());
   std::transform(residuals.begin(), residuals.end(), sorted.begin(),
-                 [](const SteadyResidual& residual) { return &residual; });
-  std::sort(sorted.begin(), sorted.end(), [](const SteadyResidual* a, const SteadyResidual* b) {
-    return std::tie(a->channel, a->t_s) < std::tie(b->channel, b->t_s);
-  });
+                 [](const UniformSpinResidual& residual) { return &residual; });
+  std::sort(sorted.begin(), sorted.end(),
+            [](const UniformSpinResidual* a, const UniformSpinResidual* b) {
+              return std::tie(a->channel, a->t_s) < std::tie(b->channel, b->t_s);
+            });
   return sorted;
 }
 
-using Edges = std::span<const SteadyResidual* const>;
+using Edges = std::span<const UniformSpinResidual* const>;
 
 /// Each of one channel and a part of its time.
 std::vector<Edges> stretches_of(const Residuals& sorted) {
   std::vector<Edges> stretches;
   for (auto first = sorted.begin(); first != sorted.end();) {
-    const auto channel_end = std::find_if(first, sorted.end(), [&](const SteadyResidual* edge) {
-      return edge->channel != (*first)->channel;
-    });
+    const auto channel_end = std::find_if(
+        first, sorted.end(),
+        [&](const UniformSpinResidual* edge) { return edge->channel != (*first)->channel; });
     const double begin_s = (*first)->t_s;
     const double span_s = (*(channel_end - 1))->t_s - begin_s;
     const double count = std::max(1.0, std::ceil(span_s / kStretch_s));
-    const auto number_of = [&](const SteadyResidual* edge) {
+    const auto number_of = [&](const UniformSpinResidual* edge) {
       return span_s > 0.0
                  ? std::min(count - 1.0, std::floor((edge->t_s - begin_s) / span_s * count))
                  : 0.0;
     };
     while (first != channel_end) {
       const double number = number_of(*first);
-      const auto end = std::find_if(first, channel_end, [&](const SteadyResidual* edge) {
+      const auto end = std::find_if(first, channel_end, [&](const UniformSpinResidual* edge) {
         return number_of(edge) != number;
       });
       const Edges stretch{first, end};
@@ -83,7 +84,7 @@ Eigen::MatrixX4d parabolas(Edges stretch) {
 
 }  // namespace
 
-TiltSignal::TiltSignal(std::span<const SteadyResidual> residuals) {
+TiltSignal::TiltSignal(std::span<const UniformSpinResidual> residuals) {
   const Residuals sorted = by_channel_and_time(residuals);
   const std::vector<Edges> stretches = stretches_of(sorted);
   if (stretches.empty()) {
@@ -112,7 +113,7 @@ void TiltSignal::reserve(Eigen::Index edges) {
 void TiltSignal::add_stretch(Edges stretch, Eigen::Index first) {
   const auto edges = static_cast<Eigen::Index>(stretch.size());
   for (Eigen::Index i = 0; i < edges; ++i) {
-    const SteadyResidual& residual = *stretch[static_cast<std::size_t>(i)];
+    const UniformSpinResidual& residual = *stretch[static_cast<std::size_t>(i)];
     const Eigen::Vector3d& per_rotation = residual.expected.phase_per_rotation;
     turns_[first + i] = residual.turns;
     off_[first + i] = residual.off_rad / residual.sigma_rad;
@@ -125,11 +126,11 @@ void TiltSignal::add_stretch(Edges stretch, Eigen::Index first) {
 
 void TiltSignal::count_from_the_middle(const std::vector<Edges>& stretches) {
   const double mean = turns_.mean();
-  const SteadyResidual* first = stretches.front().front();
-  const SteadyResidual* middle = first;
-  const SteadyResidual* last = first;
+  const UniformSpinResidual* first = stretches.front().front();
+  const UniformSpinResidual* middle = first;
+  const UniformSpinResidual* last = first;
   for (const Edges stretch : stretches) {
-    for (const SteadyResidual* edge : stretch) {
+    for (const UniformSpinResidual* edge : stretch) {
       first = edge->turns < first->turns ? edge : first;
       last = edge->turns > last->turns ? edge : last;
       const bool nearer = std::abs(edge->turns - mean) < std::abs(middle->turns - mean);

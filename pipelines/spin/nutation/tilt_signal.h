@@ -26,7 +26,7 @@
 #include <span>
 #include <vector>
 
-#include "pipelines/spin/nutation/steady_residual.h"
+#include "pipelines/spin/nutation/uniform_spin_residual.h"
 
 namespace spindrift {
 
@@ -34,7 +34,7 @@ namespace spindrift {
 class TiltSignal {
  public:
   /// @param residuals In any order; finite, sigma above 0.
-  explicit TiltSignal(std::span<const SteadyResidual> residuals);
+  explicit TiltSignal(std::span<const UniformSpinResidual> residuals);
 
   Eigen::Index edges() const { return turns_.size(); }
   /// x, behind the middle of the pass.
@@ -60,7 +60,7 @@ class TiltSignal {
   void weigh_by(const Eigen::VectorXd& rest);
 
  private:
-  using Edges = std::span<const SteadyResidual* const>;
+  using Edges = std::span<const UniformSpinResidual* const>;
   struct Stretch {
     PulseChannel channel;
     Eigen::Index first;

@@ -87,8 +87,8 @@ void PassNotices::without_fix(std::int64_t revolution, const Error& error) {
 void PassNotices::has_fix(const SpinFix& fix, std::optional<PriorVerdict> prior) {
   last_case_ = fix.geometry_case;
   prior_verdict_ = prior;
-  if (fix.grazing) {
-    ++grazing_;
+  if (fix.near_tangent) {
+    ++near_tangent_;
   } else if (fix.resolution == Resolution::Ambiguous) {
     ++ambiguous_;
   } else if (!fix.accepted) {
@@ -96,7 +96,7 @@ void PassNotices::has_fix(const SpinFix& fix, std::optional<PriorVerdict> prior)
   }
 }
 
-void PassNotices::settled_by_dispersion(TaiTime t, const SteadyBranch& branch) {
+void PassNotices::settled_by_dispersion(TaiTime t, const StationaryBranch& branch) {
   const RaDec axis = ra_dec_of(branch.axis.axis_icrf);
   Notice notice{NoticeCode::DispersionSettles,
                 {at(t),
@@ -130,7 +130,7 @@ void PassNotices::prior_contradicted(TaiTime t) {
 /// A prior that has nothing to choose may be wrong as well.
 void PassNotices::estimated(const SpinEstimate& estimate) {
   quality_ = estimate.assessment.quality;
-  fixes_graze_ = has(estimate.assessment, ReasonCode::FixesGraze);
+  fixes_near_tangent_ = has(estimate.assessment, ReasonCode::FixesNearTangent);
   if (!config_.prior || !is_unopposed(*quality_)) {
     return;
   }
@@ -209,14 +209,14 @@ void PassNotices::say_what_was_left_out() {
         {"most", std::string{name_of(most->first)}}}});
 }
 
-/// It takes fixes that are accepted and do not graze.
+/// It takes fixes that are accepted and not near-tangent.
 void PassNotices::say_why_no_mean() {
   if (mean_began_ || last_case_ == 0) {
     return;
   }
   say({NoticeCode::MeanNeverBegan,
-       {{"fixes", grazing_ + ambiguous_ + otherwise_not_accepted_},
-        {"grazing", grazing_},
+       {{"fixes", near_tangent_ + ambiguous_ + otherwise_not_accepted_},
+        {"near_tangent", near_tangent_},
         {"ambiguous", ambiguous_},
         {"not_accepted", otherwise_not_accepted_}}});
 }
@@ -224,8 +224,8 @@ void PassNotices::say_why_no_mean() {
 Notice PassNotices::why_ambiguous() const {
   using enum NoticeCode;
   const NamedValue of_case{"geometry_case", std::int64_t{last_case_}};
-  if (fixes_graze_) {
-    return {config_.prior ? AmbiguousPriorNoHelp : AmbiguousFixesGraze, {of_case}};
+  if (fixes_near_tangent_) {
+    return {config_.prior ? AmbiguousPriorNoHelp : AmbiguousNearTangent, {of_case}};
   }
   if (!config_.prior) {
     return {AmbiguousNoPrior, {of_case}};

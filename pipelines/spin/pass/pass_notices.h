@@ -47,7 +47,7 @@ class PassNotices {
   /// @param fix Of the revolution itself.
   /// @param prior On its candidates, or on the last that it was asked about.
   void has_fix(const SpinFix& fix, std::optional<PriorVerdict> prior);
-  void settled_by_dispersion(TaiTime t, const SteadyBranch& branch);
+  void settled_by_dispersion(TaiTime t, const StationaryBranch& branch);
   void mean_began() { mean_began_ = true; }
   void most_contradict_themselves();
   void silent_where_it_must_see(Side side);
@@ -88,13 +88,13 @@ class PassNotices {
   bool closed_any_ = false;                     ///< Revolution.
   bool left_over_any_ = false;                  ///< Edge of none.
   std::optional<Quality> quality_;              ///< Of `sequential`; empty: it never began.
-  bool fixes_graze_ = false;                    ///< That it rests on.
+  bool fixes_near_tangent_ = false;             ///< That it rests on.
   int last_case_ = 0;                           ///< Of the last fix.
   std::optional<PriorVerdict> prior_verdict_;
   bool prior_contradicted_ = false;
   bool mean_began_ = false;
-  std::int64_t grazing_ = 0;    ///< Fixes.
-  std::int64_t ambiguous_ = 0;  ///< Of the others; likewise the following.
+  std::int64_t near_tangent_ = 0;  ///< Fixes.
+  std::int64_t ambiguous_ = 0;     ///< Of the others; likewise the following.
   std::int64_t otherwise_not_accepted_ = 0;
   std::optional<std::int64_t> cut_short_;  ///< Revolution.
   std::int64_t without_fix_ = 0;           ///< Revolutions.

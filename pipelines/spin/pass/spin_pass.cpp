@@ -37,14 +37,14 @@ Eigen::Vector3d median_axis(const std::vector<Eigen::Vector3d>& axes) {
 SpinPass::SpinPass(const SpinConfig& config, Orbit orbit)
     : config_{config},
       notices_{config},
-      surroundings_{std::move(orbit), config.horizon.co2_altitude_km},
+      sun_earth_{std::move(orbit), config.horizon.co2_altitude_km},
       interference_{config.screening.interference_s},
       associator_{config},
       screening_{config.screening},
       recent_axes_{static_cast<std::size_t>(config.screening.window)},
       disambiguator_{config},
       mean_{config},
-      trust_{static_cast<double>(config.screening.window)},
+      consistency_{static_cast<double>(config.screening.window)},
       sequential_{config} {}
 
 SpinOutput SpinPass::push(const Pulse& pulse) {
@@ -185,12 +185,12 @@ void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
   notices_.counted_on(revolution);
   Candidate candidate{.revolution = revolution,
                       .measured = measure(config_, revolution),
-                      .sightlines = {},
+                      .sun_earth = {},
                       .residuals = {}};
-  if (const auto sightlines = surroundings_.sightlines(candidate.measured, revolution.t_start)) {
-    candidate.sightlines = *sightlines;
+  if (const auto sun_earth = sun_earth_.sun_earth(candidate.measured, revolution.t_start)) {
+    candidate.sun_earth = *sun_earth;
   } else {
-    notices_.outside_orbit(sightlines.error());
+    notices_.outside_orbit(sun_earth.error());
   }
   if (!started_) {
     first_.push_back(std::move(candidate));
@@ -214,10 +214,10 @@ void SpinPass::settle_first(SpinOutput& out) {
   started_ = true;
   std::vector<Eigen::Vector3d> axes_icrf;
   for (const Candidate& candidate : first_) {
-    if (!candidate.sightlines) {
+    if (!candidate.sun_earth) {
       continue;
     }
-    const auto found = axis_candidates(config_, candidate.measured, *candidate.sightlines);
+    const auto found = axis_candidates(config_, candidate.measured, *candidate.sun_earth);
     if (found && found->told_apart) {
       axes_icrf.push_back(found->candidates.front().axis_icrf);
     }
@@ -231,8 +231,8 @@ void SpinPass::settle_first(SpinOutput& out) {
   // Beforehand, so that all of them judge the first.
   for (Candidate& candidate : first_) {
     screen(candidate);
-    if (candidate.sightlines) {
-      trust_.count(axis_candidates(config_, candidate.measured, *candidate.sightlines));
+    if (candidate.sun_earth) {
+      consistency_.count(axis_candidates(config_, candidate.measured, *candidate.sun_earth));
     }
   }
   for (Candidate& candidate : first_) {
@@ -258,8 +258,8 @@ void SpinPass::predict_anew_where_better_known() {
 }
 
 void SpinPass::predict(Candidate& candidate, const Eigen::Vector3d& axis_icrf) {
-  if (candidate.sightlines) {
-    candidate.residuals = residuals(config_, candidate.measured, *candidate.sightlines, axis_icrf);
+  if (candidate.sun_earth) {
+    candidate.residuals = residuals(config_, candidate.measured, *candidate.sun_earth, axis_icrf);
     for (const Residual& residual : candidate.residuals) {
       screening_.add(residual);
     }
@@ -272,7 +272,7 @@ void SpinPass::screen(Candidate& candidate) const {
       reject(candidate.measured, residual.quantity, rejection_of(residual.quantity));
     }
   }
-  if (!candidate.sightlines) {
+  if (!candidate.sun_earth) {
     for (const SpinQuantity quantity : kMeasuredAngles) {
       reject(candidate.measured, quantity, Rejection::NoOrbit);
     }
@@ -283,26 +283,26 @@ void SpinPass::settle(Candidate& candidate, SpinOutput& out) {
   screen(candidate);
   auto products = revolution_products(config_, candidate.revolution, candidate.measured);
   std::move(products.begin(), products.end(), std::back_inserter(out.products));
-  if (candidate.sightlines) {
+  if (candidate.sun_earth) {
     announce_axis(candidate, out);
   }
 }
 
 std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate) {
   const Revolution& revolution = candidate.revolution;
-  const auto found = axis_candidates(config_, candidate.measured, *candidate.sightlines);
-  trust_.count(found);
+  const auto found = axis_candidates(config_, candidate.measured, *candidate.sun_earth);
+  consistency_.count(found);
   if (!found) {
     // The measurements stand; this revolution alone gives no axis.
     notices_.without_fix(revolution.number, found.error());
     return {};
   }
   auto fixes = disambiguator_.settle(revolution.number, revolution.t_start, candidate.measured,
-                                     *candidate.sightlines, *found, established_axis());
+                                     *candidate.sun_earth, *found, established_axis());
   for (SpinFix& fix : fixes) {
-    fix.accepted = fix.accepted && trust_.deserved();
+    fix.accepted = fix.accepted && consistency_.most_consistent();
   }
-  if (const auto& steady = disambiguator_.newly_steady()) {
+  if (const auto& steady = disambiguator_.newly_stationary()) {
     notices_.settled_by_dispersion(revolution.t_start, *steady);
   }
   notices_.has_fix(fixes.back(), disambiguator_.prior_verdict());
@@ -310,9 +310,9 @@ std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate) {
 }
 
 void SpinPass::say_why_not_accepted(const SpinFix& fix) {
-  if (!trust_.deserved()) {
+  if (!consistency_.most_consistent()) {
     notices_.most_contradict_themselves();
-  } else if (const auto side = disambiguator_.silent_where_seen()) {
+  } else if (const auto side = disambiguator_.silent_despite_view()) {
     notices_.silent_where_it_must_see(*side);
   } else if (!fix.accepted && fix.resolution != Resolution::Ambiguous) {
     notices_.fix_contradicts_itself();
@@ -324,13 +324,14 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   const std::vector<SpinFix> fixes = find_fixes(candidate);
   const bool had_mean = mean_.count() > 0;
   std::optional<SpinEstimate> sequential;
-  if (const auto sky = surroundings_.sky(revolution.t_start)) {
+  if (const auto sky = sun_earth_.sky(revolution.t_start)) {
     sequential = sequential_.update(
-        revolution, *sky, trust_.deserved() ? std::span{fixes} : std::span<const SpinFix>{});
+        revolution, *sky,
+        consistency_.most_consistent() ? std::span{fixes} : std::span<const SpinFix>{});
     if (sequential_.prior_refuted() && config_.prior) {
       forget_prior(revolution.t_start);
     }
-    if (sequential && (sequential_.restarts() > restarts_heeded_ ||
+    if (sequential && (sequential_.restarts() > restarts_handled_ ||
                        recent_fixes_left_the_mean_for(sequential->axis_icrf))) {
       start_again_where_moved(*sequential);
     }
@@ -338,7 +339,7 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   std::copy(fixes.begin(), fixes.end(), std::back_inserter(out.products));
   const bool mean_given_up = had_mean && mean_.count() == 0;
   bool mean_moved = false;
-  mean_.keep(revolution.number, candidate.measured, *candidate.sightlines);
+  mean_.keep(revolution.number, candidate.measured, *candidate.sun_earth);
   for (const SpinFix& fix : fixes) {
     say_why_not_accepted(fix);
     if (mean_.take(fix)) {
@@ -393,7 +394,7 @@ void SpinPass::start_again_where_moved(const SpinEstimate& sequential) {
   if (apart_rad <= std::hypot(kContradictionSigmas * sigma_rad, kModelLimit_rad)) {
     return;
   }
-  restarts_heeded_ = sequential_.restarts();
+  restarts_handled_ = sequential_.restarts();
   begin_anew(sequential.t);
   notices_.axis_moved(sequential.t, apart_rad);
 }

@@ -22,11 +22,11 @@
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/spin/association/association.h"
 #include "pipelines/spin/disambiguation/disambiguation.h"
-#include "pipelines/spin/disambiguation/trust.h"
+#include "pipelines/spin/disambiguation/revolution_consistency.h"
 #include "pipelines/spin/mean/mean_axis.h"
 #include "pipelines/spin/mean/mean_estimator.h"
 #include "pipelines/spin/measurement/measurement.h"
-#include "pipelines/spin/measurement/surroundings.h"
+#include "pipelines/spin/measurement/sun_earth_ephemeris.h"
 #include "pipelines/spin/pass/pass_notices.h"
 #include "pipelines/spin/screening/screening.h"
 #include "pipelines/spin/sequential/sequential.h"
@@ -67,7 +67,7 @@ class SpinPass {
   struct Candidate {
     Revolution revolution;
     RevolutionMeasurements measured;
-    std::optional<Sightlines> sightlines;  ///< Empty where the orbit does not reach.
+    std::optional<SunEarthDirections> sun_earth;  ///< Empty where the orbit does not reach.
     std::vector<Residual> residuals;
   };
 
@@ -95,7 +95,7 @@ class SpinPass {
 
   SpinConfig config_;
   PassNotices notices_;
-  Surroundings surroundings_;
+  SunEarthEphemeris sun_earth_;
   FrameReorderWindow frames_;
   std::vector<Pulse> of_next_frame_;  ///< Edges behind the sun1 of a frame that is still to come.
   ReorderWindow reorder_;
@@ -115,9 +115,9 @@ class SpinPass {
   AxisWindow recent_axes_;
   Disambiguator disambiguator_;
   MeanEstimator mean_;
-  Trust trust_;
+  RevolutionConsistency consistency_;
   SequentialEstimator sequential_;
-  int restarts_heeded_ = 0;
+  int restarts_handled_ = 0;
 };
 
 }  // namespace spindrift

@@ -17,7 +17,7 @@
 namespace spindrift {
 
 /// Channels whose edges come so near to each other that they spoil each other.
-struct MeetingChannels {
+struct ColocatedChannels {
   PulseChannel one;
   PulseChannel other;
 };
@@ -27,7 +27,7 @@ struct ExpectedRevolution {
   Revolution revolution;
   /// Of each edge that is there.
   std::array<std::optional<PredictedEdge>, kPulseChannels> predicted;
-  std::vector<MeetingChannels> meeting;
+  std::vector<ColocatedChannels> meeting;
 };
 
 /// The turn that begins with slit 1 at the Sun at the time of the sky; chords begin in it.

@@ -18,7 +18,7 @@ std::string beam_in_words(Side side, BeamView view) {
       return {};
     case BeamView::Misses:
       return fmt::format("{} beam misses the Earth", name_of(side));
-    case BeamView::Grazes:
+    case BeamView::NearTangent:
       return fmt::format("{} beam only grazes the Earth: no edge to rely on", name_of(side));
     case BeamView::Crosses:
       return fmt::format("{} beam sees the Earth", name_of(side));
@@ -101,7 +101,7 @@ std::vector<std::string> conditions_of(const SpinConfig& config, const PassGeome
       note(delta_in_words(config.geometry, side, *beam.delta));
     }
   }
-  for (const MeetingChannels& channels : geometry.expected.meeting) {
+  for (const ColocatedChannels& channels : geometry.expected.meeting) {
     note(fmt::format("interference: {} and {} meet", spindrift::name_of(channels.one),
                      spindrift::name_of(channels.other)));
   }

@@ -13,15 +13,16 @@ namespace {
 /// Where the beam's circle lies to the disc of a spherical Earth.
 BeamView view_without_edges(double mount_angle_rad, double earth_angle_rad, double disc_rad) {
   if (predict_chord_rad(mount_angle_rad, earth_angle_rad, disc_rad)) {
-    return BeamView::Grazes;
+    return BeamView::NearTangent;
   }
   return std::abs(earth_angle_rad - mount_angle_rad) < disc_rad ? BeamView::Inside
                                                                 : BeamView::Misses;
 }
 
-/// As `Surroundings::sightlines`, but from the sky, which knows the end of the turn too where the
-/// orbit ends before it.
-Sightlines sightlines_of(const Sky& sky, const RevolutionMeasurements& measured, double disc_rad) {
+/// As `SunEarthEphemeris::sightlines`, but from the sky, which knows the end of the turn too where
+/// the orbit ends before it.
+SunEarthDirections sightlines_of(const Sky& sky, const RevolutionMeasurements& measured,
+                                 double disc_rad) {
   TaiTime first = sky.t;
   TaiTime last = sky.t;
   bool none = true;

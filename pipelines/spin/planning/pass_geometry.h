@@ -11,7 +11,7 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
-#include "pipelines/spin/measurement/surroundings.h"
+#include "pipelines/spin/measurement/sun_earth_ephemeris.h"
 #include "pipelines/spin/planning/expected_revolution.h"
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "pipelines/spin/types/config.h"
@@ -21,10 +21,10 @@ namespace spindrift {
 
 enum class BeamView {
   NoSensor,
-  Misses,   ///< The Earth.
-  Grazes,   ///< Near-tangent to the limb: the edges say nothing of the axis.
-  Crosses,  ///< It: two edges a turn.
-  Inside,   ///< Its disc all the turn: no edge.
+  Misses,       ///< The Earth.
+  NearTangent,  ///< Near-tangent to the limb: the edges say nothing of the axis.
+  Crosses,      ///< It: two edges a turn.
+  Inside,       ///< Its disc all the turn: no edge.
 };
 
 /// How far one chord, without the other, determines the axis.
@@ -81,7 +81,7 @@ class PassScene {
 
   SpinConfig config_;
   SpinConfig on_sphere_;
-  Surroundings around_;
+  SunEarthEphemeris around_;
   Eigen::Vector3d axis_icrf_;
   Eigen::Matrix3d R_spin_icrf_;  ///< East, north, axis.
   double rate_rad_s_;

@@ -14,10 +14,10 @@ namespace {
 class Prediction {
  public:
   Prediction(const SpinConfig& config, const RevolutionMeasurements& measured,
-             const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf)
+             const SunEarthDirections& sun_earth, const Eigen::Vector3d& axis_icrf)
       : sensor_{config.sun_sensor},
-        angles_{predict_angles(axis_icrf, sightlines.sun_icrf, sightlines.earth_icrf)},
-        beams_{views_of_horizon(config, measured, sightlines, axis_icrf)} {}
+        angles_{predict_angles(axis_icrf, sun_earth.sun_icrf, sun_earth.earth_icrf)},
+        beams_{views_of_horizon(config, measured, sun_earth, axis_icrf)} {}
 
   /// Empty for what is impossible.
   std::optional<double> of_rad(SpinQuantity quantity, const EdgeNoise& noise_rad) const {
@@ -44,8 +44,9 @@ class Prediction {
 }  // namespace
 
 std::vector<Residual> residuals(const SpinConfig& config, const RevolutionMeasurements& measured,
-                                const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf) {
-  const Prediction prediction{config, measured, sightlines, axis_icrf};
+                                const SunEarthDirections& sun_earth,
+                                const Eigen::Vector3d& axis_icrf) {
+  const Prediction prediction{config, measured, sun_earth, axis_icrf};
   std::vector<Residual> found;
   for (const SpinQuantity quantity : kMeasuredAngles) {
     const auto value = good_value_of(measured, quantity);

@@ -9,7 +9,7 @@
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/products.h"
-#include "pipelines/spin/types/sightlines.h"
+#include "pipelines/spin/types/sun_earth_directions.h"
 #include "pipelines/statistics/robust_mean.h"
 
 namespace spindrift {
@@ -25,7 +25,8 @@ struct Residual {
 /// misses the Earth, a pulse of a slit that cannot see the Sun) has none: it is left to the other
 /// quantities to decide. Chords and dihedrals are those of the mission's horizon.
 std::vector<Residual> residuals(const SpinConfig& config, const RevolutionMeasurements& measured,
-                                const Sightlines& sightlines, const Eigen::Vector3d& axis_icrf);
+                                const SunEarthDirections& sun_earth,
+                                const Eigen::Vector3d& axis_icrf);
 
 /// A sliding window of residuals for every quantity. Deviations count from the window's mean, not
 /// from zero: an error that all share (a misplaced sensor, the Earth's oblateness) is not an

@@ -40,42 +40,41 @@ Turned turned(const Eigen::Vector3d& direction_sensors, const Eigen::Vector2d& c
 
 }  // namespace
 
-LeaningSlit leaning(const SunSensor& slit, const Eigen::Vector2d& coning_rad) {
+ConedSlit as_coned(const SunSensor& slit, const Eigen::Vector2d& coning_rad) {
   // What is perpendicular to its plane.
   const double in_equator = std::cos(slit.slit_cant_rad);
   const Turned normal =
       turned({in_equator * std::sin(slit.slit_separation_rad),
               in_equator * std::cos(slit.slit_separation_rad), std::sin(slit.slit_cant_rad)},
              coning_rad);
-  LeaningSlit leaning{.slit = slit,
-                      .cant_per_coning = -normal.polar_per_coning,
-                      .separation_per_coning = -normal.azimuth_per_coning};
+  ConedSlit as_coned{.slit = slit,
+                     .cant_per_coning = -normal.polar_per_coning,
+                     .separation_per_coning = -normal.azimuth_per_coning};
   // Exactly as it was where nothing cones.
   if (!coning_rad.isZero(0.0)) {
-    leaning.slit = {.slit_cant_rad = kQuarter_rad - normal.polar_rad(),
-                    .slit_separation_rad = wrapped_rad(kQuarter_rad - normal.azimuth_rad())};
+    as_coned.slit = {.slit_cant_rad = kQuarter_rad - normal.polar_rad(),
+                     .slit_separation_rad = wrapped_rad(kQuarter_rad - normal.azimuth_rad())};
   }
-  return leaning;
+  return as_coned;
 }
 
-LeaningBeam leaning(const InfraredSensor& beam, const Eigen::Vector2d& coning_rad) {
+ConedBeam as_coned(const InfraredSensor& beam, const Eigen::Vector2d& coning_rad) {
   const double across = std::sin(beam.mount_angle_rad);
   const Turned along =
       turned({across * std::cos(beam.azimuth_rad), -across * std::sin(beam.azimuth_rad),
               std::cos(beam.mount_angle_rad)},
              coning_rad);
-  LeaningBeam leaning{.beam = beam,
-                      .mount_angle_per_coning = along.polar_per_coning,
-                      .azimuth_per_coning = -along.azimuth_per_coning};
+  ConedBeam as_coned{.beam = beam,
+                     .mount_angle_per_coning = along.polar_per_coning,
+                     .azimuth_per_coning = -along.azimuth_per_coning};
   if (!coning_rad.isZero(0.0)) {
-    leaning.beam.mount_angle_rad = along.polar_rad();
-    leaning.beam.azimuth_rad = -along.azimuth_rad();
+    as_coned.beam.mount_angle_rad = along.polar_rad();
+    as_coned.beam.azimuth_rad = -along.azimuth_rad();
   }
-  return leaning;
+  return as_coned;
 }
 
-ConingVerdict judge_coning(const Eigen::Vector2d& coning_rad,
-                           const Eigen::Matrix2d& covariance_rad2) {
+ConingTest test_coning(const Eigen::Vector2d& coning_rad, const Eigen::Matrix2d& covariance_rad2) {
   const double hinge_rad = std::atan2(coning_rad.y(), coning_rad.x());
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spectrum{covariance_rad2};
   const Eigen::Vector2d along = spectrum.eigenvectors().transpose() * coning_rad;

@@ -26,21 +26,21 @@ namespace spindrift {
 
 /// Where a slit or a beam is on a body whose sensors' axis is tilted by coning: by the exact
 /// rotation, which may be of a degree.
-struct LeaningSlit {
+struct ConedSlit {
   SunSensor slit;
   Eigen::RowVector2d cant_per_coning;  ///< rad/rad
   Eigen::RowVector2d separation_per_coning;
 };
-struct LeaningBeam {
+struct ConedBeam {
   InfraredSensor beam;
   Eigen::RowVector2d mount_angle_per_coning;
   Eigen::RowVector2d azimuth_per_coning;
 };
 /// @param coning_rad (c_x, c_y); derivatives are good to its third power.
-LeaningSlit leaning(const SunSensor& slit, const Eigen::Vector2d& coning_rad);
-LeaningBeam leaning(const InfraredSensor& beam, const Eigen::Vector2d& coning_rad);
+ConedSlit as_coned(const SunSensor& slit, const Eigen::Vector2d& coning_rad);
+ConedBeam as_coned(const InfraredSensor& beam, const Eigen::Vector2d& coning_rad);
 
-struct ConingVerdict {
+struct ConingTest {
   double tilt_rad;
   double azimuth_rad;     ///< Behind slit 1, to which the sensors' axis leans, (-pi, pi].
   bool detected;          ///< What is not there shows as much in one of ten thousand passes.
@@ -49,7 +49,6 @@ struct ConingVerdict {
 
 /// @param coning_rad (c_x, c_y).
 /// @param covariance_rad2 Positive definite; what misplaced sensors leave open included.
-ConingVerdict judge_coning(const Eigen::Vector2d& coning_rad,
-                           const Eigen::Matrix2d& covariance_rad2);
+ConingTest test_coning(const Eigen::Vector2d& coning_rad, const Eigen::Matrix2d& covariance_rad2);
 
 }  // namespace spindrift

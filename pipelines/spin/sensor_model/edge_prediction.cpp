@@ -81,14 +81,15 @@ PerBias per_coning(const Eigen::RowVector2d& slopes) {
   return slopes.x() * PerBias::Unit(ConingX) + slopes.y() * PerBias::Unit(ConingY);
 }
 
-PerBias per_coning(const SlitView& view, const LeaningSlit& leaning) {
-  return per_coning(view.phase_per_cant * leaning.cant_per_coning + leaning.separation_per_coning);
+PerBias per_coning(const SlitView& view, const ConedSlit& as_coned) {
+  return per_coning(view.phase_per_cant * as_coned.cant_per_coning +
+                    as_coned.separation_per_coning);
 }
 
 std::optional<PredictedEdge> sun1_edge(const Eigen::Vector3d& sun_spin,
                                        const SensorBiases& biases) {
-  const LeaningSlit slit =
-      leaning(SunSensor{.slit_cant_rad = 0.0, .slit_separation_rad = 0.0}, coning_of(biases));
+  const ConedSlit slit =
+      as_coned(SunSensor{.slit_cant_rad = 0.0, .slit_separation_rad = 0.0}, coning_of(biases));
   const auto view = view_of_slit(slit.slit, sun_spin, 0.0);
   if (!view) {
     return std::nullopt;
@@ -101,7 +102,7 @@ std::optional<PredictedEdge> sun1_edge(const Eigen::Vector3d& sun_spin,
 
 std::optional<PredictedEdge> sun2_edge(const SunSensor& sensor, const Eigen::Vector3d& sun_spin,
                                        const SensorBiases& biases) {
-  const LeaningSlit slit = leaning(sensor, coning_of(biases));
+  const ConedSlit slit = as_coned(sensor, coning_of(biases));
   const auto view = view_of_slit(slit.slit, sun_spin, biases[SunAngleBias]);
   if (!view) {
     return std::nullopt;
@@ -148,7 +149,7 @@ std::optional<PredictedEdge> beam_edge(const SpinConfig& config, Beam beam, cons
     return std::nullopt;
   }
   const auto [sensor, mount_angle_per_coning, azimuth_per_coning] =
-      leaning(*sensor_of(config, side), coning_of(biases));
+      as_coned(*sensor_of(config, side), coning_of(biases));
   const auto [mount_angle, chord] = biases_of(side);
   Horizon horizon = config.horizon;
   horizon.co2_altitude_km += biases[Co2HeightBias];
@@ -188,9 +189,10 @@ std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& s
   return beam_edge(config, beam_of(edge.channel), earth_view(sky, R_spin_icrf, edge.t), biases);
 }
 
-std::optional<PredictedEdge> edge_nearby(const SpinConfig& config, const Sky& sky,
-                                         const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge,
-                                         double phase_rad, double sigma_rad) {
+std::optional<PredictedEdge> linearise_by_depth(const SpinConfig& config, const Sky& sky,
+                                                const Eigen::Matrix3d& R_spin_icrf,
+                                                const Pulse& edge, double phase_rad,
+                                                double sigma_rad) {
   if (sees_the_sun(edge.channel)) {
     return std::nullopt;
   }

@@ -51,8 +51,9 @@ std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& s
 /// @param sigma_rad Of the edge's noise.
 /// @return The third of its `phase_per_rotation` is not -1. Nothing by errors or biases. Empty for
 ///         a slit, and for a beam that points away from the Earth or does not exist.
-std::optional<PredictedEdge> edge_nearby(const SpinConfig& config, const Sky& sky,
-                                         const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge,
-                                         double phase_rad, double sigma_rad);
+std::optional<PredictedEdge> linearise_by_depth(const SpinConfig& config, const Sky& sky,
+                                                const Eigen::Matrix3d& R_spin_icrf,
+                                                const Pulse& edge, double phase_rad,
+                                                double sigma_rad);
 
 }  // namespace spindrift

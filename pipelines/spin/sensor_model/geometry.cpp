@@ -30,7 +30,7 @@ Expected<double> earth_disc_half_angle_rad(double range_km, double co2_altitude_
   return std::asin(horizon_km / range_km);
 }
 
-bool mounted_alike(double one_rad, double other_rad) {
+bool mount_angles_coincide(double one_rad, double other_rad) {
   return std::abs(std::cos(one_rad) - std::cos(other_rad)) < kAlike;
 }
 

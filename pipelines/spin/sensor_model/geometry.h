@@ -32,7 +32,7 @@ using Chord = ChordOf<double>;
 
 /// Cosines of the mounting angles differ by less than 0.01 (0.6 deg near the equator): both beams
 /// measure the same chord.
-bool mounted_alike(double one_rad, double other_rad);
+bool mount_angles_coincide(double one_rad, double other_rad);
 
 /// theta_e in (0, pi) from both chords, which needs no rho. The mounting angles must differ (the
 /// caller tests it).

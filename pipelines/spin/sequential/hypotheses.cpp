@@ -50,7 +50,7 @@ bool Hypotheses::contradicted_by(const StartingPoint& point) const {
 }
 
 bool Hypotheses::closed() const {
-  return !all_.empty() && !provisional_ && published().has_beaten &&
+  return !all_.empty() && !provisional_ && published().eliminated_another &&
          published().fixes >= kFewestFixes &&
          std::all_of(all_.begin() + 1, all_.end(),
                      [](const Hypothesis& other) { return other.late; });
@@ -59,7 +59,7 @@ bool Hypotheses::closed() const {
 /// Nor where all fixes are near-tangent: filters that began to one side of the axis need not come
 /// to it.
 bool Hypotheses::prior_stands() const {
-  return published().favoured && !provisional_ &&
+  return published().preferred_by_prior && !provisional_ &&
          std::all_of(all_.begin() + 1, all_.end(), [&](const Hypothesis& other) {
            return other.log_likelihood - published().log_likelihood < kUnlikely;
          });
@@ -75,9 +75,9 @@ bool Hypotheses::add(const StartingPoint& point, const SpinConfig& config,
   Hypothesis added{.filter = *filter};
   if (!all_.empty()) {
     Hypothesis& published = all_.front();
-    published.has_beaten = published.has_beaten && !settled() && !closed();
+    published.eliminated_another = published.eliminated_another && !settled() && !closed();
     added.log_likelihood = published.log_likelihood;
-    added.late = published.has_beaten;
+    added.late = published.eliminated_another;
   }
   all_.push_back(std::move(added));
   settled_ = false;
@@ -111,10 +111,10 @@ void Hypotheses::settle_at(const StartingPoint& point) {
   }
 }
 
-void Hypotheses::favour_at(const StartingPoint& point) {
+void Hypotheses::prefer_at(const StartingPoint& point) {
   if (const auto chosen = at(point); chosen != all_.end()) {
     for (Hypothesis& hypothesis : all_) {
-      hypothesis.favoured = &hypothesis == &*chosen;
+      hypothesis.preferred_by_prior = &hypothesis == &*chosen;
     }
   }
 }
@@ -133,7 +133,7 @@ bool Hypotheses::work_in(const SpinConfig& config, const Revolution& revolution,
     } else {
       hypothesis.tally = filter.update(config, sky, edges.span(), noise);
     }
-    const EdgeTally& tally = hypothesis.tally;
+    const EdgeStatistics& tally = hypothesis.tally;
     const bool was_new = hypothesis.edges < kFewestEdgesToFit;
     hypothesis.edges += static_cast<double>(tally.accepted.count() + tally.gated.count());
     hypothesis.log_likelihood += tally.log_likelihood;
@@ -144,10 +144,10 @@ bool Hypotheses::work_in(const SpinConfig& config, const Revolution& revolution,
       hypothesis.log_likelihood = std::max(hypothesis.log_likelihood, published().log_likelihood);
     }
   }
-  return drop_the_beaten();
+  return drop_eliminated();
 }
 
-bool Hypotheses::drop_the_beaten() {
+bool Hypotheses::drop_eliminated() {
   std::stable_sort(all_.begin(), all_.end(), [](const Hypothesis& a, const Hypothesis& b) {
     return a.log_likelihood > b.log_likelihood;
   });
@@ -155,20 +155,20 @@ bool Hypotheses::drop_the_beaten() {
   const bool best_fits = fits(best);
   bool prior_beaten = false;
   const auto beaten = [&](const Hypothesis& other) {
-    const bool judged = other.late && other.edges >= kFewestEdgesToFit && best.has_beaten;
+    const bool judged = other.late && other.edges >= kFewestEdgesToFit && best.eliminated_another;
     const double enough = judged ? kUnlikely : kBeyondDoubt;
     const bool same = agree(best.filter, other.filter);
     const bool out = best_fits && best.log_likelihood - other.log_likelihood > enough;
-    best.favoured = best.favoured || (same && other.favoured);
-    prior_beaten = prior_beaten || (!same && out && other.favoured);
+    best.preferred_by_prior = best.preferred_by_prior || (same && other.preferred_by_prior);
+    prior_beaten = prior_beaten || (!same && out && other.preferred_by_prior);
     return same || out;
   };
   const auto left = std::remove_if(all_.begin() + 1, all_.end(), beaten);
-  best.has_beaten = best.has_beaten || (best_fits && left != all_.end());
+  best.eliminated_another = best.eliminated_another || (best_fits && left != all_.end());
   all_.erase(left, all_.end());
   // Unbeaten, the prior's candidate stands before likelier ones.
   std::stable_partition(all_.begin(), all_.end(),
-                        [](const Hypothesis& hypothesis) { return hypothesis.favoured; });
+                        [](const Hypothesis& hypothesis) { return hypothesis.preferred_by_prior; });
   return prior_beaten;
 }
 

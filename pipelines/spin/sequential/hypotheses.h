@@ -19,13 +19,13 @@ namespace spindrift {
 
 struct Hypothesis {
   SpinFilter filter;
-  bool favoured = false;  ///< By a prior.
+  bool preferred_by_prior = false;  ///< By a prior.
   double edges = 0.0;
   double log_likelihood = 0.0;       ///< Of them.
   double squared_innovations = 0.0;  ///< Normalised, their sum: as many as edges when all is well.
-  EdgeTally tally = {};              ///< Of the last revolution.
+  EdgeStatistics tally = {};         ///< Of the last revolution.
   int fixes = 0;                     ///< That have it among their candidates.
-  bool has_beaten = false;           ///< Eliminated another, by the edges.
+  bool eliminated_another = false;   ///< Eliminated another, by the edges.
   bool late = false;                 ///< Came when the one then published had beaten another.
 };
 
@@ -72,7 +72,7 @@ class Hypotheses {
   /// A fix settles which of them is true, unless it contradicts them all.
   void settle_at(const StartingPoint& point);
   /// Likewise a prior, but the others stay until the edges settle it.
-  void favour_at(const StartingPoint& point);
+  void prefer_at(const StartingPoint& point);
 
   /// @param noise Of the filters' update.
   /// @return Whether the edges have beaten the candidate that a prior had chosen.
@@ -81,7 +81,7 @@ class Hypotheses {
 
  private:
   std::vector<Hypothesis>::iterator at(const StartingPoint& point);
-  bool drop_the_beaten();
+  bool drop_eliminated();
 
   std::vector<Hypothesis> all_;
   bool provisional_;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostHypotheses = 8;
 // So many fixes that graze, and none that does not: there will be no better ones.
-constexpr int kFewestGrazing = 20;
+constexpr int kFewestNearTangent = 20;
 // Weight of one fix in the share of those that graze.
 constexpr double kRecentFix = 0.02;
 constexpr double kNearlyAll = 0.8;
@@ -24,17 +24,17 @@ constexpr double kNearlyAll = 0.8;
 }  // namespace
 
 SequentialEstimator::SequentialEstimator(SpinConfig config)
-    : config_{std::move(config)}, grazing_starts_{kFewestGrazing} {}
+    : config_{std::move(config)}, near_tangent_starts_{kFewestNearTangent} {}
 
 std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolution,
                                                         const Sky& sky,
                                                         std::span<const SpinFix> settled) {
   bool began = false;
   for (const SpinFix& fix : settled) {
-    began = heed(fix, revolution, sky) || began;
+    began = apply_fix(fix, revolution, sky) || began;
   }
   if (hypotheses_.empty()) {
-    unheard_ += settled.empty() ? 0 : 1;
+    revolutions_before_start_ += settled.empty() ? 0 : 1;
     return std::nullopt;
   }
   if (!began) {
@@ -52,11 +52,12 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
 }
 
 /// @return Whether filters began here.
-bool SequentialEstimator::heed(const SpinFix& fix, const Revolution& revolution, const Sky& sky) {
-  note_grazing(fix);
-  if (poor_start_.unconfirmed()) {
+bool SequentialEstimator::apply_fix(const SpinFix& fix, const Revolution& revolution,
+                                    const Sky& sky) {
+  note_near_tangent(fix);
+  if (start_confirmation_.unconfirmed()) {
     const SpinFilter& filter = hypotheses_.published().filter;
-    poor_start_.note(
+    start_confirmation_.note(
         fix, {.axis_icrf = filter.axis_icrf(), .covariance_rad2 = filter.axis_covariance_rad2()});
   }
   StartingPoints* const starts = starting_points_for(fix);
@@ -66,15 +67,15 @@ bool SequentialEstimator::heed(const SpinFix& fix, const Revolution& revolution,
   }
   // Afresh: what fixes have in common to one side does not average out.
   starts->forget();
-  if (!hypotheses_.empty() && !counts_as_grazing(fix)) {
+  if (!hypotheses_.empty() && !counts_as_near_tangent(fix)) {
     contradiction_.note(hypotheses_, *said);
     hypotheses_.note(*said);
   }
-  if (gives_way_to(fix)) {
+  if (superseded_by(fix)) {
     return begin(fix, said->points, revolution, sky);
   }
   if (fix.accepted) {
-    take_side(fix, said->points.front());
+    select_hypothesis(fix, said->points.front());
   }
   if (leaves_open(fix)) {
     join(said->points, revolution, sky);
@@ -82,23 +83,23 @@ bool SequentialEstimator::heed(const SpinFix& fix, const Revolution& revolution,
   return false;
 }
 
-void SequentialEstimator::note_grazing(const SpinFix& fix) {
+void SequentialEstimator::note_near_tangent(const SpinFix& fix) {
   ++fixes_;
   const double weight = std::max(kRecentFix, 1.0 / static_cast<double>(fixes_));
-  grazing_share_ += weight * ((fix.grazing ? 1.0 : 0.0) - grazing_share_);
+  near_tangent_share_ += weight * ((fix.near_tangent ? 1.0 : 0.0) - near_tangent_share_);
 }
 
 /// Where nearly all graze it is noise that keeps some from it, and their candidates are no better.
-bool SequentialEstimator::counts_as_grazing(const SpinFix& fix) const {
-  return fix.grazing || (leaves_open(fix) && grazing_share_ > kNearlyAll);
+bool SequentialEstimator::counts_as_near_tangent(const SpinFix& fix) const {
+  return fix.near_tangent || (leaves_open(fix) && near_tangent_share_ > kNearlyAll);
 }
 
 /// A branch that only alternates have made is not confirmed by a settled fix that comes near it.
 /// Where there are fixes that do not graze, the others say nothing.
 StartingPoints* SequentialEstimator::starting_points_for(const SpinFix& fix) {
-  if (counts_as_grazing(fix)) {
+  if (counts_as_near_tangent(fix)) {
     const bool no_others = hypotheses_.empty() || hypotheses_.provisional();
-    return leaves_open(fix) && no_others ? &grazing_starts_ : nullptr;
+    return leaves_open(fix) && no_others ? &near_tangent_starts_ : nullptr;
   }
   if (leaves_open(fix)) {
     return &open_starts_;
@@ -107,26 +108,26 @@ StartingPoints* SequentialEstimator::starting_points_for(const SpinFix& fix) {
 }
 
 /// Only an accepted fix may start the filter again; of those that all graze, any.
-bool SequentialEstimator::gives_way_to(const SpinFix& fix) const {
+bool SequentialEstimator::superseded_by(const SpinFix& fix) const {
   if (hypotheses_.empty()) {
     return true;
   }
   if (hypotheses_.provisional()) {
-    return !counts_as_grazing(fix) || gates_.most_gated();
+    return !counts_as_near_tangent(fix) || gating_.most_gated();
   }
-  return fix.accepted && (gates_.most_gated() || fixes_contradict());
+  return fix.accepted && (gating_.most_gated() || fixes_contradict());
 }
 
 bool SequentialEstimator::fixes_contradict() const {
   return contradiction_.stands(
-      hypotheses_, verdict_.excess_noise > 1.0 || gates_.channel_mostly_gated().has_value());
+      hypotheses_, verdict_.excess_noise > 1.0 || gating_.channel_mostly_gated().has_value());
 }
 
 /// At all points: without one of them the true one may be missing. What was counted since the last
 /// start is forgotten.
 bool SequentialEstimator::begin(const SpinFix& fix, std::span<const StartingPoint> points,
                                 const Revolution& revolution, const Sky& sky) {
-  Hypotheses started{counts_as_grazing(fix)};
+  Hypotheses started{counts_as_near_tangent(fix)};
   for (const StartingPoint& point : points) {
     if (!started.add(point, config_, revolution, sky)) {
       return false;
@@ -134,34 +135,34 @@ bool SequentialEstimator::begin(const SpinFix& fix, std::span<const StartingPoin
   }
   if (!hypotheses_.empty() && !hypotheses_.provisional()) {
     ++restarts_;
-    restarted_ = gates_.most_gated() ? ReasonCode::RestartedGated : ReasonCode::RestartedByFixes;
+    restarted_ = gating_.most_gated() ? ReasonCode::RestartedGated : ReasonCode::RestartedByFixes;
   }
   hypotheses_ = std::move(started);
-  poor_start_.begin(points.front());
+  start_confirmation_.begin(points.front());
   if (fix.accepted) {
-    take_side(fix, points.front());
+    select_hypothesis(fix, points.front());
   }
   noise_at_restart_ = verdict_.excess_noise;
   watch_.fade();
   verdict_ = watch_.verdict();
-  gates_ = {};
-  unsteady_ = {};
+  gating_ = {};
+  oscillating_ = {};
   contradiction_ = {};
   settled_starts_.forget();
   open_starts_.forget();
-  grazing_starts_.forget();
-  unfollowed_.forget();
+  near_tangent_starts_.forget();
+  untracked_.forget();
   return true;
 }
 
-void SequentialEstimator::take_side(const SpinFix& fix, const StartingPoint& axis) {
+void SequentialEstimator::select_hypothesis(const SpinFix& fix, const StartingPoint& axis) {
   if (hypotheses_.settled()) {
     return;
   }
   if (fix.resolution != Resolution::Prior) {
     hypotheses_.settle_at(axis);
   } else if (!prior_refuted_) {
-    hypotheses_.favour_at(axis);
+    hypotheses_.prefer_at(axis);
   }
 }
 
@@ -175,7 +176,7 @@ void SequentialEstimator::join(std::span<const StartingPoint> points, const Revo
   std::vector<StartingPoint> unfollowed;
   std::copy_if(points.begin(), points.end(), std::back_inserter(unfollowed),
                [&](const StartingPoint& point) { return hypotheses_.contradicted_by(point); });
-  if (const auto known = unfollowed_.add(unfollowed)) {
+  if (const auto known = untracked_.add(unfollowed)) {
     for (const StartingPoint& point : known->points) {
       if (hypotheses_.count() < kMostHypotheses) {
         hypotheses_.add(point, config_, revolution, sky);
@@ -185,7 +186,7 @@ void SequentialEstimator::join(std::span<const StartingPoint> points, const Revo
 }
 
 ChannelNoise SequentialEstimator::gate_noise() const {
-  ChannelNoise noise = unsteady_.noise();
+  ChannelNoise noise = oscillating_.noise();
   const double of_all = std::min(verdict_.excess_noise, noise_at_restart_);
   std::transform(noise.begin(), noise.end(), noise.begin(),
                  [of_all](double of_channel) { return std::max(of_channel, of_all); });
@@ -198,21 +199,21 @@ void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) 
     ++restarts_;
   }
   const Hypothesis& published = hypotheses_.published();
-  gates_.note(published.tally);
-  unsteady_.note(published.tally);
+  gating_.note(published.tally);
+  oscillating_.note(published.tally);
   watch_.note(published.tally);
   verdict_ = watch_.verdict();
   // The first edges pull the filter from its start to where they fit.
   const auto edges =
       static_cast<double>(published.tally.accepted.count() + published.tally.gated.count());
   if (published.edges - edges < kFewestEdgesToFit && published.edges >= kFewestEdgesToFit) {
-    watch_.forget_the_start();
-    unsteady_ = {};
+    watch_.discard_transient();
+    oscillating_ = {};
   }
 }
 
 Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
-  if (gates_.most_gated()) {
+  if (gating_.most_gated()) {
     return anywhere_covariance_rad2();
   }
   const SpinFilter& filter = hypotheses_.published().filter;
@@ -226,7 +227,7 @@ double SequentialEstimator::model_leverage() const {
 }
 
 std::optional<KnownAxis> SequentialEstimator::settled_by_edges() const {
-  if (!hypotheses_.settled_by_edges() || gates_.most_gated() || model_contradicts()) {
+  if (!hypotheses_.settled_by_edges() || gating_.most_gated() || model_contradicts()) {
     return std::nullopt;
   }
   return KnownAxis{.axis_icrf = hypotheses_.published().filter.axis_icrf(),
@@ -248,14 +249,14 @@ Assessment SequentialEstimator::assess_ambiguous() const {
         {OtherAxis, {{"ra_deg", degrees(other.ra_rad)}, {"dec_deg", degrees(other.dec_rad)}}});
   }
   if (hypotheses_.provisional()) {
-    assessment.reasons.push_back({FixesGraze});
+    assessment.reasons.push_back({FixesNearTangent});
   } else if (count > 2) {
     assessment.reasons.push_back({MoreAxes, {{"count", static_cast<std::int64_t>(count - 2)}}});
   } else {
     if (count == 1) {
       assessment.reasons.push_back({NothingSettled});
     }
-    assessment.reasons.push_back({Revolutions, {{"count", gates_.revolutions()}}});
+    assessment.reasons.push_back({Revolutions, {{"count", gating_.revolutions()}}});
   }
   return assessment;
 }
@@ -263,10 +264,10 @@ Assessment SequentialEstimator::assess_ambiguous() const {
 /// Empty where nothing speaks against it. An error of the model that its allowance covers is none.
 std::optional<Reason> SequentialEstimator::doubt() const {
   using enum ReasonCode;
-  if (const auto channel = gates_.channel_mostly_gated()) {
+  if (const auto channel = gating_.channel_mostly_gated()) {
     return Reason{ChannelGated, {{"channel", std::string{name_of(*channel)}}}};
   }
-  if (gates_.many_gated()) {
+  if (gating_.many_gated()) {
     return Reason{ManyGated};
   }
   if (verdict_.excess_noise > 1.0) {
@@ -276,8 +277,8 @@ std::optional<Reason> SequentialEstimator::doubt() const {
     return model_contradicts() ? std::optional{model_off()} : std::nullopt;
   }
   // Filters that began at several places and were beaten have searched more than one.
-  if (poor_start_.unconfirmed() && !hypotheses_.settled_by_edges()) {
-    return Reason{PoorStart};
+  if (start_confirmation_.unconfirmed() && !hypotheses_.settled_by_edges()) {
+    return Reason{StartUnconfirmed};
   }
   return std::nullopt;
 }
@@ -288,20 +289,21 @@ Reason SequentialEstimator::model_off() const {
 
 Assessment SequentialEstimator::assess() const {
   using enum ReasonCode;
-  const Reason gated{EdgesGated, {{"count", gates_.gated()}}};
-  if (gates_.most_gated()) {
+  const Reason gated{EdgesGated, {{"count", gating_.gated()}}};
+  if (gating_.most_gated()) {
     return {Quality::Lost, {gated, {AwaitingFix}}};
   }
   // What passed before the filters began might have contradicted the prior: until they have seen as
   // much, nothing is said.
-  if (!hypotheses_.settled() && !(hypotheses_.prior_stands() && gates_.revolutions() >= unheard_)) {
+  if (!hypotheses_.settled() &&
+      !(hypotheses_.prior_stands() && gating_.revolutions() >= revolutions_before_start_)) {
     return assess_ambiguous();
   }
-  const Reason revolutions{Revolutions, {{"count", gates_.revolutions()}}};
+  const Reason revolutions{Revolutions, {{"count", gating_.revolutions()}}};
   if (auto doubted = doubt()) {
     return {Quality::Doubtful, {*std::move(doubted), revolutions}};
   }
-  const Quality unopposed = unopposed_quality(static_cast<double>(gates_.revolutions()));
+  const Quality unopposed = unopposed_quality(static_cast<double>(gating_.revolutions()));
   if (verdict_.error_rad > 0.0) {
     return {unopposed, {model_off(), revolutions}};
   }

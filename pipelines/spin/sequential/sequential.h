@@ -7,10 +7,10 @@
 /// themselves do (hypotheses.h). Likewise where only a PRIOR settled the fix: its candidate is
 /// published, and the others stay until the edges beat them; where they beat the prior's, the axis
 /// is theirs, and the assessment says so. Candidates known badly are averaged with those of the
-/// following fixes, until all are known well enough (starting_points.h); grazing ones start filters
-/// only where there are no others for long, and then nothing but an accepted fix settles it. A
-/// filter that finds most edges where it does not expect them, or whose fixes name another axis
-/// (contradiction.h), starts again at the next accepted fix, and says so; where the fixes name
+/// following fixes, until all are known well enough (starting_points.h); near-tangent ones start
+/// filters only where there are no others for long, and then nothing but an accepted fix settles
+/// it. A filter that finds most edges where it does not expect them, or whose fixes name another
+/// axis (contradiction.h), starts again at the next accepted fix, and says so; where the fixes name
 /// several, it is AMBIGUOUS again.
 ///
 /// Its quality is
@@ -19,10 +19,10 @@
 ///                not (convergence.h)
 ///     AMBIGUOUS  another axis, named, fits as well or nearly so, or nothing has settled it; the
 ///                covariance is that of the candidate published, were it true. "or 2 more": so many
-///                others do, which the fixes list among their alternates. "or none: fixes graze",
-///                nearly all of them: where two branches touch, candidates are off by more than
-///                their covariances and many fixes lack the true one, so that no filter may follow
-///                it
+///                others do, which the fixes list among their alternates. "or none:
+///                near-tangent", nearly all fixes are: where two branches touch, candidates are off
+///                by more than their covariances and many fixes lack the true one, so that no
+///                filter may follow it
 ///     DOUBTFUL   the edges scatter more than their noise, or show errors of the model beyond its
 ///                allowance, or of half a degree whatever they may be: the covariance is raised to
 ///                cover it (below that likewise, and it is OK, "model off by"); or most
@@ -40,12 +40,12 @@
 #include "pipelines/spin/association/association.h"
 #include "pipelines/spin/mean/model_check.h"
 #include "pipelines/spin/sequential/contradiction.h"
-#include "pipelines/spin/sequential/gate_watch.h"
+#include "pipelines/spin/sequential/gating_monitor.h"
 #include "pipelines/spin/sequential/hypotheses.h"
-#include "pipelines/spin/sequential/innovation_watch.h"
-#include "pipelines/spin/sequential/poor_start.h"
+#include "pipelines/spin/sequential/innovation_monitor.h"
+#include "pipelines/spin/sequential/oscillating_channels.h"
+#include "pipelines/spin/sequential/start_confirmation.h"
 #include "pipelines/spin/sequential/starting_points.h"
-#include "pipelines/spin/sequential/unsteady_channels.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/known_axis.h"
 #include "pipelines/spin/types/products.h"
@@ -81,14 +81,14 @@ class SequentialEstimator {
   std::optional<KnownAxis> settled_by_edges() const;
 
  private:
-  bool heed(const SpinFix& fix, const Revolution& revolution, const Sky& sky);
-  void note_grazing(const SpinFix& fix);
-  bool counts_as_grazing(const SpinFix& fix) const;
+  bool apply_fix(const SpinFix& fix, const Revolution& revolution, const Sky& sky);
+  void note_near_tangent(const SpinFix& fix);
+  bool counts_as_near_tangent(const SpinFix& fix) const;
   StartingPoints* starting_points_for(const SpinFix& fix);
-  bool gives_way_to(const SpinFix& fix) const;
+  bool superseded_by(const SpinFix& fix) const;
   bool begin(const SpinFix& fix, std::span<const StartingPoint> points,
              const Revolution& revolution, const Sky& sky);
-  void take_side(const SpinFix& fix, const StartingPoint& axis);
+  void select_hypothesis(const SpinFix& fix, const StartingPoint& axis);
   void join(std::span<const StartingPoint> points, const Revolution& revolution, const Sky& sky);
   bool fixes_contradict() const;
   ChannelNoise gate_noise() const;
@@ -105,21 +105,22 @@ class SequentialEstimator {
 
   StartingPoints settled_starts_;  ///< Of fixes that are settled.
   StartingPoints open_starts_;     ///< Of those that leave several candidates open.
-  StartingPoints grazing_starts_;
+  StartingPoints near_tangent_starts_;
   std::int64_t fixes_ = 0;
-  double grazing_share_ = 0.0;   ///< Of the recent fixes.
-  StartingPoints unfollowed_;    ///< Candidates that no filter follows, since the start.
-  Contradiction contradiction_;  ///< By fixes, since the start.
-  PoorStart poor_start_;
+  double near_tangent_share_ = 0.0;  ///< Of the recent fixes.
+  StartingPoints untracked_;         ///< Candidates that no filter follows, since the start.
+  Contradiction contradiction_;      ///< By fixes, since the start.
+  StartConfirmation start_confirmation_;
 
-  GateWatch gates_;            ///< Since the start.
-  UnsteadyChannels unsteady_;  ///< Since the start.
-  InnovationWatch watch_;      ///< Over the restarts: noise and model stay what they are.
-  ModelVerdict verdict_;       ///< Of the watch.
+  GatingMonitor gating_;             ///< Since the start.
+  OscillatingChannels oscillating_;  ///< Since the start.
+  InnovationMonitor watch_;          ///< Over the restarts: noise and model stay what they are.
+  ModelTest verdict_;                ///< Of the watch.
   /// The gate opens for noise that made the filter begin anew before: then it was not the axis.
   double noise_at_restart_ = 1.0;
 
-  std::int64_t unheard_ = 0;  ///< Revolutions with fixes before the first that could start it.
+  std::int64_t revolutions_before_start_ =
+      0;  ///< Revolutions with fixes before the first that could start it.
   int restarts_ = 0;
   bool prior_refuted_ = false;
   std::optional<ReasonCode> restarted_;  ///< Why; empty: never.

@@ -111,11 +111,11 @@ void SpinFilter::predict(TaiTime t) {
   t_ = t;
 }
 
-EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges,
-                             const ChannelNoise& noise) {
+EdgeStatistics SpinFilter::update(const SpinConfig& config, const Sky& sky,
+                                  std::span<const Pulse> edges, const ChannelNoise& noise) {
   const SpinFilter prior = *this;
-  const Revolved seen{.config = config, .sky = sky, .edges = edges, .noise = noise};
-  EdgeTally tally;
+  const RevolutionEdges seen{.config = config, .sky = sky, .edges = edges, .noise = noise};
+  EdgeStatistics tally;
   // There may be no state near with all these edges: then those that are missing pull no more.
   for (const Missing missing : {Missing::Approached, Missing::LeftOut}) {
     *this = prior;
@@ -132,8 +132,8 @@ EdgeTally SpinFilter::update(const SpinConfig& config, const Sky& sky, std::span
 /// All edges are linearised at the present state: then their order has no weight, and sun edges,
 /// the sharper, come first to the gate.
 SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prior,
-                                                          const Revolved& seen, Missing missing,
-                                                          EdgeTally& tally) {
+                                                          const RevolutionEdges& seen,
+                                                          Missing missing, EdgeStatistics& tally) {
   const auto& [config, sky, edges, noise] = seen;
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin_.conjugate().toRotationMatrix();
   Linearised here;
@@ -157,7 +157,7 @@ SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prio
     auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
     const bool exists = predicted.has_value();
     if (!exists && missing == Missing::Approached) {
-      predicted = edge_nearby(config, sky, R_spin_icrf, edge, phase_rad, sigma_rad);
+      predicted = linearise_by_depth(config, sky, R_spin_icrf, edge, phase_rad, sigma_rad);
     }
     if (!predicted) {
       leave_out(edge);
@@ -185,7 +185,8 @@ SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prio
 }
 
 /// @return Whether it is within the gate; if not nothing is done.
-bool SpinFilter::work_in(const Measured& measured, double gate, Error& error, EdgeTally& tally) {
+bool SpinFilter::work_in(const Measured& measured, double gate, Error& error,
+                         EdgeStatistics& tally) {
   const Error gain_unscaled = covariance_ * measured.slope;
   const double variance = measured.slope.dot(gain_unscaled) + square(measured.sigma_rad);
   const double innovation = wrapped_rad(measured.residual_rad - measured.slope.dot(error));

@@ -39,7 +39,7 @@ using ChannelNoise = std::array<double, kPulseChannels>;
 inline constexpr ChannelNoise kStatedNoise = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 
 /// What became of the edges of one revolution.
-struct EdgeTally {
+struct EdgeStatistics {
   ChannelSet accepted;
   ChannelSet gated;  ///< Too far from where they were predicted, or predicted not to be.
   /// Natural logarithm of the edges' probability density, 1/rad each, gated ones as spurious.
@@ -72,8 +72,8 @@ class SpinFilter {
 
   /// Works in the edges of about one revolution near the reference time.
   /// @param noise The gate opens by so much, the weights stay.
-  EdgeTally update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges,
-                   const ChannelNoise& noise = kStatedNoise);
+  EdgeStatistics update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges,
+                        const ChannelNoise& noise = kStatedNoise);
 
   TaiTime t() const { return t_; }
   Eigen::Vector3d axis_icrf() const { return q_icrf_spin_ * Eigen::Vector3d::UnitZ(); }
@@ -95,7 +95,7 @@ class SpinFilter {
   /// Tilt about the frame's first and second axes, phase, rate, drift.
   using Error = Eigen::Matrix<double, 5, 1>;
 
-  struct Revolved {
+  struct RevolutionEdges {
     const SpinConfig& config;
     const Sky& sky;
     std::span<const Pulse> edges;
@@ -116,9 +116,9 @@ class SpinFilter {
     Error slope;
     Eigen::Matrix<double, 1, kModelErrors> per_error;
   };
-  Linearised update_linearised_here(const SpinFilter& prior, const Revolved& seen, Missing missing,
-                                    EdgeTally& tally);
-  bool work_in(const Measured& measured, double gate, Error& error, EdgeTally& tally);
+  Linearised update_linearised_here(const SpinFilter& prior, const RevolutionEdges& seen,
+                                    Missing missing, EdgeStatistics& tally);
+  bool work_in(const Measured& measured, double gate, Error& error, EdgeStatistics& tally);
   Error error_of(const SpinFilter& truth) const;
   void correct(const Error& error);
 

@@ -45,8 +45,8 @@ typename BasicReorderWindow<Sample>::Verdict BasicReorderWindow<Sample>::add(con
   if (!far_ahead_.insert(sample).second) {
     return Verdict::Duplicate;
   }
-  if (++far_in_a_row_ >= kBelieved) {
-    believe();
+  if (++far_in_a_row_ >= kEnoughToAccept) {
+    accept_jump();
   }
   return Verdict::Held;
 }
@@ -62,8 +62,8 @@ bool BasicReorderWindow<Sample>::is_far_ahead(const Sample& sample) const {
 
 /// Time has jumped: what was held before is due, or was never accepted itself.
 template <class Sample>
-void BasicReorderWindow<Sample>::believe() {
-  if (released_.empty() && held_.size() < kBelieved) {
+void BasicReorderWindow<Sample>::accept_jump() {
+  if (released_.empty() && held_.size() < kEnoughToAccept) {
     early_.insert(early_.end(), held_.begin(), held_.end());
     held_.clear();
   }
@@ -78,17 +78,17 @@ void BasicReorderWindow<Sample>::believe() {
 /// @return Whether any were set aside.
 template <class Sample>
 bool BasicReorderWindow<Sample>::set_aside_early() {
-  if (!released_.empty() || held_.size() <= kBelieved) {
+  if (!released_.empty() || held_.size() <= kEnoughToAccept) {
     return false;
   }
   auto end = std::next(held_.begin());
   std::size_t before = 1;
-  while (end != held_.end() && before < kBelieved &&
+  while (end != held_.end() && before < kEnoughToAccept &&
          span_between(std::prev(end)->t, end->t) <= kFarAhead) {
     ++end;
     ++before;
   }
-  if (before >= kBelieved || held_.size() - before < kBelieved) {
+  if (before >= kEnoughToAccept || held_.size() - before < kEnoughToAccept) {
     return false;
   }
   early_.insert(early_.end(), held_.begin(), end);
@@ -123,7 +123,7 @@ std::vector<Sample> BasicReorderWindow<Sample>::fall_silent() {
   std::vector<Sample> due = release();
   const auto end = end_in_time();
   if (released_.empty() &&
-      std::distance(held_.cbegin(), end) < static_cast<std::ptrdiff_t>(kBelieved)) {
+      std::distance(held_.cbegin(), end) < static_cast<std::ptrdiff_t>(kEnoughToAccept)) {
     return due;
   }
   for (auto sample = held_.cbegin(); sample != end; ++sample) {
@@ -144,7 +144,7 @@ typename std::set<Sample>::const_iterator BasicReorderWindow<Sample>::end_in_tim
       continue;
     }
     const TaiTime before = is_first ? released_.back().t : std::prev(sample)->t;
-    if (span_between(before, sample->t) > kFarAhead && left < kBelieved) {
+    if (span_between(before, sample->t) > kFarAhead && left < kEnoughToAccept) {
       return sample;
     }
   }

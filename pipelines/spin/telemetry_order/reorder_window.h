@@ -33,7 +33,7 @@ class BasicReorderWindow {
   /// Further than this ahead of all that came before is far.
   static constexpr std::chrono::nanoseconds kFarAhead{std::chrono::minutes{1}};
   /// So many far ones in a row are accepted.
-  static constexpr std::size_t kBelieved = 8;
+  static constexpr std::size_t kEnoughToAccept = 8;
   /// How long a released sample is known again: longer than any waits to be settled.
   static constexpr std::chrono::nanoseconds kRemembered{std::chrono::minutes{10}};
 
@@ -63,7 +63,7 @@ class BasicReorderWindow {
 
  private:
   bool is_far_ahead(const Sample& sample) const;
-  void believe();
+  void accept_jump();
   bool set_aside_early();
   typename std::set<Sample>::const_iterator end_in_time() const;
   void remember(const Sample& sample);

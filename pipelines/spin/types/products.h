@@ -96,7 +96,7 @@ struct SpinFix {
   bool accepted;
   /// The candidates lie where they come together and vanish, within the noise: the covariance is
   /// too small, and the true one may be missing.
-  bool grazing = false;
+  bool near_tangent = false;
 };
 
 enum class SpinEstimator { Mean, Sequential, Batch };

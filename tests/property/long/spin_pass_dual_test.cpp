@@ -250,7 +250,7 @@ std::map<std::string, PriorOutcome> with_prior(bool at_the_truth) {
         }
       }
       // Of an axis whose fixes all graze no prior makes sure.
-      outcome.estimated += last && !has(last->assessment, ReasonCode::FixesGraze) ? 1 : 0;
+      outcome.estimated += last && !has(last->assessment, ReasonCode::FixesNearTangent) ? 1 : 0;
       if (last && is_unopposed(last->assessment.quality)) {
         ++outcome.sure;
         EXPECT_LT(angle_between_rad(last->axis_icrf, body.axis_icrf),

@@ -92,7 +92,7 @@ TEST_P(EveryCase, HasTheTrueAxisAmongItsCandidates) {
       const RevolutionMeasurements measured = testing::measured_without(
           scene.config, without(scene.seen(), loss.edges), loss.quantities);
       ASSERT_EQ(geometry_case_of(measured), loss.geometry_case);
-      const auto found = axis_candidates(scene.config, measured, scene.sightlines());
+      const auto found = axis_candidates(scene.config, measured, scene.sun_earth());
       if (!found) {
         ASSERT_EQ(found.error().code, ErrorCode::Unobservable);
         continue;
@@ -106,7 +106,7 @@ TEST_P(EveryCase, HasTheTrueAxisAmongItsCandidates) {
                                     angle_between_rad(b.axis_icrf, scene.axis_icrf);
                            });
       const double off_rad = angle_between_rad(nearest->axis_icrf, scene.axis_icrf);
-      if (found->grazing) {
+      if (found->near_tangent) {
         // Only what is left over of cases 2 and 3 tells such roots apart.
         ASSERT_TRUE(!found->told_apart || loss.quantities.empty());
         ASSERT_TRUE(!found->told_apart || loss.geometry_case < 4);
@@ -142,7 +142,7 @@ TEST_P(EveryCase, WithTheSunNearTheAxisIsNotLeftWithTheFalseOneByNoise) {
       const Revolution seen = testing::noisy(scene, without(scene.seen(), loss.edges), rng);
       const auto found = axis_candidates(
           scene.config, testing::measured_without(scene.config, seen, loss.quantities),
-          scene.sightlines());
+          scene.sun_earth());
       if (found && found->told_apart) {
         ++told_apart;
         EXPECT_LT(angle_between_rad(found->candidates.front().axis_icrf, scene.axis_icrf),
@@ -165,10 +165,10 @@ TEST_P(EveryCase, HasTheCovariancesOfCentralDifferences) {
       const auto solve = [&](const Revolution& seen) {
         return axis_candidates(scene.config,
                                testing::measured_without(scene.config, seen, loss.quantities),
-                               scene.sightlines());
+                               scene.sun_earth());
       };
       const auto found = solve(revolution);
-      if (!found || found->grazing) {
+      if (!found || found->near_tangent) {
         continue;
       }
       constexpr double kStep_s = 2e-6;
@@ -216,7 +216,7 @@ TEST(AxisCandidates, ConesAreNamedInWords) {
     const RevolutionMeasurements measured =
         measure(scene.config, without(scene.seen(), loss.edges));
     EXPECT_EQ(geometry_case_of(measured), loss.geometry_case);
-    const auto found = axis_candidates(scene.config, measured, scene.sightlines());
+    const auto found = axis_candidates(scene.config, measured, scene.sun_earth());
     ASSERT_FALSE(found);
     EXPECT_EQ(found.error().code, ErrorCode::Unobservable);
     EXPECT_NE(found.error().message.find(words), std::string::npos) << found.error().message;
@@ -229,12 +229,12 @@ double squared_errors(const Scene& scene, const std::set<SpinQuantity>& left_out
                       std::mt19937_64& rng) {
   const Revolution exact = scene.seen();
   const SpinFix stated =
-      testing::lone_fix(scene.config, exact, left_out, scene.sightlines()).value();
+      testing::lone_fix(scene.config, exact, left_out, scene.sun_earth()).value();
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(stated.axis_icrf);
   double sum = 0.0;
   for (int draw = 0; draw < draws; ++draw) {
     const auto fix = testing::lone_fix(scene.config, testing::noisy(scene, exact, rng), left_out,
-                                       scene.sightlines());
+                                       scene.sun_earth());
     const Eigen::Vector2d error_rad = basis.transpose() * fix.value().axis_icrf;
     sum += error_rad.dot(stated.covariance_rad2.ldlt().solve(error_rad));
   }

@@ -44,8 +44,8 @@ Expected<BatchSolution> solved(const SpinConfig& config, const Orbit& orbit,
 }
 
 std::vector<Pulse> dirty_pulses(const testing::SpinningBody& body,
-                                const testing::Surroundings& around, double from_s, double to_s,
-                                const testing::Dirt& dirt, std::mt19937_64& rng) {
+                                const testing::SunEarthEphemeris& around, double from_s,
+                                double to_s, const testing::Dirt& dirt, std::mt19937_64& rng) {
   const auto clean = testing::pulses_from(testing::edges_between(body, around, from_s, to_s),
                                           testing::kTransferStart, body.config.noise, rng);
   return testing::dirty(clean, 2.0 * kPi / body.rate_rad_s, dirt, rng).pulses;
@@ -79,7 +79,8 @@ TEST(SpinBatchChange, IsNotMadeOfTheDirtOfASteadyPass) {
 /// and fixes have chosen a false one.
 struct HardPass {
   Orbit orbit = testing::transfer_with_node(91.06809);
-  testing::Surroundings around = testing::seen_from(orbit, testing::ellipsoidal_horizon_km(40.0));
+  testing::SunEarthEphemeris around =
+      testing::seen_from(orbit, testing::ellipsoidal_horizon_km(40.0));
   testing::SpinningBody body{.axis_icrf = direction_icrf({.ra_rad = 61.455876 * kDegree_rad,
                                                           .dec_rad = 19.945283 * kDegree_rad}),
                              .rate_rad_s = 150.0 * kRpm_rad_s,

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipelines/spin/batch/clock_break.h"
+#include "pipelines/spin/batch/rate_changepoint.h"
 #include "services/words/assessment_words.h"
 #include "tests/support/wobbling_pass.h"
 
@@ -60,15 +60,15 @@ TEST(SpinBatchRateStep, IsNotSeenWhereTheRateDriftsOrTheBodyNutates) {
     SpinTruth truth = passes.drawn();
     truth.motion.rate_drift_rad_s2 = 1e-5 * passes.uniform();
     truth.motion.nutation = passes.random_nutation(0.2 * std::numbers::pi / 180.0);
-    EXPECT_FALSE(find_clock_break(passes.edges(truth)));
+    EXPECT_FALSE(find_rate_changepoint(passes.edges(truth)));
   }
 }
 
 TEST(SpinBatchRateStep, NeedsSomeEdges) {
   testing::WobblingPasses passes{2503, 600.0};
   const auto edges = passes.edges(passes.drawn());
-  EXPECT_FALSE(find_clock_break({}));
-  EXPECT_FALSE(find_clock_break(std::span{edges}.first(40)));
+  EXPECT_FALSE(find_rate_changepoint({}));
+  EXPECT_FALSE(find_rate_changepoint(std::span{edges}.first(40)));
 }
 
 }  // namespace

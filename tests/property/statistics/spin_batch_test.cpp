@@ -51,7 +51,7 @@ TEST(SpinBatch, AWideNorthChordIsRecoveredAndTheAxisIsAtTheBound) {
 
 TEST(SpinBatch, TheBoundIsThatOfTheInformationLimitAndThatOfThePlan) {
   const Orbit orbit = testing::transfer_orbit();
-  const testing::Surroundings around =
+  const testing::SunEarthEphemeris around =
       testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
   std::mt19937_64 rng{1922};
   for (int pass = 0; pass < 8; ++pass) {

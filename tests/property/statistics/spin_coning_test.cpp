@@ -10,7 +10,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/coning.h"
-#include "tests/support/steady_residuals.h"
+#include "tests/support/uniform_spin_residuals.h"
 
 namespace spindrift {
 namespace {
@@ -41,8 +41,8 @@ double chi_square(const FittedConing& fit, const Eigen::Vector2d& coning_rad) {
   return off.dot(fit.covariance_rad2.ldlt().solve(off));
 }
 
-ConingVerdict verdict_on(const FittedConing& fit) {
-  return judge_coning(fit.coning_rad, fit.covariance_rad2);
+ConingTest test_model_errors(const FittedConing& fit) {
+  return test_coning(fit.coning_rad, fit.covariance_rad2);
 }
 
 TEST(SpinConing, OfAlignedSensorsIsFoundWhereItLeans) {
@@ -54,7 +54,7 @@ TEST(SpinConing, OfAlignedSensorsIsFoundWhereItLeans) {
     truth.motion.coning = coning;
     const FittedConing fit = fitted(truth, kAligned_rad, rng);
     sum += chi_square(fit, rotation_of(coning));
-    const ConingVerdict verdict = verdict_on(fit);
+    const ConingTest verdict = test_model_errors(fit);
     EXPECT_TRUE(verdict.detected);
     EXPECT_NEAR(verdict.tilt_rad, coning.tilt_rad, 0.25 * kDegree);
     EXPECT_NEAR(wrapped_rad(verdict.azimuth_rad - coning.azimuth_rad), 0.0, 0.5);
@@ -76,7 +76,7 @@ TEST(SpinConing, IsNotFoundWhereSensorsAreMisplacedAsMuchAsTheyMayBe) {
     truth.sun_sensor.slit_separation_rad += misplaced(rng);
     const FittedConing fit = fitted(truth, kMisplaced_rad, rng);
     sum += chi_square(fit, Eigen::Vector2d::Zero());
-    const ConingVerdict verdict = verdict_on(fit);
+    const ConingTest verdict = test_model_errors(fit);
     EXPECT_FALSE(verdict.detected);
     // Of aligned sensors it would be 0.4 deg.
     EXPECT_GT(verdict.detectable_rad, 2.0 * kDegree);
@@ -90,7 +90,7 @@ TEST(SpinConing, BelowWhatCouldBeDetectedIsSaidToBe) {
   std::mt19937_64 rng{3};
   SpinTruth truth = testing::steady_truth();
   truth.motion.coning = {.tilt_rad = 0.02 * kDegree, .azimuth_rad = 0.5};
-  const ConingVerdict verdict = verdict_on(fitted(truth, kAligned_rad, rng));
+  const ConingTest verdict = test_model_errors(fitted(truth, kAligned_rad, rng));
   EXPECT_FALSE(verdict.detected);
   EXPECT_GT(verdict.detectable_rad, 0.1 * kDegree);
   EXPECT_LT(verdict.detectable_rad, 0.5 * kDegree);

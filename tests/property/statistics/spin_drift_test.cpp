@@ -42,7 +42,7 @@ struct DriftingPass {
   }
 
   /// Sun and Earth as the body sees them, by the time of constant rate.
-  testing::Surroundings around() const {
+  testing::SunEarthEphemeris around() const {
     const auto seen = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
     const DriftingPass pass = *this;
     return {.sun_icrf = [pass, seen](double t_s) { return seen.sun_icrf(pass.drifting_s(t_s)); },

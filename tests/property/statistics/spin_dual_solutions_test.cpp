@@ -45,7 +45,7 @@ struct Pass {
   double disc_end_rad;
   int revolutions;
 
-  Sightlines at(double share) const {
+  SunEarthDirections at(double share) const {
     return {.sun_icrf = sun_icrf,
             .earth_icrf = Eigen::AngleAxisd{turn_rad * share, orbit_normal_icrf} * earth_start_icrf,
             .disc_rad = disc_start_rad + (disc_end_rad - disc_start_rad) * share,
@@ -54,7 +54,7 @@ struct Pass {
   /// Both sensors see what they need, all through.
   bool visible() const {
     for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-      const Sightlines there = at(share);
+      const SunEarthDirections there = at(share);
       const double apart_rad = angle_between_rad(there.sun_icrf, there.earth_icrf);
       const PredictedAngles angles = predict_angles(axis_icrf, there.sun_icrf, there.earth_icrf);
       if (std::abs(angles.earth_angle_rad - 0.5 * kPi) > there.disc_rad - 8.0 * kDegree_rad ||
@@ -90,7 +90,7 @@ class Passes {
 
   /// One revolution's pulses, from the angles of the spherical triangles.
   Revolution seen(const Pass& pass, int number, const SpinConfig& config, const Flaws& flaws) {
-    const Sightlines there = pass.at(static_cast<double>(number) / pass.revolutions);
+    const SunEarthDirections there = pass.at(static_cast<double>(number) / pass.revolutions);
     const PredictedAngles angles = predict_angles(pass.axis_icrf, there.sun_icrf, there.earth_icrf);
     Revolution seen{.number = number,
                     .edges = {},
@@ -154,7 +154,7 @@ Outcome outcome_of(Passes& passes, const Pass& pass, const std::set<SpinQuantity
   for (int number = 0; number < pass.revolutions; ++number) {
     const Revolution revolution = passes.seen(pass, number, config, flaws);
     const RevolutionMeasurements measured = testing::measured_without(config, revolution, left_out);
-    const Sightlines there = pass.at(static_cast<double>(number) / pass.revolutions);
+    const SunEarthDirections there = pass.at(static_cast<double>(number) / pass.revolutions);
     const auto found = axis_candidates(config, measured, there);
     if (!found) {
       continue;

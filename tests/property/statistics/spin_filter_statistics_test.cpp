@@ -24,7 +24,7 @@ namespace {
 
 using testing::ObservedRevolution;
 using testing::SpinningBody;
-using testing::Surroundings;
+using testing::SunEarthEphemeris;
 using enum PulseChannel;
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
@@ -82,7 +82,7 @@ struct SquaredErrors {
 
 TEST(SpinFilterStatistics, ErrorsAreThoseThatTheCovariancePromises) {
   const Orbit orbit = testing::transfer_orbit();
-  const Surroundings around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  const SunEarthEphemeris around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
   std::mt19937_64 rng{2011};
   std::array<SquaredErrors, kSubsets.size()> sums;
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -118,7 +118,7 @@ TEST(SpinFilterStatistics, ErrorsAreThoseThatTheCovariancePromises) {
 
 TEST(SpinFilterStatistics, SigmaIsThatOfTheInformationLimit) {
   const Orbit orbit = testing::transfer_orbit();
-  const Surroundings around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  const SunEarthEphemeris around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
   std::mt19937_64 rng{1946};
   for (int pass = 0; pass < 10; ++pass) {
     const SpinningBody body = testing::random_body(around, 4.0 * kDegree_rad, rng);
@@ -138,13 +138,13 @@ TEST(SpinFilterStatistics, SigmaIsThatOfTheInformationLimit) {
 
 /// Edges of a body whose rate drifts evenly: time is stretched so that the oracle's body, and all
 /// about it, see it turn evenly.
-std::vector<testing::Edge> drifting_edges(const SpinningBody& body, const Surroundings& around,
+std::vector<testing::Edge> drifting_edges(const SpinningBody& body, const SunEarthEphemeris& around,
                                           double drift_rad_s2, double revolutions) {
   const double relative = drift_rad_s2 / body.rate_rad_s;
   const auto t_of = [relative](double even_s) {
     return 2.0 * even_s / (1.0 + std::sqrt(1.0 + 2.0 * relative * even_s));
   };
-  const Surroundings stretched{
+  const SunEarthEphemeris stretched{
       .sun_icrf = [&](double even_s) { return around.sun_icrf(t_of(even_s)); },
       .earth_icrf_km = [&](double even_s) { return around.earth_icrf_km(t_of(even_s)); },
       .horizon_km = around.horizon_km};
@@ -159,7 +159,7 @@ std::vector<testing::Edge> drifting_edges(const SpinningBody& body, const Surrou
 TEST(SpinFilterStatistics, AnEvenDriftOfTheRateIsFollowed) {
   constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;
   const Orbit orbit = testing::transfer_orbit();
-  const Surroundings around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  const SunEarthEphemeris around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
   std::mt19937_64 rng{1958};
   double axis = 0.0;
   int passes = 0;

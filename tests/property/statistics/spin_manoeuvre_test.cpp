@@ -32,7 +32,8 @@ constexpr double kEnd_s = 500.0;
 
 struct Scene {
   Orbit orbit = testing::transfer_orbit();
-  testing::Surroundings around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  testing::SunEarthEphemeris around =
+      testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
 
   std::vector<Pulse> seen(const testing::SpinningBody& body, double from_s, double to_s,
                           std::mt19937_64& rng) const {

@@ -56,7 +56,7 @@ struct Outcome {
 std::vector<Outcome> outcomes_of(const std::vector<Mistake>& mistakes, double excess_rad,
                                  int bodies) {
   const Orbit orbit = testing::transfer_orbit();
-  const testing::Surroundings around =
+  const testing::SunEarthEphemeris around =
       testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
   std::mt19937_64 rng{77};
   std::vector<Outcome> outcomes;

@@ -72,7 +72,8 @@ void expect_one_fate_each(const SpinOutput& output, const std::vector<Pulse>& pu
 
 struct Scene {
   Orbit orbit = testing::transfer_orbit();
-  testing::Surroundings around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  testing::SunEarthEphemeris around =
+      testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
 
   std::vector<Pulse> seen(const SpinningBody& body, double from_s, double to_s,
                           std::mt19937_64& rng) const {

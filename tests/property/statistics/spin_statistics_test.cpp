@@ -36,7 +36,7 @@ double squared_error(const SpinEstimate& estimate, const Eigen::Vector3d& true_i
 
 SquaredErrors squared_errors_of(int passes, std::uint64_t seed) {
   const Orbit orbit = testing::transfer_orbit();
-  const testing::Surroundings around =
+  const testing::SunEarthEphemeris around =
       testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
   std::mt19937_64 rng{seed};
   SquaredErrors sums;
@@ -95,7 +95,7 @@ TEST(SpinStatistics, ErrorsOfTwoHundredPassesAreThoseThatTheirSigmasPromise) {
 
 TEST(SpinStatistics, SigmaOfWholePassesIsThatOfTheInformationLimit) {
   const Orbit orbit = testing::transfer_orbit();
-  const testing::Surroundings around =
+  const testing::SunEarthEphemeris around =
       testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
   std::mt19937_64 rng{123};
   for (int pass = 0; pass < 8; ++pass) {

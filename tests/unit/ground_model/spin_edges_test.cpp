@@ -94,7 +94,7 @@ std::vector<testing::Edge> oracle(const SpinTruth& truth, const Orbit& orbit, do
   const auto state = [&](double turned) {
     return orbit.at(shifted(truth.start, time_s(motion, turned))).value();
   };
-  const testing::Surroundings around = {
+  const testing::SunEarthEphemeris around = {
       .sun_icrf = [&](double turned) -> Eigen::Vector3d {
         return upright *
                sun.direction_icrf(shifted(truth.start, time_s(motion, turned)), state(turned));

@@ -57,7 +57,7 @@ TEST(AngleEquations, SlopesToTheAxisAreDifferencesOfResiduals) {
         const Eigen::Vector3d beside_icrf =
             (scene.axis_icrf - step_rad * tangent_basis(scene.axis_icrf).col(across)).normalized();
         AngleEquations equations{beside_icrf};
-        equations.add(scene.config, measured, scene.sightlines(), beside_icrf);
+        equations.add(scene.config, measured, scene.sun_earth(), beside_icrf);
         expect_linear(equations, across, step_rad);
       }
     }
@@ -71,7 +71,7 @@ TEST(AngleEquations, AnAxisBesideTheReferenceIsCountedFromThere) {
       (scene.axis_icrf + kStep_rad * Eigen::Vector3d::UnitX()).normalized();
   for (const Eigen::Vector3d& about_icrf : {scene.axis_icrf, reference_icrf}) {
     AngleEquations equations{reference_icrf};
-    equations.add(scene.config, measured, scene.sightlines(), about_icrf);
+    equations.add(scene.config, measured, scene.sun_earth(), about_icrf);
     EXPECT_EQ(equations.angles(), 5);
     // The angles are correlated and have a noise of degrees at most: all of it is the step's square
     // and the radian that the reference counts for.
@@ -81,7 +81,7 @@ TEST(AngleEquations, AnAxisBesideTheReferenceIsCountedFromThere) {
 
 TEST(AngleEquations, SlopesToTheLimbAreThoseOfALargerDisc) {
   const Scene scene;
-  Sightlines larger = scene.sightlines();
+  SunEarthDirections larger = scene.sun_earth();
   larger.disc_rad += kStep_rad;
   for (const auto& [quantity, error] :
        {std::pair{NorthChord, NorthLimb}, std::pair{SouthChord, SouthLimb}}) {
@@ -100,7 +100,7 @@ TEST(AngleEquations, SlopesToTheAzimuthsAreThoseOfAWrongMissionFile) {
   for (const auto& [quantity, error] :
        {std::pair{NorthDihedral, NorthAzimuth}, std::pair{SouthDihedral, SouthAzimuth}}) {
     AngleEquations equations{scene.axis_icrf};
-    equations.add(wrong, only(quantity, wrong, scene.seen()), scene.sightlines(), scene.axis_icrf);
+    equations.add(wrong, only(quantity, wrong, scene.seen()), scene.sun_earth(), scene.axis_icrf);
     expect_linear(equations, 2 + error, kStep_rad);
   }
 }
@@ -114,18 +114,18 @@ TEST(AngleEquations, SlopesToTheSunAngleAreThoseOfAWrongSeparation) {
   EXPECT_GT(too_large_rad, 0.0);
   for (const SpinQuantity quantity : {SunAngle, MixedAzimuth}) {
     AngleEquations equations{scene.axis_icrf};
-    equations.add(wrong, only(quantity, wrong, scene.seen()), scene.sightlines(), scene.axis_icrf);
+    equations.add(wrong, only(quantity, wrong, scene.seen()), scene.sun_earth(), scene.axis_icrf);
     expect_linear(equations, 2 + SunAngleError, too_large_rad);
   }
 }
 
 TEST(AngleEquations, AChordThatGrazesTheLimbIsLeftOut) {
   Scene scene;
-  const double disc_rad = scene.sightlines().disc_rad;
+  const double disc_rad = scene.sun_earth().disc_rad;
   const double earth_rad = angle_between_rad(scene.axis_icrf, scene.earth_icrf);
   scene.config.north->mount_angle_rad = earth_rad - disc_rad + 0.005;
   AngleEquations equations{scene.axis_icrf};
-  equations.add(scene.config, measure(scene.config, scene.seen()), scene.sightlines(),
+  equations.add(scene.config, measure(scene.config, scene.seen()), scene.sun_earth(),
                 scene.axis_icrf);
   EXPECT_EQ(equations.angles(), 4);
 }
@@ -140,7 +140,7 @@ TEST(AngleEquations, CovarianceIsTheScatterOfTheAxis) {
   for (int draw = 0; draw < kDraws; ++draw) {
     AngleEquations equations{scene.axis_icrf};
     equations.add(scene.config, measure(scene.config, testing::noisy(scene, exact, rng)),
-                  scene.sightlines(), scene.axis_icrf);
+                  scene.sun_earth(), scene.axis_icrf);
     const Eigen::Vector2d error_rad =
         tangent_basis(scene.axis_icrf).transpose() * equations.axis_icrf();
     squares += error_rad.dot(equations.covariance_rad2().ldlt().solve(error_rad));
@@ -156,7 +156,7 @@ TEST(AngleEquations, WhatNoAngleFixesStaysAtTheReference) {
   EXPECT_TRUE(none.covariance_rad2().isApprox(Eigen::Matrix2d::Identity()));
 
   AngleEquations sun_only{scene.axis_icrf};
-  sun_only.add(scene.config, only(SunAngle, scene.config, scene.seen()), scene.sightlines(),
+  sun_only.add(scene.config, only(SunAngle, scene.config, scene.seen()), scene.sun_earth(),
                scene.axis_icrf);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver{sun_only.covariance_rad2()};
   EXPECT_NEAR(solver.eigenvalues()(1), 1.0, 1e-7);

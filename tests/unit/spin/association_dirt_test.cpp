@@ -304,7 +304,7 @@ TEST(AssociationDirt, FollowsTheEarthFromALowOrbitAtAnyRate) {
   const auto position_km = [&](double t_s) {
     return Eigen::Vector3d{orbit.at(shifted(kStart, t_s)).value().position_icrf_km};
   };
-  testing::Surroundings around = testing::at_rest({1.0, 0.2, 0.1}, {});
+  testing::SunEarthEphemeris around = testing::at_rest({1.0, 0.2, 0.1}, {});
   around.earth_icrf_km = [&](double t_s) -> Eigen::Vector3d { return -position_km(t_s); };
   std::mt19937_64 rng{305};
   for (const double rpm : {5.0, 20.0, 60.0, 200.0}) {

@@ -46,8 +46,8 @@ struct Solved {
 Solved solved(const Scene& scene, const std::set<SpinQuantity>& left_out) {
   const RevolutionMeasurements measured =
       testing::measured_without(scene.config, scene.seen(), left_out);
-  const auto sightlines = scene.sightlines();
-  const FixInput input = fix_input(scene.config, measured, sightlines, views_of_sphere(sightlines));
+  const auto sun_earth = scene.sun_earth();
+  const FixInput input = fix_input(scene.config, measured, sun_earth, views_of_sphere(sun_earth));
   Solved solved{.found = solve_axis_angles(input), .nearest_rad = 10.0};
   for (const AxisAngles& place : solved.found.places) {
     solved.nearest_rad = std::min(solved.nearest_rad, distance_rad(scene, place));
@@ -94,7 +94,7 @@ TEST(AxisAngles, AreThoseOfTheVectorsAnywhere) {
     for (std::size_t i = 0; i < kLosses.size(); ++i) {
       SCOPED_TRACE(i);
       const Solved answer = solved(scene, kLosses[i]);
-      if (answer.found.places.empty() || answer.found.grazing) {
+      if (answer.found.places.empty() || answer.found.near_tangent) {
         continue;
       }
       // Near a double root a nanosecond is worth its square root.
@@ -108,14 +108,14 @@ TEST(AxisAngles, AreThoseOfTheVectorsAnywhere) {
 /// The derivatives that a solution carries, against a later north_in by one standard deviation.
 TEST(AxisAngles, CarryWhatEachEdgeMovesThemBy) {
   const Scene scene;
-  const auto sightlines = scene.sightlines();
+  const auto sun_earth = scene.sun_earth();
   const auto solve = [&](double later_s) {
     Revolution revolution = scene.seen();
     auto& edge = revolution.edges.at(index_of(PulseChannel::NorthIn));
     edge = shifted(*edge, later_s);
     const RevolutionMeasurements measured = measure(scene.config, revolution);
     return solve_axis_angles(
-               fix_input(scene.config, measured, sightlines, views_of_sphere(sightlines)))
+               fix_input(scene.config, measured, sun_earth, views_of_sphere(sun_earth)))
         .places.front();
   };
   const double sigma_s = scene.config.noise.infrared_s;

@@ -87,8 +87,8 @@ TEST(AxisCandidates, ARootThatFitsBetterByNoiseAloneIsNotAccepted) {
     scene.config.noise.infrared_s = 1.5e-3;
     const Revolution exact = scene.seen();
     for (int draw = 0; draw < 300; ++draw) {
-      const auto fix = testing::lone_fix(scene.config, testing::noisy(scene, exact, rng), {},
-                                         scene.sightlines());
+      const auto fix =
+          testing::lone_fix(scene.config, testing::noisy(scene, exact, rng), {}, scene.sun_earth());
       if (fix && fix->accepted) {
         const double sigma_rad = std::sqrt(fix->covariance_rad2.trace());
         EXPECT_LT(angle_between_rad(fix->axis_icrf, scene.axis_icrf), 6.0 * sigma_rad) << delta;
@@ -105,14 +105,14 @@ TEST(AxisCandidates, ARootOfANarrowChordIsNotAcceptedByNoiseAlone) {
   for (const double delta : {0.012, 0.016, 0.02, 0.028}) {
     for (const double inside_deg : {0.05, 0.1, 0.2, 0.4}) {
       Scene scene;
-      const double disc_deg = scene.sightlines().disc_rad / kDegree_rad;
+      const double disc_deg = scene.sun_earth().disc_rad / kDegree_rad;
       scene = scene_of_determinant(delta, 85.0 + disc_deg - inside_deg);
       scene.rate_rad_s = 2.5 * 2.0 * kPi;
       const Revolution exact = scene.seen();
       for (int draw = 0; draw < 300; ++draw) {
         const auto fix = testing::lone_fix(scene.config, testing::noisy(scene, exact, rng), {},
-                                           scene.sightlines());
-        if (fix && fix->accepted && !fix->grazing) {
+                                           scene.sun_earth());
+        if (fix && fix->accepted && !fix->near_tangent) {
           const double sigma_rad = std::sqrt(fix->covariance_rad2.trace());
           EXPECT_LT(angle_between_rad(fix->axis_icrf, scene.axis_icrf), 6.0 * sigma_rad)
               << delta << ' ' << inside_deg;
@@ -139,7 +139,7 @@ TEST(AxisCandidates, AChordWiderThanTheDiscIsRefusedWithItsMeasure) {
   Revolution revolution = scene.seen();
   const TaiTime in = revolution.edge(PulseChannel::NorthIn).value();
   revolution.edges.at(index_of(PulseChannel::NorthOut)) = shifted(in, 0.9 / scene.rate_rad_s);
-  const auto fix = testing::lone_fix(scene.config, revolution, {}, scene.sightlines());
+  const auto fix = testing::lone_fix(scene.config, revolution, {}, scene.sun_earth());
   ASSERT_FALSE(fix);
   EXPECT_EQ(fix.error().code, ErrorCode::InvalidInput);
   EXPECT_NE(fix.error().message.find("chord 51.5662 deg"), std::string::npos)

@@ -86,9 +86,9 @@ TEST_P(FixesOnHorizons, ExactEdgesGiveTheTrueAxisWhileTheEarthMoves) {
   const Eigen::Vector3d motion_icrf_s{-5e-4, 1e-4, 2e-4};  // 0.03 deg/s.
   for (const Scene& scene : usual_scenes(GetParam())) {
     const Revolution seen = scene.seen_while_earth_moves(motion_icrf_s);
-    const Sightlines sightlines = scene.sightlines_while_earth_moves(motion_icrf_s);
+    const SunEarthDirections sun_earth = scene.sightlines_while_earth_moves(motion_icrf_s);
     for (const auto& left_out : kLeftOut) {
-      const SpinFix fix = testing::lone_fix(scene.config, seen, left_out, sightlines).value();
+      const SpinFix fix = testing::lone_fix(scene.config, seen, left_out, sun_earth).value();
       EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), testing::kExact_rad);
     }
   }
@@ -103,15 +103,15 @@ TEST_P(FixesOnHorizons, AFixTurnsWithAllThatItWasMadeFrom) {
     const double x = normal(rng);
     const double y = normal(rng);
     const Eigen::Quaterniond turn = Eigen::Quaterniond{w, x, y, normal(rng)}.normalized();
-    const Sightlines sightlines = scene.sightlines_while_earth_moves({1e-4, 2e-4, -3e-4});
-    Sightlines turned = sightlines;
-    for (Eigen::Vector3d Sightlines::*direction :
-         {&Sightlines::sun_icrf, &Sightlines::earth_icrf, &Sightlines::earth_pole_icrf,
-          &Sightlines::earth_motion_icrf_s}) {
-      turned.*direction = turn * (sightlines.*direction);
+    const SunEarthDirections sun_earth = scene.sightlines_while_earth_moves({1e-4, 2e-4, -3e-4});
+    SunEarthDirections turned = sun_earth;
+    for (Eigen::Vector3d SunEarthDirections::*direction :
+         {&SunEarthDirections::sun_icrf, &SunEarthDirections::earth_icrf,
+          &SunEarthDirections::earth_pole_icrf, &SunEarthDirections::earth_motion_icrf_s}) {
+      turned.*direction = turn * (sun_earth.*direction);
     }
     for (const auto& left_out : kLeftOut) {
-      const SpinFix fix = testing::lone_fix(scene.config, seen, left_out, sightlines).value();
+      const SpinFix fix = testing::lone_fix(scene.config, seen, left_out, sun_earth).value();
       const SpinFix there = testing::lone_fix(scene.config, seen, left_out, turned).value();
       EXPECT_LT(angle_between_rad(there.axis_icrf, turn * fix.axis_icrf), 1e-10);
       EXPECT_NEAR(there.norm, fix.norm, 1e-10);
@@ -170,7 +170,7 @@ TEST(AxisCandidatesOnTheEllipsoid, ANarrowChordAnywhereOnTheLimbHasAFixToo) {
                                      std::set{SouthChord, SouthDihedral, NorthDihedral}}) {
           const auto found = axis_candidates(
               scene.config, testing::measured_without(scene.config, scene.seen(), left_out),
-              scene.sightlines());
+              scene.sun_earth());
           ASSERT_TRUE(found) << found.error().message;
           double off_rad = 1.0;
           for (const AxisCandidate& candidate : found->candidates) {
@@ -192,7 +192,7 @@ TEST(AxisCandidatesOnTheEllipsoid, RootsThatOnlyTheSphereAllowsAreNone) {
   const RevolutionMeasurements measured =
       testing::measured_without(scene.config, scene.seen(), {SunAngle});
   const auto candidates = [&] {
-    return axis_candidates(scene.config, measured, scene.sightlines());
+    return axis_candidates(scene.config, measured, scene.sun_earth());
   };
   EXPECT_FALSE(candidates().value().candidates.empty());
   scene.config.horizon.model = HorizonModel::Ellipsoid;

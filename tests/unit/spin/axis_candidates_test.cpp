@@ -88,7 +88,7 @@ TEST(AxisCandidates, DihedralsOnEitherSideOfPiAreAveragedThere) {
   for (const PulseChannel channel : {PulseChannel::SouthIn, PulseChannel::SouthOut}) {
     revolution.edges.at(index_of(channel)) = shifted(*revolution.edge(channel), -1e-4);
   }
-  const SpinFix fix = testing::lone_fix(scene.config, revolution, {}, scene.sightlines()).value();
+  const SpinFix fix = testing::lone_fix(scene.config, revolution, {}, scene.sun_earth()).value();
   EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
 }
 
@@ -96,15 +96,15 @@ TEST(AxisCandidates, AnEarthThatMovesBetweenTheEdgesIsAllowedFor) {
   const Scene scene;  // One turn in six seconds, the Earth moving by 0.03 deg/s.
   const Eigen::Vector3d motion_icrf_s{-5e-4, 1e-4, 2e-4};
   const Revolution seen = scene.seen_while_earth_moves(motion_icrf_s);
-  const Sightlines sightlines = scene.sightlines_while_earth_moves(motion_icrf_s);
+  const SunEarthDirections sun_earth = scene.sightlines_while_earth_moves(motion_icrf_s);
   for (const std::set<SpinQuantity>& left_out :
        {std::set<SpinQuantity>{}, std::set{SouthChord}, std::set{NorthChord}}) {
-    const auto off_rad = [&](const Sightlines& taken) {
+    const auto off_rad = [&](const SunEarthDirections& taken) {
       const SpinFix fix = testing::lone_fix(scene.config, seen, left_out, taken).value();
       return angle_between_rad(fix.axis_icrf, scene.axis_icrf);
     };
-    EXPECT_LT(off_rad(sightlines), 0.02 * off_rad(scene.sightlines()));
-    EXPECT_GT(off_rad(scene.sightlines()), 0.03 * kDegree_rad);
+    EXPECT_LT(off_rad(sun_earth), 0.02 * off_rad(scene.sun_earth()));
+    EXPECT_GT(off_rad(scene.sun_earth()), 0.03 * kDegree_rad);
   }
 }
 
@@ -115,7 +115,7 @@ TEST(AxisCandidates, SunAndEarthInLineLeaveTheAxisOpen) {
     Scene scene{.sun_icrf = sun};
     scene.earth_icrf = Eigen::AngleAxisd{apart_deg * kDegree_rad, across} * sun;
     RevolutionMeasurements measured = measure(scene.config, Scene{}.seen());
-    const auto solution = axis_candidates(scene.config, measured, scene.sightlines());
+    const auto solution = axis_candidates(scene.config, measured, scene.sun_earth());
     ASSERT_FALSE(solution) << apart_deg;
     EXPECT_EQ(solution.error().code, ErrorCode::Unobservable);
     EXPECT_NE(solution.error().message.find("3 and 177 deg"), std::string::npos);
@@ -139,7 +139,7 @@ TEST(AxisCandidates, AWrongAzimuthContradictsTheAngleBetweenSunAndEarth) {
   SpinConfig wrong = scene.config;
   wrong.north->azimuth_rad -= 80.0 * kDegree_rad;
   wrong.south->azimuth_rad -= 80.0 * kDegree_rad;
-  const SpinFix fix = testing::lone_fix(wrong, scene.seen(), {}, scene.sightlines()).value();
+  const SpinFix fix = testing::lone_fix(wrong, scene.seen(), {}, scene.sun_earth()).value();
   EXPECT_FALSE(fix.accepted);
   EXPECT_GT(std::abs(fix.norm - 1.0), 0.1);
 }
@@ -147,9 +147,9 @@ TEST(AxisCandidates, AWrongAzimuthContradictsTheAngleBetweenSunAndEarth) {
 TEST(AxisCandidates, ChordsOfAnotherDiscContradictTheOrbit) {
   const Scene scene;
   for (const double range_factor : {0.8, 1.25}) {
-    Sightlines sightlines = scene.sightlines();
-    sightlines.disc_rad = std::asin(std::sin(sightlines.disc_rad) / range_factor);
-    const SpinFix fix = testing::lone_fix(scene.config, scene.seen(), {}, sightlines).value();
+    SunEarthDirections sun_earth = scene.sun_earth();
+    sun_earth.disc_rad = std::asin(std::sin(sun_earth.disc_rad) / range_factor);
+    const SpinFix fix = testing::lone_fix(scene.config, scene.seen(), {}, sun_earth).value();
     EXPECT_FALSE(fix.accepted) << range_factor;
     // Two chords need no disc: the axis itself is right, and still nothing to rely on.
     EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
@@ -159,7 +159,7 @@ TEST(AxisCandidates, ChordsOfAnotherDiscContradictTheOrbit) {
 TEST(AxisCandidates, OnlyWhatCouldGiveAFixCanContradictItself) {
   Scene scene;
   const auto contradicts = [&](const RevolutionMeasurements& measured) {
-    return contradicts_itself(axis_candidates(scene.config, measured, scene.sightlines()));
+    return is_inconsistent(axis_candidates(scene.config, measured, scene.sun_earth()));
   };
   EXPECT_FALSE(contradicts(measure(scene.config, scene.seen())));
   RevolutionMeasurements cones =
@@ -179,7 +179,7 @@ TEST(AxisCandidates, ConesThatDoNotMeetAreRefused) {
   RevolutionMeasurements measured =
       testing::measured_without(scene.config, scene.seen(), {NorthDihedral, SouthDihedral});
   measured.sun_angle->value_rad = 10.0 * kDegree_rad;
-  const auto found = axis_candidates(scene.config, measured, scene.sightlines());
+  const auto found = axis_candidates(scene.config, measured, scene.sun_earth());
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::InvalidInput);
   EXPECT_NE(found.error().message.find("do not meet"), std::string::npos);
@@ -225,15 +225,15 @@ TEST(AxisCandidates, TwoConesMeetInTheTrueAndTheFalseSolutionOfTheGoldenValues) 
   SpinConfig config = testing::usual_config();
   config.north->mount_angle_rad = 120.0 * kDegree_rad;
   config.south->mount_angle_rad = 145.0 * kDegree_rad;
-  const Sightlines sightlines{.sun_icrf = at_deg(10.0, 4.3),
-                              .earth_icrf = at_deg(80.0, -20.0),
-                              .disc_rad = 20.0 * kDegree_rad,
-                              .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
+  const SunEarthDirections sun_earth{.sun_icrf = at_deg(10.0, 4.3),
+                                     .earth_icrf = at_deg(80.0, -20.0),
+                                     .disc_rad = 20.0 * kDegree_rad,
+                                     .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
   const PredictedAngles angles{.sun_angle_rad = 90.143759304 * kDegree_rad,
                                .earth_angle_rad = 131.253314001 * kDegree_rad,
                                .dihedral_rad = 67.046435278 * kDegree_rad};
   const auto found =
-      axis_candidates(config, measured_at(config, angles, sightlines.disc_rad), sightlines).value();
+      axis_candidates(config, measured_at(config, angles, sun_earth.disc_rad), sun_earth).value();
   EXPECT_EQ(found.geometry_case, 1);
   EXPECT_FALSE(found.told_apart);
   ASSERT_EQ(found.candidates.size(), 2U);

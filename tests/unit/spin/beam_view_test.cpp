@@ -28,17 +28,17 @@ Scene oblique_scene() {
 
 TEST(BeamView, OfTheSphereAtRestIsItsDisc) {
   const Scene scene;
-  const Sightlines sightlines = scene.sightlines();
+  const SunEarthDirections sun_earth = scene.sun_earth();
   const BeamViews beams = views_of_horizon(scene.config, measure(scene.config, scene.seen()),
-                                           sightlines, scene.axis_icrf);
+                                           sun_earth, scene.axis_icrf);
   const double earth_angle_rad = angle_between_rad(scene.axis_icrf, scene.earth_icrf);
   for (const Side side : kSides) {
     const BeamView& beam = beams.at(index_of(side));
-    EXPECT_NEAR(beam.disc_rad, sightlines.disc_rad, 1e-13);
+    EXPECT_NEAR(beam.disc_rad, sun_earth.disc_rad, 1e-13);
     EXPECT_NEAR(beam.lead_rad, 0.0, 1e-13);
     EXPECT_NEAR(beam.chord_rad.value(),
                 predict_chord_rad(sensor_of(scene.config, side)->mount_angle_rad, earth_angle_rad,
-                                  sightlines.disc_rad)
+                                  sun_earth.disc_rad)
                     .value(),
                 1e-13);
   }
@@ -49,8 +49,8 @@ TEST(BeamView, OfAnOblateEarthThatMovesHasTheChordsAndMiddlesOfTheOracle) {
   const Eigen::Vector3d motion_icrf_s{-5e-4, 1e-4, 2e-4};
   const RevolutionMeasurements measured =
       measure(scene.config, scene.seen_while_earth_moves(motion_icrf_s));
-  const Sightlines sightlines = scene.sightlines_while_earth_moves(motion_icrf_s);
-  const BeamViews beams = views_of_horizon(scene.config, measured, sightlines, scene.axis_icrf);
+  const SunEarthDirections sun_earth = scene.sightlines_while_earth_moves(motion_icrf_s);
+  const BeamViews beams = views_of_horizon(scene.config, measured, sun_earth, scene.axis_icrf);
   const double dihedral_rad =
       predict_angles(scene.axis_icrf, scene.sun_icrf, scene.earth_icrf).dihedral_rad;
   for (const Side side : kSides) {
@@ -68,9 +68,9 @@ TEST(BeamView, SlopesAreThoseOfSmallStepsOfTheAxis) {
   const Eigen::Vector3d motion_icrf_s{-5e-4, 1e-4, 2e-4};
   const RevolutionMeasurements measured =
       measure(scene.config, scene.seen_while_earth_moves(motion_icrf_s));
-  const Sightlines sightlines = scene.sightlines_while_earth_moves(motion_icrf_s);
+  const SunEarthDirections sun_earth = scene.sightlines_while_earth_moves(motion_icrf_s);
   const auto views_at = [&](const Eigen::Vector3d& axis_icrf) {
-    return views_of_horizon(scene.config, measured, sightlines, axis_icrf.normalized());
+    return views_of_horizon(scene.config, measured, sun_earth, axis_icrf.normalized());
   };
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(scene.axis_icrf);
   constexpr double kStep_rad = 1e-5;
@@ -94,7 +94,7 @@ TEST(BeamView, SlopesAreThoseOfSmallStepsOfTheAxis) {
 TEST(BeamView, OfTheSphereAtRestNothingChangesWithTheAxis) {
   const Scene scene;
   for (const BeamView& beam : views_of_horizon(scene.config, measure(scene.config, scene.seen()),
-                                               scene.sightlines(), scene.axis_icrf)) {
+                                               scene.sun_earth(), scene.axis_icrf)) {
     EXPECT_LT(beam.disc_per_step_icrf.norm(), 1e-13);
     EXPECT_LT(beam.lead_per_step_icrf.norm(), 1e-13);
   }
@@ -123,7 +123,7 @@ TEST(BeamView, OfABeamThatMissesIsOfOneThatDoesNot) {
   ASSERT_TRUE(measured.crossing(Side::North));
   scene.config.horizon.model = HorizonModel::Ellipsoid;
   const BeamView north =
-      views_of_horizon(scene.config, measured, scene.sightlines(), scene.axis_icrf)[0];
+      views_of_horizon(scene.config, measured, scene.sun_earth(), scene.axis_icrf)[0];
   EXPECT_FALSE(north.chord_rad);
   EXPECT_NEAR(north.disc_rad, polar_limb_rad, 2e-5);
   EXPECT_NEAR(north.lead_rad, 0.0, 1e-12);

@@ -50,10 +50,10 @@ PassInformation mixed(SensorBias bias, double score, std::mt19937_64& rng) {
 
 TEST(BiasChoice, ResidualsThatNoiseExplainsAskForNone) {
   PassInformation pass = known_motion();
-  EXPECT_FALSE(most_wanted_bias(pass, kNone));
+  EXPECT_FALSE(most_significant_bias(pass, kNone));
   // Of eight chi-squares of one degree, one is beyond 19.2 in 10^4 passes.
   ask_for(NorthChordBias, 19.1, pass);
-  EXPECT_FALSE(most_wanted_bias(pass, kNone));
+  EXPECT_FALSE(most_significant_bias(pass, kNone));
 }
 
 TEST(BiasChoice, TheOneThatExplainsMostIsWanted) {
@@ -61,7 +61,7 @@ TEST(BiasChoice, TheOneThatExplainsMostIsWanted) {
   ask_for(NorthChordBias, 30.0, pass);
   ask_for(Co2HeightBias, 40.0, pass);
   ask_for(SunAngleBias, 20.0, pass);
-  const auto wanted = most_wanted_bias(pass, kNone);
+  const auto wanted = most_significant_bias(pass, kNone);
   ASSERT_TRUE(wanted);
   EXPECT_EQ(wanted->bias, Co2HeightBias);
   EXPECT_NEAR(wanted->gain, 40.0, 1e-9);
@@ -71,20 +71,20 @@ TEST(BiasChoice, WhatIsEstimatedAlreadyIsNotWanted) {
   PassInformation pass = known_motion();
   ask_for(NorthChordBias, 30.0, pass);
   ask_for(Co2HeightBias, 40.0, pass);
-  const auto wanted = most_wanted_bias(pass, BiasSet{}.set(Co2HeightBias));
+  const auto wanted = most_significant_bias(pass, BiasSet{}.set(Co2HeightBias));
   ASSERT_TRUE(wanted);
   EXPECT_EQ(wanted->bias, NorthChordBias);
-  EXPECT_FALSE(most_wanted_bias(pass, BiasSet{}.set(Co2HeightBias).set(NorthChordBias)));
-  EXPECT_FALSE(most_wanted_bias(pass, BiasSet{}.set()));
+  EXPECT_FALSE(most_significant_bias(pass, BiasSet{}.set(Co2HeightBias).set(NorthChordBias)));
+  EXPECT_FALSE(most_significant_bias(pass, BiasSet{}.set()));
 }
 
 TEST(BiasChoice, NoiseBeyondWhatIsStatedMakesItLessSure) {
   PassInformation pass = known_motion();
   ask_for(NorthChordBias, 50.0, pass);
   pass.squares = 4.0 * static_cast<double>(pass.edges - kMotionUnknowns);
-  EXPECT_FALSE(most_wanted_bias(pass, kNone));
+  EXPECT_FALSE(most_significant_bias(pass, kNone));
   ask_for(NorthChordBias, 100.0, pass);
-  const auto wanted = most_wanted_bias(pass, kNone);
+  const auto wanted = most_significant_bias(pass, kNone);
   ASSERT_TRUE(wanted);
   EXPECT_NEAR(wanted->gain, 25.0, 1e-9);
 }
@@ -94,7 +94,7 @@ TEST(BiasChoice, TheGainIsWhatTheSquaresFallByAtTheMinimum) {
   for (int trial = 0; trial < 50; ++trial) {
     const PassInformation pass = mixed(DihedralBias, 500.0, rng);
     const BiasSet estimated = BiasSet{}.set(SunAngleBias).set(SouthChordBias);
-    const auto wanted = most_wanted_bias(pass, estimated);
+    const auto wanted = most_significant_bias(pass, estimated);
     ASSERT_TRUE(wanted);
     ASSERT_EQ(wanted->bias, DihedralBias);
     // Motion and the three biases, the quadratic form's minimum by another decomposition. What is

@@ -32,7 +32,7 @@ struct Scene {
     return Eigen::AngleAxisd{turn_rad, Eigen::Vector3d::UnitX()} *
            Eigen::Vector3d{0.3, 1.0, -0.02}.normalized();
   }
-  Sightlines sightlines(double turn_rad = 0.0) const {
+  SunEarthDirections sun_earth(double turn_rad = 0.0) const {
     return {.sun_icrf = sun_icrf,
             .earth_icrf = earth_icrf(turn_rad),
             .disc_rad = std::asin(6418.137 / kRange_km),
@@ -53,9 +53,9 @@ std::vector<SpinFix> settle(Disambiguator& disambiguator, const Scene& scene,
                             const std::optional<KnownAxis>& established = {},
                             double turn_rad = 0.0) {
   const auto measured = testing::measured_without(scene.config, revolution, left_out);
-  const Sightlines sightlines = scene.sightlines(turn_rad);
-  return disambiguator.settle(revolution.number, kStart, measured, sightlines,
-                              axis_candidates(scene.config, measured, sightlines).value(),
+  const SunEarthDirections sun_earth = scene.sun_earth(turn_rad);
+  return disambiguator.settle(revolution.number, kStart, measured, sun_earth,
+                              axis_candidates(scene.config, measured, sun_earth).value(),
                               established);
 }
 
@@ -135,17 +135,17 @@ TEST(Disambiguation, AnAxisKnownBadlyChoosesNoneOfThoseThatGrazeBesideIt) {
   // The true one may be lost in the noise; with a sigma of 7 deg a false one is near it soon.
   const Scene scene;
   const auto measured = testing::measured_without(scene.config, scene.seen(), kDihedrals);
-  AxisCandidates found = axis_candidates(scene.config, measured, scene.sightlines()).value();
+  AxisCandidates found = axis_candidates(scene.config, measured, scene.sun_earth()).value();
   found.candidates.resize(1);
-  const auto resolution = [&](bool grazing, double off_deg, double sigma_deg) {
-    found.grazing = grazing;
+  const auto resolution = [&](bool near_tangent, double off_deg, double sigma_deg) {
+    found.near_tangent = near_tangent;
     const Eigen::Vector3d& axis_icrf = found.candidates.front().axis_icrf;
     const KnownAxis known{
         .axis_icrf =
             Eigen::AngleAxisd{off_deg * kDegree_rad, axis_icrf.unitOrthogonal()} * axis_icrf,
         .sigma_rad = sigma_deg * kDegree_rad};
     return Disambiguator{scene.config}
-        .settle(0, kStart, measured, scene.sightlines(), found, known)
+        .settle(0, kStart, measured, scene.sun_earth(), found, known)
         .back()
         .resolution;
   };
@@ -169,10 +169,10 @@ TEST(Disambiguation, AHealthyBeamThatIsSilentRulesOutTheAxisThatShowsItTheEarth)
   const double turned_rad = 0.0;
   const auto run = [&](bool healthy, int revolutions) {
     scene.config.south->healthy = healthy;
-    const Sightlines sightlines{.sun_icrf = scene.sun_icrf,
-                                .earth_icrf = earth,
-                                .disc_rad = std::asin(6418.137 / kRange_km),
-                                .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
+    const SunEarthDirections sun_earth{.sun_icrf = scene.sun_icrf,
+                                       .earth_icrf = earth,
+                                       .disc_rad = std::asin(6418.137 / kRange_km),
+                                       .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
     Revolution revolution =
         testing::revolution_seen({.axis_icrf = scene.axis_icrf,
                                   .rate_rad_s = 1.0,
@@ -182,12 +182,12 @@ TEST(Disambiguation, AHealthyBeamThatIsSilentRulesOutTheAxisThatShowsItTheEarth)
     EXPECT_FALSE(revolution.edge(PulseChannel::SouthIn));
     revolution.edges.at(index_of(PulseChannel::Sun2)).reset();
     const auto measured = measure(scene.config, revolution);
-    const auto found = axis_candidates(scene.config, measured, sightlines).value();
+    const auto found = axis_candidates(scene.config, measured, sun_earth).value();
     EXPECT_GT(found.candidates.size(), 1U);
     Disambiguator disambiguator{scene.config};
     SpinFix last{};
     for (int i = 0; i < revolutions; ++i) {
-      last = disambiguator.settle(i, kStart, measured, sightlines, found, std::nullopt).back();
+      last = disambiguator.settle(i, kStart, measured, sun_earth, found, std::nullopt).back();
     }
     return last;
   };
@@ -213,7 +213,7 @@ TEST(Disambiguation, AHealthyBeamThatIsSilentSpeaksAgainstTheOnlyAxisToo) {
       const SpinFix fix = settle(disambiguator, scene, revolution, {}).back();
       EXPECT_EQ(fix.resolution, Resolution::Geometry);
       EXPECT_NE(fix.accepted, healthy) << i;
-      EXPECT_EQ(disambiguator.silent_where_seen(),
+      EXPECT_EQ(disambiguator.silent_despite_view(),
                 healthy ? std::optional{Side::North} : std::nullopt);
     }
     EXPECT_TRUE(settle(disambiguator, scene, scene.seen(), {}).back().accepted);
@@ -234,7 +234,7 @@ TEST(Disambiguation, DispersionSettlesTheEarlierFixesOfItsWindowToo) {
     revolution.number = number;
     const auto fixes = settle(disambiguator, scene, revolution, kDihedrals, {}, turn_rad);
     ASSERT_EQ(fixes.back().revolution, number);
-    if (const auto& steady = disambiguator.newly_steady()) {
+    if (const auto& steady = disambiguator.newly_stationary()) {
       ++told;
       EXPECT_GT(fixes.size(), 1U) << "with the fixes that it settles";
       EXPECT_LT(angle_between_rad(steady->axis.axis_icrf, scene.axis_icrf), 1e-5);
@@ -262,11 +262,11 @@ TEST(Disambiguation, MeasurementsThatContradictEachOtherAreNeverAccepted) {
   Scene scene;
   scene.config.prior = SpinPrior{.axis_icrf = scene.axis_icrf, .sigma_rad = 2.0 * kDegree_rad};
   const auto measured = testing::measured_without(scene.config, scene.seen(), kDihedrals);
-  Sightlines sightlines = scene.sightlines();
-  sightlines.disc_rad *= 1.25;
-  const auto found = axis_candidates(scene.config, measured, sightlines).value();
+  SunEarthDirections sun_earth = scene.sun_earth();
+  sun_earth.disc_rad *= 1.25;
+  const auto found = axis_candidates(scene.config, measured, sun_earth).value();
   const SpinFix fix = Disambiguator{scene.config}
-                          .settle(0, kStart, measured, sightlines, found, std::nullopt)
+                          .settle(0, kStart, measured, sun_earth, found, std::nullopt)
                           .back();
   EXPECT_EQ(fix.resolution, Resolution::Ambiguous);
   EXPECT_FALSE(fix.accepted);

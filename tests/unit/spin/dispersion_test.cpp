@@ -49,7 +49,7 @@ Eigen::Vector3d drifting(double moved_rad) {
 TEST(Dispersion, TheBranchThatStaysIsFound) {
   Sky sky{61};
   Dispersion dispersion{100};
-  std::optional<SteadyBranch> found;
+  std::optional<StationaryBranch> found;
   int revolution = 0;
   for (; revolution < 200 && !found; ++revolution) {
     const std::array candidates{sky.seen(drifting(0.1 * kDegree_rad * revolution)),
@@ -64,7 +64,7 @@ TEST(Dispersion, TheBranchThatStaysIsFound) {
 TEST(Dispersion, TheOrderOfTheCandidatesDoesNotMatter) {
   Sky sky{62};
   Dispersion dispersion{100};
-  std::optional<SteadyBranch> found;
+  std::optional<StationaryBranch> found;
   for (int revolution = 0; revolution < 200 && !found; ++revolution) {
     std::vector candidates{sky.seen(drifting(0.1 * kDegree_rad * revolution)),
                            sky.seen(kTrue_icrf)};
@@ -81,7 +81,7 @@ TEST(Dispersion, ADriftTooSlowForTheWindowShowsInALongPass) {
   // 0.3 deg in a hundred revolutions: a tenth of what their scatter could hide; 9 deg in all.
   Sky sky{63};
   Dispersion dispersion{100};
-  std::optional<SteadyBranch> found;
+  std::optional<StationaryBranch> found;
   for (int revolution = 0; revolution < 3000 && !found; ++revolution) {
     const std::array candidates{sky.seen(kTrue_icrf),
                                 sky.seen(drifting(0.003 * kDegree_rad * revolution))};
@@ -104,7 +104,7 @@ double ratio_of_drift(double revolutions) {
 }
 
 /// X stays; of two that drift, the other is twice as fast. None has any noise.
-SteadyBranch settled_without_noise(bool unlike) {
+StationaryBranch settled_without_noise(bool unlike) {
   const auto at = [](const Eigen::Vector3d& axis_icrf) -> AxisCandidate {
     return {.axis_icrf = axis_icrf,
             .covariance_rad2 = kSigma_rad * kSigma_rad * Eigen::Matrix2d::Identity(),
@@ -116,7 +116,7 @@ SteadyBranch settled_without_noise(bool unlike) {
   if (unlike) {
     dispersion.note_unlike();
   }
-  std::optional<SteadyBranch> found;
+  std::optional<StationaryBranch> found;
   for (int revolution = 0; revolution < 99 && !found; ++revolution) {
     const double slow_rad = kStep_rad * revolution;
     const double fast_rad = 2.0 * slow_rad;
@@ -129,7 +129,7 @@ SteadyBranch settled_without_noise(bool unlike) {
 }
 
 TEST(Dispersion, TheRatioIsThatOfTheScattersOfTheNearestOtherBranch) {
-  const SteadyBranch found = settled_without_noise(true);
+  const StationaryBranch found = settled_without_noise(true);
   EXPECT_NEAR(angle_between_rad(found.axis.axis_icrf, Eigen::Vector3d::UnitX()), 0.0, 1e-9);
   EXPECT_NEAR(found.scatter_ratio / ratio_of_drift(found.axis.count), 1.0, 1e-3);
   EXPECT_FALSE(found.log_likelihood_ratio);
@@ -142,7 +142,7 @@ TEST(Dispersion, TheRatioIsThatOfTheScattersOfTheNearestOtherBranch) {
 }
 
 TEST(Dispersion, WhereTheFTestDoesNotSettleItTheLikelihoodRatioIsStatedToo) {
-  const SteadyBranch found = settled_without_noise(false);
+  const StationaryBranch found = settled_without_noise(false);
   EXPECT_NEAR(found.scatter_ratio / ratio_of_drift(found.axis.count), 1.0, 1e-3);
   ASSERT_TRUE(found.log_likelihood_ratio);
   // Half the squares, of which the branch that stays has none.
@@ -178,7 +178,7 @@ TEST(Dispersion, WhereAllBranchesDriftNoneIsSteady) {
 TEST(Dispersion, OutliersAndDropOutsAreSurvived) {
   Sky sky{65};
   Dispersion dispersion{100};
-  std::optional<SteadyBranch> found;
+  std::optional<StationaryBranch> found;
   for (int revolution = 0; revolution < 300 && !found; ++revolution) {
     const double moved_rad = 0.08 * kDegree_rad * revolution;
     std::vector candidates{sky.seen(drifting(moved_rad)), sky.seen(kTrue_icrf)};
@@ -197,7 +197,7 @@ TEST(Dispersion, OutliersAndDropOutsAreSurvived) {
 TEST(Dispersion, AfterASilenceTheTrueBranchIsWhereItWas) {
   Sky sky{66};
   Dispersion dispersion{100};
-  std::optional<SteadyBranch> found;
+  std::optional<StationaryBranch> found;
   for (int revolution = 0; revolution < 60 && !found; ++revolution) {
     const double silence_rad = revolution < 20 ? 0.0 : 15.0 * kDegree_rad;
     const std::array candidates{sky.seen(kTrue_icrf), sky.seen(drifting(silence_rad))};

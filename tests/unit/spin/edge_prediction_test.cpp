@@ -99,8 +99,8 @@ TEST(EdgePrediction, WhatLeadsToAnEdgeIsTheEdgeItselfWhereThereIsOne) {
   for (const PulseChannel channel : {NorthIn, NorthOut, SouthIn, SouthOut}) {
     const PredictedEdge there = scene.predicted(channel, config);
     const PredictedEdge near =
-        edge_nearby(config, scene.sky, scene.R_spin_icrf, {.t = scene.sky.t, .channel = channel},
-                    there.phase_rad, 0.001)
+        linearise_by_depth(config, scene.sky, scene.R_spin_icrf,
+                           {.t = scene.sky.t, .channel = channel}, there.phase_rad, 0.001)
             .value();
     EXPECT_NEAR(near.phase_rad, there.phase_rad, 1e-9);
     EXPECT_LT((near.phase_per_rotation - there.phase_per_rotation).norm(), 1e-9);
@@ -122,7 +122,7 @@ TEST(EdgePrediction, AStepTowardsAnEdgeLeadsFromABeamThatMissesTheEarthToOneThat
   const double phase_rad =
       std::atan2(earth_spin.y(), earth_spin.x()) + config.north->azimuth_rad - 0.05;
   const PredictedEdge near =
-      edge_nearby(config, scene.sky, scene.R_spin_icrf, edge, phase_rad, 0.001).value();
+      linearise_by_depth(config, scene.sky, scene.R_spin_icrf, edge, phase_rad, 0.001).value();
   const Eigen::Vector2d slope = near.phase_per_rotation.head<2>();
   const Eigen::Vector2d tilt =
       slope * wrapped_rad(phase_rad - near.phase_rad) / slope.squaredNorm();

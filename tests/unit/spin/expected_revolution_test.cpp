@@ -25,7 +25,8 @@ Eigen::Matrix3d frame_about(const Eigen::Vector3d& axis_icrf) {
 
 struct Scene {
   Orbit orbit = testing::transfer_orbit();
-  testing::Surroundings around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  testing::SunEarthEphemeris around =
+      testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
 
   ExpectedRevolution expected(const testing::SpinningBody& body, TaiTime t,
                               bool sun_hidden = false) const {

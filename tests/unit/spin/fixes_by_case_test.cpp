@@ -28,7 +28,7 @@ RevolutionMeasurements without_sun2(const Scene& scene, std::mt19937_64& rng) {
 void add(FixesByCase& fixes, int geometry_case, const Scene& scene,
          const RevolutionMeasurements& measured) {
   fixes.add(geometry_case, fixes.next_stretch(geometry_case), scene.config, measured,
-            scene.sightlines(), scene.axis_icrf);
+            scene.sun_earth(), scene.axis_icrf);
 }
 
 void leave_out(FixesByCase& fixes, int geometry_case, int count) {
@@ -50,10 +50,10 @@ TEST(FixesByCase, ShiftIsThatOfAHalfSpaceAtLeastAndHalfAsMuchMoreAtMost) {
     SCOPED_TRACE(edge);
     const double share = 0.5 * std::erfc(edge / std::numbers::sqrt2);
     const double density = std::exp(-0.5 * edge * edge) / std::sqrt(2.0 * std::numbers::pi);
-    EXPECT_GE(most_shift_sigmas(share), density / share);
-    EXPECT_LE(most_shift_sigmas(share), 1.5 * density / share);
+    EXPECT_GE(largest_selection_shift_sigmas(share), density / share);
+    EXPECT_LE(largest_selection_shift_sigmas(share), 1.5 * density / share);
   }
-  EXPECT_EQ(most_shift_sigmas(1.0), 0.0);
+  EXPECT_EQ(largest_selection_shift_sigmas(1.0), 0.0);
 }
 
 TEST(FixesByCase, WithNothingLeftOutTheMeanIsThatOfAllFixes) {
@@ -65,7 +65,7 @@ TEST(FixesByCase, WithNothingLeftOutTheMeanIsThatOfAllFixes) {
     const RevolutionMeasurements measured =
         i % 2 == 0 ? seen(scene, rng) : without_sun2(scene, rng);
     add(fixes, i % 2 == 0 ? 1 : 4, scene, measured);
-    all.add(scene.config, measured, scene.sightlines(), scene.axis_icrf);
+    all.add(scene.config, measured, scene.sun_earth(), scene.axis_icrf);
   }
   const MeanOfCases mean = fixes.mean();
   EXPECT_EQ(mean.count, 20U);
@@ -83,7 +83,7 @@ TEST(FixesByCase, ACaseMostlyLeftOutIsNotInTheMeanOfOthers) {
     add(fixes, 4, scene, without_sun2(scene, rng));
     const RevolutionMeasurements measured = seen(scene, rng);
     add(fixes, 1, scene, measured);
-    others.add(scene.config, measured, scene.sightlines(), scene.axis_icrf);
+    others.add(scene.config, measured, scene.sun_earth(), scene.axis_icrf);
   }
   leave_out(fixes, 4, 90);
   const MeanOfCases mean = fixes.mean();
@@ -143,7 +143,7 @@ TEST(FixesByCase, AStretchIsNoSelectionBecauseAnEarlierOneIs) {
   for (std::size_t i = 0; i < 3 * kStretch; ++i) {
     const RevolutionMeasurements measured = without_sun2(scene, rng);
     add(fixes, 4, scene, measured);
-    later.add(scene.config, measured, scene.sightlines(), scene.axis_icrf);
+    later.add(scene.config, measured, scene.sun_earth(), scene.axis_icrf);
   }
   const MeanOfCases mean = fixes.mean();
   EXPECT_EQ(mean.count, 3 * kStretch);

@@ -116,10 +116,10 @@ TEST(SpinGeometry, WhichBeamIsCalledNorthDoesNotMatter) {
 }
 
 TEST(SpinGeometry, BeamsLessThanAHundredthApartAreMountedAlike) {
-  EXPECT_TRUE(mounted_alike(85.0 * kDegree_rad, 85.0 * kDegree_rad));
-  EXPECT_TRUE(mounted_alike(89.8 * kDegree_rad, 90.3 * kDegree_rad));
-  EXPECT_FALSE(mounted_alike(89.7 * kDegree_rad, 90.3 * kDegree_rad));
-  EXPECT_FALSE(mounted_alike(85.0 * kDegree_rad, 95.0 * kDegree_rad));
+  EXPECT_TRUE(mount_angles_coincide(85.0 * kDegree_rad, 85.0 * kDegree_rad));
+  EXPECT_TRUE(mount_angles_coincide(89.8 * kDegree_rad, 90.3 * kDegree_rad));
+  EXPECT_FALSE(mount_angles_coincide(89.7 * kDegree_rad, 90.3 * kDegree_rad));
+  EXPECT_FALSE(mount_angles_coincide(85.0 * kDegree_rad, 95.0 * kDegree_rad));
 }
 
 TEST(SpinGeometry, AChordAtItsWidestIsPredictedFromItsThreeSides) {

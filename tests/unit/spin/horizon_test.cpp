@@ -29,7 +29,7 @@ Eigen::Vector3d random_direction(std::mt19937_64& rng) {
 /// A body that sees the Earth from some height, and what it should be told of the sky.
 struct Scene {
   testing::SpinningBody body;
-  testing::Surroundings around;
+  testing::SunEarthEphemeris around;
   Eigen::Vector3d sun_icrf;
   Eigen::Vector3d earth_icrf_km;
 

@@ -24,10 +24,10 @@ class Pass {
   SpinEstimate next(double turned_rad = 0.0) {
     const Revolution revolution = testing::noisy(scene_, scene_.seen(), rng_);
     const RevolutionMeasurements measured = measure(scene_.config, revolution);
-    SpinFix fix = testing::lone_fix(scene_.config, revolution, {}, scene_.sightlines()).value();
+    SpinFix fix = testing::lone_fix(scene_.config, revolution, {}, scene_.sun_earth()).value();
     fix.revolution = ++number_;
     fix.axis_icrf = Eigen::AngleAxisd{turned_rad, Eigen::Vector3d::UnitX()} * fix.axis_icrf;
-    mean_.keep(number_, measured, scene_.sightlines());
+    mean_.keep(number_, measured, scene_.sun_earth());
     EXPECT_TRUE(mean_.take(fix));
     return mean_.estimate(revolution);
   }

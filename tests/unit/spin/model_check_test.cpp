@@ -21,10 +21,10 @@ const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 const Eigen::Vector3d kSun = Eigen::Vector3d{1.0, 0.2, 0.1}.normalized();
 const Eigen::Vector3d kEarth = Eigen::Vector3d{0.3, 1.0, -0.02}.normalized();
 const Eigen::Vector3d kAxis = Eigen::Vector3d{0.1, -0.05, 1.0}.normalized();
-const Sightlines kSightlines{.sun_icrf = kSun,
-                             .earth_icrf = kEarth,
-                             .disc_rad = std::asin(6418.137 / kRange_km),
-                             .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
+const SunEarthDirections kSightlines{.sun_icrf = kSun,
+                                     .earth_icrf = kEarth,
+                                     .disc_rad = std::asin(6418.137 / kRange_km),
+                                     .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
 
 Revolution seen() {
   return testing::revolution_seen({.axis_icrf = kAxis,
@@ -60,7 +60,7 @@ AngleEquations equations_of(const SpinConfig& config, double noise_times = 1.0,
   return equations;
 }
 
-void expect_silence(const ModelVerdict& verdict) {
+void expect_silence(const ModelTest& verdict) {
   EXPECT_EQ(verdict.excess_noise, 1.0);
   EXPECT_EQ(verdict.error_rad, 0.0);
   EXPECT_TRUE(verdict.errors_rad2.isZero());
@@ -68,8 +68,8 @@ void expect_silence(const ModelVerdict& verdict) {
 }
 
 TEST(ModelCheck, SaysNothingWithoutRevolutionsAndOfModelsThatAreRight) {
-  expect_silence(judge_model(AngleEquations{kAxis}, 0.0));
-  expect_silence(judge_model(equations_of(testing::usual_config()), 0.0));
+  expect_silence(test_model(AngleEquations{kAxis}, 0.0));
+  expect_silence(test_model(equations_of(testing::usual_config()), 0.0));
 }
 
 TEST(ModelCheck, DoesNotMindAnAxisBesideTheTrueOne) {
@@ -86,7 +86,7 @@ TEST(ModelCheck, DoesNotMindAnAxisBesideTheTrueOne) {
     for (int i = 0; i < 40000; ++i) {
       equations.add(config, measured, kSightlines, beside);
     }
-    expect_silence(judge_model(equations, 0.0));
+    expect_silence(test_model(equations, 0.0));
   }
 }
 
@@ -95,7 +95,7 @@ TEST(ModelCheck, SeesAnAzimuthThatIsWrong) {
     SpinConfig config = testing::usual_config();
     auto& sensor = error == NorthAzimuth ? config.north : config.south;
     sensor->azimuth_rad -= 1.0 * kDegree_rad;
-    const ModelVerdict verdict = judge_model(equations_of(config), 0.0);
+    const ModelTest verdict = test_model(equations_of(config), 0.0);
     EXPECT_TRUE(verdict.beyond_allowance);
     EXPECT_GT(verdict.error_rad, 0.3 * kDegree_rad);
     EXPECT_LT(verdict.error_rad, 3.0 * kDegree_rad);
@@ -110,23 +110,23 @@ TEST(ModelCheck, SeesASunAngleAndALimbThatAreWrong) {
   SpinConfig slit = testing::usual_config();
   // Across Sun and Earth both, as this axis nearly is, a sun angle hardly touches the others.
   slit.sun_sensor.slit_separation_rad += 10.0 * kDegree_rad;
-  EXPECT_TRUE(judge_model(equations_of(slit), 0.0).beyond_allowance);
+  EXPECT_TRUE(test_model(equations_of(slit), 0.0).beyond_allowance);
   SpinConfig beam = testing::usual_config();
   beam.north->mount_angle_rad += 4.0 * kDegree_rad;
-  EXPECT_TRUE(judge_model(equations_of(beam), 0.0).beyond_allowance);
+  EXPECT_TRUE(test_model(equations_of(beam), 0.0).beyond_allowance);
 }
 
 TEST(ModelCheck, ShowsWhatTheAllowanceExcusesWithoutDoubt) {
   SpinConfig config = testing::usual_config();
   config.north->azimuth_rad += 0.15 * kDegree_rad;
   const AngleEquations equations = equations_of(config);
-  EXPECT_GT(judge_model(equations, 0.0).error_rad, 0.0);
-  EXPECT_FALSE(judge_model(equations, 0.0).beyond_allowance);
-  expect_silence(judge_model(equations, 0.15 * kDegree_rad));
+  EXPECT_GT(test_model(equations, 0.0).error_rad, 0.0);
+  EXPECT_FALSE(test_model(equations, 0.0).beyond_allowance);
+  expect_silence(test_model(equations, 0.15 * kDegree_rad));
 }
 
 TEST(ModelCheck, MeasuresNoiseThatIsMoreThanStated) {
-  const ModelVerdict verdict = judge_model(equations_of(testing::usual_config(), 3.0), 0.0);
+  const ModelTest verdict = test_model(equations_of(testing::usual_config(), 3.0), 0.0);
   // 2000 angles: the scatter of their mean square is 3 %.
   EXPECT_NEAR(verdict.excess_noise, 9.0, 1.2);
   EXPECT_EQ(verdict.error_rad, 0.0);

@@ -39,9 +39,9 @@ const std::vector<Channel> kChannels = {{PulseChannel::Sun1, 0.0, {0.1, 0.2}},
 /// The rotation (real: x) that tips the body when it has made so many turns.
 using Tilt = std::function<std::complex<double>(double turns)>;
 
-std::vector<SteadyResidual> tipped(const std::vector<Channel>& channels, int turns,
-                                   const Tilt& tilt) {
-  std::vector<SteadyResidual> residuals;
+std::vector<UniformSpinResidual> tipped(const std::vector<Channel>& channels, int turns,
+                                        const Tilt& tilt) {
+  std::vector<UniformSpinResidual> residuals;
   for (int turn = 0; turn < turns; ++turn) {
     for (const auto& [channel, behind, slope] : channels) {
       const double at = turn + behind;
@@ -68,11 +68,11 @@ Tilt circle(double half_angle_rad, double per_turn, double phase_rad) {
   };
 }
 
-std::vector<SteadyResidual> noisy(std::vector<SteadyResidual> residuals, double sigma_rad,
-                                  unsigned seed) {
+std::vector<UniformSpinResidual> noisy(std::vector<UniformSpinResidual> residuals, double sigma_rad,
+                                       unsigned seed) {
   std::mt19937_64 rng{seed};
   std::normal_distribution<double> normal{0.0, sigma_rad};
-  for (SteadyResidual& residual : residuals) {
+  for (UniformSpinResidual& residual : residuals) {
     residual.off_rad += normal(rng);
   }
   return residuals;
@@ -185,7 +185,7 @@ TEST(Nutation, DoesNotDependOnTheOrderOfTheEdges) {
 TEST(Nutation, SurvivesGapsAndLostEdges) {
   auto edges = noisy(tipped(kChannels, 600, circle(0.003, 0.37, 0.4)), kSigma_rad, 7);
   std::mt19937_64 rng{8};
-  std::erase_if(edges, [&](const SteadyResidual& edge) {
+  std::erase_if(edges, [&](const UniformSpinResidual& edge) {
     return std::bernoulli_distribution{0.3}(rng) || (edge.turns > 200.0 && edge.turns < 400.0);
   });
   const auto found = find_nutation(edges).value().found;
@@ -193,7 +193,7 @@ TEST(Nutation, SurvivesGapsAndLostEdges) {
   EXPECT_NEAR(found->period_s.value, kPeriod_s / 0.37, 4.0 * found->period_s.sigma);
 }
 
-std::string error_of(const std::vector<SteadyResidual>& edges, ErrorCode code) {
+std::string error_of(const std::vector<UniformSpinResidual>& edges, ErrorCode code) {
   const auto search = find_nutation(edges);
   EXPECT_FALSE(search);
   EXPECT_EQ(search.error().code, code);

@@ -89,7 +89,7 @@ TEST(PassGeometry, SeesChordsByTheClosedForm) {
       case BeamView::Inside:
         EXPECT_LT(farthest_rad, geometry.disc_rad);
         break;
-      case BeamView::Grazes:
+      case BeamView::NearTangent:
         EXPECT_TRUE(meets);
         break;
       case BeamView::Crosses: {
@@ -107,7 +107,7 @@ TEST(PassGeometry, SeesChordsByTheClosedForm) {
     }
   }
   for (const BeamView view :
-       {BeamView::Misses, BeamView::Grazes, BeamView::Crosses, BeamView::Inside}) {
+       {BeamView::Misses, BeamView::NearTangent, BeamView::Crosses, BeamView::Inside}) {
     EXPECT_GT(views.at(static_cast<std::size_t>(view)), 0) << static_cast<int>(view);
   }
 }

@@ -19,7 +19,7 @@ constexpr double kDegree_rad = std::numbers::pi / 180.0;
 struct Scene {
   std::mt19937_64 rng{11};
   Orbit orbit = testing::transfer_orbit();
-  testing::Surroundings around;
+  testing::SunEarthEphemeris around;
   testing::SpinningBody body;
   std::vector<PassEdge> edges;
 

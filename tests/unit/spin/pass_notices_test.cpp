@@ -56,7 +56,7 @@ SpinEstimate estimate_of(Assessment assessment) {
           .assessment = std::move(assessment)};
 }
 
-SpinFix fix_of(int geometry_case, Resolution resolution, bool grazing = false) {
+SpinFix fix_of(int geometry_case, Resolution resolution, bool near_tangent = false) {
   return {.revolution = 0,
           .t = tai_from_ns(1'795'143'637'000'000'000),
           .geometry_case = geometry_case,
@@ -66,7 +66,7 @@ SpinFix fix_of(int geometry_case, Resolution resolution, bool grazing = false) {
           .resolution = resolution,
           .norm = 1.0,
           .accepted = resolution != Resolution::Ambiguous,
-          .grazing = grazing};
+          .near_tangent = near_tangent};
 }
 
 /// What the end says of an axis that is ambiguous, of the mission with its prior or without.
@@ -183,11 +183,11 @@ TEST(PassNotices, WhereTheMissionHasAPriorTheEndSaysWhyItDoesNotSettleTheAxis) {
               EndsWith("the edges contradict the prior of the mission (spin.prior)"));
 }
 
-TEST(PassNotices, WhereAllFixesGrazeNoPriorIsSaidToSettleTheAxis) {
-  const Assessment grazing{Quality::Ambiguous, {Reason{ReasonCode::FixesGraze, {}}}};
-  EXPECT_THAT(said_of_ambiguous(grazing, {}, {}), EndsWith("no prior would settle it"));
+TEST(PassNotices, WhereAllFixesAreNearTangentNoPriorIsSaidToSettleTheAxis) {
+  const Assessment near_tangent{Quality::Ambiguous, {Reason{ReasonCode::FixesNearTangent, {}}}};
+  EXPECT_THAT(said_of_ambiguous(near_tangent, {}, {}), EndsWith("no prior would settle it"));
   const SpinPrior prior{.axis_icrf = Eigen::Vector3d::UnitX(), .sigma_rad = 0.009};
-  EXPECT_THAT(said_of_ambiguous(grazing, prior, PriorVerdict::Chooses),
+  EXPECT_THAT(said_of_ambiguous(near_tangent, prior, PriorVerdict::Chooses),
               EndsWith("the prior of the mission (spin.prior) does not settle it"));
 }
 
@@ -200,9 +200,11 @@ TEST(PassNotices, TheEndSaysWhyNoFixIsInTheMean) {
   contradictory.accepted = false;
   notices.has_fix(contradictory, {});
   notices.estimated(estimate_of({Quality::Doubtful}));
-  EXPECT_THAT(at_the_end(notices),
-              ElementsAre("the estimator 'mean' never began: of 4 fixes, 2 graze (their candidates "
-                          "come together within the noise), 1 are ambiguous, 1 are not accepted"));
+  EXPECT_THAT(
+      at_the_end(notices),
+      ElementsAre("the estimator 'mean' never began: of 4 fixes, 2 are near-tangent "
+                  "(their candidates come together within the noise), 1 are ambiguous, 1 are not "
+                  "accepted"));
 }
 
 TEST(PassNotices, AMeanThatBeganIsNotMissed) {
@@ -214,9 +216,9 @@ TEST(PassNotices, AMeanThatBeganIsNotMissed) {
 
 TEST(PassNotices, ADispersionThatSettlesIsToldWithItsRatio) {
   PassNotices notices{kConfig};
-  SteadyBranch branch{.axis = {.axis_icrf = Eigen::Vector3d::UnitY(), .count = 42.0},
-                      .scatter_ratio = 25.34,
-                      .log_likelihood_ratio = {}};
+  StationaryBranch branch{.axis = {.axis_icrf = Eigen::Vector3d::UnitY(), .count = 42.0},
+                          .scatter_ratio = 25.34,
+                          .log_likelihood_ratio = {}};
   const TaiTime t = tai_from_ns(1'795'143'637'000'000'000);
   notices.settled_by_dispersion(t, branch);
   branch.scatter_ratio = 1.8;

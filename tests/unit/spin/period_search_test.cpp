@@ -44,7 +44,7 @@ std::vector<double> even_edges(int count, double period_s) {
 TEST(PeriodSearch, EvenEdgesAreACombOfTheirSpacing) {
   for (const double period_s : {0.26, 0.6, 1.0, 4.75, 14.9}) {
     SCOPED_TRACE(period_s);
-    const auto comb = find_comb(instants(even_edges(20, period_s)), kNoise_s, kFewest);
+    const auto comb = find_pulse_train(instants(even_edges(20, period_s)), kNoise_s, kFewest);
     ASSERT_TRUE(comb);
     // Times are whole nanoseconds.
     EXPECT_NEAR(comb->period_s, period_s, 1e-9);
@@ -57,16 +57,16 @@ TEST(PeriodSearch, EvenEdgesAreACombOfTheirSpacing) {
 }
 
 TEST(PeriodSearch, SpacingsOutsideWhatIsSearchedAreNone) {
-  EXPECT_FALSE(
-      find_comb(instants(even_edges(20, 0.9 * 60.0 / kFastestSearched_rpm)), kNoise_s, kFewest));
-  EXPECT_FALSE(
-      find_comb(instants(even_edges(20, 1.1 * 60.0 / kSlowestSearched_rpm)), kNoise_s, kFewest));
+  EXPECT_FALSE(find_pulse_train(instants(even_edges(20, 0.9 * 60.0 / kFastestSearched_rpm)),
+                                kNoise_s, kFewest));
+  EXPECT_FALSE(find_pulse_train(instants(even_edges(20, 1.1 * 60.0 / kSlowestSearched_rpm)),
+                                kNoise_s, kFewest));
 }
 
 TEST(PeriodSearch, FewerEdgesThanAskedForAreNoEvidence) {
-  EXPECT_FALSE(find_comb(instants(even_edges(4, 1.0)), kNoise_s, kFewest));
-  EXPECT_TRUE(find_comb(instants(even_edges(5, 1.0)), kNoise_s, kFewest));
-  EXPECT_FALSE(find_comb({}, kNoise_s, kFewest));
+  EXPECT_FALSE(find_pulse_train(instants(even_edges(4, 1.0)), kNoise_s, kFewest));
+  EXPECT_TRUE(find_pulse_train(instants(even_edges(5, 1.0)), kNoise_s, kFewest));
+  EXPECT_FALSE(find_pulse_train({}, kNoise_s, kFewest));
 }
 
 /// The standard deviation of the slope of a line through n equidistant points is
@@ -83,7 +83,7 @@ TEST(PeriodSearch, NoiseMovesThePeriodAsTheSlopeOfALine) {
     for (double& t_s : times_s) {
       t_s += noise_s(rng);
     }
-    const auto comb = find_comb(instants(times_s), kNoise_s, kFewest);
+    const auto comb = find_pulse_train(instants(times_s), kNoise_s, kFewest);
     ASSERT_TRUE(comb) << trial;
     squares += std::pow(comb->period_s - period_s, 2);
   }
@@ -101,7 +101,7 @@ TEST(PeriodSearch, ADriftIsThatOfTheRate) {
     for (int n = 0; n < 30; ++n) {
       times_s.push_back(time_of_turn(n, kRate_hz, drift_per_s2));
     }
-    const auto comb = find_comb(instants(times_s), 1e-6, kFewest);
+    const auto comb = find_pulse_train(instants(times_s), 1e-6, kFewest);
     ASSERT_TRUE(comb);
     // A parabola in the turn has no third order: (drift / rate^2)^2 n of its drift, about.
     EXPECT_NEAR(comb->drift_per_s2, drift_per_s2, 0.01 * std::abs(drift_per_s2));
@@ -126,7 +126,7 @@ TEST(PeriodSearch, LostAndStrayEdgesChangeNeitherThePeriodNorItsCount) {
         times_s.push_back((n + share(rng)) * period_s);
       }
     }
-    if (const auto comb = find_comb(instants(times_s), kNoise_s, kFewest)) {
+    if (const auto comb = find_pulse_train(instants(times_s), kNoise_s, kFewest)) {
       EXPECT_NEAR(comb->period_s, period_s, 1e-3 * period_s) << trial;
       ++found;
     }
@@ -141,7 +141,7 @@ TEST(PeriodSearch, EdgesAtRandomHaveSeldomAPeriod) {
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<double> times_s(30);
     std::generate(times_s.begin(), times_s.end(), [&] { return t_s(rng); });
-    found += find_comb(instants(times_s), kNoise_s, kFewest) ? 1 : 0;
+    found += find_pulse_train(instants(times_s), kNoise_s, kFewest) ? 1 : 0;
   }
   EXPECT_LE(found, 3);
 }

@@ -25,10 +25,10 @@ const Eigen::Vector3d kEarth_icrf = Eigen::Vector3d{0.1, 1.0, -0.05}.normalized(
 const Eigen::Vector3d kAxis_icrf = Eigen::Vector3d::UnitZ();
 constexpr double kRange_km = 16000.0;
 
-const Sightlines kSightlines{.sun_icrf = kSun_icrf,
-                             .earth_icrf = kEarth_icrf,
-                             .disc_rad = std::asin(6418.137 / kRange_km),
-                             .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
+const SunEarthDirections kSightlines{.sun_icrf = kSun_icrf,
+                                     .earth_icrf = kEarth_icrf,
+                                     .disc_rad = std::asin(6418.137 / kRange_km),
+                                     .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
 
 RevolutionMeasurements seen() {
   const SpinConfig config = testing::usual_config();
@@ -100,7 +100,7 @@ TEST(Residuals, OfTheMixedAzimuthVanishAtTheTrueAxisToo) {
 
 TEST(Residuals, OfAnOblateEarthVanishAtTheTrueAxisWhereItsShapeIsTaken) {
   SpinConfig config = testing::usual_config();
-  testing::Surroundings around = testing::at_rest(kSun_icrf, kRange_km * kEarth_icrf);
+  testing::SunEarthEphemeris around = testing::at_rest(kSun_icrf, kRange_km * kEarth_icrf);
   around.horizon_km = testing::ellipsoidal_horizon_km(40.0);
   // Inclined, so that the limb's shape moves the middles of chords as well.
   const Eigen::Vector3d axis_icrf = Eigen::Vector3d{0.5, 0.0, 1.0}.normalized();
@@ -130,7 +130,7 @@ TEST(Residuals, VanishAtTheTrueAxisWhileTheEarthMoves) {
   const Eigen::Vector3d motion_icrf_s{-8e-4, 1e-4, 3e-4};  // 0.05 deg/s.
   SpinConfig config = testing::usual_config();
   config.south->azimuth_rad = config.north->azimuth_rad + kPi;
-  testing::Surroundings around = testing::at_rest(kSun_icrf, kRange_km * kEarth_icrf);
+  testing::SunEarthEphemeris around = testing::at_rest(kSun_icrf, kRange_km * kEarth_icrf);
   around.earth_icrf_km = [=](double t_s) -> Eigen::Vector3d {
     return kRange_km * (kEarth_icrf + t_s * motion_icrf_s);
   };
@@ -142,10 +142,10 @@ TEST(Residuals, VanishAtTheTrueAxisWhileTheEarthMoves) {
                                                 .first_turn_rad = 0.0,
                                                 .config = config},
                                                around, start));
-  Sightlines sightlines = kSightlines;
-  sightlines.t_earth = start;
-  sightlines.earth_motion_icrf_s = motion_icrf_s;
-  const auto found = residuals(config, measured, sightlines, kAxis_icrf);
+  SunEarthDirections sun_earth = kSightlines;
+  sun_earth.t_earth = start;
+  sun_earth.earth_motion_icrf_s = motion_icrf_s;
+  const auto found = residuals(config, measured, sun_earth, kAxis_icrf);
   ASSERT_EQ(found.size(), 5U);
   for (const Residual& residual : found) {
     EXPECT_NEAR(residual.value_rad, 0.0, 2e-9 * kSlow_rad_s) << name_of(residual.quantity);

@@ -66,7 +66,7 @@ TEST(Sequential, AFixThatComesNearABranchOfAlternatesDoesNotStartThere) {
   EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
 }
 
-TEST(Sequential, GrazingFixesStartItWhereThereAreNoOthersAndSettleNothing) {
+TEST(Sequential, NearTangentFixesStartItWhereThereAreNoOthersAndSettleNothing) {
   constexpr std::size_t kFirstGood = 40;
   Scene scene;
   const auto seen = scene.seen(0.0, 60.0);
@@ -76,7 +76,7 @@ TEST(Sequential, GrazingFixesStartItWhereThereAreNoOthersAndSettleNothing) {
       return std::vector{scene.fix()};
     }
     SpinFix fix = ambiguous(scene.fix(), scene.turned_about(sun_icrf, 25.0), scene.body.axis_icrf);
-    fix.grazing = true;
+    fix.near_tangent = true;
     return std::vector{fix};
   });
   ASSERT_GT(all.size(), 20U);
@@ -180,20 +180,20 @@ TEST(Sequential, TheLikeliestCandidateOfOneFixIsNotTheAxisForThat) {
   }
 }
 
-TEST(Sequential, WhereNearlyAllFixesGrazeNoneNamesAllCandidates) {
-  // One in ten escapes grazing by its noise, and lacks the true axis like the others.
+TEST(Sequential, WhereNearlyAllFixesAreNearTangentNoneNamesAllCandidates) {
+  // One in ten is not near-tangent by its noise, and lacks the true axis like the others.
   Scene scene;
   const auto seen = scene.seen(0.0, 100.0);
   const Eigen::Vector3d sun_icrf = scene.around.sun_icrf(0.0);
   const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {
     SpinFix fix =
         ambiguous(scene.fix(), scene.turned_about(sun_icrf, 25.0), scene.turned_about_earth(-15.0));
-    fix.grazing = i % 10 != 9;
+    fix.near_tangent = i % 10 != 9;
     return std::vector{fix};
   });
   ASSERT_FALSE(all.empty());
   for (const SpinEstimate& estimate : all) {
-    EXPECT_TRUE(has(estimate.assessment, ReasonCode::FixesGraze) ||
+    EXPECT_TRUE(has(estimate.assessment, ReasonCode::FixesNearTangent) ||
                 estimate.assessment.quality == Quality::Lost);
   }
 }

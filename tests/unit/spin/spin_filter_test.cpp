@@ -26,7 +26,8 @@ Eigen::Matrix2d round_covariance(double sigma_rad) {
   return sigma_rad * sigma_rad * Eigen::Matrix2d::Identity();
 }
 
-EdgeTally work_in(SpinFilter& filter, const SpinConfig& config, const ObservedRevolution& seen) {
+EdgeStatistics work_in(SpinFilter& filter, const SpinConfig& config,
+                       const ObservedRevolution& seen) {
   const GoodEdges edges{config, seen.revolution};
   filter.predict(edges.span().front().t);
   return filter.update(config, seen.sky, edges.span());
@@ -120,7 +121,7 @@ TEST(SpinFilter, ASpuriousEdgeIsGatedAndLeavesNoTrace) {
 
   SpinFilter unharmed = filter;
   EXPECT_TRUE(work_in(unharmed, pass.config, without).gated.none());
-  const EdgeTally tally = work_in(filter, pass.config, spurious);
+  const EdgeStatistics tally = work_in(filter, pass.config, spurious);
   EXPECT_EQ(tally.gated, ChannelSet{}.set(index_of(PulseChannel::NorthIn)));
   EXPECT_EQ(tally.accepted, ~tally.gated);
   EXPECT_EQ(filter.axis_icrf(), unharmed.axis_icrf());

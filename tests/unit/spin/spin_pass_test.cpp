@@ -320,15 +320,15 @@ TEST(SpinPass, SaysInTheEndWhyThereIsNoMeanAndWhyThePriorDoesNotSettleTheAxis) {
   pass.config.prior = SpinPrior{.axis_icrf = -pass.true_axis_icrf, .sigma_rad = kDegree_rad};
   const SpinOutput output = run(pass);
   const auto fixes = all_of<SpinFix>(output);
-  const auto grazing =
-      std::count_if(fixes.begin(), fixes.end(), [](const SpinFix& fix) { return fix.grazing; });
+  const auto near_tangent = std::count_if(fixes.begin(), fixes.end(),
+                                          [](const SpinFix& fix) { return fix.near_tangent; });
   const auto open = std::count_if(fixes.begin(), fixes.end(), [](const SpinFix& fix) {
-    return !fix.grazing && fix.resolution == Resolution::Ambiguous;
+    return !fix.near_tangent && fix.resolution == Resolution::Ambiguous;
   });
   ASSERT_GT(open, 0);
   const Notice no_mean{NoticeCode::MeanNeverBegan,
                        {{"fixes", static_cast<std::int64_t>(fixes.size())},
-                        {"grazing", std::int64_t{grazing}},
+                        {"near_tangent", std::int64_t{near_tangent}},
                         {"ambiguous", std::int64_t{open}},
                         {"not_accepted", std::int64_t{0}}}};
   EXPECT_THAT(output.notices, Contains(no_mean));

@@ -1,0 +1,147 @@
+#include "pipelines/spin/batch/multi_start.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "pipelines/frames/angle.h"
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/batch/initial_state.h"
+#include "pipelines/spin/batch/pass_nutation.h"
+#include "pipelines/spin/batch/uniform_spin_residuals.h"
+#include "pipelines/statistics/significance.h"
+
+namespace spindrift {
+namespace {
+
+// Two ends of two starts are one solution within this.
+constexpr double kSameAxis_rad = 0.1 * kRadPerDeg;
+// Stated sigmas: a body that nutates, or noise not as stated.
+constexpr double kScattered = 1.3;
+constexpr std::size_t kFew = 6000;
+
+Expected<EvaluatedFit> with_stretches(const PassModel& model, std::span<const PassEdge> edges,
+                                      SpinState near, BiasSet estimated, PassNutation nutation) {
+  near.nutation = std::move(nutation.stretches);
+  return explain(model, edges, near, estimated).map([&](EvaluatedFit nutating) {
+    nutating.nutation = nutation.last;
+    return nutating;
+  });
+}
+
+/// Most edges would lie where Tukey's loss is not convex, and the steps to its minimum be many.
+bool is_scattered(const PassModel& model, std::span<const PassEdge> edges, const SpinState& state) {
+  const std::size_t stride = std::max<std::size_t>(edges.size() / kFew, 1);
+  std::vector<PassEdge> few;
+  for (std::size_t i = 0; i < edges.size(); i += stride) {
+    few.push_back(edges[i]);
+  }
+  return scatter_of(uniform_spin_residuals(model, few, state)) > kScattered;
+}
+
+Expected<EvaluatedFit> with_nutation(const PassModel& model, std::span<const PassEdge> edges,
+                                     EvaluatedFit steady) {
+  PassNutation nutation = find_pass_nutation(model, edges, steady.fit.state);
+  steady.nutation = nutation.last;
+  if (nutation.stretches.empty()) {
+    return steady;
+  }
+  return with_stretches(model, edges, steady.fit.state, steady.estimated, std::move(nutation));
+}
+
+/// Nutation is taken out before anything else is asked of the residuals: it would hide changes and
+/// biases, which themselves are slow and do not look like it.
+Expected<EvaluatedFit> explain_motion(const PassModel& model, std::span<const PassEdge> edges,
+                                      const SpinState& near, BiasSet estimated) {
+  if (is_scattered(model, edges, near)) {
+    PassNutation nutation = find_pass_nutation(model, edges, near);
+    if (!nutation.stretches.empty()) {
+      return with_stretches(model, edges, near, estimated, std::move(nutation));
+    }
+  }
+  return explain(model, edges, near, estimated).map([&](const EvaluatedFit& steady) {
+    return with_nutation(model, edges, steady).value_or(steady);
+  });
+}
+
+bool same_axis(const SpinState& one, const SpinState& other) {
+  return angle_between_rad(one.axis_icrf(), other.axis_icrf()) < kSameAxis_rad;
+}
+
+bool likelier(const EvaluatedFit& one, const EvaluatedFit& other) {
+  return one.misfit() < other.misfit();
+}
+
+/// Near each axis that a start leads to, in the order of the starts.
+Expected<std::vector<SpinState>> ends_of(const PassModel& model, std::span<const PassEdge> edges,
+                                         std::span<const Eigen::Vector3d> starts,
+                                         BiasSet estimated) {
+  std::vector<SpinState> ends;
+  std::optional<Error> reason;
+  for (const Eigen::Vector3d& start : starts) {
+    const auto near = initial_state(model, edges, start);
+    if (!near) {
+      reason = reason.value_or(near.error());
+      continue;
+    }
+    const SpinState end = coarse_fit(model, edges, *near, estimated);
+    if (std::none_of(ends.begin(), ends.end(),
+                     [&](const SpinState& other) { return same_axis(end, other); })) {
+      ends.push_back(end);
+    }
+  }
+  if (ends.empty()) {
+    return Unexpected{*reason};
+  }
+  return ends;
+}
+
+/// Of those that the edges leave possible, the ones that the mission expects; all, where it expects
+/// none of them.
+std::vector<EvaluatedFit> expected_of(std::vector<EvaluatedFit> possible,
+                                      const std::optional<SpinPrior>& prior) {
+  const auto is_unexpected = [&](const EvaluatedFit& one) {
+    return prior && angle_between_rad(one.fit.state.axis_icrf(), prior->axis_icrf) >
+                        kPriorSigmas * prior->sigma_rad;
+  };
+  if (!std::all_of(possible.begin(), possible.end(), is_unexpected)) {
+    std::erase_if(possible, is_unexpected);
+  }
+  return possible;
+}
+
+}  // namespace
+
+Expected<Best> best_of_starts(const PassModel& model, std::span<const PassEdge> edges,
+                              std::span<const Eigen::Vector3d> starts, BiasSet estimated) {
+  const auto ends = ends_of(model, edges, starts, estimated);
+  if (!ends) {
+    return Unexpected{ends.error()};
+  }
+  std::vector<EvaluatedFit> all;
+  std::optional<Error> reason;
+  for (const SpinState& end : *ends) {
+    auto one = explain_motion(model, edges, end, estimated);
+    if (one) {
+      all.push_back(*std::move(one));
+    } else {
+      reason = reason.value_or(one.error());
+    }
+  }
+  if (all.empty()) {
+    return Unexpected{*reason};
+  }
+  std::stable_sort(all.begin(), all.end(), likelier);
+  const double settled = all.front().misfit() + kSettled * all.front().excess_noise();
+  std::erase_if(all, [&](const EvaluatedFit& one) { return one.misfit() > settled; });
+  const auto possible = expected_of(std::move(all), model.config().prior);
+  const EvaluatedFit& best = possible.front();
+  const auto other = std::find_if(possible.begin(), possible.end(), [&](const EvaluatedFit& one) {
+    return !same_axis(one.fit.state, best.fit.state);
+  });
+  return Best{.best = best,
+              .alternate_axis_icrf = other == possible.end()
+                                         ? std::nullopt
+                                         : std::optional{other->fit.state.axis_icrf()}};
+}
+
+}  // namespace spindrift

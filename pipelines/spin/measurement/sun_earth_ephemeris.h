@@ -1,0 +1,36 @@
+/// @file
+/// Where Sun and Earth stand about the spacecraft, at the times that the pipeline asks for.
+
+#pragma once
+
+#include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/orbit.h"
+#include "pipelines/ephemeris/sun.h"
+#include "pipelines/spin/measurement/measurement.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/sky.h"
+#include "pipelines/spin/types/sun_earth_directions.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+class SunEarthEphemeris {
+ public:
+  SunEarthEphemeris(Orbit orbit, double co2_altitude_km)
+      : orbit_{std::move(orbit)}, co2_altitude_km_{co2_altitude_km} {}
+
+  /// For the measurements of one revolution: the Sun at sun1, the Earth half way between the
+  /// chords; without sun1 or chords, at `t`.
+  /// @return NoCoverage where the orbit does not reach; Unobservable below the horizon's height.
+  Expected<SunEarthDirections> sun_earth(const RevolutionMeasurements& measured, TaiTime t);
+
+  /// @return As `sightlines`.
+  Expected<Sky> sky(TaiTime t);
+
+ private:
+  Orbit orbit_;
+  ApparentSun sun_;
+  double co2_altitude_km_;
+};
+
+}  // namespace spindrift

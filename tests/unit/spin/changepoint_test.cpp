@@ -1,0 +1,197 @@
+/// When attitude or rate has changed, against bodies that did and did not.
+
+#include "pipelines/spin/batch/changepoint.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "pipelines/spin/batch/batch_fit.h"
+#include "pipelines/time/time_span.h"
+#include "tests/support/batch_pass.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+constexpr double kTurns = 128.0;
+constexpr double kChangeTurn = 80.0;
+
+struct Scene : testing::BatchScene {
+  Scene() : BatchScene{1829} {}
+
+  /// The state that explains them best.
+  SpinState fitted(std::span<const PassEdge> edges) const {
+    const PassModel of = model(edges);
+    return fit(of, edges, testing::true_state(body, of), {}).value().state;
+  }
+  double misfit(std::span<const PassEdge> edges) const {
+    return information_of(model(edges), edges, fitted(edges)).squares;
+  }
+};
+
+/// One body's edges before a revolution, the other's from it on.
+std::vector<PassEdge> joined(const std::vector<PassEdge>& before,
+                             const std::vector<PassEdge>& after, std::int64_t from_revolution) {
+  std::vector<PassEdge> edges;
+  for (const PassEdge& edge : before) {
+    if (edge.revolution < from_revolution) {
+      edges.push_back(edge);
+    }
+  }
+  for (const PassEdge& edge : after) {
+    if (edge.revolution >= from_revolution) {
+      edges.push_back(edge);
+    }
+  }
+  return edges;
+}
+
+testing::SpinningBody tilted(testing::SpinningBody body, double by_rad) {
+  body.axis_icrf = Eigen::AngleAxisd{by_rad, body.axis_icrf.unitOrthogonal()} * body.axis_icrf;
+  return body;
+}
+
+/// The rate is another by `share` from the turn on: edges come the earlier, the longer ago.
+std::vector<PassEdge> faster_from(const testing::SpinningBody& body, double turn, double share,
+                                  std::vector<PassEdge> edges) {
+  const TaiTime at =
+      later_by_s(testing::kTransferStart, turn * 2.0 * std::numbers::pi / body.rate_rad_s);
+  for (PassEdge& edge : edges) {
+    const double since_s = std::max(seconds_between(at, edge.pulse.t), 0.0);
+    edge.pulse.t -= std::chrono::nanoseconds{std::llround(1e9 * share * since_s)};
+  }
+  return edges;
+}
+
+double turns_apart(const testing::SpinningBody& body, TaiTime t, double turn) {
+  return seconds_between(testing::kTransferStart, t) * body.rate_rad_s / (2.0 * std::numbers::pi) -
+         turn;
+}
+
+// Two turns to a sixty-fourth of the pass; where the likelihood is flat, the one beside it.
+constexpr double kNear_turns = 6.0;
+
+TEST(Changepoint, OneAttitudeAtOneRateHasNone) {
+  Scene scene;
+  for (int pass = 0; pass < 30; ++pass) {
+    scene.body = testing::random_body(scene.around, 3.0 * kDegree_rad, scene.rng);
+    const auto edges = scene.pass(kTurns);
+    EXPECT_FALSE(find_changepoint(scene.model(edges), edges, scene.fitted(edges)))
+        << "pass " << pass;
+  }
+}
+
+TEST(Changepoint, AStepOfTheRateIsFoundWhereItWas) {
+  Scene scene;
+  const auto edges = faster_from(scene.body, kChangeTurn, 3e-5, scene.pass(kTurns));
+  const auto change = find_changepoint(scene.model(edges), edges, scene.fitted(edges));
+  ASSERT_TRUE(change);
+  EXPECT_NEAR(turns_apart(scene.body, change->t, kChangeTurn), 0.0, kNear_turns);
+  EXPECT_EQ(edges[change->first_edge].pulse.t, change->t);
+}
+
+TEST(Changepoint, TheGainIsWhatTwoFitsExplainMore) {
+  Scene scene;
+  const auto edges = faster_from(scene.body, kChangeTurn, 2e-5, scene.pass(kTurns));
+  const auto change = find_changepoint(scene.model(edges), edges, scene.fitted(edges));
+  ASSERT_TRUE(change);
+  const std::span<const PassEdge> all{edges};
+  const double gain = scene.misfit(all) - scene.misfit(all.first(change->first_edge)) -
+                      scene.misfit(all.subspan(change->first_edge));
+  // One step of the equations instead of a fit, and Tukey's weight as on the average.
+  EXPECT_NEAR(change->gain / gain, 1.0, 0.05);
+}
+
+TEST(Changepoint, ASmallTiltIsFoundWhereItWas) {
+  Scene scene;
+  const auto edges =
+      joined(scene.pass(kTurns), scene.pass_of(tilted(scene.body, 0.3 * kDegree_rad), kTurns),
+             static_cast<std::int64_t>(kChangeTurn));
+  const auto change = find_changepoint(scene.model(edges), edges, scene.fitted(edges));
+  ASSERT_TRUE(change);
+  EXPECT_NEAR(turns_apart(scene.body, change->t, kChangeTurn), 0.0, kNear_turns);
+}
+
+TEST(Changepoint, NoiseBeyondWhatIsStatedIsNoChange) {
+  Scene scene;
+  const auto stated = scene.body.config.noise;
+  scene.body.config.noise = {.sun_s = 2.0 * stated.sun_s, .infrared_s = 2.0 * stated.infrared_s};
+  const auto edges = scene.pass(kTurns);
+  scene.body.config.noise = stated;
+  EXPECT_FALSE(find_changepoint(scene.model(edges), edges, scene.fitted(edges)));
+}
+
+TEST(Changepoint, OfTwoLargeOnesTheLastIsFound) {
+  Scene scene;
+  const auto here = scene.pass(kTurns);
+  const auto there = scene.pass_of(tilted(scene.body, 10.0 * kDegree_rad), kTurns);
+  const auto edges = joined(joined(here, there, 40), here, 90);
+  const PassModel model = scene.model(edges);
+  const auto change = find_changepoint(model, edges, testing::true_state(scene.body, model));
+  ASSERT_TRUE(change);
+  EXPECT_NEAR(turns_apart(scene.body, change->t, 90.0), 0.0, kNear_turns);
+}
+
+/// So many edges in turn, from this one on, half a second late.
+std::vector<PassEdge> spoilt(std::vector<PassEdge> edges, std::size_t from, std::size_t some) {
+  for (std::size_t i = from; i < from + some; ++i) {
+    edges[i].pulse.t += std::chrono::milliseconds{500};
+  }
+  return edges;
+}
+
+TEST(Changepoint, AFewOutliersAreNone) {
+  Scene scene;
+  auto edges = scene.pass(kTurns);
+  edges.resize(57);
+  const PassModel model = scene.model(edges);
+  const SpinState state = scene.fitted(edges);
+  for (const std::size_t from : {0U, 1U, 20U, 40U, 50U}) {
+    EXPECT_FALSE(find_changepoint(model, spoilt(edges, from, 7), state)) << from;
+  }
+}
+
+TEST(Changepoint, ManyOutliersOnEndAreOne) {
+  Scene scene;
+  auto edges = scene.pass(kTurns);
+  edges.resize(57);
+  const auto changed = spoilt(edges, 42, 15);
+  const auto change = find_changepoint(scene.model(edges), changed, scene.fitted(edges));
+  ASSERT_TRUE(change);
+  EXPECT_EQ(change->first_edge, 42U);
+}
+
+TEST(Changepoint, ALinkThatBecomesBadIsNone) {
+  Scene scene;
+  auto edges = scene.pass(kTurns);
+  const SpinState state = scene.fitted(edges);
+  const PassModel model = scene.model(edges);
+  for (std::size_t i = edges.size() / 2; i < edges.size(); i += 3) {
+    edges = spoilt(std::move(edges), i, 1);
+  }
+  EXPECT_FALSE(find_changepoint(model, edges, state));
+}
+
+TEST(Changepoint, OneEdgeCannotChange) {
+  Scene scene;
+  auto edges = scene.pass(kTurns);
+  const SpinState state = scene.fitted(edges);
+  edges.resize(1);
+  EXPECT_FALSE(find_changepoint(scene.model(edges), edges, state));
+}
+
+TEST(Changepoint, AStateThatHasNoneOfTheEdgesShowsNone) {
+  Scene scene;
+  const auto edges = scene.pass(kTurns);
+  const PassModel model = scene.model(edges);
+  SpinState opposite = testing::true_state(scene.body, model);
+  opposite.q_icrf_spin = opposite.q_icrf_spin * Eigen::Quaterniond{Eigen::AngleAxisd{
+                                                    std::numbers::pi, Eigen::Vector3d::UnitX()}};
+  EXPECT_FALSE(find_changepoint(model, edges, opposite));
+}
+
+}  // namespace
+}  // namespace spindrift

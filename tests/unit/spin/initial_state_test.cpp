@@ -1,0 +1,140 @@
+/// Phase, rate and drift about an axis nearly known, against the oracle's body.
+
+#include "pipelines/spin/batch/initial_state.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "pipelines/frames/celestial.h"
+#include "tests/support/batch_pass.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+constexpr double kTurns = 100.0;
+
+struct Scene : testing::BatchScene {
+  std::vector<PassEdge> edges = testing::counted(
+      body,
+      testing::pulses_from(testing::edges_of_turns(body, around, kTurns), testing::kTransferStart));
+
+  Scene() : BatchScene{1815} {}
+
+  PassModel model() const { return BatchScene::model(edges); }
+  SpinState first() const { return initial_state(model(), edges, body.axis_icrf).value(); }
+};
+
+/// What one has turned more than the other at the ends of the pass and in its middle, the most.
+double apart_rad(const PassModel& model, const SpinState& one, const SpinState& other) {
+  const double phase_rad = 2.0 * std::atan2((one.q_icrf_spin.conjugate() * other.q_icrf_spin).z(),
+                                            (one.q_icrf_spin.conjugate() * other.q_icrf_spin).w());
+  double most_rad = 0.0;
+  for (const double part : {-1.0, 0.0, 1.0}) {
+    const double dt_s = part * model.half_s();
+    const double turned_rad = (other.rate_rad_s - one.rate_rad_s) * dt_s +
+                              0.5 * (other.drift_rad_s2 - one.drift_rad_s2) * dt_s * dt_s;
+    most_rad = std::max(most_rad, std::abs(wrapped_rad(phase_rad + turned_rad)));
+  }
+  return most_rad;
+}
+
+TEST(FirstClock, IsThatOfTheBodyAboutItsAxis) {
+  const Scene scene;
+  const PassModel model = scene.model();
+  const SpinState first = scene.first();
+  EXPECT_LT(angle_between_rad(first.axis_icrf(), scene.body.axis_icrf), 1e-12);
+  // A hundredth of the noise of the Sun's edges: the model's sky stands still for ten seconds.
+  EXPECT_LT(apart_rad(model, testing::true_state(scene.body, model), first), 6e-6);
+}
+
+TEST(FirstClock, ADriftOfTheRateIsFound) {
+  Scene scene;
+  const PassModel even = scene.model();
+  // Late by c dt^2: a body that has slowed down by 2 c w a second.
+  const double late_s = 2e-4;
+  const double half_s = even.half_s();
+  for (PassEdge& edge : scene.edges) {
+    const double part = seconds_between(even.middle(), edge.pulse.t) / half_s;
+    edge.pulse.t += std::chrono::nanoseconds{std::llround(1e9 * late_s * part * part)};
+  }
+  const double rate_rad_s = scene.body.rate_rad_s;
+  EXPECT_NEAR(scene.first().drift_rad_s2 / (-2.0 * rate_rad_s * late_s / (half_s * half_s)), 1.0,
+              0.01);
+}
+
+TEST(FirstClock, EdgesCountedToTheTurnBesideAreCountedAnew) {
+  Scene scene;
+  const PassModel model = scene.model();
+  const SpinState well_counted = scene.first();
+  std::bernoulli_distribution wrong{0.2};
+  for (PassEdge& edge : scene.edges) {
+    edge.revolution += wrong(scene.rng) ? 1 : 0;
+  }
+  EXPECT_LT(apart_rad(model, well_counted, scene.first()), 1e-9);
+}
+
+TEST(FirstClock, ATurnTooManyFromSomeTimeOnIsCountedAnew) {
+  Scene scene;
+  const PassModel model = scene.model();
+  const SpinState well_counted = scene.first();
+  for (PassEdge& edge : scene.edges) {
+    edge.revolution += edge.revolution > 70 ? 1 : 0;
+  }
+  EXPECT_LT(apart_rad(model, well_counted, scene.first()), 1e-9);
+}
+
+TEST(FirstClock, CountsFromAnyNumberOn) {
+  Scene scene;
+  const SpinState from_zero = scene.first();
+  for (PassEdge& edge : scene.edges) {
+    edge.revolution += 1'000'000;
+  }
+  EXPECT_EQ(scene.first().rate_rad_s, from_zero.rate_rad_s);
+  EXPECT_EQ(scene.first().drift_rad_s2, from_zero.drift_rad_s2);
+}
+
+TEST(FirstClock, AnAxisDegreesOffMakesItNoMoreDegreesWrong) {
+  Scene scene;
+  const PassModel model = scene.model();
+  const SpinState truth = testing::true_state(scene.body, model);
+  for (const double off_deg : {1.0, 5.0, 15.0}) {
+    SCOPED_TRACE(off_deg);
+    const Eigen::Vector3d axis_icrf =
+        testing::start_near(scene.body, off_deg * kDegree_rad, scene.rng);
+    const auto first = initial_state(model, scene.edges, axis_icrf);
+    ASSERT_TRUE(first) << first.error().message;
+    EXPECT_LT(angle_between_rad(first->axis_icrf(), axis_icrf), 1e-12);
+    EXPECT_LT(std::abs(first->rate_rad_s - truth.rate_rad_s) * model.half_s(),
+              off_deg * kDegree_rad);
+  }
+}
+
+TEST(FirstClock, ThreeTurnsSuffice) {
+  Scene scene;
+  std::erase_if(scene.edges, [](const PassEdge& edge) { return edge.revolution >= 3; });
+  const PassModel model = scene.model();
+  EXPECT_LT(apart_rad(model, testing::true_state(scene.body, model), scene.first()), 6e-6);
+}
+
+TEST(FirstClock, AnAxisThatHasNoneOfTheEdgesIsRefused) {
+  Scene scene;
+  std::erase_if(scene.edges, [](const PassEdge& edge) {
+    return edge.pulse.channel == PulseChannel::Sun1 || edge.pulse.channel == PulseChannel::Sun2;
+  });
+  // Beams across the axis miss an Earth that is on it.
+  const Eigen::Vector3d axis_icrf = scene.around.earth_icrf_km(0.0).normalized();
+  const auto first = initial_state(scene.model(), scene.edges, axis_icrf);
+  ASSERT_FALSE(first);
+  EXPECT_EQ(first.error().code, ErrorCode::Unobservable);
+  EXPECT_THAT(first.error().message, HasSubstr("no edge is one that a body"));
+}
+
+}  // namespace
+}  // namespace spindrift
