@@ -62,7 +62,7 @@ std::string_view setting(std::string_view trace, const std::string& name) {
   return between(trace, fmt::format("config: Domain/{}: ", name), " {");
 }
 
-std::optional<std::int64_t> number(std::string_view text) {
+std::optional<std::int64_t> whole_number(std::string_view text) {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc{} ? std::optional{value} : std::nullopt;
@@ -97,19 +97,19 @@ std::string text_of(const char* path) {
 }  // namespace
 
 NetworkSettings settings_of(std::string_view trace) {
-  NetworkSettings settings{
-      .interfaces = interfaces_of(trace),
-      .multicast = std::string{setting(trace, "General/AllowMulticast/#text")},
-      .peers = peers_of(trace),
-      .indices = {},
-      .receive_buffer_bytes = number(between(trace, "socket receive buffer size set to ", " "))};
+  NetworkSettings settings{.interfaces = interfaces_of(trace),
+                           .multicast = std::string{setting(trace, "General/AllowMulticast/#text")},
+                           .peers = peers_of(trace),
+                           .indices = {},
+                           .receive_buffer_bytes = whole_number(
+                               between(trace, "socket receive buffer size set to ", " "))};
   if (setting(trace, "Discovery/ParticipantIndex/#text") == "auto") {
     // Cyclone 0.10.2 gives out the indices below the "maximum": not that one itself.
-    const auto count = number(setting(trace, "Discovery/MaxAutoParticipantIndex/#text"));
+    const auto count = whole_number(setting(trace, "Discovery/MaxAutoParticipantIndex/#text"));
     settings.indices = static_cast<int>(count.value_or(0));
   }
   const auto port_setting = [&](const std::string& name) {
-    return number(setting(trace, fmt::format("Discovery/{}/#text", name))).value_or(0);
+    return whole_number(setting(trace, fmt::format("Discovery/{}/#text", name))).value_or(0);
   };
   settings.port_step = static_cast<std::uint16_t>(port_setting("Ports/ParticipantGain"));
   settings.first_port = static_cast<std::uint16_t>(port_setting("Ports/Base") +

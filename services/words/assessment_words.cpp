@@ -8,7 +8,7 @@ namespace spindrift {
 namespace {
 
 using enum ReasonCode;
-constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kPatterns{{
+constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
     {Fixes, "{count} fixes"},
     {FewFixes, "fewer than {needed}"},
     {BeamsNearLimb, "plain average: beams too near the limb"},
@@ -48,14 +48,14 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kPatterns{{
     {BiasAtBound, "{bias} runs to its bound"},
     {BiasWanted, "residuals ask for {bias}"},
 }};
-static_assert(are_by_code(kPatterns));
+static_assert(are_by_code(kReasonPatterns));
 
 std::string words_of(const Reason& reason) {
   constexpr int kWholeSeconds = 0;
   const Reason one_fix{Fixes, {{"count", std::int64_t{1}}}};
   return reason == one_fix
              ? "1 fix"
-             : filled(pattern_of(kPatterns, reason.code), reason.values, kWholeSeconds);
+             : filled(pattern_of(kReasonPatterns, reason.code), reason.values, kWholeSeconds);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace spindrift {
 namespace {
 
 using enum NoticeCode;
-constexpr std::array<Pattern<NoticeCode>, kNoticeCodes> kPatterns{{
+constexpr std::array<Pattern<NoticeCode>, kNoticeCodes> kNoticePatterns{{
     {LateEdges, "pulses arrive after their time was processed: they are stored and left out"},
     {EdgesOutOfTime,
      "pulses stamped far from the times of all others are left out: a sender's clock is wrong"},
@@ -105,7 +105,7 @@ constexpr std::array<Pattern<NoticeCode>, kNoticeCodes> kPatterns{{
      "the axis is ambiguous to the end{missing}: the edges do not bear out the candidate that "
      "the prior of the mission (spin.prior) chooses"},
 }};
-static_assert(are_by_code(kPatterns));
+static_assert(are_by_code(kNoticePatterns));
 
 /// Why fixes of a case leave several candidates.
 std::string_view what_is_missing(std::int64_t geometry_case) {
@@ -134,7 +134,7 @@ std::string sentence_of(const Notice& notice) {
     const auto geometry_case = std::get<std::int64_t>(of_case->value);
     values.push_back({"missing", std::string{what_is_missing(geometry_case)}});
   }
-  return filled(pattern_of(kPatterns, notice.code), values, kMilliseconds);
+  return filled(pattern_of(kNoticePatterns, notice.code), values, kMilliseconds);
 }
 
 }  // namespace spindrift

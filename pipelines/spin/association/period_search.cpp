@@ -19,7 +19,6 @@ constexpr std::size_t kNeighbours = 3;
 constexpr double kNear = 0.02;
 // ...and once it is fitted this, or the stated noise where that is greater.
 constexpr double kOn = 0.005;
-constexpr double kOn_sigma = 6.0;
 // The longest period that explains this part of what any explains.
 constexpr double kNearlyAsMany = 0.8;
 constexpr double kLeastShare = 0.65;
@@ -166,7 +165,7 @@ std::optional<PulseTrain> find_pulse_train(std::span<const TaiTime> edges, doubl
   const double bend = bend_of(points, noise_s / period_s, period_s);
   straighten(points, bend);
   const auto line = fit_robust_line(points, noise_s / period_s, kNear * 2.0);
-  const double limit = std::max(kOn, kOn_sigma * noise_s / period_s);
+  const double limit = std::max(kOn, kOnComb_sigma * noise_s / period_s);
   const auto on_it = std::count_if(points.begin(), points.end(), [&](const PhasePoint& point) {
     return std::abs(point.phase - line->at(point.turn)) <= limit;
   });

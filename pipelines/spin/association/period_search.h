@@ -12,6 +12,9 @@
 
 namespace spindrift {
 
+/// Further from the comb than so many of its noise an edge is spurious: it would spoil the fit.
+inline constexpr double kOnComb_sigma = 6.0;
+
 /// A comb of nearly equally spaced instants that most edges lie on.
 struct PulseTrain {
   TaiTime t;            ///< One of them, near the first edge that lies on it.

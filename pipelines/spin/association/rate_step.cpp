@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "pipelines/spin/association/period_search.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -14,8 +15,6 @@ namespace {
 constexpr std::size_t kRecent = 9;
 constexpr std::ptrdiff_t kDoubtful = 4;
 constexpr std::size_t kFewestAfterStep = 6;
-// Further from it spoilt edges would share a comb with good ones.
-constexpr double kOn_sigma = 6.0;
 // A body that turns so much faster than before has an edge on nearly every turn. Otherwise it turns
 // as before, and the time stamps have stepped by a fraction of a turn.
 constexpr double kMuchFaster = 0.75;
@@ -60,7 +59,7 @@ std::optional<PulseTrain> RateStepDetector::new_pulse_train(double noise_s, doub
   const auto on_comb = [&](const ReferenceEdge& edge) {
     const double t_s = elapsed_s(comb->t, edge.t);
     const double turns = t_s / comb->period_s + 0.5 * comb->drift_per_s2 * t_s * t_s;
-    return std::abs(std::remainder(turns, 1.0)) * comb->period_s <= kOn_sigma * noise_s;
+    return std::abs(std::remainder(turns, 1.0)) * comb->period_s <= kOnComb_sigma * noise_s;
   };
   const auto on_it = std::count_if(recent_.begin(), recent_.end(), on_comb);
   const auto agreeing =
