@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "pipelines/spin/types/model_allowance.h"
@@ -23,7 +23,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kSigmas = 5.0;
 
 /// Within the noise, and what may be wrong with a model.
@@ -51,7 +50,7 @@ bool names(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
   const double ra_deg = testing::number_of(reasons, ReasonCode::OtherAxis, "ra_deg");
   const double dec_deg = testing::number_of(reasons, ReasonCode::OtherAxis, "dec_deg");
   return has(estimate.assessment, ReasonCode::OtherAxis) &&
-         is_near(direction_icrf({.ra_rad = ra_deg * kDegree_rad, .dec_rad = dec_deg * kDegree_rad}),
+         is_near(direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg}),
                  sigma_rad, true_icrf);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "pipelines/frames/angle.h"
 #include "tests/support/nutation_trials.h"
 
 namespace spindrift {
@@ -50,7 +51,7 @@ TEST(SpinNutationStatistics, NoiseAloneShowsNoneAndItsChancesAreAsStated) {
 TEST(SpinNutationStatistics, AtTheLimitOfDetection95Of100AreFound) {
   constexpr int kTrials = 200;
   testing::NutationTrials trials{13};
-  const double limit_deg = trials.searched({}).detectable_rad / testing::kDegree_rad;
+  const double limit_deg = trials.searched({}).detectable_rad / kRadPerDeg;
   int found = 0;
   int found_at_half = 0;
   for (int i = 0; i < kTrials; ++i) {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "services/words/assessment_words.h"
@@ -31,13 +32,12 @@ using enum PulseChannel;
 using testing::all_of;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 constexpr int kPasses = 40;
 constexpr double kRevolutions = 250.0;
 constexpr double kSigmas = 5.0;
 
 const Eigen::Vector3d kAxisWithoutSun1_icrf =
-    direction_icrf({.ra_rad = 120.0 * kDegree_rad, .dec_rad = -60.0 * kDegree_rad});
+    direction_icrf({.ra_rad = 120.0 * kRadPerDeg, .dec_rad = -60.0 * kRadPerDeg});
 
 struct DeadSensors {
   std::string name;
@@ -53,7 +53,7 @@ const std::array<DeadSensors, 5> kDead = {{{"case 4", {Sun2}},
 /// Rises or sinks through two to six Earth radii.
 Orbit random_orbit(std::mt19937_64& rng) {
   std::uniform_real_distribution<double> uniform;
-  const double inclination_rad = 60.0 * uniform(rng) * kDegree_rad;
+  const double inclination_rad = 60.0 * uniform(rng) * kRadPerDeg;
   const double raan_rad = 2.0 * kPi * uniform(rng);
   const double argument_rad = 2.0 * kPi * uniform(rng);
   const double anomaly_rad = 0.2 + 0.5 * uniform(rng);
@@ -140,7 +140,7 @@ TEST_P(DeadSensor, MakesNothingConfidentlyWrong) {
   for (int trial = 0; trial < kPasses; ++trial) {
     const Orbit orbit = random_orbit(rng);
     const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-    const testing::SpinningBody body = testing::random_body(around, 8.0 * kDegree_rad, rng);
+    const testing::SpinningBody body = testing::random_body(around, 8.0 * kRadPerDeg, rng);
     const auto edges =
         testing::edges_between(body, around, 0.0, kRevolutions * 2.0 * kPi / body.rate_rad_s);
     const auto pulses =
@@ -169,8 +169,8 @@ TEST(SpinPassDual, APriorChoosesTheAxisNearIt) {
     SCOPED_TRACE(trial);
     const Orbit orbit = random_orbit(rng);
     const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-    testing::SpinningBody body = testing::random_body(around, 8.0 * kDegree_rad, rng);
-    body.config.prior = SpinPrior{.axis_icrf = body.axis_icrf, .sigma_rad = 3.0 * kDegree_rad};
+    testing::SpinningBody body = testing::random_body(around, 8.0 * kRadPerDeg, rng);
+    body.config.prior = SpinPrior{.axis_icrf = body.axis_icrf, .sigma_rad = 3.0 * kRadPerDeg};
     const auto edges =
         testing::edges_between(body, around, 0.0, kRevolutions * 2.0 * kPi / body.rate_rad_s);
     const auto pulses = without(
@@ -199,8 +199,8 @@ std::optional<Eigen::Vector3d> false_axis(const testing::SpinningBody& body, con
                                           [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
                                             return a.dot(body.axis_icrf) > b.dot(body.axis_icrf);
                                           });
-  return angle_between_rad(farthest, body.axis_icrf) > 10.0 * kDegree_rad ? std::optional{farthest}
-                                                                          : std::nullopt;
+  return angle_between_rad(farthest, body.axis_icrf) > 10.0 * kRadPerDeg ? std::optional{farthest}
+                                                                         : std::nullopt;
 }
 
 struct PriorOutcome {
@@ -213,16 +213,16 @@ struct PriorOutcome {
 /// off by 1 deg, at the truth or at a false candidate.
 std::map<std::string, PriorOutcome> with_prior(bool at_the_truth) {
   std::mt19937_64 rng{79};
-  std::normal_distribution<double> normal{0.0, 1.0 * kDegree_rad};
+  std::normal_distribution<double> normal{0.0, 1.0 * kRadPerDeg};
   std::map<std::string, PriorOutcome> outcomes;
   for (int trial = 0; trial < kPasses; ++trial) {
     const Orbit orbit = random_orbit(rng);
     const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-    testing::SpinningBody body = testing::random_body(around, 8.0 * kDegree_rad, rng);
+    testing::SpinningBody body = testing::random_body(around, 8.0 * kRadPerDeg, rng);
     double duration_s = 300.0;
     while (duration_s < 1500.0 &&
            angle_between_rad(around.earth_icrf_km(0.0), around.earth_icrf_km(duration_s)) <
-               10.0 * kDegree_rad) {
+               10.0 * kRadPerDeg) {
       duration_s += 50.0;
     }
     const auto edges = testing::edges_between(body, around, 0.0, duration_s);
@@ -239,7 +239,7 @@ std::map<std::string, PriorOutcome> with_prior(bool at_the_truth) {
       const Eigen::Vector2d off_rad{normal(rng), normal(rng)};
       SpinConfig config = body.config;
       config.prior = SpinPrior{.axis_icrf = (middle + tangent_basis(middle) * off_rad).normalized(),
-                               .sigma_rad = 3.0 * kDegree_rad};
+                               .sigma_rad = 3.0 * kRadPerDeg};
       PriorOutcome& outcome = outcomes[dead.name];
       ++outcome.passes;
       std::optional<SpinEstimate> last;
@@ -290,7 +290,7 @@ SpinOutput without_north(bool said_to_be_healthy) {
   std::mt19937_64 rng{80};
   const Orbit orbit = testing::transfer_orbit();
   const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-  testing::SpinningBody body = testing::random_body(around, 3.0 * kDegree_rad, rng);
+  testing::SpinningBody body = testing::random_body(around, 3.0 * kRadPerDeg, rng);
   body.config.north->healthy = said_to_be_healthy;
   const auto edges = testing::edges_between(body, around, 0.0, 60.0);
   return testing::run(
@@ -316,16 +316,16 @@ SpinOutput without_sun1(const std::optional<SpinPrior>& prior) {
 }
 
 TEST(SpinPassDual, APriorSettlesAPassWithoutSun1) {
-  const Eigen::Vector2d off_rad{1.5 * kDegree_rad, -1.0 * kDegree_rad};
+  const Eigen::Vector2d off_rad{1.5 * kRadPerDeg, -1.0 * kRadPerDeg};
   const SpinOutput output = without_sun1(SpinPrior{
       .axis_icrf =
           (kAxisWithoutSun1_icrf + tangent_basis(kAxisWithoutSun1_icrf) * off_rad).normalized(),
-      .sigma_rad = 5.0 * kDegree_rad});
+      .sigma_rad = 5.0 * kRadPerDeg});
   const SpinEstimate last = testing::last_estimate(output, SpinEstimator::Sequential);
   EXPECT_TRUE(is_unopposed(last.assessment.quality)) << sentence_of(last.assessment);
   EXPECT_LT(angle_between_rad(last.axis_icrf, kAxisWithoutSun1_icrf),
             kSigmas * testing::sigma_rad(last));
-  EXPECT_LT(testing::sigma_rad(last), 0.5 * kDegree_rad);
+  EXPECT_LT(testing::sigma_rad(last), 0.5 * kRadPerDeg);
 }
 
 TEST(SpinPassDual, ASilentBeamThatIsSaidToBeHealthyIsToldAndItsFixesNotAccepted) {

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <numbers>
 #include <random>
 #include <string>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "tests/support/assessed.h"
@@ -20,7 +20,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kEnd_s = 400.0;
 
 struct Tally {
@@ -39,7 +38,7 @@ Tally tally_of(int passes, const std::function<void(SpinConfig&)>& differ) {
   std::mt19937_64 rng{81};
   Tally tally;
   for (int pass = 0; pass < passes; ++pass) {
-    testing::SpinningBody body = testing::random_body(around, 6.0 * kDegree_rad, rng);
+    testing::SpinningBody body = testing::random_body(around, 6.0 * kRadPerDeg, rng);
     const SpinConfig said = body.config;
     differ(body.config);
     const auto edges = testing::edges_between(body, around, 0.0, kEnd_s);
@@ -83,7 +82,7 @@ TEST(SpinWrongModel, AHealthyPassIsNotDoubted) {
 
 TEST(SpinWrongModel, ABeamOffInAzimuthIsDoubtedAndCovered) {
   const Tally tally =
-      tally_of(20, [](SpinConfig& body) { body.north->azimuth_rad += 1.0 * kDegree_rad; });
+      tally_of(20, [](SpinConfig& body) { body.north->azimuth_rad += 1.0 * kRadPerDeg; });
   EXPECT_EQ(tally.doubted, tally.passes);
   EXPECT_GE(tally.covered, 19);
   EXPECT_LE(tally.sure_and_wrong, tally.estimates / 50);
@@ -126,7 +125,7 @@ TEST(SpinWrongModel, PoorLeverageIsToldByTheGeometryWhateverTheNoise) {
   std::mt19937_64 rng{81};
   const Orbit orbit = testing::transfer_orbit();
   const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-  EXPECT_EQ(told_of_poor_leverage(orbit, testing::random_body(around, 6.0 * kDegree_rad, rng)), 0);
+  EXPECT_EQ(told_of_poor_leverage(orbit, testing::random_body(around, 6.0 * kRadPerDeg, rng)), 0);
 }
 
 }  // namespace

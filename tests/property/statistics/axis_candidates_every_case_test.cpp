@@ -3,13 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "tests/support/axis_scene.h"
@@ -19,8 +19,6 @@ namespace {
 
 using Scene = testing::AxisScene;
 using enum SpinQuantity;
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 /// What is missing, and the case that it leaves.
 struct Loss {
@@ -68,7 +66,7 @@ Scene random_scene(HorizonModel model, std::mt19937_64& rng) {
   scene.config.horizon.model = model;
   scene.axis_icrf = direction();
   const auto away = [&](double angle_deg) -> Eigen::Vector3d {
-    return Eigen::AngleAxisd{angle_deg * kDegree_rad,
+    return Eigen::AngleAxisd{angle_deg * kRadPerDeg,
                              scene.axis_icrf.cross(direction()).normalized()} *
            scene.axis_icrf;
   };
@@ -137,7 +135,7 @@ TEST_P(EveryCase, WithTheSunNearTheAxisIsNotLeftWithTheFalseOneByNoise) {
       Scene scene = random_scene(GetParam(), rng);
       const Eigen::Vector3d across = scene.axis_icrf.unitOrthogonal();
       const double sun_deg = std::uniform_real_distribution<double>{174.0, 179.9}(rng);
-      scene.sun_icrf = Eigen::AngleAxisd{sun_deg * kDegree_rad, across} * scene.axis_icrf;
+      scene.sun_icrf = Eigen::AngleAxisd{sun_deg * kRadPerDeg, across} * scene.axis_icrf;
       scene.config.noise = {.sun_s = 1e-4, .infrared_s = 5e-4};
       const Revolution seen = testing::noisy(scene, without(scene.seen(), loss.edges), rng);
       const auto found = axis_candidates(

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/information_limit.h"
@@ -21,14 +22,13 @@
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kDuration_s = 600.0;
 constexpr int kPasses = 40;
 const std::filesystem::path kScenario = scenarios() / "gto-nominal.toml";
 
 /// Of the scenario, like the orbit and the sensors of the limit.
 Eigen::Vector3d true_axis_icrf() {
-  return direction_icrf({.ra_rad = 100.0 * kDegree_rad, .dec_rad = -55.0 * kDegree_rad});
+  return direction_icrf({.ra_rad = 100.0 * kRadPerDeg, .dec_rad = -55.0 * kRadPerDeg});
 }
 
 /// The least standard deviation that any estimator can have.
@@ -36,10 +36,10 @@ double information_limit_rad() {
   const auto orbit = KeplerOrbit::make({.epoch = testing::kTransferStart,
                                         .semi_major_axis_km = 24400.0,
                                         .eccentricity = 0.73,
-                                        .inclination_rad = 28.5 * kDegree_rad,
-                                        .raan_rad = 300.0 * kDegree_rad,
-                                        .argument_of_perigee_rad = 178.0 * kDegree_rad,
-                                        .mean_anomaly_rad = 30.0 * kDegree_rad});
+                                        .inclination_rad = 28.5 * kRadPerDeg,
+                                        .raan_rad = 300.0 * kRadPerDeg,
+                                        .argument_of_perigee_rad = 178.0 * kRadPerDeg,
+                                        .mean_anomaly_rad = 30.0 * kRadPerDeg});
   const testing::SpinningBody body{.axis_icrf = true_axis_icrf(),
                                    .rate_rad_s = 2.0 * std::numbers::pi,
                                    .first_turn_rad = 0.0,
@@ -79,8 +79,8 @@ Answer answer_of(const std::filesystem::path& db, const std::string& estimator) 
   covariance_deg2 << value("cov_east_east_deg2"), east_north, east_north,
       value("cov_north_north_deg2");
   return {.axis_icrf = direction_icrf(
-              {.ra_rad = value("ra_deg") * kDegree_rad, .dec_rad = value("dec_deg") * kDegree_rad}),
-          .covariance_rad2 = covariance_deg2 * kDegree_rad * kDegree_rad};
+              {.ra_rad = value("ra_deg") * kRadPerDeg, .dec_rad = value("dec_deg") * kRadPerDeg}),
+          .covariance_rad2 = covariance_deg2 * kRadPerDeg * kRadPerDeg};
 }
 
 struct Sums {

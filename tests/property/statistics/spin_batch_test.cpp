@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/spin/planning/pass_plan.h"
 #include "pipelines/time/time_span.h"
 #include "tests/support/batch_statistics.h"
@@ -11,8 +12,6 @@
 
 namespace spindrift {
 namespace {
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 TEST(SpinBatch, ErrorsAreThoseThatTheCovariancePromises) {
   const testing::BatchStatistics sums =
@@ -55,14 +54,14 @@ TEST(SpinBatch, TheBoundIsThatOfTheInformationLimitAndThatOfThePlan) {
       testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
   std::mt19937_64 rng{1922};
   for (int pass = 0; pass < 8; ++pass) {
-    const testing::SpinningBody body = testing::random_body(around, 4.0 * kDegree_rad, rng);
+    const testing::SpinningBody body = testing::random_body(around, 4.0 * kRadPerDeg, rng);
     SpinConfig config = body.config;
     config.batch.biases = BiasSet{};
     const double turns = 60.0;
     const double duration_s = turns * 2.0 * std::numbers::pi / body.rate_rad_s;
     const auto solution = solve_batch(
         config, orbit, testing::noisy_pass(body, testing::edges_of_turns(body, around, turns), rng),
-        {{testing::start_near(body, kDegree_rad, rng)}});
+        {{testing::start_near(body, kRadPerDeg, rng)}});
     ASSERT_TRUE(solution) << solution.error().message;
     const double limit_rad = std::sqrt(testing::cramer_rao_rad2(body, around, duration_s).trace());
     // The limit knows that the rate does not drift, which the axis hardly depends on.

@@ -5,9 +5,9 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/coning.h"
 #include "tests/support/uniform_spin_residuals.h"
@@ -17,7 +17,6 @@ namespace {
 
 using testing::FittedConing;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kDuration_s = 300.0;
 constexpr double kAligned_rad = 1e-7;
 constexpr PulseNoise kNoise = {.sun_s = 1e-4, .infrared_s = 5e-4};
@@ -50,13 +49,13 @@ TEST(SpinConing, OfAlignedSensorsIsFoundWhereItLeans) {
   double sum = 0.0;
   for (int i = 0; i < kTrials; ++i) {
     SpinTruth truth = testing::steady_truth();
-    const Coning coning = {.tilt_rad = 0.5 * kDegree, .azimuth_rad = 0.1 * i};
+    const Coning coning = {.tilt_rad = 0.5 * kRadPerDeg, .azimuth_rad = 0.1 * i};
     truth.motion.coning = coning;
     const FittedConing fit = fitted(truth, kAligned_rad, rng);
     sum += chi_square(fit, rotation_of(coning));
     const ConingTest verdict = test_model_errors(fit);
     EXPECT_TRUE(verdict.detected);
-    EXPECT_NEAR(verdict.tilt_rad, coning.tilt_rad, 0.25 * kDegree);
+    EXPECT_NEAR(verdict.tilt_rad, coning.tilt_rad, 0.25 * kRadPerDeg);
     EXPECT_NEAR(wrapped_rad(verdict.azimuth_rad - coning.azimuth_rad), 0.0, 0.5);
   }
   EXPECT_NEAR(sum / kTrials, 2.0, kMeanOff);
@@ -64,7 +63,7 @@ TEST(SpinConing, OfAlignedSensorsIsFoundWhereItLeans) {
 
 TEST(SpinConing, IsNotFoundWhereSensorsAreMisplacedAsMuchAsTheyMayBe) {
   std::mt19937_64 rng{2};
-  constexpr double kMisplaced_rad = 0.1 * kDegree;
+  constexpr double kMisplaced_rad = 0.1 * kRadPerDeg;
   std::normal_distribution<double> misplaced{0.0, kMisplaced_rad};
   double sum = 0.0;
   for (int i = 0; i < kTrials; ++i) {
@@ -79,7 +78,7 @@ TEST(SpinConing, IsNotFoundWhereSensorsAreMisplacedAsMuchAsTheyMayBe) {
     const ConingTest verdict = test_model_errors(fit);
     EXPECT_FALSE(verdict.detected);
     // Of aligned sensors it would be 0.4 deg.
-    EXPECT_GT(verdict.detectable_rad, 2.0 * kDegree);
+    EXPECT_GT(verdict.detectable_rad, 2.0 * kRadPerDeg);
   }
   // Mounting angles do less here than the limb does, which the fit allows for: 2 at most.
   EXPECT_LT(sum / kTrials, 2.0 + kMeanOff);
@@ -89,11 +88,11 @@ TEST(SpinConing, IsNotFoundWhereSensorsAreMisplacedAsMuchAsTheyMayBe) {
 TEST(SpinConing, BelowWhatCouldBeDetectedIsSaidToBe) {
   std::mt19937_64 rng{3};
   SpinTruth truth = testing::steady_truth();
-  truth.motion.coning = {.tilt_rad = 0.02 * kDegree, .azimuth_rad = 0.5};
+  truth.motion.coning = {.tilt_rad = 0.02 * kRadPerDeg, .azimuth_rad = 0.5};
   const ConingTest verdict = test_model_errors(fitted(truth, kAligned_rad, rng));
   EXPECT_FALSE(verdict.detected);
-  EXPECT_GT(verdict.detectable_rad, 0.1 * kDegree);
-  EXPECT_LT(verdict.detectable_rad, 0.5 * kDegree);
+  EXPECT_GT(verdict.detectable_rad, 0.1 * kRadPerDeg);
+  EXPECT_LT(verdict.detectable_rad, 0.5 * kRadPerDeg);
 }
 
 }  // namespace

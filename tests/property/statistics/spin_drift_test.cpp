@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "services/words/assessment_words.h"
@@ -24,7 +25,6 @@ namespace {
 using testing::all_of;
 using testing::SpinningBody;
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kRpm_rad_s = std::numbers::pi / 30.0;
 
 struct DriftingPass {
@@ -82,7 +82,7 @@ TEST(SpinDrift, RateAndAxisMeanWhatTheirSigmasSay) {
       SCOPED_TRACE(::testing::Message() << rpm << " rpm, " << drift_rpm_h << " rpm/h");
       const DriftingPass pass{.rate_rad_s = rpm * kRpm_rad_s,
                               .drift_rad_s2 = drift_rpm_h * kRpm_rad_s / 3600.0};
-      SpinningBody body = testing::random_body(pass.around(), 2.0 * kDegree_rad, rng);
+      SpinningBody body = testing::random_body(pass.around(), 2.0 * kRadPerDeg, rng);
       body.rate_rad_s = pass.rate_rad_s;
       // As good in angle at every rate.
       body.config.noise = {.sun_s = 6e-3 / rpm, .infrared_s = 3e-2 / rpm};

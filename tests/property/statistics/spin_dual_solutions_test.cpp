@@ -11,6 +11,7 @@
 #include <random>
 #include <set>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/disambiguation/disambiguation.h"
 #include "pipelines/spin/sensor_model/geometry.h"
@@ -23,7 +24,6 @@ namespace {
 using enum PulseChannel;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 constexpr double kRate_rad_s = 2.0 * kPi;
 constexpr int kPasses = 200;
 const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
@@ -57,9 +57,9 @@ struct Pass {
       const SunEarthDirections there = at(share);
       const double apart_rad = angle_between_rad(there.sun_icrf, there.earth_icrf);
       const PredictedAngles angles = predict_angles(axis_icrf, there.sun_icrf, there.earth_icrf);
-      if (std::abs(angles.earth_angle_rad - 0.5 * kPi) > there.disc_rad - 8.0 * kDegree_rad ||
-          std::abs(angles.sun_angle_rad - 0.5 * kPi) > 40.0 * kDegree_rad ||
-          std::abs(apart_rad - 0.5 * kPi) > 75.0 * kDegree_rad) {
+      if (std::abs(angles.earth_angle_rad - 0.5 * kPi) > there.disc_rad - 8.0 * kRadPerDeg ||
+          std::abs(angles.sun_angle_rad - 0.5 * kPi) > 40.0 * kRadPerDeg ||
+          std::abs(apart_rad - 0.5 * kPi) > 75.0 * kRadPerDeg) {
         return false;
       }
     }
@@ -78,8 +78,8 @@ class Passes {
                 .earth_start_icrf = direction(),
                 .orbit_normal_icrf = {},
                 .turn_rad = turn_rad,
-                .disc_start_rad = between(18.0, 35.0) * kDegree_rad,
-                .disc_end_rad = between(18.0, 35.0) * kDegree_rad,
+                .disc_start_rad = between(18.0, 35.0) * kRadPerDeg,
+                .disc_end_rad = between(18.0, 35.0) * kRadPerDeg,
                 .revolutions = revolutions};
       pass.orbit_normal_icrf = pass.earth_start_icrf.cross(direction()).normalized();
       if (pass.visible()) {
@@ -194,12 +194,12 @@ TEST_P(ManyPasses, TheTrueAxisIsChosenOrAmbiguousSaid) {
   int chosen_at_all = 0;
   for (int trial = 0; trial < kPasses; ++trial) {
     SCOPED_TRACE(trial);
-    const double turn_rad = passes.between(0.0, 30.0) * kDegree_rad;
+    const double turn_rad = passes.between(0.0, 30.0) * kRadPerDeg;
     const Pass pass = passes.next(turn_rad, 400);
     const Outcome outcome = outcome_of(passes, pass, kDihedralWithheld, {});
-    EXPECT_EQ(outcome.wrong, 0) << outcome.chosen << " chosen, turn " << turn_rad / kDegree_rad;
+    EXPECT_EQ(outcome.wrong, 0) << outcome.chosen << " chosen, turn " << turn_rad / kRadPerDeg;
     chosen_at_all += outcome.chosen > 0 ? 1 : 0;
-    if (turn_rad >= 10.0 * kDegree_rad) {
+    if (turn_rad >= 10.0 * kRadPerDeg) {
       ++turning;
       chosen += outcome.chosen > 0 ? 1 : 0;
     }
@@ -217,10 +217,10 @@ TEST(DualSolutions, AFlawedModelNeverMakesItChooseTheFalseAxis) {
   int chosen = 0;
   for (int trial = 0; trial < kPasses; ++trial) {
     SCOPED_TRACE(trial);
-    const Flaws flaws{.mounting_rad = passes.between(-0.1, 0.1) * kDegree_rad,
-                      .azimuth_rad = passes.between(-0.1, 0.1) * kDegree_rad,
-                      .limb_rad = passes.between(0.0, 0.12) * kDegree_rad};
-    const Pass pass = passes.next(passes.between(0.0, 30.0) * kDegree_rad, 400);
+    const Flaws flaws{.mounting_rad = passes.between(-0.1, 0.1) * kRadPerDeg,
+                      .azimuth_rad = passes.between(-0.1, 0.1) * kRadPerDeg,
+                      .limb_rad = passes.between(0.0, 0.12) * kRadPerDeg};
+    const Pass pass = passes.next(passes.between(0.0, 30.0) * kRadPerDeg, 400);
     const Outcome outcome = outcome_of(passes, pass, kDihedralWithheld, flaws);
     EXPECT_EQ(outcome.wrong, 0) << outcome.chosen << " chosen";
     chosen += outcome.chosen > 0 ? 1 : 0;
@@ -236,7 +236,7 @@ TEST(DualSolutions, OneChordAloneNeverMakesItChooseAFalseAxis) {
   int chosen = 0;
   for (int trial = 0; trial < kPasses; ++trial) {
     SCOPED_TRACE(trial);
-    const Pass pass = passes.next(passes.between(0.0, 30.0) * kDegree_rad, 400);
+    const Pass pass = passes.next(passes.between(0.0, 30.0) * kRadPerDeg, 400);
     const Outcome outcome = outcome_of(passes, pass, left_out, {});
     EXPECT_EQ(outcome.wrong, 0) << outcome.chosen << " chosen";
     chosen += outcome.chosen > 0 ? 1 : 0;
@@ -250,7 +250,7 @@ TEST(DualSolutions, WithoutASunAngleNoFalseAxisIsChosen) {
   int chosen = 0;
   for (int trial = 0; trial < kPasses; ++trial) {
     SCOPED_TRACE(trial);
-    const Pass pass = passes.next(passes.between(0.0, 30.0) * kDegree_rad, 400);
+    const Pass pass = passes.next(passes.between(0.0, 30.0) * kRadPerDeg, 400);
     const Outcome outcome = outcome_of(passes, pass, {SpinQuantity::SunAngle}, {});
     EXPECT_EQ(outcome.wrong, 0) << outcome.chosen << " chosen";
     chosen += outcome.chosen > 0 ? 1 : 0;

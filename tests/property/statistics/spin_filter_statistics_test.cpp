@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/spin/sequential/sequential.h"
 #include "tests/support/information_limit.h"
 #include "tests/support/observed_spin.h"
@@ -27,10 +28,9 @@ using testing::SpinningBody;
 using testing::SunEarthEphemeris;
 using enum PulseChannel;
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr int kPasses = 200;
 constexpr double kRevolutions = 40.0;
-constexpr double kFixSigma_rad = 0.5 * kDegree_rad;
+constexpr double kFixSigma_rad = 0.5 * kRadPerDeg;
 
 /// A set of channels that is all there is, from a fix of 0.5 deg on.
 struct Subset {
@@ -86,7 +86,7 @@ TEST(SpinFilterStatistics, ErrorsAreThoseThatTheCovariancePromises) {
   std::mt19937_64 rng{2011};
   std::array<SquaredErrors, kSubsets.size()> sums;
   for (int pass = 0; pass < kPasses; ++pass) {
-    const SpinningBody body = testing::random_body(around, 8.0 * kDegree_rad, rng);
+    const SpinningBody body = testing::random_body(around, 8.0 * kRadPerDeg, rng);
     const auto edges = testing::edges_between(
         body, around, 0.0, kRevolutions * 2.0 * std::numbers::pi / body.rate_rad_s);
     const auto revolutions = testing::observed(
@@ -121,7 +121,7 @@ TEST(SpinFilterStatistics, SigmaIsThatOfTheInformationLimit) {
   const SunEarthEphemeris around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
   std::mt19937_64 rng{1946};
   for (int pass = 0; pass < 10; ++pass) {
-    const SpinningBody body = testing::random_body(around, 4.0 * kDegree_rad, rng);
+    const SpinningBody body = testing::random_body(around, 4.0 * kRadPerDeg, rng);
     const double duration_s = kRevolutions * 2.0 * std::numbers::pi / body.rate_rad_s;
     const auto edges = testing::edges_between(body, around, 0.0, duration_s);
     const auto revolutions = testing::observed(
@@ -166,7 +166,7 @@ TEST(SpinFilterStatistics, AnEvenDriftOfTheRateIsFollowed) {
   for (const double rate_rpm : {5.0, 20.0, 60.0, 180.0}) {
     for (const double drift_rpm_h : {0.0, 0.1, 1.0, 2.0}) {
       SCOPED_TRACE(std::to_string(rate_rpm) + " rpm, " + std::to_string(drift_rpm_h) + " rpm/h");
-      SpinningBody body = testing::random_body(around, 8.0 * kDegree_rad, rng);
+      SpinningBody body = testing::random_body(around, 8.0 * kRadPerDeg, rng);
       body.rate_rad_s = rate_rpm * kRpm;
       const double drift_rad_s2 = drift_rpm_h * kRpm / 3600.0;
       const auto seen =

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <functional>
-#include <numbers>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "tests/support/product_text.h"
 #include "tests/support/wobbling_pass.h"
@@ -15,7 +15,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr int kPasses = 20;
 constexpr double kDuration_s = 100.0;
 constexpr double kMostSigmas = 5.0;
@@ -69,7 +68,7 @@ TEST(SpinFirstRows, OfAHealthyPassConvergeAndAreThenOk) {
 
 TEST(SpinFirstRows, AreNotOkAndWrongWhereTheBodyNutates) {
   const Tally tally = tally_of([](testing::WobblingPasses& passes, SpinTruth& truth) {
-    truth.motion.nutation = passes.random_nutation((0.1 + 2.9 * passes.uniform()) * kDegree_rad);
+    truth.motion.nutation = passes.random_nutation((0.1 + 2.9 * passes.uniform()) * kRadPerDeg);
   });
   EXPECT_GT(tally.converging, 0);
   EXPECT_EQ(tally.ok_and_wrong, 0);
@@ -86,7 +85,7 @@ TEST(SpinFirstRows, AreNotOkAndWrongWhereOneBeamCrossesTheMiddle) {
 
 TEST(SpinFirstRows, AreNotOkAndWrongWhereSensorsAreGrosslyMisplaced) {
   const Tally tally = tally_of([](testing::WobblingPasses& passes, SpinTruth& truth) {
-    const auto up_to_two_deg = [&] { return (4.0 * passes.uniform() - 2.0) * kDegree_rad; };
+    const auto up_to_two_deg = [&] { return (4.0 * passes.uniform() - 2.0) * kRadPerDeg; };
     truth.north->mount_angle_rad += up_to_two_deg();
     truth.north->azimuth_rad += up_to_two_deg();
     truth.south->mount_angle_rad += up_to_two_deg();

@@ -5,11 +5,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "services/words/assessment_words.h"
@@ -26,7 +26,6 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kStep_s = 200.0;
 constexpr double kEnd_s = 500.0;
 
@@ -54,7 +53,7 @@ struct Scene {
 void expect_near(const SpinEstimate& estimate, const testing::SpinningBody& body) {
   SCOPED_TRACE(sentence_of(estimate.assessment));
   const double off_rad = angle_between_rad(estimate.axis_icrf, body.axis_icrf);
-  EXPECT_LT(off_rad, 0.2 * kDegree_rad);
+  EXPECT_LT(off_rad, 0.2 * kRadPerDeg);
   EXPECT_LT(off_rad, 4.0 * testing::sigma_rad(estimate));
   EXPECT_NEAR(estimate.spin_rate_rad_s, body.rate_rad_s, 5.0 * estimate.spin_rate_sigma_rad_s);
 }
@@ -64,10 +63,10 @@ TEST(SpinManoeuvre, EstimatesFollowAnAxisThatMoves) {
   std::mt19937_64 rng{611};
   for (int trial = 0; trial < 10; ++trial) {
     SCOPED_TRACE(trial);
-    const testing::SpinningBody before = testing::random_body(scene.around, 3.0 * kDegree_rad, rng);
+    const testing::SpinningBody before = testing::random_body(scene.around, 3.0 * kRadPerDeg, rng);
     const Eigen::Vector3d earth_icrf = scene.around.earth_icrf_km(kStep_s).normalized();
     testing::SpinningBody after = before;
-    after.axis_icrf = Eigen::AngleAxisd{10.0 * kDegree_rad, earth_icrf} * before.axis_icrf;
+    after.axis_icrf = Eigen::AngleAxisd{10.0 * kRadPerDeg, earth_icrf} * before.axis_icrf;
     const SpinOutput output = scene.run(before, after, rng);
     const SpinEstimate mean = testing::last_estimate(output, SpinEstimator::Mean);
     const SpinEstimate sequential = testing::last_estimate(output, SpinEstimator::Sequential);
@@ -90,7 +89,7 @@ TEST(SpinManoeuvre, EstimatesFollowARateThatSteps) {
   std::mt19937_64 rng{612};
   for (const double factor : {0.9, 1.02, 1.15}) {
     SCOPED_TRACE(factor);
-    const testing::SpinningBody before = testing::random_body(scene.around, 3.0 * kDegree_rad, rng);
+    const testing::SpinningBody before = testing::random_body(scene.around, 3.0 * kRadPerDeg, rng);
     testing::SpinningBody after = before;
     after.rate_rad_s *= factor;
     const SpinOutput output = scene.run(before, after, rng);
@@ -106,7 +105,7 @@ TEST(SpinManoeuvre, NothingIsSaidOfOneWhereThereIsNone) {
   std::mt19937_64 rng{613};
   for (int trial = 0; trial < 100; ++trial) {
     SCOPED_TRACE(trial);
-    const testing::SpinningBody body = testing::random_body(scene.around, 8.0 * kDegree_rad, rng);
+    const testing::SpinningBody body = testing::random_body(scene.around, 8.0 * kRadPerDeg, rng);
     const SpinOutput output =
         testing::run(SpinPass{body.config, scene.orbit}, scene.seen(body, 0.0, 60.0, rng));
     EXPECT_FALSE(

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "services/words/assessment_words.h"
 #include "tests/support/observed_spin.h"
@@ -18,7 +19,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kRevolutions = 300.0;
 
 /// What the mission file says differs from the body by so much.
@@ -61,7 +61,7 @@ std::vector<Outcome> outcomes_of(const std::vector<Mistake>& mistakes, double ex
   std::mt19937_64 rng{77};
   std::vector<Outcome> outcomes;
   for (int i = 0; i < bodies; ++i) {
-    const testing::SpinningBody body = testing::random_body(around, 8.0 * kDegree_rad, rng);
+    const testing::SpinningBody body = testing::random_body(around, 8.0 * kRadPerDeg, rng);
     auto edges = testing::edges_between(body, around, 0.0,
                                         kRevolutions * 2.0 * std::numbers::pi / body.rate_rad_s);
     for (testing::Edge& edge : edges) {
@@ -92,7 +92,7 @@ TEST(SpinModelErrors, OfADegreeAreCoveredWhereverTheyShow) {
   int separations_uncovered = 0;
   int azimuths_believed = 0;
   int mounts_uncovered = 0;
-  for (const Outcome& outcome : outcomes_of(mistakes(1.0 * kDegree_rad), 0.0, 16)) {
+  for (const Outcome& outcome : outcomes_of(mistakes(1.0 * kRadPerDeg), 0.0, 16)) {
     SCOPED_TRACE(outcome.mistake + ": " + sentence_of(outcome.assessment));
     const bool azimuth = outcome.mistake.ends_with("azimuth");
     const bool separation = outcome.mistake == "separation";
@@ -114,7 +114,7 @@ TEST(SpinModelErrors, OfADegreeAreCoveredWhereverTheyShow) {
 
 TEST(SpinModelErrors, OfThreeTenthsOfADegreeAreCoveredWhereverTheyShow) {
   int shown = 0;
-  for (const Outcome& outcome : outcomes_of(mistakes(0.3 * kDegree_rad), 0.0, 16)) {
+  for (const Outcome& outcome : outcomes_of(mistakes(0.3 * kRadPerDeg), 0.0, 16)) {
     SCOPED_TRACE(outcome.mistake + ": " + sentence_of(outcome.assessment));
     shown += outcome.model_off() ? 1 : 0;
     EXPECT_TRUE(outcome.model_off() || !outcome.mistake.ends_with("azimuth"));
@@ -126,7 +126,7 @@ TEST(SpinModelErrors, OfThreeTenthsOfADegreeAreCoveredWhereverTheyShow) {
 
 TEST(SpinModelErrors, OfAChordAreCovered) {
   const Mistake none{"none", [](SpinConfig&) {}};
-  for (const double excess_rad : {0.3 * kDegree_rad, -0.3 * kDegree_rad}) {
+  for (const double excess_rad : {0.3 * kRadPerDeg, -0.3 * kRadPerDeg}) {
     for (const Outcome& outcome : outcomes_of({none}, excess_rad, 4)) {
       SCOPED_TRACE(sentence_of(outcome.assessment));
       EXPECT_TRUE(outcome.model_off());

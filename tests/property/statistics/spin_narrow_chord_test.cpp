@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "pipelines/spin/batch/pass_edges.h"
@@ -28,7 +29,6 @@ namespace spindrift {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 constexpr double kSigmas = 5.0;
 
 /// Near its apogee, 42,000 km from the Earth's centre: the disc has a half-angle of 8.8 deg.
@@ -36,10 +36,10 @@ Orbit high_orbit() {
   return Orbit{KeplerOrbit::make({.epoch = testing::kTransferStart,
                                   .semi_major_axis_km = 24400.0,
                                   .eccentricity = 0.73,
-                                  .inclination_rad = 28.5 * kDegree_rad,
-                                  .raan_rad = 281.0 * kDegree_rad,
+                                  .inclination_rad = 28.5 * kRadPerDeg,
+                                  .raan_rad = 281.0 * kRadPerDeg,
                                   .argument_of_perigee_rad = kPi,
-                                  .mean_anomaly_rad = 164.698 * kDegree_rad})
+                                  .mean_anomaly_rad = 164.698 * kRadPerDeg})
                    .value()};
 }
 
@@ -53,8 +53,8 @@ struct NarrowPass {
 
 /// The beam at 85 deg, north's or south's, has a chord of 3.7 deg; that at 95 deg 17 deg.
 testing::SpinningBody body_of(const NarrowPass& pass) {
-  testing::SpinningBody body{.axis_icrf = direction_icrf({.ra_rad = 196.6782 * kDegree_rad,
-                                                          .dec_rad = 55.206 * kDegree_rad}),
+  testing::SpinningBody body{.axis_icrf = direction_icrf(
+                                 {.ra_rad = 196.6782 * kRadPerDeg, .dec_rad = 55.206 * kRadPerDeg}),
                              .rate_rad_s = pass.rate_rpm * 2.0 * kPi / 60.0,
                              .first_turn_rad = 0.4,
                              .config = testing::usual_config()};

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "services/words/assessment_words.h"
@@ -19,17 +20,16 @@ namespace spindrift {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 constexpr double kSigmas = 5.0;
 
 /// Sun slit 2 does not see the Sun: case 6.
 testing::SpinningBody body_of_the_pass() {
-  testing::SpinningBody body{.axis_icrf = direction_icrf({.ra_rad = 217.26 * kDegree_rad,
-                                                          .dec_rad = 15.1292 * kDegree_rad}),
-                             .rate_rad_s = 5.0 * kPi,
-                             .first_turn_rad = 0.4,
-                             .config = testing::usual_config()};
-  body.config.south->azimuth_rad = 120.0 * kDegree_rad;
+  testing::SpinningBody body{
+      .axis_icrf = direction_icrf({.ra_rad = 217.26 * kRadPerDeg, .dec_rad = 15.1292 * kRadPerDeg}),
+      .rate_rad_s = 5.0 * kPi,
+      .first_turn_rad = 0.4,
+      .config = testing::usual_config()};
+  body.config.south->azimuth_rad = 120.0 * kRadPerDeg;
   return body;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pipelines/frames/angle.h"
 #include "tests/support/nutation_trials.h"
 
 namespace spindrift {
@@ -25,7 +26,7 @@ TEST(SpinNutation, OfSlenderAndFlatBodiesIsToldApart) {
   testing::NutationTrials trials{2};
   for (const double inertia_ratio : {0.08, 0.2, 0.5, 0.9, 1.1, 1.5, 1.9}) {
     SCOPED_TRACE(inertia_ratio);
-    const Nutation nutation = {.half_angle_rad = 0.2 * testing::kDegree_rad,
+    const Nutation nutation = {.half_angle_rad = 0.2 * kRadPerDeg,
                                .inertia_ratio = inertia_ratio,
                                .first_azimuth_rad = 1.0};
     const auto search = trials.searched(nutation);
@@ -57,10 +58,10 @@ TEST(SpinNutation, IsNotMadeUpOutOfMisplacedSensorsAndAnOblateEarth) {
     trials.truth.horizon =
         infrared_horizon({.model = HorizonModel::Ellipsoid, .co2_altitude_km = 40.0},
                          trials.truth.horizon.pole_icrf);
-    trials.truth.north->mount_angle_rad += 0.1 * testing::kDegree_rad;
-    trials.truth.south->chord_excess_rad = 0.1 * testing::kDegree_rad;
+    trials.truth.north->mount_angle_rad += 0.1 * kRadPerDeg;
+    trials.truth.south->chord_excess_rad = 0.1 * kRadPerDeg;
     trials.truth.motion.rate_drift_rad_s2 = 1e-6;
-    trials.truth.motion.coning = {.tilt_rad = 0.1 * testing::kDegree_rad};
+    trials.truth.motion.coning = {.tilt_rad = 0.1 * kRadPerDeg};
     EXPECT_FALSE(trials.searched({}).found) << duration_s;
   }
 }
@@ -72,7 +73,7 @@ TEST(SpinNutation, BelowWhatCouldBeDetectedIsSaidToBe) {
     const auto search = trials.searched(nutation);
     EXPECT_FALSE(search.found);
     EXPECT_GT(search.detectable_rad, 3.0 * nutation.half_angle_rad);
-    EXPECT_LT(search.detectable_rad, 0.03 * testing::kDegree_rad);
+    EXPECT_LT(search.detectable_rad, 0.03 * kRadPerDeg);
   }
 }
 

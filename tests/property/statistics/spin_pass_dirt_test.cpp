@@ -15,6 +15,7 @@
 #include <variant>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "services/words/assessment_words.h"
@@ -34,7 +35,6 @@ using testing::DirtyPass;
 using testing::SpinningBody;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 
 void expect_numbers(const SpinOutput& output) {
   for (const SpinMeasurement& measurement : all_of<SpinMeasurement>(output)) {
@@ -93,7 +93,7 @@ void expect_found(const SpinOutput& output, const SpinningBody& body) {
   EXPECT_TRUE(is_unopposed(sequential.assessment.quality)) << sentence_of(sequential.assessment);
   const double off_rad = angle_between_rad(sequential.axis_icrf, body.axis_icrf);
   EXPECT_LT(off_rad, 4.0 * testing::sigma_rad(sequential));
-  EXPECT_LT(testing::sigma_rad(sequential), 0.3 * kDegree_rad);
+  EXPECT_LT(testing::sigma_rad(sequential), 0.3 * kRadPerDeg);
   EXPECT_NEAR(sequential.spin_rate_rad_s, body.rate_rad_s, 5.0 * sequential.spin_rate_sigma_rad_s);
 }
 
@@ -116,7 +116,7 @@ TEST(SpinPassDirt, GoodMeasurementsAreKeptAtAnyRate) {
     int angles = 0;
     int refused = 0;
     for (int pass = 0; pass < 20; ++pass) {
-      SpinningBody body = testing::random_body(scene.around, 20.0 * kDegree_rad, rng);
+      SpinningBody body = testing::random_body(scene.around, 20.0 * kRadPerDeg, rng);
       body.rate_rad_s = rpm * kPi / 30.0;
       body.config.noise = {.sun_s = 1e-4, .infrared_s = 4e-3};
       const SpinOutput output = scene.run(body, scene.seen(body, 0.0, 50.0 * 60.0 / rpm, rng));
@@ -143,7 +143,7 @@ TEST(SpinPassDirt, AxisAndRateAreFoundHoweverDirtyThePass) {
     for (const double rpm : {5.0, 20.0, 60.0, 200.0}) {
       SCOPED_TRACE(::testing::Message() << rpm << " rpm, lost " << dirt.lost << " spoilt "
                                         << dirt.spoilt << " spurious " << dirt.spurious);
-      SpinningBody body = testing::random_body(scene.around, 4.0 * kDegree_rad, rng);
+      SpinningBody body = testing::random_body(scene.around, 4.0 * kRadPerDeg, rng);
       body.rate_rad_s = rpm * 2.0 * kPi / 60.0;
       const double period_s = 60.0 / rpm;
       const DirtyPass pass = testing::dirty(
@@ -168,7 +168,7 @@ TEST(SpinPassDirt, TurnsAreCountedThroughSilencesOfMinutes) {
   std::mt19937_64 rng{702};
   for (const double silence_s : {60.0, 300.0, 900.0}) {
     SCOPED_TRACE(silence_s);
-    const SpinningBody body = testing::random_body(scene.around, 2.0 * kDegree_rad, rng);
+    const SpinningBody body = testing::random_body(scene.around, 2.0 * kRadPerDeg, rng);
     std::vector<Pulse> pulses = scene.seen(body, 0.0, 120.0, rng);
     const auto later = scene.seen(body, 120.0 + silence_s, 240.0 + silence_s, rng);
     pulses.insert(pulses.end(), later.begin(), later.end());
@@ -186,7 +186,7 @@ TEST(SpinPassDirt, CountAndRateAreRightAtAnyRateUnknownBeforehand) {
   for (const double rpm : {5.0, 20.0, 60.0, 100.0, 150.0, 200.0}) {
     for (int seed = 0; seed < 3; ++seed) {
       SCOPED_TRACE(::testing::Message() << rpm << " rpm, trial " << seed);
-      SpinningBody body = testing::random_body(scene.around, 3.0 * kDegree_rad, rng);
+      SpinningBody body = testing::random_body(scene.around, 3.0 * kRadPerDeg, rng);
       body.rate_rad_s = rpm * 2.0 * kPi / 60.0;
       const double period_s = 60.0 / rpm;
       std::vector<Pulse> pulses = testing::dirty(scene.seen(body, 0.0, 120.0 * period_s, rng),
@@ -215,7 +215,7 @@ TEST(SpinPassDirt, AfterAnHourOfSilenceTheCountIsRightOrSaidToBeUncertain) {
   for (const bool sun1_only : {false, true}) {
     for (const double heard_s : {8.0, 600.0}) {
       SCOPED_TRACE(::testing::Message() << heard_s << " s heard, sun1 only: " << sun1_only);
-      const SpinningBody body = testing::random_body(scene.around, 2.0 * kDegree_rad, rng);
+      const SpinningBody body = testing::random_body(scene.around, 2.0 * kRadPerDeg, rng);
       std::vector<Pulse> pulses = scene.seen(body, 0.0, heard_s, rng);
       const auto later = scene.seen(body, heard_s + kSilence_s, heard_s + kSilence_s + 60.0, rng);
       pulses.insert(pulses.end(), later.begin(), later.end());
@@ -237,7 +237,7 @@ TEST(SpinPassDirt, AfterAnHourOfSilenceTheCountIsRightOrSaidToBeUncertain) {
 TEST(SpinPassDirt, AnEdgeStampedAYearOffMovesNothing) {
   const Scene scene;
   std::mt19937_64 rng{709};
-  const SpinningBody body = testing::random_body(scene.around, 2.0 * kDegree_rad, rng);
+  const SpinningBody body = testing::random_body(scene.around, 2.0 * kRadPerDeg, rng);
   const std::vector<Pulse> pulses = scene.seen(body, 0.0, 120.0, rng);
   const SpinOutput expected = scene.run(body, pulses);
   for (const double days : {-365.0, 365.0}) {
@@ -262,7 +262,7 @@ TEST(SpinPassDirt, AnEdgeStampedAYearOffMovesNothing) {
 TEST(SpinPassDirt, TheFilterRunsOnWhenSun1Dies) {
   const Scene scene;
   std::mt19937_64 rng{703};
-  const SpinningBody body = testing::random_body(scene.around, 2.0 * kDegree_rad, rng);
+  const SpinningBody body = testing::random_body(scene.around, 2.0 * kRadPerDeg, rng);
   for (const std::set<PulseChannel>& dead :
        {std::set{Sun1}, std::set{Sun1, Sun2}, std::set{Sun1, Sun2, SouthIn, SouthOut}}) {
     SCOPED_TRACE(dead.size());
@@ -281,7 +281,7 @@ TEST(SpinPassDirt, TheFilterRunsOnWhenSun1Dies) {
 TEST(SpinPassDirt, InterferenceSpoilsBothEdges) {
   const Scene scene;
   std::mt19937_64 rng{704};
-  SpinningBody body = testing::random_body(scene.around, 2.0 * kDegree_rad, rng);
+  SpinningBody body = testing::random_body(scene.around, 2.0 * kRadPerDeg, rng);
   body.config.screening.interference_s = 0.002;
   const auto pulses = scene.seen(body, 0.0, 150.0, rng);
   const auto uses = all_of<PulseUse>(scene.run(body, pulses));
@@ -307,7 +307,7 @@ TEST(SpinPassDirt, SwappedBeamsGiveNoConfidentAxis) {
                                                                  SouthOut, NorthIn, NorthOut};
   for (int trial = 0; trial < 10; ++trial) {
     SCOPED_TRACE(trial);
-    const SpinningBody body = testing::random_body(scene.around, 2.0 * kDegree_rad, rng);
+    const SpinningBody body = testing::random_body(scene.around, 2.0 * kRadPerDeg, rng);
     std::vector<Pulse> pulses = scene.seen(body, 0.0, 150.0, rng);
     for (Pulse& pulse : pulses) {
       pulse.channel = kSwapped.at(index_of(pulse.channel));
@@ -320,7 +320,7 @@ TEST(SpinPassDirt, SwappedBeamsGiveNoConfidentAxis) {
           testing::number_of(estimate.assessment.reasons, ReasonCode::Revolutions, "count") !=
               0.0) {
         EXPECT_LT(angle_between_rad(estimate.axis_icrf, body.axis_icrf),
-                  5.0 * testing::sigma_rad(estimate) + kDegree_rad)
+                  5.0 * testing::sigma_rad(estimate) + kRadPerDeg)
             << sentence_of(estimate.assessment);
       }
     }
@@ -335,7 +335,7 @@ TEST(SpinPassDirt, GarbageGivesNothingThatIsNoNumber) {
                                                       std::numeric_limits<std::int64_t>::max()};
   for (int trial = 0; trial < 60; ++trial) {
     SCOPED_TRACE(trial);
-    const SpinningBody body = testing::random_body(scene.around, 8.0 * kDegree_rad, rng);
+    const SpinningBody body = testing::random_body(scene.around, 8.0 * kRadPerDeg, rng);
     std::vector<Pulse> pulses =
         trial % 3 == 0 ? std::vector<Pulse>{} : scene.seen(body, 0.0, 60.0, rng);
     std::uniform_real_distribution<double> within_s{0.0, trial % 2 == 0 ? 60.0 : 4000.0};

@@ -9,6 +9,7 @@
 #include <random>
 #include <string>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "services/words/assessment_words.h"
 #include "tests/support/information_limit.h"
@@ -19,7 +20,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kRevolutions = 150.0;
 
 struct SquaredErrors {
@@ -41,7 +41,7 @@ SquaredErrors squared_errors_of(int passes, std::uint64_t seed) {
   std::mt19937_64 rng{seed};
   SquaredErrors sums;
   for (int pass = 0; pass < passes; ++pass) {
-    const testing::SpinningBody body = testing::random_body(around, 8.0 * kDegree_rad, rng);
+    const testing::SpinningBody body = testing::random_body(around, 8.0 * kRadPerDeg, rng);
     const auto edges = testing::edges_between(
         body, around, 0.0, kRevolutions * 2.0 * std::numbers::pi / body.rate_rad_s);
     const SpinOutput output =
@@ -100,7 +100,7 @@ TEST(SpinStatistics, SigmaOfWholePassesIsThatOfTheInformationLimit) {
   std::mt19937_64 rng{123};
   for (int pass = 0; pass < 8; ++pass) {
     SCOPED_TRACE(pass);
-    const testing::SpinningBody body = testing::random_body(around, 4.0 * kDegree_rad, rng);
+    const testing::SpinningBody body = testing::random_body(around, 4.0 * kRadPerDeg, rng);
     const double duration_s = kRevolutions * 2.0 * std::numbers::pi / body.rate_rad_s;
     const auto edges = testing::edges_between(body, around, 0.0, duration_s);
     const SpinOutput output =

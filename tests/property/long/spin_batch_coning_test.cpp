@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "services/words/assessment_words.h"
 #include "tests/support/wobbling_pass.h"
 
@@ -15,8 +16,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 double azimuth_off_rad(const BatchSolution& solution, const Coning& coning) {
   return wrapped_rad(solution.coning.verdict.azimuth_rad - coning.azimuth_rad);
@@ -47,7 +46,7 @@ TEST(SpinBatchConing, ThatIsAskedForIsFoundAndTheAxisIsThatOfTheSpin) {
     passes.config().batch.biases = unknowns_of(ConingX);
     // The prior's.
     truth.motion.coning = {
-        .tilt_rad = 0.5 * kDegree_rad * std::sqrt(-2.0 * std::log(passes.uniform())),
+        .tilt_rad = 0.5 * kRadPerDeg * std::sqrt(-2.0 * std::log(passes.uniform())),
         .azimuth_rad = 2.0 * std::numbers::pi * passes.uniform()};
     const auto solution = passes.solved(passes.edges(truth));
     ASSERT_TRUE(solution) << solution.error().message;
@@ -67,7 +66,7 @@ TEST(SpinBatchConing, OfADegreeIsFoundUnaskedWhereItCanBe) {
   int found = 0;
   for (int pass = 0; pass < 20; ++pass) {
     SpinTruth truth = passes.drawn();
-    truth.motion.coning = {.tilt_rad = 1.0 * kDegree_rad,
+    truth.motion.coning = {.tilt_rad = 1.0 * kRadPerDeg,
                            .azimuth_rad = 2.0 * std::numbers::pi * passes.uniform()};
     const auto solution = passes.solved(passes.edges(truth));
     ASSERT_TRUE(solution) << solution.error().message;
@@ -96,7 +95,7 @@ TEST(SpinBatchConing, ThatAMisplacedBeamLooksLikeIsDoubtedAndInTheSigma) {
   int coning = 0;
   for (int pass = 0; pass < 20; ++pass) {
     SpinTruth truth = passes.drawn();
-    truth.south->azimuth_rad += (0.05 + 0.15 * passes.uniform()) * kDegree_rad;
+    truth.south->azimuth_rad += (0.05 + 0.15 * passes.uniform()) * kRadPerDeg;
     const auto solution = passes.solved(passes.edges(truth));
     ASSERT_TRUE(solution) << solution.error().message;
     SCOPED_TRACE(sentence_of(solution->estimate.assessment));

@@ -12,6 +12,7 @@
 #include <random>
 #include <utility>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "pipelines/spin/batch/pass_edges.h"
@@ -29,7 +30,6 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 constexpr double kRpm_rad_s = kPi / 30.0;
 
 /// As `process` does at the end of a pass.
@@ -58,7 +58,7 @@ TEST(SpinBatchChange, IsNotMadeOfTheDirtOfASteadyPass) {
   std::uniform_real_distribution<double> uniform;
   int solutions = 0;
   for (int pass = 0; pass < 200; ++pass) {
-    testing::SpinningBody body = testing::random_body(scene.around, 3.0 * kDegree_rad, scene.rng);
+    testing::SpinningBody body = testing::random_body(scene.around, 3.0 * kRadPerDeg, scene.rng);
     body.rate_rad_s = 5.0 * std::pow(40.0, uniform(scene.rng)) * kRpm_rad_s;
     const double turns = 10.0 + 20.0 * uniform(scene.rng);
     SCOPED_TRACE(fmt::format("pass {}: {:.1f} turns at {:.1f} rpm", pass, turns,
@@ -81,15 +81,15 @@ struct HardPass {
   Orbit orbit = testing::transfer_with_node(91.06809);
   testing::SunEarthEphemeris around =
       testing::seen_from(orbit, testing::ellipsoidal_horizon_km(40.0));
-  testing::SpinningBody body{.axis_icrf = direction_icrf({.ra_rad = 61.455876 * kDegree_rad,
-                                                          .dec_rad = 19.945283 * kDegree_rad}),
+  testing::SpinningBody body{.axis_icrf = direction_icrf({.ra_rad = 61.455876 * kRadPerDeg,
+                                                          .dec_rad = 19.945283 * kRadPerDeg}),
                              .rate_rad_s = 150.0 * kRpm_rad_s,
                              .first_turn_rad = 0.0,
                              .config = testing::usual_config()};
 
   HardPass() {
-    body.config.south->mount_angle_rad = 120.0 * kDegree_rad;
-    body.config.south->azimuth_rad = 120.0 * kDegree_rad;
+    body.config.south->mount_angle_rad = 120.0 * kRadPerDeg;
+    body.config.south->azimuth_rad = 120.0 * kRadPerDeg;
     body.config.horizon.model = HorizonModel::Ellipsoid;
   }
 };
@@ -132,8 +132,8 @@ TEST(SpinBatchChange, IsFoundInDirtAndDated) {
   testing::BatchScene scene{3103};
   for (const double by_deg : {0.57, 2.0, 10.0}) {
     SCOPED_TRACE(by_deg);
-    scene.body = testing::random_body(scene.around, 3.0 * kDegree_rad, scene.rng);
-    const auto solution = solved_moved(scene, 240.0, by_deg * kDegree_rad);
+    scene.body = testing::random_body(scene.around, 3.0 * kRadPerDeg, scene.rng);
+    const auto solution = solved_moved(scene, 240.0, by_deg * kRadPerDeg);
     ASSERT_TRUE(solution) << solution.error().message;
     SCOPED_TRACE(sentence_of(solution->estimate.assessment));
     ASSERT_TRUE(solution->changed);
@@ -147,7 +147,7 @@ TEST(SpinBatchChange, IsFoundInDirtAndDated) {
 
 TEST(SpinBatchChange, IsDoubtedWhereItLeavesOutMostOfThePass) {
   testing::BatchScene scene{3104};
-  const auto solution = solved_moved(scene, 450.0, 2.0 * kDegree_rad);
+  const auto solution = solved_moved(scene, 450.0, 2.0 * kRadPerDeg);
   ASSERT_TRUE(solution) << solution.error().message;
   EXPECT_EQ(solution->estimate.assessment.quality, Quality::Doubtful);
   EXPECT_TRUE(has(solution->estimate.assessment, ReasonCode::MostBeforeChange));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "services/words/assessment_words.h"
 #include "tests/support/assessed.h"
 #include "tests/support/wobbling_pass.h"
@@ -16,8 +17,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 TEST(SpinBatchNutation, IsTakenOutAndTheAxisReachesTheBound) {
   constexpr int kPasses = 120;
@@ -30,7 +29,7 @@ TEST(SpinBatchNutation, IsTakenOutAndTheAxisReachesTheBound) {
   for (int pass = 0; pass < kPasses; ++pass) {
     SpinTruth truth = passes.drawn();
     const auto steady = passes.solved(passes.edges(truth));
-    truth.motion.nutation = passes.random_nutation(0.2 * kDegree_rad);
+    truth.motion.nutation = passes.random_nutation(0.2 * kRadPerDeg);
     const auto solution = passes.solved(passes.edges(truth));
     ASSERT_TRUE(steady && solution) << pass;
     SCOPED_TRACE(sentence_of(solution->estimate.assessment));
@@ -38,7 +37,7 @@ TEST(SpinBatchNutation, IsTakenOutAndTheAxisReachesTheBound) {
     EXPECT_EQ(solution->noise, 1.0);
     ASSERT_TRUE(solution->nutation && solution->nutation->found);
     const FoundNutation& found = *solution->nutation->found;
-    EXPECT_NEAR(found.half_angle_rad.value, 0.2 * kDegree_rad, 4.0 * found.half_angle_rad.sigma);
+    EXPECT_NEAR(found.half_angle_rad.value, 0.2 * kRadPerDeg, 4.0 * found.half_angle_rad.sigma);
     const double period_s =
         2.0 * std::numbers::pi / (truth.motion.rate_rad_s * truth.motion.nutation.per_turn());
     const auto is_true = [&](double found_s) {
@@ -71,7 +70,7 @@ TEST(SpinBatchNutation, OfDegreesIsTakenOutToo) {
   testing::WobblingPasses passes{2402, 200.0};
   for (const double half_angle_deg : {0.5, 1.0, 2.0, 4.0}) {
     SpinTruth truth = passes.drawn();
-    truth.motion.nutation = passes.random_nutation(half_angle_deg * kDegree_rad);
+    truth.motion.nutation = passes.random_nutation(half_angle_deg * kRadPerDeg);
     const auto solution = passes.solved(passes.edges(truth));
     ASSERT_TRUE(solution) << solution.error().message;
     SCOPED_TRACE(sentence_of(solution->estimate.assessment));
@@ -79,7 +78,7 @@ TEST(SpinBatchNutation, OfDegreesIsTakenOutToo) {
     EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);  // One in a thousand.
     ASSERT_TRUE(solution->nutation->found);
     const FoundNutation& found = *solution->nutation->found;
-    EXPECT_NEAR(found.half_angle_rad.value, half_angle_deg * kDegree_rad,
+    EXPECT_NEAR(found.half_angle_rad.value, half_angle_deg * kRadPerDeg,
                 4.0 * found.half_angle_rad.sigma);
   }
 }
@@ -87,7 +86,7 @@ TEST(SpinBatchNutation, OfDegreesIsTakenOutToo) {
 TEST(SpinBatchNutation, ThatGrowsManyTimesIsFollowedFromStretchToStretch) {
   testing::WobblingPasses passes{2403, 5400.0};
   SpinTruth truth = passes.drawn();
-  truth.motion.nutation = passes.random_nutation(0.01 * kDegree_rad);
+  truth.motion.nutation = passes.random_nutation(0.01 * kRadPerDeg);
   truth.motion.nutation.growth_per_s = 4.0 / 5400.0;
   const auto solution = passes.solved(passes.edges(truth));
   ASSERT_TRUE(solution) << solution.error().message;
@@ -107,7 +106,7 @@ TEST(SpinBatchNutation, ThatGrowsManyTimesIsFollowedFromStretchToStretch) {
 TEST(SpinBatchNutation, ThatHasDiedOutIsTakenOutOfWhereItWas) {
   testing::WobblingPasses passes{2404, 5400.0};
   SpinTruth truth = passes.drawn();
-  truth.motion.nutation = passes.random_nutation(0.5 * kDegree_rad);
+  truth.motion.nutation = passes.random_nutation(0.5 * kRadPerDeg);
   truth.motion.nutation.growth_per_s = -6.0 / 5400.0;
   const auto solution = passes.solved(passes.edges(truth));
   ASSERT_TRUE(solution) << solution.error().message;
@@ -120,8 +119,8 @@ TEST(SpinBatchNutation, IsNotTakenForABiasNorABiasForIt) {
   testing::WobblingPasses passes{2405, 600.0};
   for (int pass = 0; pass < 6; ++pass) {
     SpinTruth truth = passes.drawn();
-    truth.motion.nutation = passes.random_nutation(0.2 * kDegree_rad);
-    truth.north->chord_excess_rad = 0.3 * kDegree_rad;
+    truth.motion.nutation = passes.random_nutation(0.2 * kRadPerDeg);
+    truth.north->chord_excess_rad = 0.3 * kRadPerDeg;
     const auto solution = passes.solved(passes.edges(truth));
     ASSERT_TRUE(solution) << solution.error().message;
     SCOPED_TRACE(sentence_of(solution->estimate.assessment));
@@ -144,10 +143,10 @@ TEST(SpinBatchNutation, DoesNotHideAManoeuvreNorIsOneForIt) {
   for (const double half_angle_deg : {0.0, 0.2}) {
     testing::WobblingPasses passes{2406, 600.0};
     SpinTruth before = passes.drawn();
-    before.motion.nutation = passes.random_nutation(half_angle_deg * kDegree_rad);
+    before.motion.nutation = passes.random_nutation(half_angle_deg * kRadPerDeg);
     SpinTruth after = before;
     after.motion.axis_icrf =
-        Eigen::AngleAxisd{0.1 * kDegree_rad, before.motion.axis_icrf.unitOrthogonal()} *
+        Eigen::AngleAxisd{0.1 * kRadPerDeg, before.motion.axis_icrf.unitOrthogonal()} *
         before.motion.axis_icrf;
     const TaiTime moved = shifted(before.start, 300.0);
     std::vector<PassEdge> edges = passes.edges(before);
