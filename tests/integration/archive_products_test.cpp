@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/time/utc.h"
 #include "services/archive/archive.h"
@@ -22,7 +23,6 @@ using ::testing::ElementsAre;
 using testing::pulse_at;
 using testing::start_of;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 // The product of a few doubles near 1, and degrees of a circle: a few ulps of 360.
 constexpr double kDegTolerance = 1e-12;
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
 #include "services/processor/withheld.h"
@@ -22,7 +23,6 @@ namespace {
 
 const std::filesystem::path kPass = recorded_passes() / "nominal";
 constexpr std::int64_t kEdges = 240;
-constexpr double kRadPerDeg = 0.017453292519943295;
 
 SpinConfig nominal() { return *load_mission(kPass / "mission.toml").value().spin(); }
 

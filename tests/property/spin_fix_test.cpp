@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "tests/support/lone_fix.h"
@@ -19,7 +20,6 @@ namespace {
 using enum SpinQuantity;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 constexpr int kTrials = 600;
 
 /// A body anywhere on the sky that turns once in six seconds, so that the nanosecond to which its
@@ -59,10 +59,10 @@ class Scenes {
       return Eigen::AngleAxisd{angle_rad, axis.cross(direction()).normalized()} * axis;
     };
     SpinConfig config = testing::usual_config();
-    config.sun_sensor.slit_cant_rad = between(20.0, 50.0) * kDegree_rad;
-    config.sun_sensor.slit_separation_rad = between(-60.0, 60.0) * kDegree_rad;
-    config.north->mount_angle_rad = between(70.0, 88.0) * kDegree_rad;
-    config.south->mount_angle_rad = between(92.0, 110.0) * kDegree_rad;
+    config.sun_sensor.slit_cant_rad = between(20.0, 50.0) * kRadPerDeg;
+    config.sun_sensor.slit_separation_rad = between(-60.0, 60.0) * kRadPerDeg;
+    config.north->mount_angle_rad = between(70.0, 88.0) * kRadPerDeg;
+    config.south->mount_angle_rad = between(92.0, 110.0) * kRadPerDeg;
     config.north->azimuth_rad = between(-kPi, kPi);
     config.south->azimuth_rad = between(-kPi, kPi);
     config.noise = {.sun_s = 2e-5, .infrared_s = 1e-4};
@@ -70,8 +70,8 @@ class Scenes {
                      .rate_rad_s = 2.0 * kPi / 6.0,
                      .first_turn_rad = between(0.0, 2.0 * kPi),
                      .config = config},
-            .sun_icrf = away(between(55.0, 125.0) * kDegree_rad),
-            .earth_icrf = away(between(80.0, 100.0) * kDegree_rad),
+            .sun_icrf = away(between(55.0, 125.0) * kRadPerDeg),
+            .earth_icrf = away(between(80.0, 100.0) * kRadPerDeg),
             .range_km = between(9000.0, 20000.0)};
   }
 
@@ -83,7 +83,7 @@ class Scenes {
 
 /// Sun and Earth within 10 deg of one line multiply every error by six and more.
 bool nearly_in_line(const Scene& scene) {
-  return scene.sun_icrf.cross(scene.earth_icrf).norm() < std::sin(10.0 * kDegree_rad);
+  return scene.sun_icrf.cross(scene.earth_icrf).norm() < std::sin(10.0 * kRadPerDeg);
 }
 
 TEST(SpinFixProperty, RecoversTheAxisFromBothChords) {

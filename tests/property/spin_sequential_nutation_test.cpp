@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "services/words/assessment_words.h"
 #include "tests/support/observed_spin.h"
@@ -16,8 +16,6 @@
 
 namespace spindrift {
 namespace {
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 std::vector<Pulse> pulses_of(const std::vector<PassEdge>& edges) {
   std::vector<Pulse> pulses;
@@ -46,7 +44,7 @@ TEST(SpinSequentialNutation, DoesNotMoveTheAxis) {
   double squares = 0.0;
   for (int pass = 0; pass < kPasses; ++pass) {
     SpinTruth truth = passes.drawn();
-    truth.motion.nutation = passes.random_nutation(pass % 2 == 0 ? 0.2 * kDegree_rad : kDegree_rad);
+    truth.motion.nutation = passes.random_nutation(pass % 2 == 0 ? 0.2 * kRadPerDeg : kRadPerDeg);
     const auto pulses = pulses_of(passes.edges(truth));
     const SpinOutput output = testing::run(SpinPass{passes.config(), passes.orbit()}, pulses);
     const SpinEstimate last = testing::last_estimate(output, SpinEstimator::Sequential);

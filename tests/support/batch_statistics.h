@@ -9,12 +9,11 @@
 #include <random>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "tests/support/batch_pass.h"
 
 namespace spindrift::testing {
-
-inline constexpr double kDegree_rad = 0.017453292519943295;
 
 struct BatchStatistics {
   int passes = 0;
@@ -102,7 +101,7 @@ inline BatchStatistics many_passes(int passes, const PassKind& kind, std::uint64
   std::normal_distribution<double> normal;
   BatchStatistics sums;
   for (int pass = 0; pass < passes; ++pass) {
-    const SpinningBody body = random_body(kind.around, 6.0 * kDegree_rad, rng);
+    const SpinningBody body = random_body(kind.around, 6.0 * kRadPerDeg, rng);
     normal.reset();
     SensorBiases biases = SensorBiases::Zero();
     for (int i = 0; i < kSensorBiases; ++i) {
@@ -121,7 +120,7 @@ inline BatchStatistics many_passes_with(int passes, const PassKind& kind,
   std::mt19937_64 rng{seed};
   BatchStatistics sums;
   for (int pass = 0; pass < passes; ++pass) {
-    add_pass(kind, random_body(kind.around, 6.0 * kDegree_rad, rng), biases, rng, sums);
+    add_pass(kind, random_body(kind.around, 6.0 * kRadPerDeg, rng), biases, rng, sums);
   }
   return sums;
 }
@@ -130,7 +129,7 @@ inline BatchStatistics many_passes_with(int passes, const PassKind& kind,
 /// unknown.
 inline BatchStatistics many_passes_with_a_wide_north_chord(int passes, std::uint64_t seed) {
   SensorBiases biases = SensorBiases::Zero();
-  biases[NorthChordBias] = 0.3 * kDegree_rad;
+  biases[NorthChordBias] = 0.3 * kRadPerDeg;
   return many_passes_with(passes, {.turns = 60.0, .estimated = BiasSet{}.set(NorthChordBias)},
                           biases, seed);
 }

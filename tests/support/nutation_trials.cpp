@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 
 namespace spindrift::testing {
@@ -13,7 +14,7 @@ Nutation NutationTrials::random_nutation(double half_angle_deg) {
   while (true) {
     const double inertia_ratio = 0.03 + 1.94 * uniform(rng_);
     if (std::abs(inertia_ratio - 1.0) > 0.03) {
-      return {.half_angle_rad = half_angle_deg * kDegree_rad,
+      return {.half_angle_rad = half_angle_deg * kRadPerDeg,
               .inertia_ratio = inertia_ratio,
               .first_azimuth_rad = 2.0 * std::numbers::pi * uniform(rng_)};
     }

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <numbers>
 #include <random>
 #include <string>
 
@@ -12,8 +11,6 @@
 #include "tests/support/uniform_spin_residuals.h"
 
 namespace spindrift::testing {
-
-inline constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 /// Each of 300 turns, with 0.1 ms (Sun) and 0.5 ms (infrared) of noise.
 class NutationTrials {

@@ -8,13 +8,13 @@
 
 #include "pipelines/ephemeris/earth_pole.h"
 #include "pipelines/ephemeris/sun.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 
 namespace spindrift::testing {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 
 }  // namespace
 
@@ -49,7 +49,7 @@ Orbit transfer_orbit() {
   return Orbit{KeplerOrbit::make({.epoch = kTransferStart,
                                   .semi_major_axis_km = 24400.0,
                                   .eccentricity = 0.73,
-                                  .inclination_rad = 27.0 * kDegree_rad,
+                                  .inclination_rad = 27.0 * kRadPerDeg,
                                   .raan_rad = 0.5,
                                   .argument_of_perigee_rad = 3.0,
                                   .mean_anomaly_rad = 0.35})
@@ -71,10 +71,10 @@ Orbit transfer_with_node(double raan_deg) {
   return Orbit{KeplerOrbit::make({.epoch = kTransferStart,
                                   .semi_major_axis_km = 24400.0,
                                   .eccentricity = 0.73,
-                                  .inclination_rad = 28.5 * kDegree_rad,
-                                  .raan_rad = raan_deg * kDegree_rad,
-                                  .argument_of_perigee_rad = 178.0 * kDegree_rad,
-                                  .mean_anomaly_rad = 30.0 * kDegree_rad})
+                                  .inclination_rad = 28.5 * kRadPerDeg,
+                                  .raan_rad = raan_deg * kRadPerDeg,
+                                  .argument_of_perigee_rad = 178.0 * kRadPerDeg,
+                                  .mean_anomaly_rad = 30.0 * kRadPerDeg})
                    .value()};
 }
 
@@ -82,7 +82,7 @@ Orbit orbit_across_the_earth() { return transfer_with_node(300.0); }
 
 SpinningBody body_across_the_earth() {
   return {
-      .axis_icrf = direction_icrf({.ra_rad = 100.0 * kDegree_rad, .dec_rad = -55.0 * kDegree_rad}),
+      .axis_icrf = direction_icrf({.ra_rad = 100.0 * kRadPerDeg, .dec_rad = -55.0 * kRadPerDeg}),
       .rate_rad_s = 2.0 * kPi,
       .first_turn_rad = 0.0,
       .config = usual_config()};
@@ -98,7 +98,7 @@ SpinningBody random_body(const SunEarthEphemeris& around, double tilt_rad, std::
     const Eigen::Vector3d across =
         Eigen::AngleAxisd{roll_rad, earth_icrf} * earth_icrf.unitOrthogonal();
     const Eigen::Vector3d axis = Eigen::AngleAxisd{tilted_rad, across.cross(earth_icrf)} * across;
-    if (std::abs(angle_between_rad(axis, sun_icrf) - 0.5 * kPi) < 25.0 * kDegree_rad) {
+    if (std::abs(angle_between_rad(axis, sun_icrf) - 0.5 * kPi) < 25.0 * kRadPerDeg) {
       return {.axis_icrf = axis,
               .rate_rad_s = 2.0 * kPi * (0.95 + 0.1 * uniform(rng)),
               .first_turn_rad = 2.0 * kPi * uniform(rng),

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "pipelines/ephemeris/earth_pole.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "tests/support/observed_spin.h"
@@ -17,7 +18,6 @@ namespace spindrift::testing {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 constexpr double kCo2_km = 40.0;
 constexpr double kRevolutions = 300.0;
 
@@ -53,12 +53,12 @@ Orbit random_orbit(Draw& draw) {
 
 SpinConfig random_config(Draw& draw) {
   SpinConfig config = usual_config();
-  config.sun_sensor.slit_cant_rad = draw.between(30.0, 50.0) * kDegree_rad;
-  config.north->mount_angle_rad = draw.between(60.0, 110.0) * kDegree_rad;
+  config.sun_sensor.slit_cant_rad = draw.between(30.0, 50.0) * kRadPerDeg;
+  config.north->mount_angle_rad = draw.between(60.0, 110.0) * kRadPerDeg;
   config.south->mount_angle_rad =
-      config.north->mount_angle_rad + draw.between(5.0, 30.0) * kDegree_rad;
+      config.north->mount_angle_rad + draw.between(5.0, 30.0) * kRadPerDeg;
   config.north->azimuth_rad = draw.between(-kPi, kPi);
-  config.south->azimuth_rad = config.north->azimuth_rad + draw.between(-5.0, 5.0) * kDegree_rad;
+  config.south->azimuth_rad = config.north->azimuth_rad + draw.between(-5.0, 5.0) * kRadPerDeg;
   if (draw.between(0.0, 1.0) < 0.5) {
     config.horizon.model = HorizonModel::Ellipsoid;
   }
@@ -74,10 +74,10 @@ bool well_seen_or_not(const std::optional<InfraredSensor>& sensor, double earth_
   const double mount_rad = sensor->mount_angle_rad;
   const auto chord = predict_chord_rad(mount_rad, earth_rad, disc_rad);
   if (!chord) {
-    return std::abs(mount_rad - earth_rad) > disc_rad + 2.0 * kDegree_rad;
+    return std::abs(mount_rad - earth_rad) > disc_rad + 2.0 * kRadPerDeg;
   }
   ++seen;
-  return *chord > 8.0 * kDegree_rad && *chord < 160.0 * kDegree_rad;
+  return *chord > 8.0 * kRadPerDeg && *chord < 160.0 * kRadPerDeg;
 }
 
 bool is_observable_at(const RandomPass& pass, double t_s) {
@@ -152,12 +152,12 @@ RandomPass drawn_pass(Draw& draw) {
   const bool sphere = body.config.horizon.model == HorizonModel::Sphere;
   const RaDec axis = ra_dec_of(body.axis_icrf);
   const auto mount_deg = [](const std::optional<InfraredSensor>& sensor) {
-    return sensor ? sensor->mount_angle_rad / kDegree_rad : 0.0;
+    return sensor ? sensor->mount_angle_rad / kRadPerDeg : 0.0;
   };
   return {
       .name = fmt::format("{}, {}, {:.1f} rpm, axis {:.1f} {:.1f} deg, mounted {:.1f} {:.1f}",
                           channels, sphere ? "sphere" : "ellipsoid", body.rate_rad_s * 30.0 / kPi,
-                          axis.ra_rad / kDegree_rad, axis.dec_rad / kDegree_rad,
+                          axis.ra_rad / kRadPerDeg, axis.dec_rad / kRadPerDeg,
                           mount_deg(body.config.north), mount_deg(body.config.south)),
       .orbit = orbit,
       .around = seen_from(orbit,

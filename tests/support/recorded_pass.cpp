@@ -11,13 +11,12 @@
 #include <sstream>
 
 #include "pipelines/ephemeris/oem.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::testing {
 namespace {
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 std::string text_of(const std::filesystem::path& path) {
   std::ifstream file{path};
@@ -76,12 +75,12 @@ SpinConfig config_in(const toml::table& mission) {
   const toml::node_view spin = mission["spin"];
   const auto number = [](const auto& node) { return node.template value<double>().value(); };
   const auto infrared = [&](const auto& node) {
-    return InfraredSensor{.mount_angle_rad = number(node["mount_angle_deg"]) * kDegree_rad,
-                          .azimuth_rad = number(node["azimuth_deg"]) * kDegree_rad};
+    return InfraredSensor{.mount_angle_rad = number(node["mount_angle_deg"]) * kRadPerDeg,
+                          .azimuth_rad = number(node["azimuth_deg"]) * kRadPerDeg};
   };
-  return {.sun_sensor = {.slit_cant_rad = number(spin["sun_sensor"]["slit_cant_deg"]) * kDegree_rad,
+  return {.sun_sensor = {.slit_cant_rad = number(spin["sun_sensor"]["slit_cant_deg"]) * kRadPerDeg,
                          .slit_separation_rad =
-                             number(spin["sun_sensor"]["slit_separation_deg"]) * kDegree_rad},
+                             number(spin["sun_sensor"]["slit_separation_deg"]) * kRadPerDeg},
           .north = infrared(spin["ir"]["north"]),
           .south = infrared(spin["ir"]["south"]),
           .noise = {.sun_s = number(spin["noise"]["sun_pulse_s"]),
@@ -101,15 +100,15 @@ RecordedPass recorded_pass(const std::string& name) {
   const std::filesystem::path folder = recorded_passes() / name;
   const auto truth = nlohmann::json::parse(text_of(folder / "truth.json"));
   const bool coded = std::filesystem::exists(folder / "coded.csv");
-  return {.config = config_in(toml::parse(text_of(folder / "mission.toml"))),
-          .orbit = Orbit{parse_oem(text_of(folder / "orbit.oem")).value()},
-          .pulses = coded ? std::vector<Pulse>{} : pulses_in(text_of(folder / "pulses.csv")),
-          .frames = coded ? frames_in(text_of(folder / "coded.csv")) : std::vector<CodedFrame>{},
-          .bad_edges = bad_edges_in(truth),
-          .true_axis_icrf =
-              direction_icrf({.ra_rad = truth.at("ra_deg").get<double>() * kDegree_rad,
-                              .dec_rad = truth.at("dec_deg").get<double>() * kDegree_rad}),
-          .true_rate_rad_s = truth.at("rpm").get<double>() * 2.0 * std::numbers::pi / 60.0};
+  return {
+      .config = config_in(toml::parse(text_of(folder / "mission.toml"))),
+      .orbit = Orbit{parse_oem(text_of(folder / "orbit.oem")).value()},
+      .pulses = coded ? std::vector<Pulse>{} : pulses_in(text_of(folder / "pulses.csv")),
+      .frames = coded ? frames_in(text_of(folder / "coded.csv")) : std::vector<CodedFrame>{},
+      .bad_edges = bad_edges_in(truth),
+      .true_axis_icrf = direction_icrf({.ra_rad = truth.at("ra_deg").get<double>() * kRadPerDeg,
+                                        .dec_rad = truth.at("dec_deg").get<double>() * kRadPerDeg}),
+      .true_rate_rad_s = truth.at("rpm").get<double>() * 2.0 * std::numbers::pi / 60.0};
 }
 
 }  // namespace spindrift::testing

@@ -10,10 +10,10 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <numbers>
 #include <random>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sequential/sequential.h"
 #include "services/words/assessment_words.h"
@@ -22,16 +22,15 @@
 
 namespace spindrift::testing {
 
-inline constexpr double kDegree_rad = std::numbers::pi / 180.0;
-inline constexpr double kFixSigma_rad = 0.5 * kDegree_rad;
+inline constexpr double kFixSigma_rad = 0.5 * kRadPerDeg;
 inline constexpr double kOneInTenThousand = 18.42;  // chi-square, two degrees of freedom.
 
 inline double error_deg(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
-  return angle_between_rad(estimate.axis_icrf, true_icrf) / kDegree_rad;
+  return angle_between_rad(estimate.axis_icrf, true_icrf) / kRadPerDeg;
 }
 
 inline double sigma_deg(const SpinEstimate& estimate) {
-  return std::sqrt(estimate.covariance_rad2.trace()) / kDegree_rad;
+  return std::sqrt(estimate.covariance_rad2.trace()) / kRadPerDeg;
 }
 
 inline double squared_error(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
@@ -68,7 +67,7 @@ struct Scene {
   Orbit orbit = transfer_orbit();
   SunEarthEphemeris around = seen_from(orbit, spherical_horizon_km(40.0));
   std::mt19937_64 rng{27};
-  SpinningBody body = random_body(around, 4.0 * kDegree_rad, rng);
+  SpinningBody body = random_body(around, 4.0 * kRadPerDeg, rng);
 
   std::vector<ObservedRevolution> seen(double from_s, double to_s) {
     return observed(body.config, orbit,
@@ -78,7 +77,7 @@ struct Scene {
   SpinFix fix() { return drawn_fix(body.axis_icrf, kFixSigma_rad, rng); }
 
   Eigen::Vector3d turned_about(const Eigen::Vector3d& direction, double angle_deg) const {
-    return Eigen::AngleAxisd{angle_deg * kDegree_rad, direction.normalized()} * body.axis_icrf;
+    return Eigen::AngleAxisd{angle_deg * kRadPerDeg, direction.normalized()} * body.axis_icrf;
   }
   Eigen::Vector3d turned_about_earth(double angle_deg) const {
     return turned_about(around.earth_icrf_km(0.0), angle_deg);

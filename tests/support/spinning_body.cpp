@@ -6,6 +6,8 @@
 #include <numbers>
 #include <optional>
 
+#include "pipelines/frames/angle.h"
+
 namespace spindrift::testing {
 namespace {
 
@@ -106,18 +108,17 @@ SunEarthEphemeris at_rest(const Eigen::Vector3d& sun_icrf, const Eigen::Vector3d
 }
 
 SpinConfig usual_config() {
-  constexpr double kDegree_rad = kPi / 180.0;
-  return {.sun_sensor = {.slit_cant_rad = 45.0 * kDegree_rad,
-                         .slit_separation_rad = 35.0 * kDegree_rad},
-          .north = InfraredSensor{.mount_angle_rad = 85.0 * kDegree_rad,
-                                  .azimuth_rad = 90.0 * kDegree_rad},
-          .south = InfraredSensor{.mount_angle_rad = 95.0 * kDegree_rad,
-                                  .azimuth_rad = 92.0 * kDegree_rad},
-          .noise = {.sun_s = 1e-4, .infrared_s = 5e-4},
-          .horizon = {.model = HorizonModel::Sphere, .co2_altitude_km = 40.0},
-          .screening = {},
-          .geometry = {},
-          .prior = {}};
+  return {
+      .sun_sensor = {.slit_cant_rad = 45.0 * kRadPerDeg, .slit_separation_rad = 35.0 * kRadPerDeg},
+      .north =
+          InfraredSensor{.mount_angle_rad = 85.0 * kRadPerDeg, .azimuth_rad = 90.0 * kRadPerDeg},
+      .south =
+          InfraredSensor{.mount_angle_rad = 95.0 * kRadPerDeg, .azimuth_rad = 92.0 * kRadPerDeg},
+      .noise = {.sun_s = 1e-4, .infrared_s = 5e-4},
+      .horizon = {.model = HorizonModel::Sphere, .co2_altitude_km = 40.0},
+      .screening = {},
+      .geometry = {},
+      .prior = {}};
 }
 
 std::vector<Edge> edges_between(const SpinningBody& body, const SunEarthEphemeris& around,

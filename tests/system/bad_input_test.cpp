@@ -9,13 +9,13 @@
 #include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/processed_pass.h"
@@ -31,7 +31,6 @@ using ::testing::Not;
 
 const std::filesystem::path kData = test_data();
 const std::filesystem::path kNominal = kData / "spin" / "nominal";
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A copy of the nominal pass to spoil.
 std::filesystem::path nominal_copy(const TemporaryFolder& folder) {
@@ -114,10 +113,10 @@ TEST(BadGeometry, WithAMissionWhoseBeamsCannotMeetTheEarthSaysThatItContradictsT
 
 double error_deg(const nlohmann::json& estimate) {
   const auto place = [](double ra_deg, double dec_deg) {
-    return direction_icrf({.ra_rad = ra_deg * kDegree, .dec_rad = dec_deg * kDegree});
+    return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
   };
   return angle_between_rad(place(estimate["ra_deg"], estimate["dec_deg"]), place(100.0, -55.0)) /
-         kDegree;
+         kRadPerDeg;
 }
 
 struct Missing {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/program.h"
@@ -21,14 +21,12 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
-
 double error_deg(const nlohmann::json& estimate, const nlohmann::json& truth) {
   const auto place = [](const nlohmann::json& json) {
-    return direction_icrf({.ra_rad = json["ra_deg"].get<double>() * kDegree_rad,
-                           .dec_rad = json["dec_deg"].get<double>() * kDegree_rad});
+    return direction_icrf({.ra_rad = json["ra_deg"].get<double>() * kRadPerDeg,
+                           .dec_rad = json["dec_deg"].get<double>() * kRadPerDeg});
   };
-  return angle_between_rad(place(estimate), place(truth)) / kDegree_rad;
+  return angle_between_rad(place(estimate), place(truth)) / kRadPerDeg;
 }
 
 nlohmann::json truth_of(const std::string& pass) {

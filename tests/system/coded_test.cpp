@@ -5,10 +5,10 @@
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
@@ -18,7 +18,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 const std::filesystem::path kPass = recorded_passes() / "coded";
 const std::string kMission = (kPass / "mission.toml").string();
 const std::filesystem::path kScenarios = scenarios();
@@ -60,12 +59,12 @@ double error_deg(const std::filesystem::path& db, const std::string& estimator,
                  const nlohmann::json& truth) {
   const std::string answer = " FROM pass_answer WHERE estimator = '" + estimator + "'";
   const auto place = [](double ra_deg, double dec_deg) {
-    return direction_icrf({.ra_rad = ra_deg * kDegree, .dec_rad = dec_deg * kDegree});
+    return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
   };
   return angle_between_rad(
              place(real_of(db, "SELECT ra_deg" + answer), real_of(db, "SELECT dec_deg" + answer)),
              place(truth["ra_deg"], truth["dec_deg"])) /
-         kDegree;
+         kRadPerDeg;
 }
 
 TEST(Coded, GivesTheSameProductsLiveAsOfflineAndFindsTheAxis) {

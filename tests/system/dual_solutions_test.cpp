@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <string>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/processed_pass.h"
@@ -16,13 +16,11 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
 double error_deg(double ra_deg, double dec_deg, double true_ra_deg, double true_dec_deg) {
   const auto place = [](double ra, double dec) {
-    return direction_icrf({.ra_rad = ra * kDegree, .dec_rad = dec * kDegree});
+    return direction_icrf({.ra_rad = ra * kRadPerDeg, .dec_rad = dec * kRadPerDeg});
   };
-  return angle_between_rad(place(ra_deg, dec_deg), place(true_ra_deg, true_dec_deg)) / kDegree;
+  return angle_between_rad(place(ra_deg, dec_deg), place(true_ra_deg, true_dec_deg)) / kRadPerDeg;
 }
 
 TEST(DualSolutions, AreSettledByTheirDispersionAsTheGeometryTurns) {

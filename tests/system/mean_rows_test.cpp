@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/processed_pass.h"
@@ -21,8 +21,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
-
 struct MeanRow {
   double off_deg;
   double sigma_deg;
@@ -30,7 +28,7 @@ struct MeanRow {
 };
 
 Eigen::Vector3d place(double ra_deg, double dec_deg) {
-  return direction_icrf({.ra_rad = ra_deg * kDegree_rad, .dec_rad = dec_deg * kDegree_rad});
+  return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
 }
 
 std::vector<MeanRow> means_of(const std::filesystem::path& db, const Eigen::Vector3d& axis_icrf) {
@@ -42,7 +40,7 @@ std::vector<MeanRow> means_of(const std::filesystem::path& db, const Eigen::Vect
   while (rows.executeStep()) {
     const Eigen::Vector3d mean_icrf =
         place(rows.getColumn(0).getDouble(), rows.getColumn(1).getDouble());
-    means.push_back({.off_deg = angle_between_rad(mean_icrf, axis_icrf) / kDegree_rad,
+    means.push_back({.off_deg = angle_between_rad(mean_icrf, axis_icrf) / kRadPerDeg,
                      .sigma_deg = rows.getColumn(2).getDouble(),
                      .status = rows.getColumn(3).getString()});
   }

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <random>
 #include <sstream>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/eventually.h"
@@ -22,8 +22,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The last row of an estimator, behind a SELECT.
 std::string last(const std::string& estimator) {
@@ -38,12 +36,12 @@ nlohmann::json truth_of(const std::string& pass) {
 double error_deg(const std::filesystem::path& db, const nlohmann::json& truth,
                  const std::string& estimator) {
   const auto place = [](double ra_deg, double dec_deg) {
-    return direction_icrf({.ra_rad = ra_deg * kDegree, .dec_rad = dec_deg * kDegree});
+    return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
   };
   return angle_between_rad(place(real_of(db, "SELECT ra_deg" + last(estimator)),
                                  real_of(db, "SELECT dec_deg" + last(estimator))),
                            place(truth["ra_deg"], truth["dec_deg"])) /
-         kDegree;
+         kRadPerDeg;
 }
 
 struct Figure {

@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
@@ -71,8 +72,7 @@ TEST(Simulate, MakesAPassOfWhichTheAxisIsFound) {
   ASSERT_EQ(process.exit_status(), 0) << process.log();
   const auto truth = nlohmann::json::parse(text_of(out / "truth.json"));
   const auto place = [](double ra_deg, double dec_deg) {
-    constexpr double kDegree = std::numbers::pi / 180.0;
-    return direction_icrf({.ra_rad = ra_deg * kDegree, .dec_rad = dec_deg * kDegree});
+    return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
   };
   const double error_deg = angle_between_rad(place(truth["ra_deg"], truth["dec_deg"]),
                                              place(real_of(db, "SELECT ra_deg" + kLastMean),

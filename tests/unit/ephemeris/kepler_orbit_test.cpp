@@ -12,13 +12,14 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
+
 namespace spindrift {
 namespace {
 
 using ::testing::HasSubstr;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr TaiTime kEpoch = tai_from_ns(1'795'143'637'000'000'000);
 
@@ -68,10 +69,10 @@ TEST(KeplerOrbit, GivesTheStateOfVallado) {
       state({.epoch = kEpoch,
              .semi_major_axis_km = kScale * 11'067.790 / (1.0 - kEccentricity * kEccentricity),
              .eccentricity = kEccentricity,
-             .inclination_rad = 87.87 * kDegree_rad,
-             .raan_rad = 227.89 * kDegree_rad,
-             .argument_of_perigee_rad = 53.38 * kDegree_rad,
-             .mean_anomaly_rad = mean_from_true_anomaly_rad(92.335 * kDegree_rad, kEccentricity)},
+             .inclination_rad = 87.87 * kRadPerDeg,
+             .raan_rad = 227.89 * kRadPerDeg,
+             .argument_of_perigee_rad = 53.38 * kRadPerDeg,
+             .mean_anomaly_rad = mean_from_true_anomaly_rad(92.335 * kRadPerDeg, kEccentricity)},
             kEpoch);
   const Eigen::Vector3d position_km{6525.344, 6861.535, 6449.125};
   const Eigen::Vector3d velocity_km_s{4.902276, 5.533124, -1.975709};
@@ -83,9 +84,9 @@ TEST(KeplerOrbit, SolvesKeplersEquationAsVallado) {
   // The same book, example 2-1: M = 235.4 deg, e = 0.4 give E = 220.512074767522 deg.
   KeplerElements elements = kTransfer;
   elements.eccentricity = 0.4;
-  elements.mean_anomaly_rad = 235.4 * kDegree_rad;
+  elements.mean_anomaly_rad = 235.4 * kRadPerDeg;
   const double radius_km =
-      elements.semi_major_axis_km * (1.0 - 0.4 * std::cos(220.512074767522 * kDegree_rad));
+      elements.semi_major_axis_km * (1.0 - 0.4 * std::cos(220.512074767522 * kRadPerDeg));
   EXPECT_NEAR(state(elements, kEpoch).position_icrf_km.norm(), radius_km, 1e-8);
 }
 

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/time/utc.h"
 #include "tests/support/test_paths.h"
 
@@ -99,16 +100,15 @@ TEST(ApparentSun, StandsWhereMeeusPutsIt) {
 TEST(ApparentSun, MakesTheSunAngleOfAnIndependentSimulator) {
   // spin/nominal: the position at 03:00 from its orbit.oem, axis and sun angle from its truth.json.
   // 1e-8 rad: what is left out to first order in aberration, (v/c)^2.
-  constexpr double kDegree_rad = std::numbers::pi / 180.0;
   const OrbitState spacecraft{{9918.094675523, -7288.360032301, -6492.901023684},
                               Eigen::Vector3d::Zero()};
-  const double ra_rad = 100.0 * kDegree_rad;
-  const double dec_rad = -55.0 * kDegree_rad;
+  const double ra_rad = 100.0 * kRadPerDeg;
+  const double dec_rad = -55.0 * kRadPerDeg;
   const Eigen::Vector3d axis{std::cos(dec_rad) * std::cos(ra_rad),
                              std::cos(dec_rad) * std::sin(ra_rad), std::sin(dec_rad)};
   const TaiTime t = parse_utc("2026-11-20T03:00:00").value();
   EXPECT_NEAR(angle_rad(axis, ApparentSun{}.direction_icrf(t, spacecraft)),
-              96.23210033709218 * kDegree_rad, 1e-8);
+              96.23210033709218 * kRadPerDeg, 1e-8);
 }
 
 TEST(ApparentSun, IsThePlaceOfOneLightTimeAgo) {

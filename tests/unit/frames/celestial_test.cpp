@@ -7,11 +7,12 @@
 #include <numbers>
 #include <random>
 
+#include "pipelines/frames/angle.h"
+
 namespace spindrift {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 // A few ulps of a number of order 1 to 2 pi.
 constexpr double kRounding = 4e-15;
 
@@ -30,7 +31,7 @@ TEST(Celestial, AxesHaveTheirPlaces) {
 
 TEST(Celestial, SpinAxisOfGms5IsWhereItsPublishedPlaceSays) {
   const Eigen::Vector3d axis =
-      direction_icrf({54.85810921211307 * kDegree_rad, -89.47037755812647 * kDegree_rad});
+      direction_icrf({54.85810921211307 * kRadPerDeg, -89.47037755812647 * kRadPerDeg});
   EXPECT_NEAR(axis.norm(), 1.0, kRounding);
   // sin(-89.47037755812647 deg) and tan(54.85810921211307 deg) by Python's math module.
   EXPECT_NEAR(axis.z(), -0.9999572777215963, kRounding);

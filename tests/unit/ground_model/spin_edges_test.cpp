@@ -13,13 +13,13 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/spinning_body.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kRpm = std::numbers::pi / 30.0;
 constexpr TaiTime kStart = tai_from_ns(1795143637000000000);  // 2026-11-20
 const Eigen::Vector3d kIcrfPole = Eigen::Vector3d::UnitZ();
@@ -28,15 +28,15 @@ Orbit orbit_of(double a_km, double e, double mean_anomaly_rad) {
   return Orbit{KeplerOrbit::make({.epoch = kStart,
                                   .semi_major_axis_km = a_km,
                                   .eccentricity = e,
-                                  .inclination_rad = 28.5 * kDegree,
-                                  .raan_rad = 300.0 * kDegree,
-                                  .argument_of_perigee_rad = 178.0 * kDegree,
+                                  .inclination_rad = 28.5 * kRadPerDeg,
+                                  .raan_rad = 300.0 * kRadPerDeg,
+                                  .argument_of_perigee_rad = 178.0 * kRadPerDeg,
                                   .mean_anomaly_rad = mean_anomaly_rad})
                    .value()};
 }
 
 Eigen::Vector3d place(double ra_deg, double dec_deg) {
-  return direction_icrf({.ra_rad = ra_deg * kDegree, .dec_rad = dec_deg * kDegree});
+  return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
 }
 
 SpinTruth truth_of(const Eigen::Vector3d& axis_icrf, double rpm, HorizonModel horizon) {
@@ -183,7 +183,7 @@ void expect_the_oracles_wide_edges(const SpinTruth& truth, const Orbit& orbit, d
   }
   const auto expected = oracle(truth, orbit, 0.0, end_s);
   // A degree: the rule that drops the narrow ones looks at one instant, the oracle at two.
-  const double narrow_s = kDegree / truth.motion.rate_rad_s;
+  const double narrow_s = kRadPerDeg / truth.motion.rate_rad_s;
   for (const auto& [channel, opposite] :
        {std::pair{NorthIn, NorthOut}, std::pair{NorthOut, NorthIn}, std::pair{SouthIn, SouthOut},
         std::pair{SouthOut, SouthIn}}) {
@@ -206,8 +206,8 @@ TEST(SpinEdges, AreThoseOfTheOracleWhereAChordComesOrGoes) {
     const HorizonModel horizon = i % 2 == 0 ? HorizonModel::Sphere : HorizonModel::Ellipsoid;
     const double ra_deg = uniform(0.0, 360.0);
     SpinTruth truth = truth_of(place(ra_deg, uniform(-89.0, 89.0)), uniform(5.0, 30.0), horizon);
-    truth.north->mount_angle_rad = uniform(20.0, 160.0) * kDegree;
-    truth.south->mount_angle_rad = uniform(20.0, 160.0) * kDegree;
+    truth.north->mount_angle_rad = uniform(20.0, 160.0) * kRadPerDeg;
+    truth.south->mount_angle_rad = uniform(20.0, 160.0) * kRadPerDeg;
     const double a_km = uniform(7000.0, 9000.0);
     expect_the_oracles_wide_edges(truth, orbit_of(a_km, 0.001, uniform(0.0, 6.28)), 1500.0);
   }
@@ -215,8 +215,8 @@ TEST(SpinEdges, AreThoseOfTheOracleWhereAChordComesOrGoes) {
 
 TEST(SpinEdges, GoOnWhereABeamNoLongerLeavesTheEarth) {
   SpinTruth truth = truth_of(place(350.0, 20.0), 60.0, HorizonModel::Sphere);
-  truth.north->mount_angle_rad = 30.0 * kDegree;
-  expect_the_oracles_wide_edges(truth, orbit_of(7000.0, 0.001, 30.0 * kDegree), 1200.0);
+  truth.north->mount_angle_rad = 30.0 * kRadPerDeg;
+  expect_the_oracles_wide_edges(truth, orbit_of(7000.0, 0.001, 30.0 * kRadPerDeg), 1200.0);
 }
 
 TEST(SpinEdges, AreThoseOfTheOracleAfterADay) {
@@ -235,7 +235,7 @@ TEST(SpinEdges, FollowADriftOfTheRate) {
 TEST(SpinEdges, HaveNoSecondSunEdgeWhereTheSlitMissesTheSun) {
   SpinTruth truth = truth_of(place(100.0, -55.0), 60.0, HorizonModel::Sphere);
   // The Sun stands 6 deg from this body's equator: only a slit that is all but level misses it.
-  truth.sun_sensor.slit_cant_rad = 85.0 * kDegree;
+  truth.sun_sensor.slit_cant_rad = 85.0 * kRadPerDeg;
   const auto edges = edges_of(truth, orbit_of(24400.0, 0.73, 0.5), 10.0);
   EXPECT_EQ(std::count_if(edges.begin(), edges.end(),
                           [](const TrueEdge& e) { return e.channel == PulseChannel::Sun2; }),
@@ -299,9 +299,10 @@ TEST(SpinEdges, OfABodyThatNutatesAndConesAreWhereItsSensorsMeetSunAndEarth) {
     SCOPED_TRACE(inertia_ratio);
     SpinTruth truth = truth_of(place(100.0, -55.0), 60.0, HorizonModel::Sphere);
     truth.motion.rate_drift_rad_s2 = 1e-4;
-    truth.motion.nutation = {
-        .half_angle_rad = 2.0 * kDegree, .inertia_ratio = inertia_ratio, .first_azimuth_rad = 1.0};
-    truth.motion.coning = {.tilt_rad = 1.0 * kDegree, .azimuth_rad = 0.5};
+    truth.motion.nutation = {.half_angle_rad = 2.0 * kRadPerDeg,
+                             .inertia_ratio = inertia_ratio,
+                             .first_azimuth_rad = 1.0};
+    truth.motion.coning = {.tilt_rad = 1.0 * kRadPerDeg, .azimuth_rad = 0.5};
     const auto edges = edges_of(truth, orbit, 60.0);
     std::array<int, kPulseChannels> count{};
     for (const TrueEdge& edge : edges) {
@@ -320,7 +321,7 @@ TEST(SpinEdges, WidenAChordByItsExcessHalfAtEachEnd) {
   SpinTruth truth = truth_of(place(100.0, -55.0), 60.0, HorizonModel::Sphere);
   const Orbit orbit = orbit_of(24400.0, 0.73, 0.5);
   const auto exact = edges_of(truth, orbit, 5.0);
-  truth.north->chord_excess_rad = 0.2 * kDegree;
+  truth.north->chord_excess_rad = 0.2 * kRadPerDeg;
   const auto wide = edges_of(truth, orbit, 5.0);
   ASSERT_EQ(wide.size(), exact.size());
   for (std::size_t i = 0; i < wide.size(); ++i) {

@@ -6,10 +6,11 @@
 
 #include <numbers>
 
+#include "pipelines/frames/angle.h"
+
 namespace spindrift {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kRate_rad_s = 2.0 * std::numbers::pi;
 
 SpinMotion motion_of(const Nutation& nutation, const Coning& coning) {
@@ -55,7 +56,7 @@ TEST(SpinMotion, IsThatOfEulersEquations) {
   for (const double inertia_ratio : {0.05, 0.4, 0.9, 1.0, 1.3, 2.0}) {
     for (const double half_angle_deg : {0.2, 10.0}) {
       SCOPED_TRACE(testing::Message() << inertia_ratio << ' ' << half_angle_deg);
-      const Nutation nutation = {.half_angle_rad = half_angle_deg * kDegree,
+      const Nutation nutation = {.half_angle_rad = half_angle_deg * kRadPerDeg,
                                  .inertia_ratio = inertia_ratio,
                                  .first_azimuth_rad = 2.0};
       const SpinMotion motion = motion_of(nutation, {});
@@ -83,9 +84,9 @@ TEST(SpinMotion, IsThatOfEulersEquations) {
 
 TEST(SpinMotion, LeansAtTheStartWhereItIsSaidTo) {
   const SpinMotion motion = motion_of(
-      {.half_angle_rad = 0.1, .inertia_ratio = 0.5, .first_azimuth_rad = 50.0 * kDegree}, {});
+      {.half_angle_rad = 0.1, .inertia_ratio = 0.5, .first_azimuth_rad = 50.0 * kRadPerDeg}, {});
   const Eigen::Vector3d lean = motion.R_axes_tipped(0.0).col(2);
-  EXPECT_NEAR(std::atan2(lean.y(), lean.x()), 50.0 * kDegree, 1e-12);
+  EXPECT_NEAR(std::atan2(lean.y(), lean.x()), 50.0 * kRadPerDeg, 1e-12);
   EXPECT_NEAR(lean.z(), std::cos(0.1), 1e-12);
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/time/utc.h"
 #include "services/mission/mission.h"
@@ -24,7 +25,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 const std::filesystem::path kScenarios = scenarios();
 
 const std::string kSpacecraft = R"([spacecraft]
@@ -110,13 +110,13 @@ TEST(Scenario, TakesWhatIsLeftOutAsTheMissionFileHasIt) {
   EXPECT_DOUBLE_EQ(scenario->truth.motion.rate_rad_s, 2.0 * std::numbers::pi);
   EXPECT_EQ(scenario->truth.motion.rate_drift_rad_s2, 0.0);
   EXPECT_LT(angle_between_rad(scenario->truth.motion.axis_icrf,
-                              direction_icrf({100.0 * kDegree, -55.0 * kDegree})),
+                              direction_icrf({100.0 * kRadPerDeg, -55.0 * kRadPerDeg})),
             1e-12);
-  EXPECT_DOUBLE_EQ(scenario->truth.north->mount_angle_rad, 85.0 * kDegree);
+  EXPECT_DOUBLE_EQ(scenario->truth.north->mount_angle_rad, 85.0 * kRadPerDeg);
   EXPECT_EQ(scenario->truth.horizon.equatorial_km, scenario->truth.horizon.polar_km);
   // The pole of date: precession since J2000, 20 arcsec a year.
   EXPECT_NEAR(angle_between_rad(scenario->truth.horizon.pole_icrf, Eigen::Vector3d::UnitZ()),
-              26.88 * 20.04 / 3600.0 * kDegree, 1e-5);
+              26.88 * 20.04 / 3600.0 * kRadPerDeg, 1e-5);
   EXPECT_EQ(scenario->link.seed, 1U);
   EXPECT_EQ(scenario->link.noise.infrared_s, 5e-4);
   EXPECT_TRUE(scenario->link.silences.empty());
@@ -140,12 +140,12 @@ co2_altitude_km = 30
 )");
   ASSERT_TRUE(scenario) << scenario.error().message;
   const SpinTruth& truth = scenario->truth;
-  EXPECT_DOUBLE_EQ(truth.sun_sensor.slit_cant_rad, 45.5 * kDegree);
-  EXPECT_DOUBLE_EQ(truth.sun_sensor.slit_separation_rad, 34.75 * kDegree);
-  EXPECT_DOUBLE_EQ(truth.north->mount_angle_rad, 85.1 * kDegree);
-  EXPECT_DOUBLE_EQ(truth.north->azimuth_rad, 89.8 * kDegree);
-  EXPECT_DOUBLE_EQ(truth.north->chord_excess_rad, 0.3 * kDegree);
-  EXPECT_DOUBLE_EQ(truth.south->mount_angle_rad, 95.0 * kDegree);
+  EXPECT_DOUBLE_EQ(truth.sun_sensor.slit_cant_rad, 45.5 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(truth.sun_sensor.slit_separation_rad, 34.75 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(truth.north->mount_angle_rad, 85.1 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(truth.north->azimuth_rad, 89.8 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(truth.north->chord_excess_rad, 0.3 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(truth.south->mount_angle_rad, 95.0 * kRadPerDeg);
   EXPECT_EQ(scenario->link.noise.sun_s, 0.0);
   EXPECT_EQ(scenario->link.noise.infrared_s, 5e-4);
   EXPECT_DOUBLE_EQ(truth.horizon.equatorial_km, 6408.137);
@@ -173,10 +173,10 @@ tilt_deg = 0.5
 )"));
   ASSERT_TRUE(wobbling) << wobbling.error().message;
   const SpinMotion& motion = wobbling->truth.motion;
-  EXPECT_DOUBLE_EQ(motion.nutation.half_angle_rad, 0.2 * kDegree);
+  EXPECT_DOUBLE_EQ(motion.nutation.half_angle_rad, 0.2 * kRadPerDeg);
   EXPECT_EQ(motion.nutation.inertia_ratio, 0.4);
-  EXPECT_DOUBLE_EQ(motion.nutation.first_azimuth_rad, 30.0 * kDegree);
-  EXPECT_DOUBLE_EQ(motion.coning.tilt_rad, 0.5 * kDegree);
+  EXPECT_DOUBLE_EQ(motion.nutation.first_azimuth_rad, 30.0 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(motion.coning.tilt_rad, 0.5 * kRadPerDeg);
   EXPECT_EQ(motion.coning.azimuth_rad, 0.0);
   const auto wobbling_pass = simulated_pass(*wobbling);
   ASSERT_TRUE(wobbling_pass);
@@ -232,8 +232,8 @@ TEST(Scenario, WritesAMissionFileThatSaysTheSame) {
   ASSERT_TRUE(mission) << mission.error().message;
   EXPECT_EQ(mission->spacecraft_id, "A\"B 'C");
   EXPECT_EQ(mission->spin()->noise.infrared_s, 5e-4);
-  EXPECT_DOUBLE_EQ(mission->spin()->north->mount_angle_rad, 85.0 * kDegree);
-  EXPECT_DOUBLE_EQ(mission->spin()->prior->sigma_rad, 5.0 * kDegree);
+  EXPECT_DOUBLE_EQ(mission->spin()->north->mount_angle_rad, 85.0 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(mission->spin()->prior->sigma_rad, 5.0 * kRadPerDeg);
   const TaiTime t = shifted(scenario->truth.start, 7.5);
   EXPECT_LT((mission->orbit->at(t).value().position_icrf_km -
              scenario->orbit.at(t).value().position_icrf_km)

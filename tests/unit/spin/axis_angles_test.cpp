@@ -10,6 +10,7 @@
 #include <set>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/axis_scene.h"
 
@@ -18,8 +19,6 @@ namespace {
 
 using Scene = testing::AxisScene;
 using enum SpinQuantity;
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 /// From the Sun's half-plane about the axis to the Earth's, [0, 2 pi).
 double dihedral_rad(const Scene& scene) {
@@ -70,9 +69,9 @@ TEST(AxisAngles, OfABodyUprightBetweenSunAndEarth) {
     const AxisSolutions found = solved(scene, left_out).found;
     ASSERT_FALSE(found.places.empty());
     const AxisAngles& best = found.places.front();
-    EXPECT_NEAR(best.sun_angle_rad.value(), 90.0 * kDegree_rad, testing::kExact_rad);
-    EXPECT_NEAR(best.earth_angle_rad.value(), 90.0 * kDegree_rad, testing::kExact_rad);
-    EXPECT_NEAR(best.dihedral_rad.value(), 90.0 * kDegree_rad, testing::kExact_rad);
+    EXPECT_NEAR(best.sun_angle_rad.value(), 90.0 * kRadPerDeg, testing::kExact_rad);
+    EXPECT_NEAR(best.earth_angle_rad.value(), 90.0 * kRadPerDeg, testing::kExact_rad);
+    EXPECT_NEAR(best.dihedral_rad.value(), 90.0 * kRadPerDeg, testing::kExact_rad);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "tests/support/axis_scene.h"
@@ -16,13 +17,12 @@ using testing::kExact_rad;
 using Scene = testing::AxisScene;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 
 /// The Sun on the body's equator and the Earth, some degrees from the axis, behind it by a dihedral
 /// whose cosine is `determinant` / cos(85 deg): then Delta is `determinant`.
 Scene scene_of_determinant(double determinant, double earth_angle_deg = 87.0) {
-  const double dihedral_rad = std::acos(determinant / std::cos(85.0 * kDegree_rad));
-  const double earth_angle_rad = earth_angle_deg * kDegree_rad;
+  const double dihedral_rad = std::acos(determinant / std::cos(85.0 * kRadPerDeg));
+  const double earth_angle_rad = earth_angle_deg * kRadPerDeg;
   Scene scene{.sun_icrf = Eigen::Vector3d::UnitX(), .axis_icrf = Eigen::Vector3d::UnitZ()};
   scene.earth_icrf =
       direction_icrf({.ra_rad = dihedral_rad, .dec_rad = 0.5 * kPi - earth_angle_rad});
@@ -49,7 +49,7 @@ TEST(AxisCandidates, ASmallDeterminantLeavesTheOtherRootAsAlternate) {
     EXPECT_TRUE(fix.accepted);
     EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
     ASSERT_EQ(fix.alternates.size(), 1);
-    EXPECT_GT(angle_between_rad(fix.alternates.front().axis_icrf, scene.axis_icrf), kDegree_rad);
+    EXPECT_GT(angle_between_rad(fix.alternates.front().axis_icrf, scene.axis_icrf), kRadPerDeg);
   }
 }
 
@@ -74,7 +74,7 @@ TEST(AxisCandidates, AVanishingDeterminantIsAmbiguousAndNotAccepted) {
     const double alternate_off_rad =
         angle_between_rad(fix.alternates.front().axis_icrf, scene.axis_icrf);
     EXPECT_LT(std::min(off_rad, alternate_off_rad), kExact_rad);
-    EXPECT_GT(std::max(off_rad, alternate_off_rad), kDegree_rad);
+    EXPECT_GT(std::max(off_rad, alternate_off_rad), kRadPerDeg);
   }
 }
 
@@ -105,7 +105,7 @@ TEST(AxisCandidates, ARootOfANarrowChordIsNotAcceptedByNoiseAlone) {
   for (const double delta : {0.012, 0.016, 0.02, 0.028}) {
     for (const double inside_deg : {0.05, 0.1, 0.2, 0.4}) {
       Scene scene;
-      const double disc_deg = scene.sun_earth().disc_rad / kDegree_rad;
+      const double disc_deg = scene.sun_earth().disc_rad / kRadPerDeg;
       scene = scene_of_determinant(delta, 85.0 + disc_deg - inside_deg);
       scene.rate_rad_s = 2.5 * 2.0 * kPi;
       const Revolution exact = scene.seen();
@@ -150,7 +150,7 @@ TEST(AxisCandidates, ASolutionThatTheNoiseDestroysIsRefused) {
   // At its widest the chord has a double root, which every edge moves without bound.
   Scene scene = scene_of_determinant(0.02);
   scene.earth_icrf = direction_icrf(
-      {.ra_rad = std::acos(0.02 / std::cos(85.0 * kDegree_rad)), .dec_rad = 5.0 * kDegree_rad});
+      {.ra_rad = std::acos(0.02 / std::cos(85.0 * kRadPerDeg)), .dec_rad = 5.0 * kRadPerDeg});
   scene.config.noise.infrared_s = 5e-2;
   const auto fix = scene.fix();
   ASSERT_FALSE(fix);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "tests/support/axis_scene.h"
@@ -21,8 +22,6 @@ namespace {
 using Scene = testing::AxisScene;
 using enum SpinQuantity;
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
-
 /// Both chords, and each alone.
 const std::array<std::set<SpinQuantity>, 3> kLeftOut = {std::set<SpinQuantity>{},
                                                         std::set{SouthChord}, std::set{NorthChord}};
@@ -31,13 +30,13 @@ const std::array<std::set<SpinQuantity>, 3> kLeftOut = {std::set<SpinQuantity>{}
 Scene tilted_scene(double tilt_deg, double earth_angle_deg, HorizonModel earth) {
   Scene scene{.earth = earth};
   scene.config.horizon.model = earth;
-  scene.axis_icrf = Eigen::AngleAxisd{tilt_deg * kDegree_rad, Eigen::Vector3d::UnitX()} *
-                    Eigen::Vector3d::UnitZ();
+  scene.axis_icrf =
+      Eigen::AngleAxisd{tilt_deg * kRadPerDeg, Eigen::Vector3d::UnitX()} * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d side = Eigen::AngleAxisd{0.3, scene.axis_icrf} * Eigen::Vector3d::UnitX();
   const auto from_axis = [&](double angle_rad) -> Eigen::Vector3d {
     return Eigen::AngleAxisd{angle_rad, scene.axis_icrf.cross(side)} * scene.axis_icrf;
   };
-  scene.earth_icrf = from_axis(earth_angle_deg * kDegree_rad);
+  scene.earth_icrf = from_axis(earth_angle_deg * kRadPerDeg);
   scene.sun_icrf = Eigen::AngleAxisd{1.2, scene.axis_icrf} * from_axis(1.8);
   return scene;
 }
@@ -77,7 +76,7 @@ TEST_P(FixesOnHorizons, TakingItForTheOtherCostsWhatTheDesignSays) {
       ++fixes;
     }
   }
-  const double off_deg = std::sqrt(squares / fixes) / kDegree_rad;
+  const double off_deg = std::sqrt(squares / fixes) / kRadPerDeg;
   EXPECT_GT(off_deg, 0.03);
   EXPECT_LT(off_deg, 0.11);
 }
@@ -136,10 +135,10 @@ TEST(AxisCandidatesOnTheEllipsoid, ABeamThatOnTheSphereWouldMissItHasAFixToo) {
       Scene scene = tilted_scene(tilt_deg, 90.0, HorizonModel::Ellipsoid);
       scene.config.noise = {.sun_s = 2e-6, .infrared_s = 2e-6};
       scene.config.north->mount_angle_rad =
-          0.5 * std::numbers::pi - limb_rad + depth_deg * kDegree_rad;
+          0.5 * std::numbers::pi - limb_rad + depth_deg * kRadPerDeg;
       const SpinFix fix = scene.fix({SouthChord, SouthDihedral}).value();
       EXPECT_EQ(fix.geometry_case, 2);
-      EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 0.0005 * kDegree_rad)
+      EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 0.0005 * kRadPerDeg)
           << tilt_deg << " " << depth_deg;
     }
   }
@@ -148,8 +147,8 @@ TEST(AxisCandidatesOnTheEllipsoid, ABeamThatOnTheSphereWouldMissItHasAFixToo) {
 /// The north beam mounted so that its chord is so wide.
 void mount_for_chord(double chord_rad, Scene& scene) {
   const double earth_angle_rad = angle_between_rad(scene.axis_icrf, scene.earth_icrf);
-  double narrower_rad = earth_angle_rad - 30.0 * kDegree_rad;
-  double wider_rad = earth_angle_rad - 15.0 * kDegree_rad;
+  double narrower_rad = earth_angle_rad - 30.0 * kRadPerDeg;
+  double wider_rad = earth_angle_rad - 15.0 * kRadPerDeg;
   for (int i = 0; i < 30; ++i) {
     scene.config.north->mount_angle_rad = 0.5 * (narrower_rad + wider_rad);
     const auto crossing = measure(scene.config, scene.seen()).crossing(Side::North);
@@ -165,7 +164,7 @@ TEST(AxisCandidatesOnTheEllipsoid, ANarrowChordAnywhereOnTheLimbHasAFixToo) {
       for (const double chord_deg : {1.0, 2.0, 3.0, 4.0}) {
         Scene scene = tilted_scene(tilt_deg, earth_angle_deg, HorizonModel::Ellipsoid);
         scene.config.noise = {.sun_s = 2e-6, .infrared_s = 2e-6};
-        mount_for_chord(chord_deg * kDegree_rad, scene);
+        mount_for_chord(chord_deg * kRadPerDeg, scene);
         for (const auto& left_out : {std::set{SouthChord, SouthDihedral},
                                      std::set{SouthChord, SouthDihedral, NorthDihedral}}) {
           const auto found = axis_candidates(
@@ -176,7 +175,7 @@ TEST(AxisCandidatesOnTheEllipsoid, ANarrowChordAnywhereOnTheLimbHasAFixToo) {
           for (const AxisCandidate& candidate : found->candidates) {
             off_rad = std::min(off_rad, angle_between_rad(candidate.axis_icrf, scene.axis_icrf));
           }
-          EXPECT_LT(off_rad, 0.0002 * kDegree_rad)
+          EXPECT_LT(off_rad, 0.0002 * kRadPerDeg)
               << tilt_deg << " " << earth_angle_deg << " " << chord_deg;
         }
       }

@@ -4,10 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <utility>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "tests/support/axis_scene.h"
@@ -18,8 +18,6 @@ namespace {
 using testing::kExact_rad;
 using Scene = testing::AxisScene;
 using enum SpinQuantity;
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 TEST(AxisCandidates, CaseOneHasBothChords) {
   const Scene scene;
@@ -48,12 +46,12 @@ TEST(AxisCandidates, CasesTwoAndThreeHaveOneChord) {
 TEST(AxisCandidates, AChordMayBeWiderThanHalfATurn) {
   Scene scene;
   scene.earth_icrf =
-      Eigen::AngleAxisd{10.0 * kDegree_rad, scene.axis_icrf.unitOrthogonal()} * scene.axis_icrf;
-  scene.config.north->mount_angle_rad = 16.0 * kDegree_rad;
-  scene.config.south->mount_angle_rad = 20.0 * kDegree_rad;
+      Eigen::AngleAxisd{10.0 * kRadPerDeg, scene.axis_icrf.unitOrthogonal()} * scene.axis_icrf;
+  scene.config.north->mount_angle_rad = 16.0 * kRadPerDeg;
+  scene.config.south->mount_angle_rad = 20.0 * kRadPerDeg;
   const RevolutionMeasurements measured = measure(scene.config, scene.seen());
-  EXPECT_GT(value_of(measured, NorthChord)->value_rad, 240.0 * kDegree_rad);
-  EXPECT_GT(value_of(measured, SouthChord)->value_rad, 190.0 * kDegree_rad);
+  EXPECT_GT(value_of(measured, NorthChord)->value_rad, 240.0 * kRadPerDeg);
+  EXPECT_GT(value_of(measured, SouthChord)->value_rad, 190.0 * kRadPerDeg);
   for (const std::set<SpinQuantity>& left_out :
        {std::set<SpinQuantity>{}, std::set{SouthChord}, std::set{NorthChord}}) {
     const SpinFix fix = scene.fix(left_out).value();
@@ -104,7 +102,7 @@ TEST(AxisCandidates, AnEarthThatMovesBetweenTheEdgesIsAllowedFor) {
       return angle_between_rad(fix.axis_icrf, scene.axis_icrf);
     };
     EXPECT_LT(off_rad(sun_earth), 0.02 * off_rad(scene.sun_earth()));
-    EXPECT_GT(off_rad(scene.sun_earth()), 0.03 * kDegree_rad);
+    EXPECT_GT(off_rad(scene.sun_earth()), 0.03 * kRadPerDeg);
   }
 }
 
@@ -113,7 +111,7 @@ TEST(AxisCandidates, SunAndEarthInLineLeaveTheAxisOpen) {
   const Eigen::Vector3d across = sun.unitOrthogonal();
   for (const double apart_deg : {0.0, 2.9, 177.1, 180.0}) {
     Scene scene{.sun_icrf = sun};
-    scene.earth_icrf = Eigen::AngleAxisd{apart_deg * kDegree_rad, across} * sun;
+    scene.earth_icrf = Eigen::AngleAxisd{apart_deg * kRadPerDeg, across} * sun;
     RevolutionMeasurements measured = measure(scene.config, Scene{}.seen());
     const auto solution = axis_candidates(scene.config, measured, scene.sun_earth());
     ASSERT_FALSE(solution) << apart_deg;
@@ -126,7 +124,7 @@ TEST(AxisCandidates, BeamsMountedAlikeAreOneBeam) {
   Scene scene;
   for (const double apart_deg : {0.0, 0.3}) {
     scene.config.south->mount_angle_rad =
-        scene.config.north->mount_angle_rad + apart_deg * kDegree_rad;
+        scene.config.north->mount_angle_rad + apart_deg * kRadPerDeg;
     const SpinFix fix = scene.fix().value();
     EXPECT_EQ(fix.geometry_case, 2);
     EXPECT_TRUE(fix.accepted);
@@ -137,8 +135,8 @@ TEST(AxisCandidates, BeamsMountedAlikeAreOneBeam) {
 TEST(AxisCandidates, AWrongAzimuthContradictsTheAngleBetweenSunAndEarth) {
   const Scene scene;
   SpinConfig wrong = scene.config;
-  wrong.north->azimuth_rad -= 80.0 * kDegree_rad;
-  wrong.south->azimuth_rad -= 80.0 * kDegree_rad;
+  wrong.north->azimuth_rad -= 80.0 * kRadPerDeg;
+  wrong.south->azimuth_rad -= 80.0 * kRadPerDeg;
   const SpinFix fix = testing::lone_fix(wrong, scene.seen(), {}, scene.sun_earth()).value();
   EXPECT_FALSE(fix.accepted);
   EXPECT_GT(std::abs(fix.norm - 1.0), 0.1);
@@ -164,13 +162,13 @@ TEST(AxisCandidates, OnlyWhatCouldGiveAFixCanContradictItself) {
   EXPECT_FALSE(contradicts(measure(scene.config, scene.seen())));
   RevolutionMeasurements cones =
       testing::measured_without(scene.config, scene.seen(), {NorthDihedral, SouthDihedral});
-  cones.sun_angle->value_rad = 10.0 * kDegree_rad;
+  cones.sun_angle->value_rad = 10.0 * kRadPerDeg;
   EXPECT_TRUE(contradicts(cones));
   const Revolution seen = scene.seen();
   EXPECT_FALSE(
       contradicts(testing::measured_without(scene.config, seen, {NorthChord, SouthChord})));
-  scene.config.north->mount_angle_rad = 20.0 * kDegree_rad;
-  scene.config.south->mount_angle_rad = 160.0 * kDegree_rad;
+  scene.config.north->mount_angle_rad = 20.0 * kRadPerDeg;
+  scene.config.south->mount_angle_rad = 160.0 * kRadPerDeg;
   EXPECT_TRUE(contradicts(measure(scene.config, seen)));
 }
 
@@ -178,7 +176,7 @@ TEST(AxisCandidates, ConesThatDoNotMeetAreRefused) {
   const Scene scene;
   RevolutionMeasurements measured =
       testing::measured_without(scene.config, scene.seen(), {NorthDihedral, SouthDihedral});
-  measured.sun_angle->value_rad = 10.0 * kDegree_rad;
+  measured.sun_angle->value_rad = 10.0 * kRadPerDeg;
   const auto found = axis_candidates(scene.config, measured, scene.sun_earth());
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::InvalidInput);
@@ -220,24 +218,24 @@ RevolutionMeasurements measured_at(const SpinConfig& config, const PredictedAngl
 TEST(AxisCandidates, TwoConesMeetInTheTrueAndTheFalseSolutionOfTheGoldenValues) {
   // Worked out in 30 digits by mpmath, printed to 1e-9 deg.
   const auto at_deg = [](double ra_deg, double dec_deg) {
-    return direction_icrf({.ra_rad = ra_deg * kDegree_rad, .dec_rad = dec_deg * kDegree_rad});
+    return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
   };
   SpinConfig config = testing::usual_config();
-  config.north->mount_angle_rad = 120.0 * kDegree_rad;
-  config.south->mount_angle_rad = 145.0 * kDegree_rad;
+  config.north->mount_angle_rad = 120.0 * kRadPerDeg;
+  config.south->mount_angle_rad = 145.0 * kRadPerDeg;
   const SunEarthDirections sun_earth{.sun_icrf = at_deg(10.0, 4.3),
                                      .earth_icrf = at_deg(80.0, -20.0),
-                                     .disc_rad = 20.0 * kDegree_rad,
+                                     .disc_rad = 20.0 * kRadPerDeg,
                                      .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
-  const PredictedAngles angles{.sun_angle_rad = 90.143759304 * kDegree_rad,
-                               .earth_angle_rad = 131.253314001 * kDegree_rad,
-                               .dihedral_rad = 67.046435278 * kDegree_rad};
+  const PredictedAngles angles{.sun_angle_rad = 90.143759304 * kRadPerDeg,
+                               .earth_angle_rad = 131.253314001 * kRadPerDeg,
+                               .dihedral_rad = 67.046435278 * kRadPerDeg};
   const auto found =
       axis_candidates(config, measured_at(config, angles, sun_earth.disc_rad), sun_earth).value();
   EXPECT_EQ(found.geometry_case, 1);
   EXPECT_FALSE(found.told_apart);
   ASSERT_EQ(found.candidates.size(), 2U);
-  constexpr double kPrinted_rad = 4e-9 * kDegree_rad;
+  constexpr double kPrinted_rad = 4e-9 * kRadPerDeg;
   EXPECT_LT(angle_between_rad(found.candidates[0].axis_icrf, at_deg(268.625, 68.4485)),
             kPrinted_rad);
   EXPECT_LT(angle_between_rad(found.candidates[1].axis_icrf, at_deg(281.751608418, -23.899303556)),

@@ -11,6 +11,7 @@
 #include <random>
 #include <set>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/pass_edges.h"
 #include "services/words/assessment_words.h"
@@ -24,13 +25,11 @@ using ::testing::HasSubstr;
 using testing::SpinningBody;
 using ::testing::StartsWith;
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
-
 struct Scene : testing::BatchScene {
   explicit Scene(std::uint64_t seed = 1809) : BatchScene{seed} {}
 
   Expected<BatchSolution> solved(const std::vector<PassEdge>& edges, double off_deg = 1.0) {
-    const Eigen::Vector3d start = testing::start_near(body, off_deg * kDegree_rad, rng);
+    const Eigen::Vector3d start = testing::start_near(body, off_deg * kRadPerDeg, rng);
     return solve_batch(body.config, orbit, edges, {{start}});
   }
   double error_sigmas(const BatchSolution& solution) const {
@@ -69,7 +68,7 @@ TEST(BatchEstimator, FindsTheAxisFromAFixThatIsDegreesOff) {
 TEST(BatchEstimator, ANorthChordThatIsThreeTenthsOfADegreeWideIsFoundAndNamed) {
   Scene scene;
   auto edges = scene.pass(600.0);
-  widen_chord(scene.body, PulseChannel::NorthIn, PulseChannel::NorthOut, 0.3 * kDegree_rad, edges);
+  widen_chord(scene.body, PulseChannel::NorthIn, PulseChannel::NorthOut, 0.3 * kRadPerDeg, edges);
   const auto solution = scene.solved(edges);
   ASSERT_TRUE(solution) << solution.error().message;
   EXPECT_LT(scene.error_sigmas(*solution), 3.0) << sentence_of(solution->estimate.assessment);
@@ -77,7 +76,7 @@ TEST(BatchEstimator, ANorthChordThatIsThreeTenthsOfADegreeWideIsFoundAndNamed) {
   EXPECT_TRUE(bias.estimated);
   EXPECT_FALSE(of(*solution, DihedralBias).estimated);
   EXPECT_TRUE(bias.observable) << sentence_of(solution->estimate.assessment);
-  EXPECT_NEAR(bias.value, 0.3 * kDegree_rad, 3.0 * bias.sigma);
+  EXPECT_NEAR(bias.value, 0.3 * kRadPerDeg, 3.0 * bias.sigma);
   EXPECT_GT(bias.value, 5.0 * bias.sigma);
   EXPECT_EQ(solution->estimate.assessment.reasons.back().code, ReasonCode::Bias);
   EXPECT_EQ(solution->estimate.assessment.reasons.back().values.front(),
@@ -89,7 +88,7 @@ TEST(BatchEstimator, AManoeuvreIsNamedAndTheAxisIsThatAfterIt) {
   const auto before = scene.pass(300.0);
   SpinningBody after = scene.body;
   after.axis_icrf =
-      (Eigen::AngleAxisd{1.0 * kDegree_rad, after.axis_icrf.unitOrthogonal()} * after.axis_icrf);
+      (Eigen::AngleAxisd{1.0 * kRadPerDeg, after.axis_icrf.unitOrthogonal()} * after.axis_icrf);
   std::vector<PassEdge> edges;
   const auto moved = scene.pass_of(after, 600.0);
   for (const PassEdge& edge : moved) {
@@ -161,8 +160,8 @@ TEST(BatchEstimator, BeginsAtThePriorWhereThePassHasNoFix) {
   ASSERT_FALSE(without);
   EXPECT_THAT(without.error().message, HasSubstr("[spin.prior]"));
   const auto solution =
-      solved(SpinPrior{.axis_icrf = testing::start_near(scene.body, 2.0 * kDegree_rad, scene.rng),
-                       .sigma_rad = 2.0 * kDegree_rad});
+      solved(SpinPrior{.axis_icrf = testing::start_near(scene.body, 2.0 * kRadPerDeg, scene.rng),
+                       .sigma_rad = 2.0 * kRadPerDeg});
   ASSERT_TRUE(solution) << solution.error().message;
   EXPECT_TRUE(is_unopposed(solution->estimate.assessment.quality));
   EXPECT_LT(scene.error_sigmas(*solution), 3.0);
@@ -241,7 +240,7 @@ TEST(BatchEstimator, EdgesOfOneSlitNearTheSunLeaveTheAxisOpen) {
     Scene scene{seed};
     const Eigen::Vector3d sun_icrf = scene.around.sun_icrf(0.0).normalized();
     scene.body.axis_icrf =
-        Eigen::AngleAxisd{12.0 * kDegree_rad, sun_icrf.unitOrthogonal()} * sun_icrf;
+        Eigen::AngleAxisd{12.0 * kRadPerDeg, sun_icrf.unitOrthogonal()} * sun_icrf;
     auto edges = scene.pass(120.0);
     std::erase_if(edges,
                   [](const PassEdge& edge) { return edge.pulse.channel != PulseChannel::Sun1; });
@@ -282,7 +281,7 @@ TEST(BatchEstimator, AStartAnywhereIsNoReasonToSayOkOfAnotherAxis) {
   Scene scene;
   for (int pass = 0; pass < 20; ++pass) {
     SCOPED_TRACE(pass);
-    scene.body = testing::random_body(scene.around, 3.0 * kDegree_rad, scene.rng);
+    scene.body = testing::random_body(scene.around, 3.0 * kRadPerDeg, scene.rng);
     const auto edges = scene.pass(60.0);
     for (const double off_deg : {60.0, 90.0, 120.0}) {
       const auto solution = scene.solved(edges, off_deg);
@@ -314,7 +313,7 @@ TEST(BatchEstimator, ABiasBeyondWhatASensorMayHaveRunsToItsBound) {
   Scene scene;
   auto edges = scene.pass(300.0);
   scene.body.config.batch.biases = BiasSet{}.set(NorthChordBias);
-  widen_chord(scene.body, PulseChannel::NorthIn, PulseChannel::NorthOut, 5.0 * kDegree_rad, edges);
+  widen_chord(scene.body, PulseChannel::NorthIn, PulseChannel::NorthOut, 5.0 * kRadPerDeg, edges);
   const auto solution = scene.solved(edges);
   ASSERT_TRUE(solution) << solution.error().message;
   EXPECT_EQ(solution->estimate.assessment.quality, Quality::Doubtful);

@@ -4,17 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/batch_pass.h"
 
 namespace spindrift {
 namespace {
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 /// Edges without noise, and the state that they come from.
 struct ExactPass {
@@ -47,7 +45,7 @@ TEST(BatchFit, ExactEdgesLeadBackFromDegreesAway) {
   for (const Eigen::Vector3d& turn_deg :
        {Eigen::Vector3d{2.0, 0.0, 0.0}, Eigen::Vector3d{0.0, -2.0, 0.0},
         Eigen::Vector3d{0.0, 0.0, 1.0}, Eigen::Vector3d{-1.0, 1.0, 0.5}}) {
-    const SpinState start = pass.turned(turn_deg * kDegree_rad);
+    const SpinState start = pass.turned(turn_deg * kRadPerDeg);
     const auto found = fit(pass.model, pass.edges, start, {});
     ASSERT_TRUE(found);
     EXPECT_LT(pass.off_rad(found->state), kExact_rad);
@@ -71,7 +69,7 @@ TEST(BatchFit, BeginningAtTheMinimumItStaysThere) {
 TEST(BatchFit, ARateThatIsOffAtTheStartIsFound) {
   const ExactPass pass;
   SpinState start = pass.truth;
-  start.rate_rad_s += 0.5 * kDegree_rad / pass.model.half_s();
+  start.rate_rad_s += 0.5 * kRadPerDeg / pass.model.half_s();
   const auto found = fit(pass.model, pass.edges, start, {});
   ASSERT_TRUE(found);
   EXPECT_LT(std::abs(found->state.rate_rad_s - pass.truth.rate_rad_s) * pass.model.half_s(),
@@ -82,8 +80,8 @@ TEST(BatchFit, ARateThatIsOffAtTheStartIsFound) {
 TEST(BatchFit, TheCoarseFitLeadsToTheSameMinimum) {
   const ExactPass pass;
   const SpinState coarse = coarse_fit(
-      pass.model, pass.edges, pass.turned(Eigen::Vector3d{3.0, -2.0, 1.0} * kDegree_rad), {});
-  EXPECT_LT(pass.off_rad(coarse), 0.05 * kDegree_rad);
+      pass.model, pass.edges, pass.turned(Eigen::Vector3d{3.0, -2.0, 1.0} * kRadPerDeg), {});
+  EXPECT_LT(pass.off_rad(coarse), 0.05 * kRadPerDeg);
 }
 
 /// Tukey's biweight gives an edge beyond its limit no weight at all.
@@ -96,7 +94,7 @@ TEST(BatchFit, EdgesFarOffHaveNoInfluence) {
     pass.edges[i].pulse.t = shifted(pass.edges[i].pulse.t, late_s(rng));
   }
   const SpinState spoilt =
-      fit(pass.model, pass.edges, pass.turned(Eigen::Vector3d{0.2, 0.1, 0.1} * kDegree_rad), {})
+      fit(pass.model, pass.edges, pass.turned(Eigen::Vector3d{0.2, 0.1, 0.1} * kRadPerDeg), {})
           .value()
           .state;
   EXPECT_LT(clean.q_icrf_spin.angularDistance(spoilt.q_icrf_spin), kExact_rad);

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "pipelines/spin/batch/pass_edges.h"
@@ -15,8 +15,6 @@
 
 namespace spindrift {
 namespace {
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 Expected<BatchSolution> solved(const testing::RecordedPass& recorded) {
   SpinPass pass{recorded.config, recorded.orbit};
@@ -52,8 +50,8 @@ TEST_P(BatchOfRecorded, IsWithinItsLimitAndThreeSigmas) {
   ASSERT_TRUE(solution) << solution.error().message;
   const SpinEstimate& estimate = solution->estimate;
   const double error_deg =
-      angle_between_rad(estimate.axis_icrf, recorded.true_axis_icrf) / kDegree_rad;
-  const double sigma_deg = std::sqrt(estimate.covariance_rad2.trace()) / kDegree_rad;
+      angle_between_rad(estimate.axis_icrf, recorded.true_axis_icrf) / kRadPerDeg;
+  const double sigma_deg = std::sqrt(estimate.covariance_rad2.trace()) / kRadPerDeg;
   EXPECT_LT(error_deg, GetParam().limit_deg);
   EXPECT_LT(error_deg, 3.0 * sigma_deg);
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/spin/batch/batch_fit.h"
 #include "pipelines/time/time_span.h"
 #include "tests/support/batch_pass.h"
@@ -15,7 +16,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kTurns = 128.0;
 constexpr double kChangeTurn = 80.0;
 
@@ -77,7 +77,7 @@ constexpr double kNear_turns = 6.0;
 TEST(Changepoint, OneAttitudeAtOneRateHasNone) {
   Scene scene;
   for (int pass = 0; pass < 30; ++pass) {
-    scene.body = testing::random_body(scene.around, 3.0 * kDegree_rad, scene.rng);
+    scene.body = testing::random_body(scene.around, 3.0 * kRadPerDeg, scene.rng);
     const auto edges = scene.pass(kTurns);
     EXPECT_FALSE(find_changepoint(scene.model(edges), edges, scene.fitted(edges)))
         << "pass " << pass;
@@ -108,7 +108,7 @@ TEST(Changepoint, TheGainIsWhatTwoFitsExplainMore) {
 TEST(Changepoint, ASmallTiltIsFoundWhereItWas) {
   Scene scene;
   const auto edges =
-      joined(scene.pass(kTurns), scene.pass_of(tilted(scene.body, 0.3 * kDegree_rad), kTurns),
+      joined(scene.pass(kTurns), scene.pass_of(tilted(scene.body, 0.3 * kRadPerDeg), kTurns),
              static_cast<std::int64_t>(kChangeTurn));
   const auto change = find_changepoint(scene.model(edges), edges, scene.fitted(edges));
   ASSERT_TRUE(change);
@@ -127,7 +127,7 @@ TEST(Changepoint, NoiseBeyondWhatIsStatedIsNoChange) {
 TEST(Changepoint, OfTwoLargeOnesTheLastIsFound) {
   Scene scene;
   const auto here = scene.pass(kTurns);
-  const auto there = scene.pass_of(tilted(scene.body, 10.0 * kDegree_rad), kTurns);
+  const auto there = scene.pass_of(tilted(scene.body, 10.0 * kRadPerDeg), kTurns);
   const auto edges = joined(joined(here, there, 40), here, 90);
   const PassModel model = scene.model(edges);
   const auto change = find_changepoint(model, edges, testing::true_state(scene.body, model));

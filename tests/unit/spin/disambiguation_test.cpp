@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/lone_fix.h"
 #include "tests/support/spinning_body.h"
@@ -17,7 +18,6 @@ namespace {
 
 using enum SpinQuantity;
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 constexpr double kRange_km = 16000.0;
 const std::set<SpinQuantity> kDihedrals = {NorthDihedral, SouthDihedral};
@@ -84,7 +84,7 @@ TEST(Disambiguation, WithNothingToGoByItIsAmbiguousWithAllCandidates) {
 TEST(Disambiguation, ThePriorOfTheMissionChoosesTheNearest) {
   Scene scene;
   const Eigen::Vector3d off = (scene.axis_icrf + Eigen::Vector3d{0.03, 0.0, 0.0}).normalized();
-  scene.config.prior = SpinPrior{.axis_icrf = off, .sigma_rad = 2.0 * kDegree_rad};
+  scene.config.prior = SpinPrior{.axis_icrf = off, .sigma_rad = 2.0 * kRadPerDeg};
   const SpinFix fix = settled(scene, scene.seen(), kDihedrals);
   EXPECT_EQ(fix.resolution, Resolution::Prior);
   EXPECT_TRUE(fix.accepted);
@@ -94,10 +94,10 @@ TEST(Disambiguation, ThePriorOfTheMissionChoosesTheNearest) {
 TEST(Disambiguation, APriorFarFromAllOrTooVagueChoosesNothing) {
   Scene scene;
   const Eigen::Vector3d far =
-      Eigen::AngleAxisd{20.0 * kDegree_rad, Eigen::Vector3d::UnitY()} * scene.axis_icrf;
-  scene.config.prior = SpinPrior{.axis_icrf = far, .sigma_rad = 2.0 * kDegree_rad};
+      Eigen::AngleAxisd{20.0 * kRadPerDeg, Eigen::Vector3d::UnitY()} * scene.axis_icrf;
+  scene.config.prior = SpinPrior{.axis_icrf = far, .sigma_rad = 2.0 * kRadPerDeg};
   EXPECT_EQ(settled(scene, scene.seen(), kDihedrals).resolution, Resolution::Ambiguous);
-  scene.config.prior = SpinPrior{.axis_icrf = scene.axis_icrf, .sigma_rad = 180.0 * kDegree_rad};
+  scene.config.prior = SpinPrior{.axis_icrf = scene.axis_icrf, .sigma_rad = 180.0 * kRadPerDeg};
   EXPECT_EQ(settled(scene, scene.seen(), kDihedrals).resolution, Resolution::Ambiguous);
 }
 
@@ -109,23 +109,22 @@ TEST(Disambiguation, WhatThePriorSaysOfTheCandidatesIsTold) {
     return disambiguator.prior_verdict();
   };
   EXPECT_EQ(verdict(), std::nullopt);
-  scene.config.prior = SpinPrior{.axis_icrf = scene.axis_icrf, .sigma_rad = 2.0 * kDegree_rad};
+  scene.config.prior = SpinPrior{.axis_icrf = scene.axis_icrf, .sigma_rad = 2.0 * kRadPerDeg};
   EXPECT_EQ(verdict(), PriorVerdict::Chooses);
-  EXPECT_EQ(verdict(KnownAxis{.axis_icrf = scene.axis_icrf, .sigma_rad = 0.1 * kDegree_rad}),
+  EXPECT_EQ(verdict(KnownAxis{.axis_icrf = scene.axis_icrf, .sigma_rad = 0.1 * kRadPerDeg}),
             std::nullopt);
-  scene.config.prior->sigma_rad = 180.0 * kDegree_rad;
+  scene.config.prior->sigma_rad = 180.0 * kRadPerDeg;
   EXPECT_EQ(verdict(), PriorVerdict::NearSeveral);
-  scene.config.prior =
-      SpinPrior{.axis_icrf = Eigen::AngleAxisd{20.0 * kDegree_rad, Eigen::Vector3d::UnitY()} *
-                             scene.axis_icrf,
-                .sigma_rad = 2.0 * kDegree_rad};
+  scene.config.prior = SpinPrior{
+      .axis_icrf = Eigen::AngleAxisd{20.0 * kRadPerDeg, Eigen::Vector3d::UnitY()} * scene.axis_icrf,
+      .sigma_rad = 2.0 * kRadPerDeg};
   EXPECT_EQ(verdict(), PriorVerdict::FarFromAll);
 }
 
 TEST(Disambiguation, WhatThePassHasEstablishedTakesThePlaceOfThePrior) {
   Scene scene;
-  scene.config.prior = SpinPrior{.axis_icrf = -scene.axis_icrf, .sigma_rad = 1.0 * kDegree_rad};
-  const KnownAxis known{.axis_icrf = scene.axis_icrf, .sigma_rad = 0.1 * kDegree_rad};
+  scene.config.prior = SpinPrior{.axis_icrf = -scene.axis_icrf, .sigma_rad = 1.0 * kRadPerDeg};
+  const KnownAxis known{.axis_icrf = scene.axis_icrf, .sigma_rad = 0.1 * kRadPerDeg};
   const SpinFix fix = settled(scene, scene.seen(), kDihedrals, known);
   EXPECT_EQ(fix.resolution, Resolution::Prior);
   EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 1e-6);
@@ -142,8 +141,8 @@ TEST(Disambiguation, AnAxisKnownBadlyChoosesNoneOfThoseThatGrazeBesideIt) {
     const Eigen::Vector3d& axis_icrf = found.candidates.front().axis_icrf;
     const KnownAxis known{
         .axis_icrf =
-            Eigen::AngleAxisd{off_deg * kDegree_rad, axis_icrf.unitOrthogonal()} * axis_icrf,
-        .sigma_rad = sigma_deg * kDegree_rad};
+            Eigen::AngleAxisd{off_deg * kRadPerDeg, axis_icrf.unitOrthogonal()} * axis_icrf,
+        .sigma_rad = sigma_deg * kRadPerDeg};
     return Disambiguator{scene.config}
         .settle(0, kStart, measured, scene.sun_earth(), found, known)
         .back()
@@ -162,8 +161,8 @@ TEST(Disambiguation, AHealthyBeamThatIsSilentRulesOutTheAxisThatShowsItTheEarth)
   Scene scene;
   scene.axis_icrf = Eigen::Vector3d::UnitZ();
   scene.sun_icrf = Eigen::Vector3d{1.0, 0.6, 0.3}.normalized();
-  scene.config.south->mount_angle_rad = 70.0 * kDegree_rad;
-  const double earth_angle_rad = 100.0 * kDegree_rad;
+  scene.config.south->mount_angle_rad = 70.0 * kRadPerDeg;
+  const double earth_angle_rad = 100.0 * kRadPerDeg;
   const Eigen::Vector3d earth =
       direction_icrf({.ra_rad = 1.9, .dec_rad = 0.5 * std::numbers::pi - earth_angle_rad});
   const double turned_rad = 0.0;
@@ -229,7 +228,7 @@ TEST(Disambiguation, DispersionSettlesTheEarlierFixesOfItsWindowToo) {
   bool settled_earlier = false;
   int told = 0;
   for (int number = 0; number < 60; ++number) {
-    const double turn_rad = 0.25 * kDegree_rad * number;
+    const double turn_rad = 0.25 * kRadPerDeg * number;
     Revolution revolution = scene.seen(turn_rad);
     revolution.number = number;
     const auto fixes = settle(disambiguator, scene, revolution, kDihedrals, {}, turn_rad);
@@ -260,7 +259,7 @@ TEST(Disambiguation, DispersionSettlesTheEarlierFixesOfItsWindowToo) {
 
 TEST(Disambiguation, MeasurementsThatContradictEachOtherAreNeverAccepted) {
   Scene scene;
-  scene.config.prior = SpinPrior{.axis_icrf = scene.axis_icrf, .sigma_rad = 2.0 * kDegree_rad};
+  scene.config.prior = SpinPrior{.axis_icrf = scene.axis_icrf, .sigma_rad = 2.0 * kRadPerDeg};
   const auto measured = testing::measured_without(scene.config, scene.seen(), kDihedrals);
   SunEarthDirections sun_earth = scene.sun_earth();
   sun_earth.disc_rad *= 1.25;

@@ -5,18 +5,17 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/statistics/distributions.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
-constexpr double kSigma_rad = 0.3 * kDegree_rad;
+constexpr double kSigma_rad = 0.3 * kRadPerDeg;
 
 /// Axes with noise: one that stays, others that drift at a rate.
 class Sky {
@@ -42,7 +41,7 @@ const Eigen::Vector3d kTrue_icrf = Eigen::Vector3d{0.1, -0.05, 1.0}.normalized()
 /// 40 deg off the true axis, and moving across.
 Eigen::Vector3d drifting(double moved_rad) {
   const Eigen::Vector3d start =
-      Eigen::AngleAxisd{40.0 * kDegree_rad, Eigen::Vector3d::UnitY()} * kTrue_icrf;
+      Eigen::AngleAxisd{40.0 * kRadPerDeg, Eigen::Vector3d::UnitY()} * kTrue_icrf;
   return Eigen::AngleAxisd{moved_rad, Eigen::Vector3d::UnitX()} * start;
 }
 
@@ -52,12 +51,12 @@ TEST(Dispersion, TheBranchThatStaysIsFound) {
   std::optional<StationaryBranch> found;
   int revolution = 0;
   for (; revolution < 200 && !found; ++revolution) {
-    const std::array candidates{sky.seen(drifting(0.1 * kDegree_rad * revolution)),
+    const std::array candidates{sky.seen(drifting(0.1 * kRadPerDeg * revolution)),
                                 sky.seen(kTrue_icrf)};
     found = dispersion.add(candidates);
   }
   ASSERT_TRUE(found);
-  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kRadPerDeg);
   EXPECT_EQ(found->axis.count, revolution);
 }
 
@@ -66,15 +65,14 @@ TEST(Dispersion, TheOrderOfTheCandidatesDoesNotMatter) {
   Dispersion dispersion{100};
   std::optional<StationaryBranch> found;
   for (int revolution = 0; revolution < 200 && !found; ++revolution) {
-    std::vector candidates{sky.seen(drifting(0.1 * kDegree_rad * revolution)),
-                           sky.seen(kTrue_icrf)};
+    std::vector candidates{sky.seen(drifting(0.1 * kRadPerDeg * revolution)), sky.seen(kTrue_icrf)};
     if (revolution % 3 == 0) {
       std::swap(candidates[0], candidates[1]);
     }
     found = dispersion.add(candidates);
   }
   ASSERT_TRUE(found);
-  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kRadPerDeg);
 }
 
 TEST(Dispersion, ADriftTooSlowForTheWindowShowsInALongPass) {
@@ -84,21 +82,21 @@ TEST(Dispersion, ADriftTooSlowForTheWindowShowsInALongPass) {
   std::optional<StationaryBranch> found;
   for (int revolution = 0; revolution < 3000 && !found; ++revolution) {
     const std::array candidates{sky.seen(kTrue_icrf),
-                                sky.seen(drifting(0.003 * kDegree_rad * revolution))};
+                                sky.seen(drifting(0.003 * kRadPerDeg * revolution))};
     found = dispersion.add(candidates);
   }
   ASSERT_TRUE(found);
   EXPECT_GT(found->axis.count, 100.0);
-  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kRadPerDeg);
 }
 
-constexpr double kStep_rad = 0.1 * kDegree_rad;
+constexpr double kStep_rad = 0.1 * kRadPerDeg;
 
 /// Ratio for a branch that goes kStep_rad a revolution along a great circle, where it has no noise
 /// and states kSigma_rad: about its middle, squares of kStep_rad^2 n (n^2 - 1) / 12 over 2 (n - 1)
 /// degrees of freedom.
 double ratio_of_drift(double revolutions) {
-  constexpr double kFloor_rad = 0.02 * kDegree_rad;
+  constexpr double kFloor_rad = 0.02 * kRadPerDeg;
   return kStep_rad * kStep_rad * revolutions * (revolutions + 1.0) /
          (24.0 * (kSigma_rad * kSigma_rad + kFloor_rad * kFloor_rad));
 }
@@ -168,9 +166,8 @@ TEST(Dispersion, WhereAllBranchesDriftNoneIsSteady) {
   Dispersion dispersion{100};
   for (int revolution = 0; revolution < 400; ++revolution) {
     const Eigen::Vector3d slow =
-        Eigen::AngleAxisd{0.1 * kDegree_rad * revolution, Eigen::Vector3d::UnitX()} * kTrue_icrf;
-    const std::array candidates{sky.seen(slow),
-                                sky.seen(drifting(0.15 * kDegree_rad * revolution))};
+        Eigen::AngleAxisd{0.1 * kRadPerDeg * revolution, Eigen::Vector3d::UnitX()} * kTrue_icrf;
+    const std::array candidates{sky.seen(slow), sky.seen(drifting(0.15 * kRadPerDeg * revolution))};
     ASSERT_FALSE(dispersion.add(candidates)) << revolution;
   }
 }
@@ -180,7 +177,7 @@ TEST(Dispersion, OutliersAndDropOutsAreSurvived) {
   Dispersion dispersion{100};
   std::optional<StationaryBranch> found;
   for (int revolution = 0; revolution < 300 && !found; ++revolution) {
-    const double moved_rad = 0.08 * kDegree_rad * revolution;
+    const double moved_rad = 0.08 * kRadPerDeg * revolution;
     std::vector candidates{sky.seen(drifting(moved_rad)), sky.seen(kTrue_icrf)};
     if (revolution % 7 == 3) {
       candidates.pop_back();
@@ -191,7 +188,7 @@ TEST(Dispersion, OutliersAndDropOutsAreSurvived) {
     found = dispersion.add(candidates);
   }
   ASSERT_TRUE(found);
-  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kRadPerDeg);
 }
 
 TEST(Dispersion, AfterASilenceTheTrueBranchIsWhereItWas) {
@@ -199,12 +196,12 @@ TEST(Dispersion, AfterASilenceTheTrueBranchIsWhereItWas) {
   Dispersion dispersion{100};
   std::optional<StationaryBranch> found;
   for (int revolution = 0; revolution < 60 && !found; ++revolution) {
-    const double silence_rad = revolution < 20 ? 0.0 : 15.0 * kDegree_rad;
+    const double silence_rad = revolution < 20 ? 0.0 : 15.0 * kRadPerDeg;
     const std::array candidates{sky.seen(kTrue_icrf), sky.seen(drifting(silence_rad))};
     found = dispersion.add(candidates);
   }
   ASSERT_TRUE(found);
-  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kDegree_rad);
+  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kRadPerDeg);
 }
 
 TEST(Dispersion, ABranchThatPassesThroughTheTrueOneIsNotTakenForIt) {
@@ -218,10 +215,10 @@ TEST(Dispersion, ABranchThatPassesThroughTheTrueOneIsNotTakenForIt) {
     const int beginning = -10 - static_cast<int>(seed % 50);
     for (int revolution = beginning; revolution < 40; ++revolution) {
       const std::array candidates{sky.seen(kTrue_icrf),
-                                  sky.seen(passing(0.2 * kDegree_rad * revolution))};
+                                  sky.seen(passing(0.2 * kRadPerDeg * revolution))};
       if (const auto found = dispersion.add(candidates)) {
         ++settled;
-        ASSERT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.5 * kDegree_rad) << seed;
+        ASSERT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.5 * kRadPerDeg) << seed;
         break;
       }
     }
@@ -238,7 +235,7 @@ TEST(Dispersion, AnErrorOfTheModelIsNoDrift) {
     const auto moved = [&](const Eigen::Vector3d& axis, double share) {
       const Eigen::Matrix<double, 3, 2> basis = tangent_basis(axis);
       AxisCandidate candidate =
-          sky.seen((axis + basis.col(0) * (0.15 * kDegree_rad * leverage * share)).normalized());
+          sky.seen((axis + basis.col(0) * (0.15 * kRadPerDeg * leverage * share)).normalized());
       candidate.model_shift_icrf.col(0) = basis.col(0) * leverage * share;
       return candidate;
     };

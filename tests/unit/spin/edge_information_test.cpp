@@ -8,9 +8,9 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/information_limit.h"
 #include "tests/support/observed_spin.h"
@@ -21,7 +21,6 @@ namespace {
 
 using enum PulseChannel;
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr std::array kAll = {Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut};
 
 Eigen::Matrix3d frame_about(const Eigen::Vector3d& axis_icrf) {
@@ -49,7 +48,7 @@ struct Turn {
 };
 
 double sigma_deg(const EdgeInformation& information) {
-  return std::sqrt(information.axis_covariance_rad2().value().trace()) / kDegree_rad;
+  return std::sqrt(information.axis_covariance_rad2().value().trace()) / kRadPerDeg;
 }
 
 TEST(EdgeInformation, OfOneTurnAtAKnownRateIsThePublishedLimit) {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/spinning_body.h"
 
@@ -14,14 +15,13 @@ namespace spindrift {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 // Half a unit of the ninth decimal of a degree, as the golden values are printed.
-constexpr double kPrinted_rad = 0.5e-9 * kDegree_rad;
+constexpr double kPrinted_rad = 0.5e-9 * kRadPerDeg;
 // Some tens of ulps of a number of order 1, for well-conditioned formulas.
 constexpr double kRounding = 1e-14;
 
 Eigen::Vector3d at_deg(double ra_deg, double dec_deg) {
-  return direction_icrf({.ra_rad = ra_deg * kDegree_rad, .dec_rad = dec_deg * kDegree_rad});
+  return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
 }
 
 // Two cones that meet in two axes; all values worked out in 30 digits by mpmath. The reference
@@ -30,9 +30,9 @@ const Eigen::Vector3d kSun_icrf = at_deg(10.0, 4.3);
 const Eigen::Vector3d kEarth_icrf = at_deg(80.0, -20.0);
 const Eigen::Vector3d kAxis_icrf = at_deg(268.625, 68.4485);
 const Eigen::Vector3d kFalseAxis_icrf = at_deg(281.751608418, -23.899303556);
-constexpr double kSunAngle_rad = 90.143759304 * kDegree_rad;
-constexpr double kEarthAngle_rad = 131.253314001 * kDegree_rad;
-constexpr double kDihedral_rad = 67.046435278 * kDegree_rad;
+constexpr double kSunAngle_rad = 90.143759304 * kRadPerDeg;
+constexpr double kEarthAngle_rad = 131.253314001 * kRadPerDeg;
+constexpr double kDihedral_rad = 67.046435278 * kRadPerDeg;
 
 TEST(SpinGeometry, PredictsTheAnglesOfAKnownAxis) {
   const PredictedAngles angles = predict_angles(kAxis_icrf, kSun_icrf, kEarth_icrf);
@@ -103,41 +103,41 @@ TEST(SpinGeometry, ASpacecraftWithinTheHorizonHasNoDisc) {
 }
 
 TEST(SpinGeometry, TwoEqualChordsOfBeamsAboutTheEquatorMeanAnEarthOnTheEquator) {
-  const Chord north{.mount_angle_rad = 80.0 * kDegree_rad, .chord_rad = 0.3};
-  const Chord south{.mount_angle_rad = 100.0 * kDegree_rad, .chord_rad = 0.3};
+  const Chord north{.mount_angle_rad = 80.0 * kRadPerDeg, .chord_rad = 0.3};
+  const Chord south{.mount_angle_rad = 100.0 * kRadPerDeg, .chord_rad = 0.3};
   EXPECT_NEAR(earth_angle_from_two_chords(north, south), kPi / 2.0, kRounding);
 }
 
 TEST(SpinGeometry, WhichBeamIsCalledNorthDoesNotMatter) {
-  const Chord one{.mount_angle_rad = 85.0 * kDegree_rad, .chord_rad = 0.31};
-  const Chord other{.mount_angle_rad = 97.0 * kDegree_rad, .chord_rad = 0.22};
+  const Chord one{.mount_angle_rad = 85.0 * kRadPerDeg, .chord_rad = 0.31};
+  const Chord other{.mount_angle_rad = 97.0 * kRadPerDeg, .chord_rad = 0.22};
   EXPECT_NEAR(earth_angle_from_two_chords(one, other), earth_angle_from_two_chords(other, one),
               kRounding);
 }
 
 TEST(SpinGeometry, BeamsLessThanAHundredthApartAreMountedAlike) {
-  EXPECT_TRUE(mount_angles_coincide(85.0 * kDegree_rad, 85.0 * kDegree_rad));
-  EXPECT_TRUE(mount_angles_coincide(89.8 * kDegree_rad, 90.3 * kDegree_rad));
-  EXPECT_FALSE(mount_angles_coincide(89.7 * kDegree_rad, 90.3 * kDegree_rad));
-  EXPECT_FALSE(mount_angles_coincide(85.0 * kDegree_rad, 95.0 * kDegree_rad));
+  EXPECT_TRUE(mount_angles_coincide(85.0 * kRadPerDeg, 85.0 * kRadPerDeg));
+  EXPECT_TRUE(mount_angles_coincide(89.8 * kRadPerDeg, 90.3 * kRadPerDeg));
+  EXPECT_FALSE(mount_angles_coincide(89.7 * kRadPerDeg, 90.3 * kRadPerDeg));
+  EXPECT_FALSE(mount_angles_coincide(85.0 * kRadPerDeg, 95.0 * kRadPerDeg));
 }
 
 TEST(SpinGeometry, AChordAtItsWidestIsPredictedFromItsThreeSides) {
   // Beam, Earth and axis with the Earth on the beam's cone: the half chord c satisfies
   // sin(rho / 2) = sin(g) sin(c / 2), an isosceles triangle.
-  const double mount_rad = 70.0 * kDegree_rad;
-  const double disc_rad = 20.0 * kDegree_rad;
+  const double mount_rad = 70.0 * kRadPerDeg;
+  const double disc_rad = 20.0 * kRadPerDeg;
   const double half_rad = 2.0 * std::asin(std::sin(0.5 * disc_rad) / std::sin(mount_rad));
   EXPECT_NEAR(predict_chord_rad(mount_rad, mount_rad, disc_rad).value(), 2.0 * half_rad, kRounding);
 }
 
 TEST(SpinGeometry, ABeamThatMissesTheDiscHasNoChord) {
-  EXPECT_TRUE(predict_chord_rad(85.0 * kDegree_rad, 75.1 * kDegree_rad, 10.0 * kDegree_rad));
-  EXPECT_FALSE(predict_chord_rad(85.0 * kDegree_rad, 74.9 * kDegree_rad, 10.0 * kDegree_rad));
+  EXPECT_TRUE(predict_chord_rad(85.0 * kRadPerDeg, 75.1 * kRadPerDeg, 10.0 * kRadPerDeg));
+  EXPECT_FALSE(predict_chord_rad(85.0 * kRadPerDeg, 74.9 * kRadPerDeg, 10.0 * kRadPerDeg));
 }
 
 TEST(SpinGeometry, ABeamThatNeverLeavesTheDiscHasNoChord) {
-  EXPECT_FALSE(predict_chord_rad(5.0 * kDegree_rad, 2.0 * kDegree_rad, 10.0 * kDegree_rad));
+  EXPECT_FALSE(predict_chord_rad(5.0 * kRadPerDeg, 2.0 * kRadPerDeg, 10.0 * kRadPerDeg));
 }
 
 /// The roots of the chord equation.
@@ -148,12 +148,12 @@ std::vector<double> earth_angles(double mount_rad, double chord_rad, double disc
 }
 
 TEST(SpinGeometry, BothRootsOfTheChordEquationGiveTheChordThatWasMeasured) {
-  const double mount_rad = 85.0 * kDegree_rad;
-  const double disc_rad = 25.0 * kDegree_rad;
+  const double mount_rad = 85.0 * kRadPerDeg;
+  const double disc_rad = 25.0 * kRadPerDeg;
   const double chord_rad = predict_chord_rad(mount_rad, 1.6, disc_rad).value();
   const auto roots = earth_angles(mount_rad, chord_rad, disc_rad);
   ASSERT_EQ(roots.size(), 2U);
-  EXPECT_GT(std::abs(roots[0] - roots[1]), 1.0 * kDegree_rad);
+  EXPECT_GT(std::abs(roots[0] - roots[1]), 1.0 * kRadPerDeg);
   for (const double root : roots) {
     EXPECT_NEAR(predict_chord_rad(mount_rad, root, disc_rad).value(), chord_rad, 100.0 * kRounding);
   }
@@ -162,12 +162,12 @@ TEST(SpinGeometry, BothRootsOfTheChordEquationGiveTheChordThatWasMeasured) {
 TEST(SpinGeometry, ARootOutsideTheSphereIsNoRoot) {
   // The beam 5 deg from the axis, the disc's edge 8 deg from its centre: the lesser root is
   // negative.
-  const double mount_rad = 5.0 * kDegree_rad;
-  const double disc_rad = 8.0 * kDegree_rad;
-  const double chord_rad = predict_chord_rad(mount_rad, 8.0 * kDegree_rad, disc_rad).value();
+  const double mount_rad = 5.0 * kRadPerDeg;
+  const double disc_rad = 8.0 * kRadPerDeg;
+  const double chord_rad = predict_chord_rad(mount_rad, 8.0 * kRadPerDeg, disc_rad).value();
   const auto roots = earth_angles(mount_rad, chord_rad, disc_rad);
   ASSERT_EQ(roots.size(), 1U);
-  EXPECT_NEAR(roots[0], 8.0 * kDegree_rad, 100.0 * kRounding);
+  EXPECT_NEAR(roots[0], 8.0 * kRadPerDeg, 100.0 * kRounding);
 }
 
 TEST(SpinGeometry, ARootOutsideSolvesTheEquationToo) {
@@ -197,7 +197,7 @@ TEST(SpinGeometry, AChordWiderThanTheDiscHasNoRootAndSaysByHowMuch) {
 TEST(SpinGeometry, DeterminantVanishesWhereBothEquationsAreTheSame) {
   // Sun on the equator, a quarter turn from the Earth.
   const OneChordInput<double> input{
-      .chord = {.mount_angle_rad = 85.0 * kDegree_rad, .chord_rad = 0.5},
+      .chord = {.mount_angle_rad = 85.0 * kRadPerDeg, .chord_rad = 0.5},
       .sun_angle_rad = kPi / 2.0,
       .dihedral_rad = kPi / 2.0,
       .sun_earth_rad = kPi / 2.0,
@@ -240,10 +240,10 @@ Scene random_scene(std::mt19937_64& rng) {
               .sun_icrf = direction(),
               .earth_icrf = {},
               .axis_icrf = direction(),
-              .disc_rad = (15.0 + 30.0 * uniform(rng)) * kDegree_rad,
+              .disc_rad = (15.0 + 30.0 * uniform(rng)) * kRadPerDeg,
               .seen = {},
               .config = testing::usual_config()};
-  const double earth_angle_rad = (80.0 + 20.0 * uniform(rng)) * kDegree_rad;
+  const double earth_angle_rad = (80.0 + 20.0 * uniform(rng)) * kRadPerDeg;
   const Eigen::Vector3d across = scene.axis_icrf.cross(direction()).normalized();
   scene.earth_icrf = Eigen::AngleAxisd{earth_angle_rad, across} * scene.axis_icrf;
   const double range_km = 6418.137 / std::sin(scene.disc_rad);

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <random>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/edge_prediction.h"
 #include "tests/support/spinning_body.h"
@@ -18,7 +19,6 @@ namespace spindrift {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 
 Eigen::Vector3d random_direction(std::mt19937_64& rng) {
@@ -47,7 +47,7 @@ Scene random_scene(HorizonModel model, std::mt19937_64& rng) {
   const Eigen::Vector3d earth_icrf = random_direction(rng);
   const Eigen::Vector3d across =
       Eigen::AngleAxisd{2.0 * kPi * uniform(rng), earth_icrf} * earth_icrf.unitOrthogonal();
-  const double tilt_rad = (uniform(rng) - 0.5) * 20.0 * kDegree_rad;
+  const double tilt_rad = (uniform(rng) - 0.5) * 20.0 * kRadPerDeg;
   SpinConfig config = testing::usual_config();
   config.horizon.model = model;
   Scene scene{.body = {.axis_icrf = Eigen::AngleAxisd{tilt_rad, across.cross(earth_icrf)} * across,
@@ -142,12 +142,12 @@ TEST_P(EdgesOnHorizons, TheBeamThatMissesHasNoCrossing) {
   // From 42 164 km the disc is 8.8 deg wide: a beam at 85 deg, the Earth at 60 deg from the axis.
   const HorizonAxes axes = horizon_axes({.model = GetParam(), .co2_altitude_km = 40.0});
   const auto crossing = [&](double earth_angle_deg) {
-    const double angle_rad = earth_angle_deg * kDegree_rad;
+    const double angle_rad = earth_angle_deg * kRadPerDeg;
     return limb_crossing(axes,
                          {.spacecraft_spin_km = -42164.0 * Eigen::Vector3d{std::sin(angle_rad), 0.0,
                                                                            std::cos(angle_rad)},
                           .pole_spin = Eigen::Vector3d::UnitY()},
-                         85.0 * kDegree_rad, Crossing::In);
+                         85.0 * kRadPerDeg, Crossing::In);
   };
   EXPECT_FALSE(crossing(60.0));
   EXPECT_TRUE(crossing(80.0));

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/batch_pass.h"
 
@@ -17,7 +17,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kTurns = 100.0;
 
 struct Scene : testing::BatchScene {
@@ -107,12 +106,12 @@ TEST(FirstClock, AnAxisDegreesOffMakesItNoMoreDegreesWrong) {
   for (const double off_deg : {1.0, 5.0, 15.0}) {
     SCOPED_TRACE(off_deg);
     const Eigen::Vector3d axis_icrf =
-        testing::start_near(scene.body, off_deg * kDegree_rad, scene.rng);
+        testing::start_near(scene.body, off_deg * kRadPerDeg, scene.rng);
     const auto first = initial_state(model, scene.edges, axis_icrf);
     ASSERT_TRUE(first) << first.error().message;
     EXPECT_LT(angle_between_rad(first->axis_icrf(), axis_icrf), 1e-12);
     EXPECT_LT(std::abs(first->rate_rad_s - truth.rate_rad_s) * model.half_s(),
-              off_deg * kDegree_rad);
+              off_deg * kRadPerDeg);
   }
 }
 

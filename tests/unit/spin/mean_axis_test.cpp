@@ -4,17 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 constexpr double kRounding = 1e-14;
 
 SpinFix fix_at(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& covariance_rad2) {
@@ -30,7 +28,7 @@ SpinFix fix_at(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& covarian
 }
 
 Eigen::Vector3d at_deg(double ra_deg, double dec_deg) {
-  return direction_icrf({.ra_rad = ra_deg * kDegree_rad, .dec_rad = dec_deg * kDegree_rad});
+  return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
 }
 
 Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3d>& axes) {
@@ -96,8 +94,8 @@ TEST(MeanAxis, CovarianceAcrossThePoleKeepsItsDirections) {
   const Eigen::Vector2d along = tangent_basis(mean.axis_icrf()).transpose() * uncertain_icrf;
   const Eigen::Matrix2d covariance_rad2 = mean.covariance_rad2();
   // Second order in 0.01 deg.
-  EXPECT_NEAR(along.dot(covariance_rad2 * along), 0.25e-6, 1e-6 * std::pow(0.01 * kDegree_rad, 2));
-  EXPECT_NEAR(covariance_rad2.trace(), 0.25e-6, 1e-6 * std::pow(0.01 * kDegree_rad, 2));
+  EXPECT_NEAR(along.dot(covariance_rad2 * along), 0.25e-6, 1e-6 * std::pow(0.01 * kRadPerDeg, 2));
+  EXPECT_NEAR(covariance_rad2.trace(), 0.25e-6, 1e-6 * std::pow(0.01 * kRadPerDeg, 2));
 }
 
 TEST(MeanAxis, CovarianceIsTheScatterOfTheMean) {

@@ -4,9 +4,9 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "services/words/assessment_words.h"
 #include "tests/support/axis_scene.h"
@@ -14,8 +14,6 @@
 
 namespace spindrift {
 namespace {
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 /// A body at rest, revolution after revolution.
 class Pass {
@@ -70,7 +68,7 @@ TEST(MeanEstimator, WhatIsGivenUpIsLostUntilAFixComes) {
   for (const SpinEstimate& lost : {pass.begin_anew(), pass.begin_anew()}) {
     EXPECT_EQ(lost.assessment, (Assessment{Quality::Lost, {Reason{ReasonCode::AwaitingFix, {}}}}));
     EXPECT_EQ(lost.axis_icrf, last.axis_icrf);
-    EXPECT_GT(testing::sigma_rad(lost), 90.0 * kDegree_rad);
+    EXPECT_GT(testing::sigma_rad(lost), 90.0 * kRadPerDeg);
   }
   EXPECT_EQ(pass.next().assessment, too_few(1));
 }
@@ -80,7 +78,7 @@ TEST(MeanEstimator, FixesThatAreNotWhatTheirAnglesSayAreDoubtful) {
     SCOPED_TRACE(turned_deg);
     Pass pass;
     for (int i = 0; i < 20; ++i) {
-      const SpinEstimate mean = pass.next(turned_deg * kDegree_rad);
+      const SpinEstimate mean = pass.next(turned_deg * kRadPerDeg);
       EXPECT_TRUE(mean.assessment.quality == Quality::Doubtful) << sentence_of(mean.assessment);
       EXPECT_TRUE(i < 2 || pass.off_rad(mean) < 3.0 * testing::sigma_rad(mean))
           << sentence_of(mean.assessment);

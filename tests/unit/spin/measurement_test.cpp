@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/spinning_body.h"
 
@@ -18,7 +19,6 @@ namespace {
 using enum PulseChannel;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 constexpr double kRate_rad_s = 2.0 * kPi / 1.5;
 // Two edges, each rounded to half a nanosecond.
 constexpr double kNanosecond_rad = kRate_rad_s * 1e-9;
@@ -27,8 +27,8 @@ const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 /// A body about ICRF z, the Sun and the Earth at these angles from it; the Earth follows the Sun
 /// by `dihedral_rad`.
 struct Scene {
-  double sun_angle_rad = 80.0 * kDegree_rad;
-  double earth_angle_rad = 92.0 * kDegree_rad;
+  double sun_angle_rad = 80.0 * kRadPerDeg;
+  double earth_angle_rad = 92.0 * kRadPerDeg;
   double dihedral_rad = 1.0;
   double first_turn_rad = 0.3;
   SpinConfig config = testing::usual_config();
@@ -52,7 +52,7 @@ Revolution seen(const Scene& scene) {
 TEST(SpinMeasurements, SunAngleIsThatOfTheOracle) {
   for (double angle_deg = 46.0; angle_deg < 135.0; angle_deg += 1.0) {
     SCOPED_TRACE(angle_deg);
-    const Scene scene{.sun_angle_rad = angle_deg * kDegree_rad};
+    const Scene scene{.sun_angle_rad = angle_deg * kRadPerDeg};
     const auto measured = measure(scene.config, seen(scene)).sun_angle;
     ASSERT_TRUE(measured);
     // d(theta_s) / d(lag) is 1 at most with a cant of 45 deg.
@@ -85,16 +85,16 @@ TEST(SpinMeasurements, ADriftOfTheRateChangesNoAngle) {
 TEST(SpinMeasurements, SlitLagOfTheOracleIsTheOneOfTheHandbook) {
   for (const double cant_deg : {15.0, 30.0, 45.0}) {
     for (const double angle_deg : {60.0, 75.0, 90.0, 110.0}) {
-      Scene scene{.sun_angle_rad = angle_deg * kDegree_rad};
-      scene.config.sun_sensor.slit_cant_rad = cant_deg * kDegree_rad;
+      Scene scene{.sun_angle_rad = angle_deg * kRadPerDeg};
+      scene.config.sun_sensor.slit_cant_rad = cant_deg * kRadPerDeg;
       const Revolution revolution = seen(scene);
       const double lag_rad = kRate_rad_s * seconds_between(revolution.edge(Sun1).value(),
                                                            revolution.edge(Sun2).value()) -
                              scene.config.sun_sensor.slit_separation_rad;
       // cot(theta_s) = sin(psi_12 - psi0) / tan I.
-      EXPECT_NEAR(1.0 / std::tan(angle_deg * kDegree_rad),
-                  std::sin(lag_rad) / std::tan(cant_deg * kDegree_rad),
-                  kNanosecond_rad / std::tan(cant_deg * kDegree_rad));
+      EXPECT_NEAR(1.0 / std::tan(angle_deg * kRadPerDeg),
+                  std::sin(lag_rad) / std::tan(cant_deg * kRadPerDeg),
+                  kNanosecond_rad / std::tan(cant_deg * kRadPerDeg));
     }
   }
 }
@@ -158,10 +158,10 @@ TEST(SpinMeasurements, ASlitLagOfAQuarterTurnHasNoMeaning) {
                      1e-4);
   };
   for (const double lag_deg : {-89.9, 0.0, 89.9, 360.0, -400.0}) {
-    EXPECT_TRUE(with_lag(lag_deg * kDegree_rad)) << lag_deg;
+    EXPECT_TRUE(with_lag(lag_deg * kRadPerDeg)) << lag_deg;
   }
   for (const double lag_deg : {-179.0, -90.1, 90.1, 180.0, 260.0}) {
-    EXPECT_FALSE(with_lag(lag_deg * kDegree_rad)) << lag_deg;
+    EXPECT_FALSE(with_lag(lag_deg * kRadPerDeg)) << lag_deg;
   }
   EXPECT_FALSE(sun_angle(sensor, std::nan(""), kRate_rad_s, 1e-4));
 }
@@ -259,7 +259,7 @@ TEST(SpinMeasurements, ADoubtfulSensorStaysOutOfTheMixedAzimuth) {
 }
 
 TEST(SpinMeasurements, NoiseIsWhatEachEdgeMovesThemBy) {
-  const Scene scene{.sun_angle_rad = 70.0 * kDegree_rad};
+  const Scene scene{.sun_angle_rad = 70.0 * kRadPerDeg};
   Revolution whole = seen(scene);
   Revolution without_sun1 = whole;
   without_sun1.edges.at(index_of(Sun1)).reset();
@@ -296,8 +296,8 @@ TEST(SpinMeasurements, SigmaIsTheScatterThatTheNoiseMakes) {
   constexpr int kDraws = 20000;
   using enum SpinQuantity;
   constexpr std::array kAll = {SunAngle, NorthChord, SouthChord, NorthDihedral, SouthDihedral};
-  Scene scene{.sun_angle_rad = 70.0 * kDegree_rad};
-  scene.config.sun_sensor.slit_cant_rad = 30.0 * kDegree_rad;
+  Scene scene{.sun_angle_rad = 70.0 * kRadPerDeg};
+  scene.config.sun_sensor.slit_cant_rad = 30.0 * kRadPerDeg;
   const Revolution exact = seen(scene);
   const RevolutionMeasurements truth = measure(scene.config, exact);
   std::mt19937_64 rng{71};

@@ -6,15 +6,15 @@
 #include <numbers>
 #include <random>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 
 namespace spindrift {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
-const SunSensor kSensor{.slit_cant_rad = 40.0 * kDegree_rad,
-                        .slit_separation_rad = 35.0 * kDegree_rad};
+const SunSensor kSensor{.slit_cant_rad = 40.0 * kRadPerDeg,
+                        .slit_separation_rad = 35.0 * kRadPerDeg};
 
 /// Cosine of the angle between Sun and Earth, from the spherical triangle with the axis.
 double cos_sun_earth(double sun_rad, double earth_rad, double dihedral_rad) {
@@ -44,7 +44,7 @@ TEST(MixedAzimuth, EveryRootSatisfiesTheTriangleAndOneIsTheTruth) {
     SCOPED_TRACE(trial);
     const double lag_rad = 1.5 * uniform(rng);
     const MixedAzimuth mixed =
-        mixed_at(lag_rad, kPi * uniform(rng), (90.0 + 20.0 * uniform(rng)) * kDegree_rad);
+        mixed_at(lag_rad, kPi * uniform(rng), (90.0 + 20.0 * uniform(rng)) * kRadPerDeg);
     const SlitLags found = slit_lags(mixed);
     bool true_one = false;
     for (const SlitLag& lag : found.lags) {
@@ -89,9 +89,9 @@ TEST(MixedAzimuth, DerivativesAreThoseOfTheRoot) {
 
 TEST(MixedAzimuth, IsPredictedAsItIsMeasured) {
   EXPECT_NEAR(predict_mixed_azimuth_rad(kSensor, sun_angle_at(0.3), 1.1).value(),
-              1.1 - 35.0 * kDegree_rad - 0.3, 1e-14);
-  EXPECT_FALSE(predict_mixed_azimuth_rad(kSensor, 39.0 * kDegree_rad, 1.1));
-  EXPECT_FALSE(predict_mixed_azimuth_rad(kSensor, 141.0 * kDegree_rad, 1.1));
+              1.1 - 35.0 * kRadPerDeg - 0.3, 1e-14);
+  EXPECT_FALSE(predict_mixed_azimuth_rad(kSensor, 39.0 * kRadPerDeg, 1.1));
+  EXPECT_FALSE(predict_mixed_azimuth_rad(kSensor, 141.0 * kRadPerDeg, 1.1));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/spinning_body.h"
 
@@ -14,7 +15,6 @@ namespace spindrift {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 constexpr double kRange_km = 16000.0;
 const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 
@@ -80,7 +80,7 @@ TEST(ModelCheck, DoesNotMindAnAxisBesideTheTrueOne) {
   for (const double turned_rad : {0.0, 0.5 * kPi, 1.0, -2.0}) {
     const Eigen::Vector3d beside =
         (kAxis +
-         0.1 * kDegree_rad * (basis * Eigen::Vector2d{std::cos(turned_rad), std::sin(turned_rad)}))
+         0.1 * kRadPerDeg * (basis * Eigen::Vector2d{std::cos(turned_rad), std::sin(turned_rad)}))
             .normalized();
     AngleEquations equations{beside};
     for (int i = 0; i < 40000; ++i) {
@@ -94,13 +94,13 @@ TEST(ModelCheck, SeesAnAzimuthThatIsWrong) {
   for (const ModelError error : {NorthAzimuth, SouthAzimuth}) {
     SpinConfig config = testing::usual_config();
     auto& sensor = error == NorthAzimuth ? config.north : config.south;
-    sensor->azimuth_rad -= 1.0 * kDegree_rad;
+    sensor->azimuth_rad -= 1.0 * kRadPerDeg;
     const ModelTest verdict = test_model(equations_of(config), 0.0);
     EXPECT_TRUE(verdict.beyond_allowance);
-    EXPECT_GT(verdict.error_rad, 0.3 * kDegree_rad);
-    EXPECT_LT(verdict.error_rad, 3.0 * kDegree_rad);
+    EXPECT_GT(verdict.error_rad, 0.3 * kRadPerDeg);
+    EXPECT_LT(verdict.error_rad, 3.0 * kRadPerDeg);
     const auto truth =
-        (1.0 * kDegree_rad * Eigen::Matrix<double, kModelErrors, 1>::Unit(error)).eval();
+        (1.0 * kRadPerDeg * Eigen::Matrix<double, kModelErrors, 1>::Unit(error)).eval();
     EXPECT_LT(truth.dot(verdict.errors_rad2.ldlt().solve(truth)), 9.0);
     EXPECT_EQ(verdict.excess_noise, 1.0);
   }
@@ -109,20 +109,20 @@ TEST(ModelCheck, SeesAnAzimuthThatIsWrong) {
 TEST(ModelCheck, SeesASunAngleAndALimbThatAreWrong) {
   SpinConfig slit = testing::usual_config();
   // Across Sun and Earth both, as this axis nearly is, a sun angle hardly touches the others.
-  slit.sun_sensor.slit_separation_rad += 10.0 * kDegree_rad;
+  slit.sun_sensor.slit_separation_rad += 10.0 * kRadPerDeg;
   EXPECT_TRUE(test_model(equations_of(slit), 0.0).beyond_allowance);
   SpinConfig beam = testing::usual_config();
-  beam.north->mount_angle_rad += 4.0 * kDegree_rad;
+  beam.north->mount_angle_rad += 4.0 * kRadPerDeg;
   EXPECT_TRUE(test_model(equations_of(beam), 0.0).beyond_allowance);
 }
 
 TEST(ModelCheck, ShowsWhatTheAllowanceExcusesWithoutDoubt) {
   SpinConfig config = testing::usual_config();
-  config.north->azimuth_rad += 0.15 * kDegree_rad;
+  config.north->azimuth_rad += 0.15 * kRadPerDeg;
   const AngleEquations equations = equations_of(config);
   EXPECT_GT(test_model(equations, 0.0).error_rad, 0.0);
   EXPECT_FALSE(test_model(equations, 0.0).beyond_allowance);
-  expect_silence(test_model(equations, 0.15 * kDegree_rad));
+  expect_silence(test_model(equations, 0.15 * kRadPerDeg));
 }
 
 TEST(ModelCheck, MeasuresNoiseThatIsMoreThanStated) {

@@ -8,13 +8,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/time/time_span.h"
 #include "tests/support/wobbling_pass.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kDuration_s = 60.0;
 
 /// Two degrees of nutation, growing, and one of coning.
@@ -24,11 +24,11 @@ struct Scene {
   std::vector<PassEdge> edges;
 
   Scene() {
-    truth.motion.nutation = {.half_angle_rad = 2.0 * kDegree_rad,
+    truth.motion.nutation = {.half_angle_rad = 2.0 * kRadPerDeg,
                              .inertia_ratio = 0.3,
                              .first_azimuth_rad = 1.0,
                              .growth_per_s = 0.1 / kDuration_s};
-    truth.motion.coning = {.tilt_rad = 1.0 * kDegree_rad, .azimuth_rad = 2.0};
+    truth.motion.coning = {.tilt_rad = 1.0 * kRadPerDeg, .azimuth_rad = 2.0};
     passes.config().noise = {.sun_s = 0.0, .infrared_s = 0.0};
     edges = passes.edges(truth);
     passes.config().noise = {.sun_s = 1e-4, .infrared_s = 5e-4};

@@ -13,6 +13,8 @@
 #include <numbers>
 #include <random>
 
+#include "pipelines/frames/angle.h"
+
 namespace spindrift {
 namespace {
 
@@ -21,9 +23,8 @@ using ::testing::Contains;
 using ::testing::DoubleNear;
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kPeriod_s = 0.8;
-constexpr double kSigma_rad = 0.05 * kDegree;
+constexpr double kSigma_rad = 0.05 * kRadPerDeg;
 
 struct Channel {
   PulseChannel channel;

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "pipelines/ephemeris/sun.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/planning/pass_conditions.h"
@@ -24,8 +25,6 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
-
 PassGeometry at(const SpinConfig& config, const Orbit& orbit, const Eigen::Vector3d& axis_icrf,
                 TaiTime t, double rate_rad_s = 2.0 * std::numbers::pi) {
   return PassScene{config, orbit, axis_icrf, rate_rad_s}.at(t).value();
@@ -36,11 +35,11 @@ TEST(PassGeometry, HasTheFiguresOfTheNominalPass) {
   const PassGeometry first =
       at(pass.config, pass.orbit, pass.true_axis_icrf, pass.pulses.front().t, pass.true_rate_rad_s);
   // Its truth.json, which is of the first instant of the pass, up to half a turn before.
-  EXPECT_NEAR(first.angles.sun_angle_rad / kDegree_rad, 96.23210, 1e-3);
-  EXPECT_NEAR(first.angles.earth_angle_rad / kDegree_rad, 90.88075, 0.01);
-  EXPECT_NEAR(first.disc_rad / kDegree_rad, 27.46558, 0.01);
+  EXPECT_NEAR(first.angles.sun_angle_rad / kRadPerDeg, 96.23210, 1e-3);
+  EXPECT_NEAR(first.angles.earth_angle_rad / kRadPerDeg, 90.88075, 0.01);
+  EXPECT_NEAR(first.disc_rad / kRadPerDeg, 27.46558, 0.01);
   EXPECT_NEAR(first.beams.at(index_of(Side::North)).chord_rad.value(),
-              0.1491403704 * pass.true_rate_rad_s, 0.02 * kDegree_rad);
+              0.1491403704 * pass.true_rate_rad_s, 0.02 * kRadPerDeg);
   EXPECT_EQ(first.fix.geometry_case, 1);
   EXPECT_EQ(first.fix.axes, 1U);
   EXPECT_TRUE(first.fix.told_apart);
@@ -56,7 +55,7 @@ TEST(PassGeometry, ExpectsOfAFixWhatFixesOfTheNominalPassScatter) {
     sum_rad2 += geometry.fix.sigma_rad.value() * geometry.fix.sigma_rad.value();
   }
   // spin.md: the two-chord fix measures 0.426 deg over its 600 turns: that is known to 3 %.
-  EXPECT_NEAR(std::sqrt(sum_rad2 / kTimes) / kDegree_rad, 0.426, 3.0 * 0.03 * 0.426);
+  EXPECT_NEAR(std::sqrt(sum_rad2 / kTimes) / kRadPerDeg, 0.426, 3.0 * 0.03 * 0.426);
 }
 
 TEST(PassGeometry, SeesChordsByTheClosedForm) {
@@ -67,7 +66,7 @@ TEST(PassGeometry, SeesChordsByTheClosedForm) {
   for (int trial = 0; trial < 3000; ++trial) {
     SCOPED_TRACE(trial);
     SpinConfig config = testing::usual_config();
-    config.north->mount_angle_rad = (5.0 + 170.0 * uniform(rng)) * kDegree_rad;
+    config.north->mount_angle_rad = (5.0 + 170.0 * uniform(rng)) * kRadPerDeg;
     const Eigen::Vector3d axis_icrf = direction_icrf(
         {.ra_rad = 6.28 * uniform(rng), .dec_rad = std::asin(2.0 * uniform(rng) - 1.0)});
     // Half of them low over the Earth, where it fills the sky. So fast that it hardly moves.
@@ -153,7 +152,7 @@ TEST(PassGeometry, WithOneBeamTheFixIsByItsChord) {
 /// Passes over the Earth's centre on the line to the Sun, `offset_rad` along the orbit from it.
 Orbit orbit_through_the_sun(TaiTime t, double range_km, double offset_rad) {
   const RaDec sun = ra_dec_of(geometric_sun_icrf_km(t));
-  const double inclination_rad = 40.0 * kDegree_rad;
+  const double inclination_rad = 40.0 * kRadPerDeg;
   const double argument_rad = std::asin(std::sin(sun.dec_rad) / std::sin(inclination_rad));
   const double node_to_sun_rad =
       std::atan2(std::sin(argument_rad) * std::cos(inclination_rad), std::cos(argument_rad));
@@ -176,11 +175,11 @@ TEST(PassGeometry, NoAxisIsFoundWhereSunAndEarthAreInLine) {
   const TaiTime t = testing::kTransferStart;
   const SpinConfig config = testing::usual_config();
   const auto geometry_at = [&](double offset_deg) {
-    const Orbit orbit = orbit_through_the_sun(t, 20'000.0, offset_deg * kDegree_rad);
+    const Orbit orbit = orbit_through_the_sun(t, 20'000.0, offset_deg * kRadPerDeg);
     return at(config, orbit, axis_across(orbit, t), t);
   };
   const PassGeometry in_line = geometry_at(2.9);
-  EXPECT_NEAR(in_line.sun_earth_rad / kDegree_rad, 177.1, 0.05);
+  EXPECT_NEAR(in_line.sun_earth_rad / kRadPerDeg, 177.1, 0.05);
   EXPECT_TRUE(in_line.in_line);
   EXPECT_FALSE(in_line.sun_hidden);
   EXPECT_FALSE(in_line.fix.sigma_rad);
@@ -193,9 +192,9 @@ TEST(PassGeometry, NoAxisIsFoundWhereSunAndEarthAreInLine) {
 TEST(PassGeometry, TheEarthHidesTheSun) {
   const TaiTime t = testing::kTransferStart;
   const SpinConfig config = testing::usual_config();
-  const double disc_deg = std::asin(6418.137 / 20'000.0) / kDegree_rad;
+  const double disc_deg = std::asin(6418.137 / 20'000.0) / kRadPerDeg;
   const auto geometry_at = [&](double offset_deg) {
-    const Orbit orbit = orbit_through_the_sun(t, 20'000.0, (180.0 + offset_deg) * kDegree_rad);
+    const Orbit orbit = orbit_through_the_sun(t, 20'000.0, (180.0 + offset_deg) * kRadPerDeg);
     return at(config, orbit, axis_across(orbit, t), t);
   };
   const PassGeometry night = geometry_at(disc_deg - 0.1);
@@ -213,7 +212,7 @@ TEST(PassGeometry, SaysWhichSlitCannotSeeTheSun) {
   const Orbit orbit = testing::orbit_across_the_earth();
   const Eigen::Vector3d sun_icrf = geometric_sun_icrf_km(t).normalized();
   const auto words_at = [&](double sun_angle_deg) {
-    const double angle_rad = sun_angle_deg * kDegree_rad;
+    const double angle_rad = sun_angle_deg * kRadPerDeg;
     const SpinConfig config = testing::usual_config();
     return conditions_of(
         config,

@@ -6,15 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "pipelines/frames/angle.h"
 #include "tests/support/batch_pass.h"
 
 namespace spindrift {
 namespace {
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 struct Scene {
   std::mt19937_64 rng{11};
@@ -27,7 +25,7 @@ struct Scene {
       : around{testing::seen_from(orbit, horizon == HorizonModel::Sphere
                                              ? testing::spherical_horizon_km(40.0)
                                              : testing::ellipsoidal_horizon_km(40.0))},
-        body{testing::random_body(around, 4.0 * kDegree_rad, rng)} {
+        body{testing::random_body(around, 4.0 * kRadPerDeg, rng)} {
     body.config.horizon.model = horizon;
     edges = testing::counted(body, testing::pulses_from(testing::edges_of_turns(body, around, 20.0),
                                                         testing::kTransferStart));

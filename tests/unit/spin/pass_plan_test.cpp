@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/measurement/measurement.h"
 #include "tests/support/information_limit.h"
@@ -17,8 +17,6 @@
 
 namespace spindrift {
 namespace {
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 /// Of a body over an orbit that comes to the Earth and leaves it again within twelve hours.
 PassPlan plan(double from_s, double to_s, double step_s,
@@ -47,7 +45,7 @@ TEST(PassPlan, ExpectsThePublishedLimitAfterAHundredTurns) {
   const PassPlan found = plan(testing::recorded_pass("nominal"), 100.0, 50.0).value();
   // spin.md; the geometry turns meanwhile, which its figure (0.405 deg / 10 and 1 % more) leaves
   // out.
-  EXPECT_NEAR(found.steps.back().sigma_rad.value() / kDegree_rad, 0.0409, 0.02 * 0.0409);
+  EXPECT_NEAR(found.steps.back().sigma_rad.value() / kRadPerDeg, 0.0409, 0.02 * 0.0409);
 }
 
 TEST(PassPlan, ExpectsTheLimitOfTheOraclesEdges) {
@@ -85,7 +83,7 @@ TEST(PassPlan, NeverKnowsTheAxisWorseThanBefore) {
       before_rad = *step.sigma_rad;
     }
   }
-  EXPECT_LT(before_rad, 0.01 * kDegree_rad);
+  EXPECT_LT(before_rad, 0.01 * kRadPerDeg);
 }
 
 TEST(PassPlan, DoesNotDependOnTheStep) {

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/spinning_body.h"
 
@@ -18,7 +19,6 @@ namespace {
 using enum SpinQuantity;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 constexpr double kRate_rad_s = 2.0 * kPi;
 const Eigen::Vector3d kSun_icrf = Eigen::Vector3d{1.0, 0.2, 0.1}.normalized();
 const Eigen::Vector3d kEarth_icrf = Eigen::Vector3d{0.1, 1.0, -0.05}.normalized();
@@ -121,7 +121,7 @@ TEST(Residuals, OfAnOblateEarthVanishAtTheTrueAxisWhereItsShapeIsTaken) {
     return worst;
   };
   EXPECT_LT(worst_rad(HorizonModel::Ellipsoid), 2e-9 * kRate_rad_s);
-  EXPECT_GT(worst_rad(HorizonModel::Sphere), 0.02 * kDegree_rad);
+  EXPECT_GT(worst_rad(HorizonModel::Sphere), 0.02 * kRadPerDeg);
 }
 
 /// Sun at rest, the Earth passing as from a low perigee, a slow body whose beams meet it half a
@@ -168,7 +168,7 @@ TEST(Residuals, OfWhatIsRejectedAlreadyAreNotFormed) {
 TEST(Residuals, AChordThatTheAxisSaysIsImpossibleHasNone) {
   // The Earth 60 deg from the axis lies beyond the reach of both beams.
   const Eigen::Vector3d axis =
-      Eigen::AngleAxisd{60.0 * kDegree_rad, kEarth_icrf.unitOrthogonal()} * kEarth_icrf;
+      Eigen::AngleAxisd{60.0 * kRadPerDeg, kEarth_icrf.unitOrthogonal()} * kEarth_icrf;
   const auto found = residuals(testing::usual_config(), seen(), kSightlines, axis);
   ASSERT_EQ(found.size(), 3U);
   EXPECT_TRUE(std::none_of(found.begin(), found.end(), [](const Residual& residual) {

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sequential/sequential.h"
 #include "services/words/assessment_words.h"
@@ -22,7 +23,6 @@ using testing::at_first;
 using testing::error_deg;
 using testing::estimates;
 using ::testing::HasSubstr;
-using testing::kDegree_rad;
 using testing::kOneInTenThousand;
 using ::testing::Not;
 using testing::Scene;
@@ -41,7 +41,7 @@ SpinFix ambiguous(SpinFix fix, const Eigen::Vector3d& first, const Eigen::Vector
 TEST(Sequential, AFixThatComesNearABranchOfAlternatesDoesNotStartThere) {
   // Poor fixes that a prior settles name a false axis beside the true one, until it is known well;
   // then a settled fix lies nearer to the false one.
-  constexpr double kPoor_rad = 8.0 * kDegree_rad;
+  constexpr double kPoor_rad = 8.0 * kRadPerDeg;
   constexpr std::size_t kByPrior = 14;
   Scene scene;
   const auto seen = scene.seen(0.0, 240.0);
@@ -102,8 +102,8 @@ TEST(Sequential, NeverFollowsAFalseAxisSilently) {
       const Eigen::Vector2d towards{std::cos(direction * std::numbers::pi / 4.0),
                                     std::sin(direction * std::numbers::pi / 4.0)};
       SpinFix wrong = scene.fix();
-      wrong.axis_icrf = std::cos(off_deg * kDegree_rad) * scene.body.axis_icrf +
-                        std::sin(off_deg * kDegree_rad) * basis * towards;
+      wrong.axis_icrf = std::cos(off_deg * kRadPerDeg) * scene.body.axis_icrf +
+                        std::sin(off_deg * kRadPerDeg) * basis * towards;
       const SpinEstimate last = estimates(scene.body.config, seen, at_first(wrong)).back();
       const bool right = squared_error(last, scene.body.axis_icrf) < kOneInTenThousand &&
                          error_deg(last, scene.body.axis_icrf) < 1.0;
@@ -148,10 +148,10 @@ TEST(Sequential, NamesTheAlternativeThatItDoesNotPublish) {
   const Assessment& last = all.back().assessment;
   EXPECT_EQ(last.quality, Quality::Ambiguous);
   using testing::number_of;
-  EXPECT_NEAR(number_of(last.reasons, ReasonCode::OtherAxis, "ra_deg"), other.ra_rad / kDegree_rad,
+  EXPECT_NEAR(number_of(last.reasons, ReasonCode::OtherAxis, "ra_deg"), other.ra_rad / kRadPerDeg,
               0.005);
-  EXPECT_NEAR(number_of(last.reasons, ReasonCode::OtherAxis, "dec_deg"),
-              other.dec_rad / kDegree_rad, 0.005);
+  EXPECT_NEAR(number_of(last.reasons, ReasonCode::OtherAxis, "dec_deg"), other.dec_rad / kRadPerDeg,
+              0.005);
 }
 
 TEST(Sequential, EdgesBeyondDoubtSettleIt) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "services/words/assessment_words.h"
 #include "tests/support/assessed.h"
@@ -23,7 +24,6 @@ using testing::error_deg;
 using testing::estimates;
 using testing::Fixes;
 using ::testing::HasSubstr;
-using testing::kDegree_rad;
 using testing::kFixSigma_rad;
 using testing::kOneInTenThousand;
 using ::testing::Not;
@@ -91,7 +91,7 @@ TEST(Sequential, SaysNothingBeforeAFixThatCanStartIt) {
 }
 
 TEST(Sequential, ManyPoorFixesStartItAsOneGoodOneDoes) {
-  constexpr double kPoor_rad = 5.0 * kDegree_rad;
+  constexpr double kPoor_rad = 5.0 * kRadPerDeg;
   Scene scene;
   const auto seen = scene.seen(0.0, 60.0);
   const auto all = estimates(scene.body.config, seen, [&](std::size_t) {
@@ -106,7 +106,7 @@ TEST(Sequential, ManyPoorFixesStartItAsOneGoodOneDoes) {
 
 TEST(Sequential, LeavesTheAxisThatPoorFixesContradictTogether) {
   // Each of them is known to 8 deg and contradicts nothing; without the Sun no edge does.
-  constexpr double kPoor_rad = 8.0 * kDegree_rad;
+  constexpr double kPoor_rad = 8.0 * kRadPerDeg;
   Scene scene;
   const auto seen = without_sun(scene.seen(0.0, 200.0));
   SpinFix wrong = scene.fix();
@@ -122,7 +122,7 @@ TEST(Sequential, LeavesTheAxisThatPoorFixesContradictTogether) {
 }
 
 TEST(Sequential, PoorFixesThatAgreeWithItDoNotTurnItAway) {
-  constexpr double kPoor_rad = 8.0 * kDegree_rad;
+  constexpr double kPoor_rad = 8.0 * kRadPerDeg;
   Scene scene;
   const auto seen = scene.seen(0.0, 200.0);
   const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {

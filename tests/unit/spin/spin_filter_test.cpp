@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/recorded_pass.h"
@@ -20,7 +21,6 @@ using testing::ObservedRevolution;
 using testing::SpinningBody;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
 
 Eigen::Matrix2d round_covariance(double sigma_rad) {
   return sigma_rad * sigma_rad * Eigen::Matrix2d::Identity();
@@ -34,7 +34,7 @@ EdgeStatistics work_in(SpinFilter& filter, const SpinConfig& config,
 }
 
 double sigma_deg(const SpinFilter& filter) {
-  return std::sqrt(filter.axis_covariance_rad2().trace()) / kDegree_rad;
+  return std::sqrt(filter.axis_covariance_rad2().trace()) / kRadPerDeg;
 }
 
 /// Squared error in sigmas: chi-square of two degrees of freedom.
@@ -52,7 +52,7 @@ TEST(SpinFilter, ReachesTheInformationLimitOfTheDesign) {
   const auto seen = testing::observed(pass.config, pass.orbit, pass.pulses);
   Revolution first = seen[0].revolution;
   first.period = seen[100].revolution.period;  // The figures suppose that the rate is known.
-  SpinFilter filter = SpinFilter::about(pass.true_axis_icrf, round_covariance(5.0 * kDegree_rad),
+  SpinFilter filter = SpinFilter::about(pass.true_axis_icrf, round_covariance(5.0 * kRadPerDeg),
                                         pass.config, first, seen[0].sky)
                           .value();
   work_in(filter, pass.config, seen[1]);
@@ -176,7 +176,7 @@ TEST_P(SpinFilterAt, AxisAndCovarianceAreAsGoodAsElsewhere) {
         testing::observed(body.config, orbit,
                           testing::pulses_from(testing::edges_between(body, around, 0.0, 30.0),
                                                testing::kTransferStart, body.config.noise, rng));
-    const SpinFix fix = testing::drawn_fix(body.axis_icrf, 0.5 * kDegree_rad, rng);
+    const SpinFix fix = testing::drawn_fix(body.axis_icrf, 0.5 * kRadPerDeg, rng);
     SpinFilter filter = SpinFilter::about(fix.axis_icrf, fix.covariance_rad2, body.config,
                                           seen[0].revolution, seen[0].sky)
                             .value();

@@ -7,11 +7,11 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/assessed.h"
 #include "tests/support/product_text.h"
@@ -31,8 +31,6 @@ using testing::RecordedPass;
 using testing::run;
 using testing::sigma_rad;
 using testing::texts_of;
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 SpinEstimate mean_of(const SpinOutput& output) {
   return last_estimate(output, SpinEstimator::Mean);
@@ -64,10 +62,10 @@ TEST(SpinPass, FindsTheAxisOfEveryRecordedPass) {
     const RecordedPass pass = recorded_pass(limit.pass);
     const SpinOutput output = run(pass);
     const SpinEstimate mean = mean_of(output);
-    EXPECT_LT(error_rad(pass, mean), limit.mean_deg * kDegree_rad);
+    EXPECT_LT(error_rad(pass, mean), limit.mean_deg * kRadPerDeg);
     EXPECT_LT(error_rad(pass, mean), 3.0 * sigma_rad(mean));
     const SpinEstimate sequential = sequential_of(output);
-    EXPECT_LT(error_rad(pass, sequential), limit.sequential_deg * kDegree_rad);
+    EXPECT_LT(error_rad(pass, sequential), limit.sequential_deg * kRadPerDeg);
     EXPECT_LT(error_rad(pass, sequential), 3.0 * sigma_rad(sequential));
     EXPECT_TRUE(is_unopposed(sequential.assessment.quality));
   }
@@ -317,7 +315,7 @@ TEST(SpinPass, SaysInTheEndWhyThereIsNoMeanAndWhyThePriorDoesNotSettleTheAxis) {
   RecordedPass pass = recorded_pass("north-only");
   std::erase_if(pass.pulses,
                 [](const Pulse& pulse) { return pulse.channel == PulseChannel::Sun2; });
-  pass.config.prior = SpinPrior{.axis_icrf = -pass.true_axis_icrf, .sigma_rad = kDegree_rad};
+  pass.config.prior = SpinPrior{.axis_icrf = -pass.true_axis_icrf, .sigma_rad = kRadPerDeg};
   const SpinOutput output = run(pass);
   const auto fixes = all_of<SpinFix>(output);
   const auto near_tangent = std::count_if(fixes.begin(), fixes.end(),

@@ -4,16 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <functional>
-#include <numbers>
 #include <random>
 
+#include "pipelines/frames/angle.h"
 #include "tests/support/observed_spin.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
-constexpr double kFixSigma_rad = 4.0 * kDegree_rad;
+constexpr double kFixSigma_rad = 4.0 * kRadPerDeg;
 const Eigen::Vector3d kAxis_icrf = Eigen::Vector3d{0.3, -0.5, 0.8}.normalized();
 
 StartingPoint known_to(double sigma_rad, double off_rad = 0.0) {
@@ -26,7 +25,7 @@ StartConfirmation after(int fixes, const StartingPoint& followed,
                         const std::function<void(SpinFix&)>& change = {}) {
   std::mt19937_64 rng{5};
   StartConfirmation start;
-  start.begin(known_to(2.8 * kDegree_rad));
+  start.begin(known_to(2.8 * kRadPerDeg));
   for (int i = 0; i < fixes; ++i) {
     SpinFix fix = testing::drawn_fix(kAxis_icrf, kFixSigma_rad, rng);
     if (change) {
@@ -39,25 +38,25 @@ StartConfirmation after(int fixes, const StartingPoint& followed,
 
 TEST(StartConfirmation, AnAxisKnownToADegreeNeedsNoConfirmation) {
   StartConfirmation start;
-  start.begin(known_to(1.5 * kDegree_rad));
+  start.begin(known_to(1.5 * kRadPerDeg));
   EXPECT_TRUE(start.unconfirmed());
-  start.begin(known_to(0.9 * kDegree_rad));
+  start.begin(known_to(0.9 * kRadPerDeg));
   EXPECT_FALSE(start.unconfirmed());
 }
 
 TEST(StartConfirmation, FixesConfirmItWhenTheirMeanIsKnownToADegree) {
   // 4 deg along either direction: the mean of 32 is known to a degree.
-  const StartingPoint followed = known_to(0.5 * kDegree_rad);
+  const StartingPoint followed = known_to(0.5 * kRadPerDeg);
   EXPECT_TRUE(after(30, followed).unconfirmed());
   EXPECT_FALSE(after(40, followed).unconfirmed());
 }
 
 TEST(StartConfirmation, FixesThatLieElsewhereDoNot) {
-  EXPECT_TRUE(after(100, known_to(0.5 * kDegree_rad, 4.0 * kDegree_rad)).unconfirmed());
+  EXPECT_TRUE(after(100, known_to(0.5 * kRadPerDeg, 4.0 * kRadPerDeg)).unconfirmed());
 }
 
 TEST(StartConfirmation, NorDoFixesThatProveNothing) {
-  const StartingPoint followed = known_to(0.5 * kDegree_rad);
+  const StartingPoint followed = known_to(0.5 * kRadPerDeg);
   EXPECT_TRUE(after(100, followed, [](SpinFix& fix) { fix.accepted = false; }).unconfirmed());
   EXPECT_TRUE(after(100, followed, [](SpinFix& fix) { fix.near_tangent = true; }).unconfirmed());
 }

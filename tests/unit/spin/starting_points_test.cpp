@@ -8,22 +8,21 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
-
 Eigen::Vector3d axis_at(double ra_deg, double dec_deg) {
-  return direction_icrf({.ra_rad = ra_deg * kDegree_rad, .dec_rad = dec_deg * kDegree_rad});
+  return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
 }
 
 StartingPoint drawn(const Eigen::Vector3d& axis_icrf, double sigma_deg, std::mt19937_64& rng) {
-  std::normal_distribution<double> noise{0.0, sigma_deg * kDegree_rad};
+  std::normal_distribution<double> noise{0.0, sigma_deg * kRadPerDeg};
   const Eigen::Vector2d off_rad{noise(rng), noise(rng)};
   return {.axis_icrf = (axis_icrf + tangent_basis(axis_icrf) * off_rad).normalized(),
-          .covariance_rad2 = std::pow(sigma_deg * kDegree_rad, 2) * Eigen::Matrix2d::Identity()};
+          .covariance_rad2 = std::pow(sigma_deg * kRadPerDeg, 2) * Eigen::Matrix2d::Identity()};
 }
 
 TEST(StartingPoints, OneSharpCandidateIsItsOwnBranch) {
@@ -51,7 +50,7 @@ TEST(StartingPoints, PoorCandidatesAreAveragedUntilTheyAreKnownWell) {
       const StartingPoint& point = known->points.front();
       const double sigma_rad = std::sqrt(point.covariance_rad2.trace());
       // The tangent planes of the candidates are not quite that of their mean.
-      EXPECT_NEAR(sigma_rad / kDegree_rad, 7.0 / std::sqrt(count), 0.1);
+      EXPECT_NEAR(sigma_rad / kRadPerDeg, 7.0 / std::sqrt(count), 0.1);
       EXPECT_LT(angle_between_rad(point.axis_icrf, axis), 4.0 * sigma_rad);
     }
   }
@@ -99,7 +98,7 @@ TEST(StartingPoints, OneFixNeverNamesABranchTwice) {
     if (known) {
       ASSERT_EQ(known->points.size(), 2U);
       EXPECT_GT(angle_between_rad(known->points[0].axis_icrf, known->points[1].axis_icrf),
-                0.35 * kDegree_rad);
+                0.35 * kRadPerDeg);
     }
   }
 }
