@@ -156,25 +156,27 @@ class Check {
 
   void order(const TableRule& rule, const toml::table& table, const std::string& path) {
     for (const auto& [name, key_rule] : rule.keys) {
-      if (!key_rule.not_below_key.empty()) {
-        not_below(table, path, name, key_rule.not_below_key);
-      }
+      const auto& lower = key_rule.not_below_keys;
+      static_cast<void>(std::any_of(lower.begin(), lower.end(), [&](const std::string& key) {
+        return is_below(table, path, name, key);
+      }));
     }
   }
 
-  /// Nothing to say where one of the two is wrong or absent itself.
-  void not_below(const toml::table& table, const std::string& path, const std::string& name,
-                 const std::string& lower_name) {
+  /// Says so. Nothing to say where one of the two is wrong or absent itself.
+  bool is_below(const toml::table& table, const std::string& path, const std::string& name,
+                const std::string& lower_name) {
     const auto value = result_.values.find(joined(path, name));
     const auto lower = result_.values.find(joined(path, lower_name));
     if (value == result_.values.end() || lower == result_.values.end() ||
         !below(value->second, lower->second)) {
-      return;
+      return false;
     }
     const toml::node* const node = table.get(table.contains(name) ? name : lower_name);
     problem(node->source(),
             fmt::format("{} = {}: must not be below {} = {}", value->first, text_of(value->second),
                         lower_name, text_of(lower->second)));
+    return true;
   }
 
   std::string kind_;

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipelines/time/utc.h"
 #include "services/telemetry/spacecraft_id.h"
 #include "services/toml_schema/toml_scalar.h"
 
@@ -47,6 +48,9 @@ bool in_range(const KeyRule& rule, const Scalar& value) {
 bool is_allowed_text(const KeyRule& rule, const std::string& text) {
   if (rule.form == ValueForm::SpacecraftId) {
     return is_spacecraft_id(text);
+  }
+  if (rule.form == ValueForm::Utc) {
+    return parse_utc(text).has_value();
   }
   return rule.one_of.empty() ||
          std::find(rule.one_of.begin(), rule.one_of.end(), text) != rule.one_of.end();
@@ -94,6 +98,8 @@ std::string form_text(const KeyRule& rule) {
     return "";
   }
   switch (*rule.form) {
+    case ValueForm::Utc:
+      return ", UTC as 2026-11-20T03:00:00Z";
     case ValueForm::SpacecraftId:
       return fmt::format(", {}", kSpacecraftIdAllowed);
     case ValueForm::UnitQuaternion:

@@ -21,14 +21,15 @@ constexpr std::array<std::pair<std::string_view, ValueType>, 4> kTypes = {
      {"integer", ValueType::Integer},
      {"number", ValueType::Number}}};
 
-constexpr std::array<std::pair<std::string_view, ValueForm>, 3> kForms = {
+constexpr std::array<std::pair<std::string_view, ValueForm>, 4> kForms = {
     {{"spacecraft_id", ValueForm::SpacecraftId},
      {"unit_quaternion", ValueForm::UnitQuaternion},
-     {"inertia", ValueForm::Inertia}}};
+     {"inertia", ValueForm::Inertia},
+     {"utc", ValueForm::Utc}}};
 
 constexpr std::array<std::string_view, 13> kKeyProperties = {
-    "type",  "shape",    "unit",    "about",         "default", "optional", "above",
-    "below", "at_least", "at_most", "not_below_key", "one_of",  "form"};
+    "type",  "shape",    "unit",    "about",          "default", "optional", "above",
+    "below", "at_least", "at_most", "not_below_keys", "one_of",  "form"};
 
 constexpr std::array<std::string_view, 4> kTableProperties = {"about", "required", "many",
                                                               "exactly_one_of"};
@@ -103,7 +104,7 @@ Expected<KeyRule> key_rule(const toml::table& rule, const std::string& path) {
                  .optional = rule["optional"].value_or(false),
                  .lower = bound_of(rule, "at_least", "above"),
                  .upper = bound_of(rule, "at_most", "below"),
-                 .not_below_key = text_of(rule, "not_below_key"),
+                 .not_below_keys = texts_of(rule, "not_below_keys"),
                  .one_of = texts_of(rule, "one_of"),
                  .form = form};
   const bool numeric = *type == ValueType::Integer || *type == ValueType::Number;

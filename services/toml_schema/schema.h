@@ -18,7 +18,7 @@ namespace spindrift {
 
 enum class ValueType { Text, Boolean, Integer, Number };
 
-enum class ValueForm { SpacecraftId, UnitQuaternion, Inertia };
+enum class ValueForm { SpacecraftId, UnitQuaternion, Inertia, Utc };
 
 /// One end of a range: an integer or a number.
 struct Bound {
@@ -35,7 +35,7 @@ struct KeyRule {
   bool optional;
   std::optional<Bound> lower;  ///< Both are there for integers and numbers.
   std::optional<Bound> upper;
-  std::string not_below_key;
+  std::vector<std::string> not_below_keys;
   std::vector<std::string> one_of;
   std::optional<ValueForm> form;
 };

@@ -19,8 +19,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::mission_test {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -164,9 +163,7 @@ TEST(Mission, OfAThreeAxisSpacecraftHasNoSpin) {
 }
 
 TEST(Mission, OfAThreeAxisSpacecraftHasItsSensorsAndInertia) {
-  const auto mission =
-      load(replaced(replaced(contract(), "kind = \"spin\"", "kind = \"three_axis\""),
-                    "bias_sigma_deg_s", "range_deg_s = 100\nbias_sigma_deg_s"));
+  const auto mission = load(replaced(contract(), "kind = \"spin\"", "kind = \"three_axis\""));
   ASSERT_TRUE(mission) << mission.error().message;
   const auto& config = std::get<ThreeAxisConfig>(mission->config);
   ASSERT_TRUE(config.gyro && config.sun_sensor && config.star_tracker && config.magnetometer);
@@ -374,6 +371,12 @@ TEST(Mission, HoldsEveryKeyToItsRange) {
       {"reconstruction.t4_tai_ns", {"4102444800000000000"}, {"4102444800000000001"}},
       {"reconstruction.launcher.euler312_deg", {"[-360, 0, 360]"}, {"[0, 0]", "[0, 0, 361]"}},
       {"reconstruction.launcher.sigma_deg", {"0.001", "180"}, {"0", "181"}},
+      {"spin.target.ra_deg", {"-360", "360"}, {"361", "-361"}},
+      {"spin.target.dec_deg", {"-90", "90"}, {"-90.1", "90.1"}},
+      {"spin.target.rpm", {"0.1", "1000"}, {"0", "1001"}},
+      {"spin.target.tolerance_rpm", {"1e-6", "1000"}, {"0", "1001"}},
+      {"contact.aos_utc", {"'2026-11-20T03:00:00Z'"}, {"'2026-11-20 03:00'", "'soon'", "3"}},
+      {"contact.los_utc", {"'2026-11-20T03:10:00.5Z'"}, {"''", "true"}},
   };
   for (const Range& range : ranges) {
     SCOPED_TRACE(range.path);
@@ -462,6 +465,10 @@ TEST(Mission, HasItsEventsInOrder) {
       problems_of(at("2", "1", "3", "4")),
       ElementsAre("mission.toml:6: reconstruction.t2_tai_ns = 1: must not be below t1_tai_ns = 2"));
   EXPECT_THAT(problems_of(at("4", "3", "2", "1")).size(), 3U);
+  EXPECT_THAT(
+      problems_of("[spacecraft]\nid = \"A\"\nkind = \"three_axis\"\n[reconstruction]\n"
+                  "t1_tai_ns = 3\nt4_tai_ns = 2\n"),
+      ElementsAre("mission.toml:6: reconstruction.t4_tai_ns = 2: must not be below t1_tai_ns = 3"));
   // One nanosecond, which a double of this size cannot hold.
   EXPECT_THAT(problems_of(at("1772337637000000000", "1772337637000000000", "1772337637000000001",
                              "1772337637000000000")),
@@ -473,8 +480,8 @@ TEST(Mission, WithUnknownNamesIsRefused) {
   EXPECT_THAT(problems_of(std::string{kElements} + "[spni.noise]\nsun_pulse_s = 1\n"),
               ElementsAre("mission.toml:12: spni: unknown; did you mean spin?"));
   EXPECT_THAT(problems_of("colour = \"red\"\n" + std::string{kElements}),
-              ElementsAre("mission.toml:1: colour: unknown; allowed here: orbit, reconstruction, "
-                          "spacecraft, spin, three_axis"));
+              ElementsAre("mission.toml:1: colour: unknown; allowed here: alerts, contact, orbit, "
+                          "reconstruction, spacecraft, spin, three_axis"));
   EXPECT_THAT(problems_of(replaced(contract(), "\\[spin.noise\\]", "[spin.nose]")),
               ElementsAre(HasSubstr("spin.nose: unknown; did you mean noise?")));
 }
@@ -525,5 +532,4 @@ TEST(Mission, WithABrokenOrbitFileIsRefusedNamingIt) {
                     ::testing::Not(HasSubstr("\n"))));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::mission_test

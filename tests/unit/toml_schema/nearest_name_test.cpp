@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace spindrift {
-namespace {
+namespace spindrift::nearest_name_test {
 
 TEST(NearestName, IsTheOneThatAPersonMeant) {
   const std::vector<std::string> names = {"slit_cant_deg", "slit_separation_deg", "oem", "e"};
@@ -21,5 +20,4 @@ TEST(NearestName, IsEmptyWhereNothingIsNear) {
   EXPECT_EQ(nearest_name("oem", {}), "");
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::nearest_name_test

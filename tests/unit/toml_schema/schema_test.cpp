@@ -5,9 +5,9 @@
 
 #include <variant>
 
-namespace spindrift {
-namespace {
+namespace spindrift::schema_test {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 std::string error_of(std::string_view schema) {
@@ -23,7 +23,7 @@ TEST(Schema, GivesTheRulesAsTheyAreWritten) {
       exactly_one_of = ["n", "t"]
       n = { type = "number", unit = "deg", above = 0, at_most = 90.5, default = 3, about = "N" }
       t = { type = "text", one_of = ["x", "y"], optional = true, about = "T" }
-      i = { type = "integer", shape = [3, 2], at_least = -1, below = 4, not_below_key = "n", about = "I" }
+      i = { type = "integer", shape = [3, 2], at_least = -1, below = 4, not_below_keys = ["n"], about = "I" }
   )");
   ASSERT_TRUE(schema) << schema.error().message;
   const TableRule& a = schema->tables.at("a");
@@ -43,7 +43,7 @@ TEST(Schema, GivesTheRulesAsTheyAreWritten) {
   EXPECT_THAT(a.keys.at("t").one_of, ::testing::ElementsAre("x", "y"));
   EXPECT_TRUE(a.keys.at("t").optional);
   EXPECT_THAT(a.keys.at("i").shape, ::testing::ElementsAre(3, 2));
-  EXPECT_EQ(a.keys.at("i").not_below_key, "n");
+  EXPECT_THAT(a.keys.at("i").not_below_keys, ElementsAre("n"));
 }
 
 TEST(Schema, WithARuleThatHasNoMeaningIsRefused) {
@@ -69,5 +69,4 @@ TEST(Schema, WithADefaultThatBreaksItsOwnRuleIsRefused) {
               HasSubstr("a.k: the default must lie in (0, 1)"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::schema_test
