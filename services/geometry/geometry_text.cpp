@@ -9,6 +9,7 @@
 
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/time/utc.h"
+#include "services/geometry/condition_words.h"
 #include "services/units/degrees.h"
 
 namespace spindrift {
@@ -118,8 +119,9 @@ std::string row(const PlannedPass& pass, const PassStep& step) {
 std::string event_text(const PlannedPass& pass, const PassEvent& event) {
   const auto utc = [](TaiTime t) { return format_utc(t, 0); };
   return event.from == pass.request.from && event.to == pass.request.to
-             ? fmt::format("{:<43} {}\n", "all the time", event.what)
-             : fmt::format("{} to {}  {}\n", utc(event.from), utc(event.to), event.what);
+             ? fmt::format("{:<43} {}\n", "all the time", sentence_of(event.condition))
+             : fmt::format("{} to {}  {}\n", utc(event.from), utc(event.to),
+                           sentence_of(event.condition));
 }
 
 nlohmann::json degrees_or_null(const std::optional<double>& angle_rad) {
@@ -174,7 +176,7 @@ nlohmann::json to_json(const PassEvent& event) {
           {"from_utc", format_utc(event.from)},
           {"to_tai_ns", tai_ns(event.to)},
           {"to_utc", format_utc(event.to)},
-          {"what", event.what}};
+          {"what", sentence_of(event.condition)}};
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ namespace spindrift {
 namespace {
 
 // An axis known no better is not determined: cones about Sun or Earth, more or less.
-constexpr double kLost_rad = 10.0 * kRadPerDeg;
+constexpr double kAxisOpen_rad = 10.0 * kRadPerDeg;
 // Noise that is more than stated by so much has too many edges for outliers, and weighs those of
 // slits and beams wrongly against each other.
 constexpr double kLouder = 1.25;
@@ -35,7 +35,7 @@ Unexpected unobservable(std::string message) {
 
 /// @param bound_rad2 Of the axis.
 std::optional<Error> axis_left_open(const Eigen::Matrix2d& bound_rad2) {
-  if (bound_rad2.trace() < kLost_rad * kLost_rad) {
+  if (bound_rad2.trace() < kAxisOpen_rad * kAxisOpen_rad) {
     return std::nullopt;
   }
   return Error{ErrorCode::Unobservable,
@@ -195,7 +195,7 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
   }
   BatchSolution solution = solution_of(*solved, open_rad2, louder);
   // Nor is it finite where they are not told apart at all.
-  if (!(solution.estimate.covariance_rad2.trace() <= kLost_rad * kLost_rad)) {
+  if (!(solution.estimate.covariance_rad2.trace() <= kAxisOpen_rad * kAxisOpen_rad)) {
     return unobservable("the biases that the edges ask for leave the axis open");
   }
   if (solved->left_out && !solved->left_out->fit_one_attitude &&

@@ -102,8 +102,7 @@ std::string cone_in_words(int geometry_case) {
 
 /// Near a double root, or where nothing fixes a direction, the linear covariance has no meaning.
 bool determined(const AxisCandidate& candidate) {
-  constexpr double kLost_rad = 0.5;
-  return candidate.covariance_rad2.trace() < kLost_rad * kLost_rad;
+  return candidate.covariance_rad2.trace() < kLeastDetermined_rad * kLeastDetermined_rad;
 }
 
 }  // namespace

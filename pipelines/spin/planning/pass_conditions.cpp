@@ -1,109 +1,114 @@
 #include "pipelines/spin/planning/pass_conditions.h"
 
-#include <fmt/format.h>
-
-#include <cstddef>
-#include <string_view>
+#include <optional>
+#include <string>
 
 #include "pipelines/spin/measurement/measurement.h"
 
 namespace spindrift {
 namespace {
 
-std::string_view name_of(Side side) { return side == Side::North ? "north" : "south"; }
+using enum PassConditionCode;
 
-std::string beam_in_words(Side side, BeamView view) {
+NamedValue beam_value(Side side) {
+  return {"beam", std::string{side == Side::North ? "north" : "south"}};
+}
+
+std::optional<PassConditionCode> beam_code(BeamView view) {
   switch (view) {
     case BeamView::NoSensor:
-      return {};
+      return std::nullopt;
     case BeamView::Misses:
-      return fmt::format("{} beam misses the Earth", name_of(side));
+      return BeamMisses;
     case BeamView::NearTangent:
-      return fmt::format("{} beam only grazes the Earth: no edge to rely on", name_of(side));
+      return BeamNearTangent;
     case BeamView::Crosses:
-      return fmt::format("{} beam sees the Earth", name_of(side));
+      return BeamCrosses;
     case BeamView::Inside:
-      return fmt::format("{} beam stays on the Earth all the turn: no edge", name_of(side));
+      return BeamInside;
   }
-  return {};
+  return std::nullopt;
 }
 
-std::string delta_in_words(const SpinGeometry& limits, Side side, double delta) {
+std::optional<PassCondition> chord_condition(const SpinGeometry& limits, Side side, double delta) {
   switch (class_of(limits, delta)) {
     case DeltaClass::Usable:
-      return {};
+      return std::nullopt;
     case DeltaClass::TwoRoots:
-      return fmt::format("|Delta| < {} ({}): a fix by its chord alone has two roots to tell apart",
-                         limits.determinant_usable, name_of(side));
+      return PassCondition{ChordTwoRoots,
+                           {beam_value(side), {"determinant_usable", limits.determinant_usable}}};
     case DeltaClass::Ambiguous:
-      return fmt::format("|Delta| <= {} ({}): a fix by its chord alone is ambiguous",
-                         limits.determinant_ambiguous, name_of(side));
+      return PassCondition{
+          ChordAmbiguous,
+          {beam_value(side), {"determinant_ambiguous", limits.determinant_ambiguous}}};
   }
-  return {};
+  return std::nullopt;
 }
 
-std::string sun_in_words(const PassGeometry& geometry) {
+std::optional<PassConditionCode> sun_code(const PassGeometry& geometry) {
   const Revolution& turn = geometry.expected.revolution;
   if (geometry.sun_hidden) {
-    return "the Earth hides the Sun: no sun pulses";
+    return SunHidden;
   }
   if (!turn.edge(PulseChannel::Sun1)) {
-    return "the Sun stands too near the spin axis for either slit";
+    return SunNearAxis;
   }
-  return turn.edge(PulseChannel::Sun2) ? "" : "slit 2 cannot see the Sun";
+  return turn.edge(PulseChannel::Sun2) ? std::nullopt : std::optional{SunOutsideSlit2};
 }
 
-std::string_view cone_in_words(int geometry_case) {
+PassConditionCode cone_code(int geometry_case) {
   switch (geometry_case) {
     case 8:
-      return "both chords without the Sun give a cone about the Earth";
+      return NoFixBothChords;
     case 9:
-      return "the sun angle alone gives a cone about the Sun";
+      return NoFixSunAngle;
     case 10:
-      return "a chord alone gives cones about the Earth";
+      return NoFixOneChord;
     default:
-      return "nothing that tells of the axis";
+      return NoFixNothing;
   }
 }
 
-std::string fix_in_words(const PassGeometry& geometry) {
+PassConditionCode fix_code(const PassGeometry& geometry) {
   const FixGeometry& fix = geometry.fix;
   if (fix.geometry_case < 1 || fix.geometry_case > 7) {
-    return fmt::format("no fix (case {}): {}", fix.geometry_case, cone_in_words(fix.geometry_case));
+    return cone_code(fix.geometry_case);
   }
   if (geometry.in_line) {
-    return fmt::format("no fix (case {}): Sun and Earth in line", fix.geometry_case);
+    return NoFixInLine;
   }
   if (fix.axes == 0) {
-    return fmt::format("no fix (case {}): the noise leaves the axis open", fix.geometry_case);
+    return NoFixNoise;
   }
-  return fmt::format(
-      "fix by case {}: {}", fix.geometry_case,
-      fix.told_apart ? "one axis" : "several axes, for a prior or time to tell apart");
+  return fix.told_apart ? OneAxis : SeveralAxes;
 }
 
 }  // namespace
 
-std::vector<std::string> conditions_of(const SpinConfig& config, const PassGeometry& geometry) {
-  std::vector<std::string> conditions;
-  const auto note = [&conditions](std::string words) {
-    if (!words.empty()) {
-      conditions.push_back(std::move(words));
-    }
-  };
-  note(fix_in_words(geometry));
-  note(sun_in_words(geometry));
-  note(geometry.in_line ? "Sun and Earth in line, within 3 deg" : "");
+std::vector<PassCondition> conditions_of(const SpinConfig& config, const PassGeometry& geometry) {
+  std::vector<PassCondition> conditions{
+      {fix_code(geometry), {{"geometry_case", std::int64_t{geometry.fix.geometry_case}}}}};
+  if (const auto sun = sun_code(geometry)) {
+    conditions.push_back({*sun});
+  }
+  if (geometry.in_line) {
+    conditions.push_back({InLine});
+  }
   for (const Side side : kSides) {
     const BeamGeometry& beam = geometry.beams.at(index_of(side));
-    note(beam_in_words(side, beam.view));
+    if (const auto view = beam_code(beam.view)) {
+      conditions.push_back({*view, {beam_value(side)}});
+    }
     if (beam.delta) {
-      note(delta_in_words(config.geometry, side, *beam.delta));
+      if (auto chord = chord_condition(config.geometry, side, *beam.delta)) {
+        conditions.push_back(*std::move(chord));
+      }
     }
   }
   for (const ColocatedChannels& channels : geometry.expected.meeting) {
-    note(fmt::format("interference: {} and {} meet", spindrift::name_of(channels.one),
-                     spindrift::name_of(channels.other)));
+    conditions.push_back({ChannelsMeet,
+                          {{"one", std::string{name_of(channels.one)}},
+                           {"other", std::string{name_of(channels.other)}}}});
   }
   return conditions;
 }

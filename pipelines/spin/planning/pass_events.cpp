@@ -5,10 +5,10 @@
 
 namespace spindrift {
 
-void PassEvents::add(TaiTime t, const std::vector<std::string>& conditions) {
+void PassEvents::add(TaiTime t, const std::vector<PassCondition>& conditions) {
   last_ = t;
   for (auto event = open_.begin(); event != open_.end();) {
-    if (std::find(conditions.begin(), conditions.end(), event->what) != conditions.end()) {
+    if (std::find(conditions.begin(), conditions.end(), event->condition) != conditions.end()) {
       ++event;
       continue;
     }
@@ -16,9 +16,10 @@ void PassEvents::add(TaiTime t, const std::vector<std::string>& conditions) {
     closed_.push_back(std::move(*event));
     event = open_.erase(event);
   }
-  for (const std::string& what : conditions) {
-    if (std::none_of(open_.begin(), open_.end(), [&](const auto& e) { return e.what == what; })) {
-      open_.push_back({.from = t, .to = t, .what = what});
+  for (const PassCondition& condition : conditions) {
+    if (std::none_of(open_.begin(), open_.end(),
+                     [&](const auto& event) { return event.condition == condition; })) {
+      open_.push_back({.from = t, .to = t, .condition = condition});
     }
   }
 }

@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "pipelines/spin/planning/pass_conditions.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -14,13 +14,13 @@ namespace spindrift {
 struct PassEvent {
   TaiTime from;
   TaiTime to;
-  std::string what;  ///< In words (pass_conditions.h).
+  PassCondition condition;
 };
 
 class PassEvents {
  public:
   /// What holds at a time that is later than the one before.
-  void add(TaiTime t, const std::vector<std::string>& conditions);
+  void add(TaiTime t, const std::vector<PassCondition>& conditions);
 
   /// All of them, by beginning; what holds still ends with the last time.
   std::vector<PassEvent> finish();

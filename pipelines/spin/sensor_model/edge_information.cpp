@@ -4,10 +4,11 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "pipelines/spin/sensor_model/geometry.h"
+
 namespace spindrift {
 namespace {
 
-constexpr double kLost_rad = 0.5;
 // Of phase, rate and drift: below it edges have not told them apart, as while all are of one time.
 constexpr double kLeastShare = 1e-12;
 
@@ -45,7 +46,8 @@ std::optional<Eigen::Matrix2d> EdgeInformation::axis_covariance_rad2() const {
       normal_.topLeftCorner<2, 2>() -
       shared * pseudo_inverse(normal_.bottomRightCorner<3, 3>()) * shared.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> directions{information};
-  if (!(directions.eigenvalues().minCoeff() > 1.0 / (kLost_rad * kLost_rad))) {
+  if (!(directions.eigenvalues().minCoeff() >
+        1.0 / (kLeastDetermined_rad * kLeastDetermined_rad))) {
     return std::nullopt;
   }
   // A tilt about the first axis moves the spin axis against the second.

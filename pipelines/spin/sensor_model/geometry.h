@@ -18,6 +18,9 @@
 
 namespace spindrift {
 
+/// An axis whose standard deviation is larger is not determined: slopes mean nothing so far away.
+inline constexpr double kLeastDetermined_rad = 0.5;
+
 /// rho = asin((R_earth + h) / r), the spherical Earth with R_earth = 6378.137 km.
 /// @return Unobservable when the spacecraft is not above that sphere, or beyond a million km.
 Expected<double> earth_disc_half_angle_rad(double range_km, double co2_altitude_km);

@@ -15,11 +15,11 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/planning/pass_conditions.h"
+#include "services/geometry/condition_words.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/recorded_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::pass_geometry_test {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -28,6 +28,14 @@ using ::testing::Not;
 PassGeometry at(const SpinConfig& config, const Orbit& orbit, const Eigen::Vector3d& axis_icrf,
                 TaiTime t, double rate_rad_s = 2.0 * std::numbers::pi) {
   return PassScene{config, orbit, axis_icrf, rate_rad_s}.at(t).value();
+}
+
+std::vector<std::string> sentences_of(const SpinConfig& config, const PassGeometry& geometry) {
+  std::vector<std::string> sentences;
+  for (const PassCondition& condition : conditions_of(config, geometry)) {
+    sentences.push_back(sentence_of(condition));
+  }
+  return sentences;
 }
 
 TEST(PassGeometry, HasTheFiguresOfTheNominalPass) {
@@ -143,7 +151,7 @@ TEST(PassGeometry, WithOneBeamTheFixIsByItsChord) {
       at(config, pass.orbit, pass.true_axis_icrf, pass.pulses.front().t, pass.true_rate_rad_s);
   EXPECT_EQ(geometry.fix.geometry_case, 2);
   EXPECT_EQ(geometry.beams.at(index_of(Side::South)).view, BeamView::NoSensor);
-  const auto words = conditions_of(config, geometry);
+  const auto words = sentences_of(config, geometry);
   EXPECT_THAT(words, Contains("fix by case 2: one axis"));
   EXPECT_THAT(words, Contains("north beam sees the Earth"));
   EXPECT_THAT(words, Not(Contains(HasSubstr("south"))));
@@ -183,7 +191,7 @@ TEST(PassGeometry, NoAxisIsFoundWhereSunAndEarthAreInLine) {
   EXPECT_TRUE(in_line.in_line);
   EXPECT_FALSE(in_line.sun_hidden);
   EXPECT_FALSE(in_line.fix.sigma_rad);
-  EXPECT_THAT(conditions_of(config, in_line), Contains("no fix (case 1): Sun and Earth in line"));
+  EXPECT_THAT(sentences_of(config, in_line), Contains("no fix (case 1): Sun and Earth in line"));
   const PassGeometry beside = geometry_at(3.2);
   EXPECT_FALSE(beside.in_line);
   EXPECT_TRUE(beside.fix.sigma_rad);
@@ -201,7 +209,7 @@ TEST(PassGeometry, TheEarthHidesTheSun) {
   EXPECT_TRUE(night.sun_hidden);
   EXPECT_EQ(night.fix.geometry_case, 8);
   EXPECT_FALSE(night.beams.front().delta);
-  EXPECT_THAT(conditions_of(config, night), Contains("the Earth hides the Sun: no sun pulses"));
+  EXPECT_THAT(sentences_of(config, night), Contains("the Earth hides the Sun: no sun pulses"));
   const PassGeometry day = geometry_at(disc_deg + 0.1);
   EXPECT_FALSE(day.sun_hidden);
   EXPECT_EQ(day.fix.geometry_case, 1);
@@ -214,7 +222,7 @@ TEST(PassGeometry, SaysWhichSlitCannotSeeTheSun) {
   const auto words_at = [&](double sun_angle_deg) {
     const double angle_rad = sun_angle_deg * kRadPerDeg;
     const SpinConfig config = testing::usual_config();
-    return conditions_of(
+    return sentences_of(
         config,
         at(config, orbit,
            std::cos(angle_rad) * sun_icrf + std::sin(angle_rad) * sun_icrf.unitOrthogonal(), t));
@@ -229,8 +237,8 @@ TEST(PassGeometry, SaysWhatSpoilsAFix) {
   const auto body = testing::body_across_the_earth();
   SpinConfig config = body.config;
   const auto words = [&] {
-    return conditions_of(config, at(config, testing::orbit_across_the_earth(), body.axis_icrf,
-                                    testing::kTransferStart, body.rate_rad_s));
+    return sentences_of(config, at(config, testing::orbit_across_the_earth(), body.axis_icrf,
+                                   testing::kTransferStart, body.rate_rad_s));
   };
   const double delta = std::abs(at(config, testing::orbit_across_the_earth(), body.axis_icrf,
                                    testing::kTransferStart, body.rate_rad_s)
@@ -258,5 +266,4 @@ TEST(PassGeometry, BelowTheHorizonIsAnError) {
   EXPECT_EQ(found.error().code, ErrorCode::Unobservable);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::pass_geometry_test

@@ -15,8 +15,7 @@
 #include "tests/support/observed_spin.h"
 #include "tests/support/recorded_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::pass_plan_test {
 
 /// Of a body over an orbit that comes to the Earth and leaves it again within twelve hours.
 PassPlan plan(double from_s, double to_s, double step_s,
@@ -94,9 +93,9 @@ TEST(PassPlan, DoesNotDependOnTheStep) {
   for (const PassEvent& event : fine.events) {
     // Either searches to a second; events that begin together may change places.
     const auto same = std::find_if(coarse.events.begin(), coarse.events.end(), [&](const auto& e) {
-      return e.what == event.what && std::abs(seconds_between(e.from, event.from)) < 2.0;
+      return e.condition == event.condition && std::abs(seconds_between(e.from, event.from)) < 2.0;
     });
-    ASSERT_NE(same, coarse.events.end()) << event.what;
+    ASSERT_NE(same, coarse.events.end()) << static_cast<int>(event.condition.code);
     EXPECT_LT(std::abs(seconds_between(same->to, event.to)), 2.0);
   }
 }
@@ -111,10 +110,10 @@ TEST(PassPlan, ChordsVanishWhereTheDiscLeavesTheBeam) {
   };
   int changes = 0;
   for (const PassEvent& event : found.events) {
-    const bool north = event.what == "north beam misses the Earth";
-    if (!north && event.what != "south beam misses the Earth") {
+    if (event.condition.code != PassConditionCode::BeamMisses) {
       continue;
     }
+    const bool north = event.condition.values == std::vector<NamedValue>{{"beam", "north"}};
     const double mount_rad = (north ? body.config.north : body.config.south)->mount_angle_rad;
     if (event.from != found.steps.front().geometry.t) {
       ++changes;
@@ -149,7 +148,8 @@ TEST(PassPlan, WhatHoldsForSecondsIsFoundWhereverItFalls) {
   for (const double from_s : {0.0, 3.3, 7.7}) {
     const auto events = plan(from_s, 2000.0, 500.0, body).events;
     const auto met = std::find_if(events.begin(), events.end(), [](const PassEvent& event) {
-      return event.what == "interference: sun1 and north_in meet";
+      return event.condition == PassCondition{PassConditionCode::ChannelsMeet,
+                                              {{"one", "sun1"}, {"other", "north_in"}}};
     });
     ASSERT_NE(met, events.end()) << from_s;
     EXPECT_NEAR(seconds_between(testing::kTransferStart, met->from), kMiddle_s - 2.0, 1.5);
@@ -165,5 +165,4 @@ TEST(PassPlan, AnOrbitThatEndsIsAnError) {
   EXPECT_THAT(found.error().message, ::testing::HasSubstr("2880"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::pass_plan_test
