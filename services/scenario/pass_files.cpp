@@ -3,17 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <iterator>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 #include "pipelines/ephemeris/oem_writer.h"
-#include "pipelines/ground_model/coded_telemetry.h"
 #include "services/scenario/output_file.h"
+#include "services/scenario/simulated_telemetry.h"
 #include "services/scenario/truth_text.h"
+#include "services/telemetry_files/telemetry_layout.h"
+#include "services/telemetry_files/telemetry_row.h"
 
 namespace spindrift {
 namespace {
@@ -34,36 +36,16 @@ Expected<std::string> orbit_text(const Scenario& scenario) {
       });
 }
 
-void append_row(const ReceivedPulse& received, std::string& text) {
-  fmt::format_to(std::back_inserter(text), "{},{}\n", tai_ns(received.pulse.t),
-                 name_of(received.pulse.channel));
-}
-
-void append_interval(const std::optional<double>& interval_s, std::string& text) {
-  text += ',';
-  if (interval_s) {
-    fmt::format_to(std::back_inserter(text), "{:.9f}", *interval_s);
-  }
-}
-
-void append_row(const CodedFrame& frame, std::string& text) {
-  fmt::format_to(std::back_inserter(text), "{}", tai_ns(frame.t));
-  append_interval(frame.period_s, text);
-  for (std::size_t channel = index_of(PulseChannel::Sun2); channel < kPulseChannels; ++channel) {
-    append_interval(frame.delay_s.at(channel), text);
-  }
-  text += '\n';
-}
-
 /// The rows in blocks: a long pass is larger as text than as values.
-template <class Rows>
-Expected<void> write_rows(const std::filesystem::path& path, std::string text, const Rows& rows) {
+template <class Value>
+Expected<void> write_rows(const std::filesystem::path& path, const ArrivedOfKind<Value>& rows) {
   auto file = OutputFile::create(path);
   if (!file) {
     return Unexpected{std::move(file.error())};
   }
-  for (const auto& row : rows) {
-    append_row(row, text);
+  std::string text = header_of<Value>() + '\n';
+  for (const Arrived<Value>& row : rows) {
+    append_row(row.value, text);
     if (text.size() >= kBlock) {
       if (auto written = file->write(text); !written) {
         return written;
@@ -74,26 +56,10 @@ Expected<void> write_rows(const std::filesystem::path& path, std::string text, c
   return file->write(text).and_then([&] { return file->commit(); });
 }
 
-Expected<void> write_telemetry(const std::filesystem::path& path, const Scenario& scenario,
-                               const SimulatedPass& pass) {
-  if (path.filename() == "pulses.csv") {
-    return write_rows(path, "t_tai_ns,channel\n", pass.received.pulses);
-  }
-  return write_rows(path,
-                    "t_tai_ns,period_s,sun2_s,north_in_s,north_out_s,south_in_s,south_out_s\n",
-                    coded_telemetry(pass.received, scenario.telemetry.coded_resolution_s));
-}
-
-std::vector<std::filesystem::path> telemetry_paths(const std::filesystem::path& folder,
-                                                   const SimulatedTelemetry& kinds) {
-  std::vector<std::filesystem::path> paths;
-  if (kinds.pulses) {
-    paths.push_back(folder / "pulses.csv");
-  }
-  if (kinds.coded) {
-    paths.push_back(folder / "coded.csv");
-  }
-  return paths;
+std::filesystem::path path_in(const std::filesystem::path& folder, const TelemetryKind& kind) {
+  std::string name{name_of(kind)};
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return folder / (name + ".csv");
 }
 
 /// Makes the folder; refuses one with telemetry that is not of this pass.
@@ -131,10 +97,21 @@ Expected<std::vector<std::filesystem::path>> write_pass(const std::filesystem::p
   if (!orbit || !truth) {
     return Unexpected{orbit ? truth.error() : orbit.error()};
   }
-  std::vector<std::filesystem::path> paths = telemetry_paths(folder, scenario.telemetry);
+  const std::vector<TelemetryKind> kinds = kinds_of(scenario.telemetry);
+  std::vector<std::filesystem::path> paths;
+  for (const TelemetryKind& kind : kinds) {
+    paths.push_back(path_in(folder, kind));
+  }
+  const TelemetryValues values = telemetry_of(scenario, pass);
   auto written = prepare(folder, paths);
-  for (const auto& path : paths) {
-    written = written.and_then([&] { return write_telemetry(path, scenario, pass); });
+  for (const TelemetryKind& kind : kinds) {
+    written = written.and_then([&] {
+      return std::visit(
+          [&]<class Value>(Kind<Value>) {
+            return write_rows(path_in(folder, kind), values.of<Value>());
+          },
+          kind);
+    });
   }
   for (const auto& [name, text] : {std::pair{"orbit.oem", &*orbit},
                                    {"truth.json", &*truth},

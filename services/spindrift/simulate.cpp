@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
-#include <span>
-#include <vector>
 
-#include "pipelines/ground_model/coded_telemetry.h"
 #include "services/progress/progress_bar.h"
 #include "services/scenario/pass_files.h"
 #include "services/scenario/scenario.h"
 #include "services/scenario/simulated_pass.h"
+#include "services/scenario/simulated_telemetry.h"
 #include "services/spindrift/telemetry_output.h"
 
 namespace spindrift {
@@ -60,49 +59,27 @@ Expected<void> to_files(const SimulateOptions& options, const Scenario& scenario
   return {};
 }
 
-/// Pulses and coded frames in one order of time.
-Expected<void> publish(const Scenario& scenario, const SimulatedPass& pass,
-                       const std::vector<CodedFrame>& frames, TelemetryOutput& output) {
-  const std::span<const ReceivedPulse> pulses = scenario.telemetry.pulses
-                                                    ? std::span{pass.received.pulses}
-                                                    : std::span<const ReceivedPulse>{};
-  ProgressBar progress{"publishing", pulses.size() + frames.size()};
-  auto frame = frames.begin();
-  auto pulse = pulses.begin();
+Expected<void> publish(const Scenario& scenario, const TelemetryValues& values,
+                       TelemetryOutput& output) {
+  ProgressBar progress{"publishing", count_of(values)};
   Expected<void> sent;
-  for (std::uint64_t done = 1; sent && (frame != frames.end() || pulse != pulses.end()); ++done) {
-    const bool pulse_is_next =
-        frame == frames.end() || (pulse != pulses.end() && pulse->pulse.t <= frame->t);
-    sent = pulse_is_next ? output.publish(scenario.spacecraft_id, (pulse++)->pulse)
-                         : output.publish(scenario.spacecraft_id, *frame++);
-    progress.advance_to(done);
-  }
+  in_order_of_arrival(values, [&, done = std::uint64_t{0}](const auto& arrived) mutable {
+    if (sent && (sent = output.publish(scenario.spacecraft_id, arrived.value))) {
+      progress.advance_to(++done);
+    }
+  });
   return sent;
-}
-
-std::vector<TelemetryKind> kinds_of(const SimulatedTelemetry& telemetry) {
-  std::vector<TelemetryKind> kinds;
-  if (telemetry.pulses) {
-    kinds.emplace_back(Kind<Pulse>{});
-  }
-  if (telemetry.coded) {
-    kinds.emplace_back(Kind<CodedFrame>{});
-  }
-  return kinds;
 }
 
 Expected<void> to_bus(const SimulateOptions& options, const Scenario& scenario,
                       const SimulatedPass& pass) {
-  const std::vector<CodedFrame> frames =
-      scenario.telemetry.coded
-          ? coded_telemetry(pass.received, scenario.telemetry.coded_resolution_s)
-          : std::vector<CodedFrame>{};
-  const auto sent = send_telemetry(
-      {.bus = {.domain = options.domain, .partition = options.partition},
-       .source = "simulate",
-       .speed = options.speed,
-       .kinds = kinds_of(scenario.telemetry)},
-      [&](TelemetryOutput& output) { return publish(scenario, pass, frames, output); });
+  const TelemetryValues values = telemetry_of(scenario, pass);
+  const auto sent =
+      send_telemetry({.bus = {.domain = options.domain, .partition = options.partition},
+                      .source = "simulate",
+                      .speed = options.speed,
+                      .kinds = kinds_of(scenario.telemetry)},
+                     [&](TelemetryOutput& output) { return publish(scenario, values, output); });
   if (!sent) {
     return Unexpected{sent.error()};
   }

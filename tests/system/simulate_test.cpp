@@ -16,8 +16,7 @@
 #include "tests/support/program.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::simulate_test {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -144,8 +143,8 @@ TEST(Simulate, WritesCodedTelemetryOneRowARevolution) {
   // One turn a second, to a tenth of a millisecond; only the first frame has no neighbour.
   EXPECT_THAT(rows[1], StartsWith(sun1[0] + ",,0."));
   EXPECT_THAT(rows[2],
-              ::testing::AnyOf(StartsWith(sun1[1] + ",0.999"), StartsWith(sun1[1] + ",1.000")));
-  EXPECT_THAT(rows[2], ::testing::ContainsRegex(R"(^[0-9]+(,[01]\.[0-9]{4}00000){6}$)"));
+              ::testing::AnyOf(StartsWith(sun1[1] + ",0.999"), StartsWith(sun1[1] + ",1")));
+  EXPECT_THAT(rows[2], ::testing::ContainsRegex(R"(^[0-9]+(,[01](\.[0-9]{1,4})?){6}$)"));
 }
 
 TEST(Simulate, ReplacesItsOwnFilesButRefusesAFolderWithOtherTelemetry) {
@@ -231,5 +230,4 @@ TEST(Simulate, PublishesWhatItWouldWrite) {
   EXPECT_THAT(stored, ::testing::UnorderedElementsAreArray(expected));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::simulate_test
