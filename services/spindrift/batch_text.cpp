@@ -31,30 +31,33 @@ std::string nutation_text(const BatchSolution& solution) {
     return "  nutation     not looked for: too few edges\n";
   }
   if (!search->found) {
-    return fmt::format("  nutation     none above {:.3f} deg\n",
-                       search->detectable_rad * kDegPerRad);
+    return fmt::format("  nutation     none above {} deg\n",
+                       to_its_digits(search->detectable_rad * kDegPerRad, 3));
   }
   const FoundNutation& found = *search->found;
   std::string others;
   for (const double other_s : found.other_periods_s) {
-    others += fmt::format(" or {:.4f} s", other_s);
+    others += fmt::format(" or {:.{}f} s", other_s, decimals_for(found.period_s.sigma, 4));
   }
   return fmt::format(
-      "  nutation     {:.4f} +/- {:.4f} deg at {}, period {:.4f} +/- {:.4f} s{}\n"
-      "               grows by {:+.2f} +/- {:.2f} of it an hour\n",
-      found.half_angle_rad.value * kDegPerRad, found.half_angle_rad.sigma * kDegPerRad,
-      format_utc(solution.nutation_t, 0), found.period_s.value, found.period_s.sigma, others,
-      found.growth_per_s.value * kHour_s, found.growth_per_s.sigma * kHour_s);
+      "  nutation     {} deg at {}, period {} s{}\n"
+      "               grows by {} of it an hour\n",
+      with_sigma(found.half_angle_rad.value * kDegPerRad, found.half_angle_rad.sigma * kDegPerRad,
+                 4),
+      format_utc(solution.nutation_t, 0), with_sigma(found.period_s.value, found.period_s.sigma, 4),
+      others,
+      signed_with_sigma(found.growth_per_s.value * kHour_s, found.growth_per_s.sigma * kHour_s, 2));
 }
 
 std::string coning_text(const ConingEstimate& coning) {
   const auto& [tilt_rad, azimuth_rad, detected, detectable_rad] = coning.verdict;
   return detected
              ? fmt::format(
-                   "  coning       {:.4f} +/- {:.4f} deg, {:.1f} +/- {:.1f} deg behind slit 1\n",
-                   tilt_rad * kDegPerRad, coning.tilt_sigma_rad * kDegPerRad,
-                   azimuth_rad * kDegPerRad, coning.azimuth_sigma_rad * kDegPerRad)
-             : fmt::format("  coning       none above {:.3f} deg\n", detectable_rad * kDegPerRad);
+                   "  coning       {} deg, {} deg behind slit 1\n",
+                   with_sigma(tilt_rad * kDegPerRad, coning.tilt_sigma_rad * kDegPerRad, 4),
+                   with_sigma(azimuth_rad * kDegPerRad, coning.azimuth_sigma_rad * kDegPerRad, 1))
+             : fmt::format("  coning       none above {} deg\n",
+                           to_its_digits(detectable_rad * kDegPerRad, 3));
 }
 
 nlohmann::json nutation_json(const BatchSolution& solution) {
@@ -95,24 +98,23 @@ nlohmann::json to_json(const ConingEstimate& coning) {
 }  // namespace
 
 std::string to_text(const BatchSolution& solution) {
-  std::string text = fmt::format(
-      "  bound        {:.4f} deg (Cramer-Rao), {} edges, {} outliers, noise x {:.2f}\n",
-      solution.bound_rad * kDegPerRad, solution.edges, solution.outliers, solution.noise);
-  text += fmt::format(
-      "  consider     {:.4f} deg (sigma, were no bias known better than by its prior)\n",
-      solution.consider_sigma_rad * kDegPerRad);
-  const double drift_sigma_rpm_h = solution.drift_sigma_rad_s2 * kRpmPerHourPerRad_s2;
-  const int decimals = decimals_for(drift_sigma_rpm_h, 6);
-  text += fmt::format("  rate drift   {:+.{}f} +/- {:.{}f} rpm/h\n",
-                      solution.drift_rad_s2 * kRpmPerHourPerRad_s2, decimals, drift_sigma_rpm_h,
-                      decimals);
+  std::string text =
+      fmt::format("  bound        {} deg (Cramer-Rao), {} edges, {} outliers, noise x {:.2f}\n",
+                  to_its_digits(solution.bound_rad * kDegPerRad, 4), solution.edges,
+                  solution.outliers, solution.noise);
+  text +=
+      fmt::format("  consider     {} deg (sigma, were no bias known better than by its prior)\n",
+                  to_its_digits(solution.consider_sigma_rad * kDegPerRad, 4));
+  text += fmt::format("  rate drift   {} rpm/h\n",
+                      signed_with_sigma(solution.drift_rad_s2 * kRpmPerHourPerRad_s2,
+                                        solution.drift_sigma_rad_s2 * kRpmPerHourPerRad_s2, 6));
   text += nutation_text(solution) + coning_text(solution.coning);
   std::string_view heading = "biases";
   for (const BiasEstimate& bias : solution.biases) {
     const Readable shown = readable(bias);
     text += bias.observable
-                ? fmt::format("  {:<13}{:<18}{:+9.4f} +/- {:.4f} {}{}\n", heading,
-                              prior_of(bias.bias).name, shown.value, shown.sigma, shown.unit,
+                ? fmt::format("  {:<13}{:<18}{} {}{}\n", heading, prior_of(bias.bias).name,
+                              signed_with_sigma(shown.value, shown.sigma, 4), shown.unit,
                               bias.estimated ? "" : " (not in the axis)")
                 : fmt::format("  {:<13}{:<18}not observable\n", heading, prior_of(bias.bias).name);
     heading = "";

@@ -186,9 +186,11 @@ nlohmann::json to_json(const RunSummary& summary) {
 
 std::string to_text(const SpinEstimate& estimate) {
   const Readable shown = readable(estimate);
-  return fmt::format("axis RA {:.4f} Dec {:.4f} deg, sigma {:.4f} deg, {:.6f} rpm, {}: {}",
-                     shown.ra_deg, shown.dec_deg, shown.sigma_deg, shown.rpm,
-                     name_of(estimate.estimator), sentence_of(estimate.assessment));
+  const int decimals = decimals_for(shown.sigma_deg, 4);
+  return fmt::format("axis RA {:.{}f} Dec {:.{}f} deg, sigma {:.{}f} deg, {:.{}f} rpm, {}: {}",
+                     shown.ra_deg, decimals, shown.dec_deg, decimals, shown.sigma_deg, decimals,
+                     shown.rpm, decimals_for(shown.sigma_rpm, 6), name_of(estimate.estimator),
+                     sentence_of(estimate.assessment));
 }
 
 Expected<std::string> report(const Processor& processor, const std::filesystem::path& db,
