@@ -42,6 +42,10 @@ Eigen::Matrix2d tangent_from_tilts(const Eigen::Quaterniond& q_icrf_frame) {
   return tangent_basis(R_icrf_frame.col(2)).transpose() * moved_icrf;
 }
 
+Eigen::Quaterniond frame_about(const Eigen::Vector3d& axis_icrf) {
+  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis_icrf);
+}
+
 Eigen::Matrix2d anywhere_covariance_rad2() {
   constexpr double kMeanSquare_rad2 = (std::numbers::pi * std::numbers::pi - 4.0) / 2.0;
   return Eigen::Matrix2d::Identity() * (0.5 * kMeanSquare_rad2);

@@ -30,6 +30,9 @@ Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& axis_icrf);
 /// small angles to displacements in the tangent plane, east and north; a rotation or reflection.
 Eigen::Matrix2d tangent_from_tilts(const Eigen::Quaterniond& q_icrf_frame);
 
+/// The frame whose third axis is `axis_icrf`, by the shortest turn from ICRF: q_icrf_frame.
+Eigen::Quaterniond frame_about(const Eigen::Vector3d& axis_icrf);
+
 /// Of an axis that may point anywhere, in the tangent plane: its trace is the mean square of the
 /// angle to any other.
 Eigen::Matrix2d anywhere_covariance_rad2();

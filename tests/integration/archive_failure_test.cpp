@@ -20,8 +20,7 @@
 #include "services/archive/archive.h"
 #include "tests/integration/archive_fixture.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::archive_failure_test {
 
 using testing::batch_of;
 using ::testing::HasSubstr;
@@ -266,5 +265,4 @@ TEST_F(ArchiveFailure, KillAtAnyMomentLosesNothingThatWasReportedCommitted) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::archive_failure_test

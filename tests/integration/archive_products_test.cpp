@@ -15,8 +15,7 @@
 #include "services/archive/archive.h"
 #include "tests/integration/archive_fixture.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::archive_products_test {
 
 using testing::column;
 using ::testing::ElementsAre;
@@ -342,5 +341,4 @@ TEST_F(ArchiveProducts, BiasesAreThoseOfTheLastSolutionAndSayWhetherTheyAreInThe
   EXPECT_EQ(after(again), "");
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::archive_products_test

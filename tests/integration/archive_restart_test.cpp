@@ -15,8 +15,7 @@
 #include "services/archive/stored_results.h"
 #include "tests/integration/archive_fixture.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::archive_restart_test {
 
 using testing::batch_of;
 using ::testing::ElementsAre;
@@ -379,5 +378,4 @@ TEST_F(ArchiveRestart, WhatBecomesOfAnEdgeLaterStandsButNotThatItIsLate) {
             "3 1");
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::archive_restart_test

@@ -13,8 +13,7 @@
 #include "services/archive/schema.h"
 #include "tests/integration/archive_fixture.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::archive_test {
 
 using testing::batch_of;
 using testing::column;
@@ -300,5 +299,4 @@ TEST_F(ArchiveTest, ClosedArchiveRefusesWithAReason) {
   EXPECT_TRUE(archive->close());
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::archive_test

@@ -11,8 +11,7 @@
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::bus_test {
 
 using namespace std::chrono_literals;
 using bus::Participant;
@@ -220,7 +219,7 @@ TEST(Reader, DoesNotMindAnIncompatibleWriterOfAnotherPartition) {
   const bus::Qos weak{dds_create_qos()};
   const auto near = pulse_writer(ours, weak);
   const auto far = pulse_writer(theirs, weak);
-  EXPECT_THAT(reader.status().value().incompatible_writers, testing::SizeIs(1));
+  EXPECT_THAT(reader.status().value().incompatible_writers, ::testing::SizeIs(1));
 }
 
 TEST(Writer, NamesAnIncompatibleReader) {
@@ -289,5 +288,4 @@ TEST(WaitSet, WakesForDataAndForStop) {
   EXPECT_FALSE(waitset.wait().value());
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::bus_test

@@ -17,8 +17,7 @@
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::include_rule_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -257,5 +256,4 @@ TEST_F(IncludeRuleOf, OneHeaderTooManyIsCounted) {
   EXPECT_THAT(crowded_folders(sources()), ElementsAre("services/bus has 25 headers"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::include_rule_test

@@ -11,8 +11,7 @@
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::ingest_test {
 
 using namespace std::chrono_literals;
 using bus::Participant;
@@ -423,5 +422,4 @@ TEST(TelemetrySubscriber, SaysSoWhenItsQueueIsClosedTooEarly) {
   EXPECT_THAT(subscriber->status().value().failure, HasSubstr("closed while they arrive"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::ingest_test

@@ -19,8 +19,7 @@
 #include "tests/support/samples.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::processor_restart_test {
 
 using Batches = std::vector<ArchiveBatch>;
 
@@ -188,5 +187,4 @@ TEST_F(ProcessorRestart, KilledAtAnyPointBetweenTwoPassesGivesWhatNoRestartWould
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::processor_restart_test

@@ -13,8 +13,7 @@
 #include "services/publisher/to_idl.h"
 #include "tests/support/bus_fixture.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::publisher_test {
 
 using bus::Participant;
 using bus::Reader;
@@ -189,7 +188,7 @@ TEST(ResultPublisher, GivesALateJoinerTheCurrentStateOfEverySpacecraft) {
   for (const auto& fix : take_samples(results_reader(participant, product_topic<SpinFix>()), 2)) {
     revolutions.push_back(fix.revolution);
   }
-  EXPECT_THAT(revolutions, testing::UnorderedElementsAre(4, 14));
+  EXPECT_THAT(revolutions, ::testing::UnorderedElementsAre(4, 14));
 }
 
 TEST(ResultPublisher, NamesASubscriberThatAsksForMore) {
@@ -352,5 +351,4 @@ TEST(PulsePublisher, UsesNoSeqForASampleThatIsRefused) {
   EXPECT_EQ(publisher.next().seq, 1U);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::publisher_test

@@ -11,8 +11,7 @@
 
 #include "tests/integration/archive_fixture.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::stored_edges_test {
 
 using ::testing::HasSubstr;
 using testing::start_of;
@@ -47,5 +46,4 @@ TEST_F(ArchiveEdges, ThatNoRevolutionHadAPlaceForMakeNoRun) {
   EXPECT_THAT(stored.error().message, HasSubstr("no run of spacecraft 'SPINNER' with revolutions"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::stored_edges_test

@@ -18,8 +18,7 @@
 #include "tests/support/samples.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::stream_silence_test {
 
 using namespace std::chrono_literals;
 
@@ -111,5 +110,4 @@ TEST(SilenceWatch, TellsOnceWhoWasNotHeardForASecond) {
   EXPECT_TRUE(watch.take_silent(start + 1300ms).empty());
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::stream_silence_test

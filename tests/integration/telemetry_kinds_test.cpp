@@ -14,8 +14,7 @@
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/bus_fixture.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::telemetry_kinds_test {
 
 const TaiTime kStart = tai_from_ns(1'772'337'697'000'000'000);
 
@@ -137,5 +136,4 @@ TEST_F(StoredKinds, EachComesBackFromTheArchiveInTheOrderOfArrival) {
   });
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::telemetry_kinds_test

@@ -18,8 +18,7 @@
 #include "tests/support/samples.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::withheld_products_test {
 
 const std::filesystem::path kPass = recorded_passes() / "nominal";
 constexpr std::int64_t kEdges = 240;
@@ -104,5 +103,4 @@ TEST(Withheld, LeavesOutWhatIsNotFiniteAndSaysWhyOnce) {
   EXPECT_TRUE(later.notices.empty());
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::withheld_products_test

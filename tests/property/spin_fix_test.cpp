@@ -14,8 +14,7 @@
 #include "tests/support/lone_fix.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_fix_test {
 
 using enum SpinQuantity;
 
@@ -158,5 +157,4 @@ TEST(SpinFixProperty, TurnsWithSunAndEarth) {
   EXPECT_GT(compared, kTrials / 2);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_fix_test

@@ -12,8 +12,7 @@
 #include "tests/support/product_text.h"
 #include "tests/support/recorded_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_order_test {
 
 using testing::recorded_pass;
 using testing::RecordedPass;
@@ -109,5 +108,4 @@ TEST(SpinOrder, SilencesInAnOrderedStreamChangeNoProduct) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_order_test

@@ -14,8 +14,7 @@
 #include "tests/support/product_text.h"
 #include "tests/support/wobbling_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_sequential_nutation_test {
 
 std::vector<Pulse> pulses_of(const std::vector<PassEdge>& edges) {
   std::vector<Pulse> pulses;
@@ -61,5 +60,4 @@ TEST(SpinSequentialNutation, DoesNotMoveTheAxis) {
   EXPECT_LT(squares, 112.3);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_sequential_nutation_test

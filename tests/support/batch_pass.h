@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/pass_model.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/spinning_body.h"
@@ -41,11 +42,10 @@ inline std::vector<PassEdge> noisy_pass(const SpinningBody& body, const std::vec
 inline SpinState true_state(const SpinningBody& body, const PassModel& model) {
   const double turn_rad =
       body.first_turn_rad + body.rate_rad_s * seconds_between(kTransferStart, model.middle());
-  return {
-      .q_icrf_spin = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), body.axis_icrf) *
-                     Eigen::Quaterniond{Eigen::AngleAxisd{turn_rad, Eigen::Vector3d::UnitZ()}},
-      .rate_rad_s = body.rate_rad_s,
-      .drift_rad_s2 = 0.0};
+  return {.q_icrf_spin = frame_about(body.axis_icrf) *
+                         Eigen::Quaterniond{Eigen::AngleAxisd{turn_rad, Eigen::Vector3d::UnitZ()}},
+          .rate_rad_s = body.rate_rad_s,
+          .drift_rad_s2 = 0.0};
 }
 
 /// A body between Sun and Earth over a transfer orbit, from a seed.

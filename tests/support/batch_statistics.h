@@ -12,6 +12,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "tests/support/batch_pass.h"
+#include "tests/support/normalised_square.h"
 
 namespace spindrift::testing {
 
@@ -81,7 +82,7 @@ inline void add_pass(const PassKind& kind, SpinningBody body, const SensorBiases
   }
   const Eigen::Matrix2d& covariance_rad2 = solution->estimate.covariance_rad2;
   const Eigen::Vector2d error = error_rad(solution->estimate.axis_icrf, body.axis_icrf);
-  sums.squares += error.dot(covariance_rad2.ldlt().solve(error));
+  sums.squares += normalised_square(error, covariance_rad2);
   sums.over_bound += error.squaredNorm() / (solution->bound_rad * solution->bound_rad);
   sums.over_bound_variance +=
       2.0 * covariance_rad2.squaredNorm() / std::pow(covariance_rad2.trace(), 2);

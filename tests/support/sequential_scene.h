@@ -17,6 +17,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sequential/sequential.h"
 #include "services/words/assessment_words.h"
+#include "tests/support/normalised_square.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/spinning_body.h"
 
@@ -35,7 +36,7 @@ inline double sigma_deg(const SpinEstimate& estimate) {
 
 inline double squared_error(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
   const Eigen::Vector2d error_rad = testing::error_rad(estimate.axis_icrf, true_icrf);
-  return error_rad.dot(estimate.covariance_rad2.ldlt().solve(error_rad));
+  return normalised_square(error_rad, estimate.covariance_rad2);
 }
 
 /// The fixes that are settled before the revolution with that index is worked in.

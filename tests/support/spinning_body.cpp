@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/frames/celestial.h"
 
 namespace spindrift::testing {
 namespace {
@@ -20,8 +21,7 @@ constexpr int kHalvings = 45;
 using Signal = std::function<double(double t_s)>;
 
 Eigen::Matrix3d rotation_icrf_body(const SpinningBody& body, double t_s) {
-  const Eigen::Quaterniond to_axis =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), body.axis_icrf);
+  const Eigen::Quaterniond to_axis = frame_about(body.axis_icrf);
   const double turn_rad = body.first_turn_rad + body.rate_rad_s * t_s;
   return (to_axis * Eigen::AngleAxisd{turn_rad, Eigen::Vector3d::UnitZ()}).toRotationMatrix();
 }

@@ -22,8 +22,7 @@
 #include "tests/support/program.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::bad_input_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -373,5 +372,4 @@ TEST(AbsurdTimes, ThatCouldBeTrueLeaveTheOtherProductsAlone) {
   EXPECT_LT(error_deg(outcome.run["sequential"]), 0.05);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::bad_input_test

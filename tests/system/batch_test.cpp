@@ -14,8 +14,7 @@
 #include "tests/support/recorded_files.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::batch_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -280,5 +279,4 @@ TEST(Batch, ConingIsFoundTakenOutAndStored) {
   EXPECT_EQ(number_of(run.db, "SELECT count(*) FROM spin_bias"), 8);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::batch_test

@@ -15,8 +15,7 @@
 #include "tests/support/program.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::coded_test {
 
 const std::filesystem::path kPass = recorded_passes() / "coded";
 const std::string kMission = (kPass / "mission.toml").string();
@@ -176,5 +175,4 @@ TEST(Coded, SummaryCountsFramesAndTheEdgesInThem) {
   EXPECT_EQ(run["edges_accepted"], number_of(db, "SELECT sum(accepted) FROM pulse_use"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::coded_test

@@ -18,8 +18,7 @@
 #include "tests/support/program.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::doctor_test {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
@@ -282,5 +281,4 @@ TEST(Doctor, GivesTheReasonWhenTheNetworkIsRefused) {
   EXPECT_THAT(diagnosis.found("network"), HasSubstr("nosuch0"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::doctor_test

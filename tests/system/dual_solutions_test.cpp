@@ -10,8 +10,7 @@
 #include "tests/support/archive_rows.h"
 #include "tests/support/processed_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::dual_solutions_test {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -95,5 +94,4 @@ TEST(DualSolutions, APriorFarFromAllOfThemSettlesNothing) {
   EXPECT_THAT(outcome.run["batch"]["status"].get<std::string>(), StartsWith("AMBIGUOUS, or"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::dual_solutions_test

@@ -12,8 +12,7 @@
 #include "tests/support/test_paths.h"
 #include "tests/support/well_formed.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::geometry_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -232,5 +231,4 @@ TEST(Geometry, ForetellsTheSigmaOfOneBeamWhereTheMissionHasOne) {
               1.0, 0.2);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::geometry_test

@@ -14,8 +14,7 @@
 #include "tests/support/archive_rows.h"
 #include "tests/support/processed_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::mean_rows_test {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -110,5 +109,4 @@ TEST(MeanRows, ShortChordsThatBecomeLongLeadToTheLeastSquares) {
   EXPECT_THAT(outcome.log, Not(HasSubstr("begins anew")));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::mean_rows_test

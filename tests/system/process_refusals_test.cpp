@@ -9,8 +9,7 @@
 #include "tests/support/program.h"
 #include "tests/support/recorded_files.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::process_refusals_test {
 
 using ::testing::HasSubstr;
 
@@ -284,5 +283,4 @@ TEST(CommandLine, TellsItsVersionAndHelp) {
   EXPECT_THAT(help.out(), HasSubstr("--partition"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::process_refusals_test

@@ -17,8 +17,7 @@
 #include "tests/support/recorded_files.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::process_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -369,5 +368,4 @@ TEST(Process, RefusesAnArchiveThatSqliteWouldNotTakeForAFile) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::process_test

@@ -16,8 +16,7 @@
 #include "tests/support/program.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::replay_test {
 
 using ::testing::HasSubstr;
 
@@ -110,5 +109,4 @@ TEST(Process, DrawsNothingInAPipe) {
   expect_plain(process.out());
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::replay_test

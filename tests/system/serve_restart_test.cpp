@@ -26,8 +26,7 @@
 #include "tests/support/recorded_files.h"
 #include "tests/support/service.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::serve_restart_test {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
@@ -306,5 +305,4 @@ TEST_P(ServeTwoPasses, MakesTwoRunsHoweverTheServiceIsRestarted) {
 // Before the silence, while the new pass is not believed yet, never.
 INSTANTIATE_TEST_SUITE_P(After, ServeTwoPasses, ::testing::Values(0.5, 0.515, 1.0));
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::serve_restart_test

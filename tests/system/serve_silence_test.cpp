@@ -13,8 +13,7 @@
 #include "tests/support/recorded_files.h"
 #include "tests/support/service.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::serve_silence_test {
 
 using namespace std::chrono_literals;
 
@@ -62,5 +61,4 @@ TEST(Serve, ComputesASilentStreamToItsEndAndRepeatsThatAfterAKill) {
   ASSERT_EQ(service.stop(), 0) << service.program().log();
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::serve_silence_test

@@ -19,8 +19,7 @@
 #include "tests/support/program.h"
 #include "tests/support/service.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::serve_test {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
@@ -395,5 +394,4 @@ TEST(Replay, GivesUpWhenNobodySubscribes) {
   EXPECT_THAT(program.log(), HasSubstr("nobody subscribes"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::serve_test

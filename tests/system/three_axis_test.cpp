@@ -16,8 +16,7 @@
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::three_axis_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -139,5 +138,4 @@ TEST(ThreeAxis, ServeGoesOnWithTheRunAfterAKillAndStoresWhatComesAgainOnce) {
   EXPECT_EQ(number_of(db, "SELECT sum(gaps) FROM source_count"), 0);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::three_axis_test

@@ -77,7 +77,7 @@ void count_anew(const Eigen::Vector3d& clock, std::vector<Counted>& counted) {
 
 Expected<SpinState> initial_state(const PassModel& model, std::span<const PassEdge> edges,
                                   const Eigen::Vector3d& axis_icrf) {
-  const auto q_icrf_spin = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis_icrf);
+  const Eigen::Quaterniond q_icrf_spin = frame_about(axis_icrf);
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin.conjugate().toRotationMatrix();
   const std::size_t stride = std::max<std::size_t>(edges.size() / kEnough, 1);
   const std::int64_t middle = edges[edges.size() / 2].revolution;

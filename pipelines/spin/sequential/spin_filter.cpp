@@ -59,7 +59,7 @@ std::optional<SpinFilter> SpinFilter::about(const Eigen::Vector3d& axis_icrf,
                                             const Eigen::Matrix2d& covariance_rad2,
                                             const SpinConfig& config, const Revolution& revolution,
                                             const Sky& sky) {
-  const auto q_icrf_spin = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis_icrf);
+  const Eigen::Quaterniond q_icrf_spin = frame_about(axis_icrf);
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin.conjugate().toRotationMatrix();
   const double rate_rad_s = kTurn_rad / revolution.period.period_s;
   const GoodEdges edges{config, revolution};

@@ -20,8 +20,7 @@
 #include "tests/support/product_text.h"
 #include "tests/support/random_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_ambiguous_test {
 
 constexpr double kSigmas = 5.0;
 
@@ -133,5 +132,4 @@ TEST(SpinAmbiguous, WhatClaimsToNameAllCandidatesNamesTheTrueOne) {
   EXPECT_GT(claiming, 1000);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_ambiguous_test

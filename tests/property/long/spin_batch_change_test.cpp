@@ -22,8 +22,7 @@
 #include "tests/support/dirt.h"
 #include "tests/support/product_text.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_batch_change_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -154,5 +153,4 @@ TEST(SpinBatchChange, IsDoubtedWhereItLeavesOutMostOfThePass) {
   EXPECT_FALSE(has(solution->estimate.assessment, ReasonCode::NoAxisBeforeChange));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_batch_change_test

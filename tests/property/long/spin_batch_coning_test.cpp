@@ -10,8 +10,7 @@
 #include "services/words/assessment_words.h"
 #include "tests/support/wobbling_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_batch_coning_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -108,5 +107,4 @@ TEST(SpinBatchConing, ThatAMisplacedBeamLooksLikeIsDoubtedAndInTheSigma) {
   EXPECT_GT(coning, 0);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_batch_coning_test

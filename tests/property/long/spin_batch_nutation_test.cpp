@@ -12,8 +12,7 @@
 #include "tests/support/assessed.h"
 #include "tests/support/wobbling_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_batch_nutation_test {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -167,5 +166,4 @@ TEST(SpinBatchNutation, DoesNotHideAManoeuvreNorIsOneForIt) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_batch_nutation_test

@@ -10,8 +10,7 @@
 #include "services/words/assessment_words.h"
 #include "tests/support/wobbling_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_batch_rate_step_test {
 
 using ::testing::StartsWith;
 
@@ -71,5 +70,4 @@ TEST(SpinBatchRateStep, NeedsSomeEdges) {
   EXPECT_FALSE(find_rate_changepoint(std::span{edges}.first(40)));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_batch_rate_step_test

@@ -5,12 +5,10 @@
 
 #include "tests/support/every_mean.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_mean_every_row_test {
 
 TEST(SpinMeanEveryRow, IsRightWhereItIsOkAndAmongItsFixes) {
   testing::check_passes_across_the_limb(3200U, 40);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_mean_every_row_test

@@ -16,8 +16,7 @@
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_model_errors_test {
 
 constexpr double kRevolutions = 300.0;
 
@@ -135,5 +134,4 @@ TEST(SpinModelErrors, OfAChordAreCovered) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_model_errors_test

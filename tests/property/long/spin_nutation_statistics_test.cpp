@@ -7,8 +7,7 @@
 #include "pipelines/frames/angle.h"
 #include "tests/support/nutation_trials.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_nutation_statistics_test {
 
 TEST(SpinNutationStatistics, PeriodHalfAngleAndLeanAreWithinTheirSigmas) {
   constexpr int kTrials = 200;
@@ -63,5 +62,4 @@ TEST(SpinNutationStatistics, AtTheLimitOfDetection95Of100AreFound) {
   EXPECT_LT(found_at_half, 40);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_nutation_statistics_test

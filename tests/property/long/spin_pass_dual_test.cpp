@@ -25,8 +25,7 @@
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_pass_dual_test {
 
 using enum PulseChannel;
 using testing::all_of;
@@ -348,5 +347,4 @@ TEST(SpinPassDual, ASilentBeamThatMayHaveFailedIsNoContradiction) {
             40);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_pass_dual_test

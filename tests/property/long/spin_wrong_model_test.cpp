@@ -17,8 +17,7 @@
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_wrong_model_test {
 
 constexpr double kEnd_s = 400.0;
 
@@ -128,5 +127,4 @@ TEST(SpinWrongModel, PoorLeverageIsToldByTheGeometryWhateverTheNoise) {
   EXPECT_EQ(told_of_poor_leverage(orbit, testing::random_body(around, 6.0 * kRadPerDeg, rng)), 0);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_wrong_model_test

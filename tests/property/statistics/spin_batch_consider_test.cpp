@@ -11,8 +11,7 @@
 #include "pipelines/ephemeris/sun.h"
 #include "tests/support/wobbling_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_batch_consider_test {
 
 constexpr int kPasses = 200;
 
@@ -84,5 +83,4 @@ TEST(SpinBatchConsider, ItsSigmaIsTheErrorThatSensorsOutOfPlaceMake) {
   EXPECT_NEAR(squares / kPasses, 1.0, 1.96 * std::sqrt(2.0 / kPasses));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_batch_consider_test

@@ -8,8 +8,7 @@
 
 #include "tests/support/wobbling_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_batch_drift_test {
 
 using ::testing::StartsWith;
 
@@ -36,5 +35,4 @@ TEST(SpinBatchDrift, ErrorsAreThoseThatItsSigmaPromises) {
   EXPECT_GT(least_sigmas, 3.0);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_batch_drift_test

@@ -10,10 +10,10 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/coning.h"
+#include "tests/support/normalised_square.h"
 #include "tests/support/uniform_spin_residuals.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_coning_test {
 
 using testing::FittedConing;
 
@@ -37,7 +37,7 @@ Eigen::Vector2d rotation_of(const Coning& coning) {
 
 double chi_square(const FittedConing& fit, const Eigen::Vector2d& coning_rad) {
   const Eigen::Vector2d off = fit.coning_rad - coning_rad;
-  return off.dot(fit.covariance_rad2.ldlt().solve(off));
+  return testing::normalised_square(off, fit.covariance_rad2);
 }
 
 ConingTest test_model_errors(const FittedConing& fit) {
@@ -95,5 +95,4 @@ TEST(SpinConing, BelowWhatCouldBeDetectedIsSaidToBe) {
   EXPECT_LT(verdict.detectable_rad, 0.5 * kRadPerDeg);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_coning_test

@@ -19,8 +19,7 @@
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_drift_test {
 
 using testing::all_of;
 using testing::SpinningBody;
@@ -112,5 +111,4 @@ TEST(SpinDrift, RateAndAxisMeanWhatTheirSigmasSay) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_drift_test

@@ -18,8 +18,7 @@
 #include "tests/support/lone_fix.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_dual_solutions_test {
 
 using enum PulseChannel;
 
@@ -259,5 +258,4 @@ TEST(DualSolutions, WithoutASunAngleNoFalseAxisIsChosen) {
   RecordProperty("chosen", chosen);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_dual_solutions_test

@@ -12,8 +12,7 @@
 #include "tests/support/product_text.h"
 #include "tests/support/wobbling_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_first_rows_test {
 
 constexpr int kPasses = 20;
 constexpr double kDuration_s = 100.0;
@@ -96,5 +95,4 @@ TEST(SpinFirstRows, AreNotOkAndWrongWhereSensorsAreGrosslyMisplaced) {
   EXPECT_LE(tally.passes_wrong, 1);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_first_rows_test

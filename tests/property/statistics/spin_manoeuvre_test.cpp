@@ -18,8 +18,7 @@
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_manoeuvre_test {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -115,5 +114,4 @@ TEST(SpinManoeuvre, NothingIsSaidOfOneWhereThereIsNone) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_manoeuvre_test

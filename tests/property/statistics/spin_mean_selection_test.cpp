@@ -16,12 +16,12 @@
 #include "pipelines/spin/pass/spin_pass.h"
 #include "services/words/assessment_words.h"
 #include "tests/support/dirt.h"
+#include "tests/support/normalised_square.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_mean_selection_test {
 
 /// Sun angle and Earth as deploy/scenarios/gto-nominal.toml has them: where sun2 is missing (case
 /// 4) the two roots of the sun angle come together within the noise, and one fix of a hundred
@@ -60,7 +60,7 @@ TEST(SpinMeanSelection, LostEdgesLeaveTheErrorsWhatTheirSigmasPromise) {
     const SpinEstimate mean = scene.means(received.pulses).back();
     EXPECT_TRUE(is_unopposed(mean.assessment.quality)) << sentence_of(mean.assessment);
     const Eigen::Vector2d error_rad = testing::error_rad(mean.axis_icrf, scene.body.axis_icrf);
-    squares += error_rad.dot(mean.covariance_rad2.ldlt().solve(error_rad));
+    squares += testing::normalised_square(error_rad, mean.covariance_rad2);
   }
   RecordProperty("mean_square", std::to_string(squares / (2.0 * kPasses)));
   // 0.05 % and 99.95 % points of chi-square with 80 degrees of freedom.
@@ -98,5 +98,4 @@ TEST(SpinMeanSelection, TheFewFixesThatDoNotGrazeMakeNoMeanThatIsOk) {
   EXPECT_GT(squares_rad2, 0.2 * passes_with_mean);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_mean_selection_test

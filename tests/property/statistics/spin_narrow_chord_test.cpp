@@ -25,8 +25,7 @@
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_narrow_chord_test {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kSigmas = 5.0;
@@ -161,5 +160,4 @@ TEST(SpinLongestChord, NoWrongRowIsOkAndMostPassesAreSolved) {
   EXPECT_GT(solved, 15);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_narrow_chord_test

@@ -16,8 +16,7 @@
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_near_tangent_test {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kSigmas = 5.0;
@@ -66,5 +65,4 @@ TEST(SpinNearTangent, NoRowIsOkThatIsNotNearTheAxis) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_near_tangent_test

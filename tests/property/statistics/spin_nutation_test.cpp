@@ -5,8 +5,7 @@
 #include "pipelines/frames/angle.h"
 #include "tests/support/nutation_trials.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_nutation_test {
 
 TEST(SpinNutation, OfTwoTenthsOfADegreeIsFoundInThreeHundredTurns) {
   testing::NutationTrials trials{1};
@@ -86,5 +85,4 @@ TEST(SpinNutation, IsFoundWhereTheRateDrifts) {
   EXPECT_NEAR(search.found->per_turn, nutation.per_turn(), 1e-3);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_nutation_test

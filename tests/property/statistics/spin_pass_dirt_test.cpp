@@ -25,8 +25,7 @@
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_pass_dirt_test {
 
 using enum PulseChannel;
 using testing::all_of;
@@ -352,5 +351,4 @@ TEST(SpinPassDirt, GarbageGivesNothingThatIsNoNumber) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_pass_dirt_test

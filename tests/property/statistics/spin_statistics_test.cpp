@@ -11,56 +11,16 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/spin/pass/spin_pass.h"
-#include "services/words/assessment_words.h"
 #include "tests/support/information_limit.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
+#include "tests/support/squared_errors.h"
 
-namespace spindrift {
-namespace {
-
-constexpr double kRevolutions = 150.0;
-
-struct SquaredErrors {
-  double mean = 0.0;
-  double sequential = 0.0;
-  double rate = 0.0;  ///< Of the mean.
-  int model_off = 0;  ///< Means that say so, of models that are right.
-};
-
-double squared_error(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
-  const Eigen::Vector2d error_rad = testing::error_rad(estimate.axis_icrf, true_icrf);
-  return error_rad.dot(estimate.covariance_rad2.ldlt().solve(error_rad));
-}
-
-SquaredErrors squared_errors_of(int passes, std::uint64_t seed) {
-  const Orbit orbit = testing::transfer_orbit();
-  const testing::SunEarthEphemeris around =
-      testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-  std::mt19937_64 rng{seed};
-  SquaredErrors sums;
-  for (int pass = 0; pass < passes; ++pass) {
-    const testing::SpinningBody body = testing::random_body(around, 8.0 * kRadPerDeg, rng);
-    const auto edges = testing::edges_between(
-        body, around, 0.0, kRevolutions * 2.0 * std::numbers::pi / body.rate_rad_s);
-    const SpinOutput output =
-        testing::run(SpinPass{body.config, orbit},
-                     testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
-    const SpinEstimate mean = testing::last_estimate(output, SpinEstimator::Mean);
-    const SpinEstimate sequential = testing::last_estimate(output, SpinEstimator::Sequential);
-    EXPECT_TRUE(is_unopposed(sequential.assessment.quality)) << sentence_of(sequential.assessment);
-    EXPECT_FALSE(mean.assessment.quality == Quality::Doubtful) << sentence_of(mean.assessment);
-    sums.model_off += has(mean.assessment, ReasonCode::ModelOff) ? 1 : 0;
-    sums.mean += squared_error(mean, body.axis_icrf);
-    sums.sequential += squared_error(sequential, body.axis_icrf);
-    sums.rate += std::pow((mean.spin_rate_rad_s - body.rate_rad_s) / mean.spin_rate_sigma_rad_s, 2);
-  }
-  return sums;
-}
+namespace spindrift::spin_statistics_test {
 
 TEST(SpinStatistics, ErrorsOfFortyPassesAreThoseThatTheirSigmasPromise) {
-  const SquaredErrors sums = squared_errors_of(40, 121);
+  const testing::SquaredErrors sums = testing::squared_errors_of(40, 121);
   RecordProperty("mean", std::to_string(sums.mean));
   RecordProperty("sequential", std::to_string(sums.sequential));
   RecordProperty("rate", std::to_string(sums.rate));
@@ -76,23 +36,6 @@ TEST(SpinStatistics, ErrorsOfFortyPassesAreThoseThatTheirSigmasPromise) {
   EXPECT_LT(sums.rate, 76.09);
 }
 
-TEST(SpinStatistics, ErrorsOfTwoHundredPassesAreThoseThatTheirSigmasPromise) {
-  const SquaredErrors sums = squared_errors_of(200, 122);
-  RecordProperty("mean", std::to_string(sums.mean));
-  RecordProperty("sequential", std::to_string(sums.sequential));
-  RecordProperty("rate", std::to_string(sums.rate));
-  RecordProperty("model_off", sums.model_off);
-  // One look in ten thousand, and a pass has 150 that depend on each other.
-  EXPECT_LE(sums.model_off, 2);
-  // 2.5 % and 97.5 % points of chi-square.
-  EXPECT_GT(sums.mean, 346.48);  // 400 degrees of freedom.
-  EXPECT_LT(sums.mean, 457.31);
-  EXPECT_GT(sums.sequential, 346.48);
-  EXPECT_LT(sums.sequential, 457.31);
-  EXPECT_GT(sums.rate, 200.0 / 9.0);  // 200 degrees of freedom, as above.
-  EXPECT_LT(sums.rate, 241.06);
-}
-
 TEST(SpinStatistics, SigmaOfWholePassesIsThatOfTheInformationLimit) {
   const Orbit orbit = testing::transfer_orbit();
   const testing::SunEarthEphemeris around =
@@ -101,7 +44,8 @@ TEST(SpinStatistics, SigmaOfWholePassesIsThatOfTheInformationLimit) {
   for (int pass = 0; pass < 8; ++pass) {
     SCOPED_TRACE(pass);
     const testing::SpinningBody body = testing::random_body(around, 4.0 * kRadPerDeg, rng);
-    const double duration_s = kRevolutions * 2.0 * std::numbers::pi / body.rate_rad_s;
+    const double duration_s =
+        testing::kStatisticsRevolutions * 2.0 * std::numbers::pi / body.rate_rad_s;
     const auto edges = testing::edges_between(body, around, 0.0, duration_s);
     const SpinOutput output =
         testing::run(SpinPass{body.config, orbit},
@@ -113,5 +57,4 @@ TEST(SpinStatistics, SigmaOfWholePassesIsThatOfTheInformationLimit) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_statistics_test

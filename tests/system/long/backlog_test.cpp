@@ -13,8 +13,7 @@
 #include "tests/support/program.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::backlog_test {
 
 using namespace std::chrono_literals;
 
@@ -80,5 +79,4 @@ TEST(Backlog, IsComputedAtTheNextStartBitForBit) {
   EXPECT_TRUE(product_rows(served) == product_rows(offline));  // Too many to print.
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::backlog_test

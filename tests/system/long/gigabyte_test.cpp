@@ -9,8 +9,7 @@
 #include "tests/support/program.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::gigabyte_test {
 
 using ::testing::HasSubstr;
 
@@ -51,5 +50,4 @@ TEST(Process, ReadsAGigabyteBelow400MiB) {
   EXPECT_THAT(program.out(), HasSubstr("\"edges_received\":3600"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::gigabyte_test

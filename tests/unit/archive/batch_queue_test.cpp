@@ -8,8 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace spindrift {
-namespace {
+namespace spindrift::batch_queue_test {
 
 using ::testing::ElementsAre;
 
@@ -174,5 +173,4 @@ TEST(BatchQueue, GivesWhatIsLeftOnceClosedAndThenNothing) {
   EXPECT_TRUE(queue.take().empty());
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::batch_queue_test

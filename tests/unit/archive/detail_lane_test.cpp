@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace spindrift {
-namespace {
+namespace spindrift::detail_lane_test {
 
 using std::chrono::milliseconds;
 
@@ -93,5 +92,4 @@ TEST(DetailLane, AllOfARunAndNothingElse) {
   EXPECT_EQ(lane.rows(), 4U);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::detail_lane_test

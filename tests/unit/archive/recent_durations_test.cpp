@@ -4,8 +4,7 @@
 
 #include <chrono>
 
-namespace spindrift {
-namespace {
+namespace spindrift::recent_durations_test {
 
 TEST(RecentDurations, P99IsTheSmallestThatNinetyNinePercentDoNotExceed) {
   RecentDurations durations{1000};
@@ -24,5 +23,4 @@ TEST(RecentDurations, OldestAreForgottenFirst) {
   EXPECT_EQ(durations.p99_ms(), 2.0);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::recent_durations_test

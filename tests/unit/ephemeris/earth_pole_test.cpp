@@ -7,8 +7,7 @@
 
 #include "pipelines/time/utc.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::earth_pole_test {
 
 constexpr double kArcsec_rad = std::numbers::pi / 180.0 / 3600.0;
 
@@ -32,5 +31,4 @@ TEST(EarthPole, MovesAsPrecessionSays) {
   EXPECT_NEAR(pole.norm(), 1.0, 1e-15);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::earth_pole_test

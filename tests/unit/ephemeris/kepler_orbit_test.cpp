@@ -14,8 +14,7 @@
 
 #include "pipelines/frames/angle.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::kepler_orbit_test {
 
 using ::testing::HasSubstr;
 
@@ -217,5 +216,4 @@ TEST(KeplerOrbit, RefusesWhatIsNoOrbit) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::kepler_orbit_test

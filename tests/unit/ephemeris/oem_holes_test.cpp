@@ -13,8 +13,7 @@
 #include "pipelines/ephemeris/oem_writer.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::oem_holes_test {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
@@ -167,5 +166,4 @@ TEST(OemHoles, OfRecordedOrbitsThereAreNone) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::oem_holes_test

@@ -13,8 +13,7 @@
 #include "pipelines/time/utc.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::oem_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -344,5 +343,4 @@ TEST(Oem, OrbitsOfThePassesAreRead) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::oem_test

@@ -5,8 +5,7 @@
 
 #include <numbers>
 
-namespace spindrift {
-namespace {
+namespace spindrift::oem_writer_test {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
@@ -69,5 +68,4 @@ TEST(OemWriter, SaysWhereTheOrbitEnds) {
   EXPECT_EQ(beyond.error().code, ErrorCode::NoCoverage);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::oem_writer_test

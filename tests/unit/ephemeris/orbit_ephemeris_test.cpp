@@ -10,8 +10,7 @@
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/ephemeris/oem.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::orbit_ephemeris_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -253,5 +252,4 @@ TEST(OrbitEphemeris, RefusesSegmentsThatCannotBeInterpolated) {
   EXPECT_THAT(refusal({good, good}), HasSubstr("must not begin before"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::orbit_ephemeris_test

@@ -12,8 +12,7 @@
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::state_jump_test {
 
 constexpr TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 constexpr double kMu_km3_s2 = 398'600.4418;
@@ -261,5 +260,4 @@ TEST(OrbitJumps, AreNotAManoeuvreBetweenSegmentsThatOverlapBeyondTheirUsableTime
                   .empty());
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::state_jump_test

@@ -17,8 +17,7 @@
 #include "pipelines/time/utc.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::sun_test {
 
 constexpr double kAu_km = 149'597'870.7;
 constexpr double kLight_km_s = 299'792.458;
@@ -197,5 +196,4 @@ TEST(ApparentSun, IsContinuousAcrossTheHour) {
   EXPECT_LT((after - before).norm(), 1e-15);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::sun_test

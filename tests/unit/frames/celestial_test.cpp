@@ -9,8 +9,7 @@
 
 #include "pipelines/frames/angle.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::celestial_test {
 
 constexpr double kPi = std::numbers::pi;
 // A few ulps of a number of order 1 to 2 pi.
@@ -127,5 +126,4 @@ TEST(Celestial, WrappedAngleLiesInTheHalfOpenTurn) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::celestial_test

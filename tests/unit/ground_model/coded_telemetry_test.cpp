@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace spindrift {
-namespace {
+namespace spindrift::coded_telemetry_test {
 
 using enum PulseChannel;
 using ::testing::DoubleNear;
@@ -84,5 +83,4 @@ TEST(CodedTelemetry, IsEmptyWhereTheCounterOverflowsOrHasNotTicked) {
   EXPECT_THAT(frames[3].delay_s.at(index_of(NorthIn)), seconds(60.0));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::coded_telemetry_test

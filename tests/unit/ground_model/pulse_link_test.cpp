@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace spindrift {
-namespace {
+namespace spindrift::pulse_link_test {
 
 using enum PulseChannel;
 
@@ -178,5 +177,4 @@ TEST(PulseLink, LeavesOneEdgesChancesAloneWhenAnotherFaultChanges) {
                          [](const ReceivedPulse& a, const Pulse& b) { return a.pulse == b; }));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::pulse_link_test

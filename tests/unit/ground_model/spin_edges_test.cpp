@@ -17,8 +17,7 @@
 #include "pipelines/frames/celestial.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_edges_test {
 
 constexpr double kRpm = std::numbers::pi / 30.0;
 constexpr TaiTime kStart = tai_from_ns(1795143637000000000);  // 2026-11-20
@@ -74,12 +73,9 @@ std::vector<testing::Edge> oracle(const SpinTruth& truth, const Orbit& orbit, do
                                   double to_s) {
   const SpinMotion& motion = truth.motion;
   // The oracle's Earth stands upright: everything is turned until it does.
-  const Eigen::Quaterniond upright =
-      Eigen::Quaterniond::FromTwoVectors(truth.horizon.pole_icrf, kIcrfPole);
+  const Eigen::Quaterniond upright = frame_about(truth.horizon.pole_icrf).conjugate();
   const Eigen::Vector3d axis = upright * motion.axis_icrf;
-  const Eigen::Vector3d zero =
-      upright.conjugate() * (Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis) *
-                             Eigen::Vector3d::UnitX());
+  const Eigen::Vector3d zero = upright.conjugate() * (frame_about(axis) * Eigen::Vector3d::UnitX());
   const Eigen::Vector2d zero_plane = tangent_basis(motion.axis_icrf).transpose() * zero;
   SpinConfig config = testing::usual_config();
   config.sun_sensor = truth.sun_sensor;
@@ -385,5 +381,4 @@ TEST(SpinEdges, SayWhereTheOrbitEnds) {
   EXPECT_EQ(seen.error().code, ErrorCode::NoCoverage);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_edges_test

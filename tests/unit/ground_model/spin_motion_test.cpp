@@ -8,8 +8,7 @@
 
 #include "pipelines/frames/angle.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_motion_test {
 
 constexpr double kRate_rad_s = 2.0 * std::numbers::pi;
 
@@ -55,7 +54,7 @@ struct RigidBody {
 TEST(SpinMotion, IsThatOfEulersEquations) {
   for (const double inertia_ratio : {0.05, 0.4, 0.9, 1.0, 1.3, 2.0}) {
     for (const double half_angle_deg : {0.2, 10.0}) {
-      SCOPED_TRACE(testing::Message() << inertia_ratio << ' ' << half_angle_deg);
+      SCOPED_TRACE(::testing::Message() << inertia_ratio << ' ' << half_angle_deg);
       const Nutation nutation = {.half_angle_rad = half_angle_deg * kRadPerDeg,
                                  .inertia_ratio = inertia_ratio,
                                  .first_azimuth_rad = 2.0};
@@ -110,5 +109,4 @@ TEST(SpinMotion, StandsExactlyUprightWhereNothingWobbles) {
   EXPECT_EQ(motion_of({}, {}).R_axes_tipped(12.3), Eigen::Matrix3d::Identity());
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_motion_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace spindrift {
-namespace {
+namespace spindrift::gap_watch_test {
 
 using Gaps = std::map<std::string, std::uint64_t>;
 
@@ -40,5 +39,4 @@ TEST(GapWatch, NamesEachSourceInItsText) {
   EXPECT_EQ(to_text({{"north", 3}, {"west", 1}}), "north 3, west 1");
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::gap_watch_test

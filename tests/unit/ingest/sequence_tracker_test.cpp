@@ -9,8 +9,7 @@
 #include <set>
 #include <vector>
 
-namespace spindrift {
-namespace {
+namespace spindrift::sequence_tracker_test {
 
 const std::string kSpacecraft = "SPINNER";
 
@@ -236,5 +235,4 @@ TEST(SequenceTracker, CountsTooManySourcesTogether) {
             (SequenceCounts{.received = 10}));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::sequence_tracker_test

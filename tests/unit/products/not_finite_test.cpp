@@ -9,8 +9,7 @@
 
 #include "services/products/products.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::not_finite_test {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kEndless = std::numeric_limits<double>::infinity();
@@ -93,5 +92,4 @@ TEST(NotFinite, LooksAtEveryTableAndRowOfAProduct) {
   EXPECT_EQ(place_in(shared(solution)), "");
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::not_finite_test

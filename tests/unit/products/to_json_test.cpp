@@ -4,8 +4,7 @@
 
 #include "services/products/products.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::to_json_test {
 
 TEST(ProductToJson, HasTheColumnsOfTheTable) {
   const auto object = json_of(SpinMeasurement{.revolution = 3,
@@ -24,5 +23,4 @@ TEST(ProductToJson, WhatHasNoValueIsNull) {
   EXPECT_EQ(object.at("accepted"), true);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::to_json_test

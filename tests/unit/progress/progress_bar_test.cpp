@@ -12,8 +12,7 @@
 #include <functional>
 #include <string>
 
-namespace spindrift {
-namespace {
+namespace spindrift::progress_bar_test {
 
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
@@ -91,5 +90,4 @@ TEST(ProgressBar, IsSilentWhereThereIsNothingToDo) {
             "");
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::progress_bar_test

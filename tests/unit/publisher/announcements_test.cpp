@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace spindrift {
-namespace {
+namespace spindrift::announcements_test {
 
 Product fix(std::int64_t revolution, bool accepted, Resolution resolution) {
   return SpinFix{.revolution = revolution,
@@ -86,5 +85,4 @@ TEST(Announcements, GivesWhatWaitsAndThenNothingOnceClosed) {
   EXPECT_TRUE(waiting.take_all().empty());
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::announcements_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace spindrift {
-namespace {
+namespace spindrift::link_watch_test {
 
 constexpr LinkWatch::Instant kCame{std::chrono::hours{7}};
 const TaiTime kT = tai_from_ns(1'795'143'637'000'000'000);
@@ -42,5 +41,4 @@ TEST(LinkWatch, DoesNotLookAtOtherSpacecraft) {
   EXPECT_EQ(links.report(kCame).size(), 1U);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::link_watch_test

@@ -18,8 +18,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::scenario_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -335,5 +334,4 @@ TEST(Scenario, RefusesToSimulateBelowTheHorizon) {
   EXPECT_THAT(pass.error().message, HasSubstr("must be above the infrared horizon, 6578.137 km"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::scenario_test

@@ -12,8 +12,7 @@
 #include "pipelines/spin/association/association.h"
 #include "tests/support/edge_train.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::association_changes_test {
 
 using enum PulseChannel;
 
@@ -256,5 +255,4 @@ TEST(Association, AYearOfSilenceStartsTheClockAfresh) {
   EXPECT_GE(std::distance(year_on, all.closed.end()), 99);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::association_changes_test

@@ -23,8 +23,7 @@
 #include "tests/support/spinning_body.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::association_dirt_test {
 
 using enum PulseChannel;
 
@@ -35,7 +34,7 @@ void append(Association& all, const Association& some) {
   all.left_over.insert(all.left_over.end(), some.left_over.begin(), some.left_over.end());
 }
 
-Association associate(const SpinConfig& config, std::vector<Pulse> pulses) {
+Association associated(const SpinConfig& config, std::vector<Pulse> pulses) {
   std::sort(pulses.begin(), pulses.end());
   Associator associator{config};
   Association all;
@@ -46,8 +45,8 @@ Association associate(const SpinConfig& config, std::vector<Pulse> pulses) {
   return all;
 }
 
-Association associate(const std::vector<Pulse>& pulses) {
-  return associate(testing::usual_config(), pulses);
+Association associated(const std::vector<Pulse>& pulses) {
+  return associated(testing::usual_config(), pulses);
 }
 
 /// The edges that nothing speaks against, each with the number of its revolution.
@@ -77,7 +76,7 @@ std::set<Pulse> bad_edges_of(const std::string& pass) {
 TEST(AssociationDirt, RejectsTheBadEdgesOfADirtyPassAndKeepsTheGood) {
   const testing::RecordedPass pass = testing::recorded_pass("dirty");
   const std::set<Pulse> bad = bad_edges_of("dirty");
-  const Association all = associate(pass.config, pass.pulses);
+  const Association all = associated(pass.config, pass.pulses);
   const auto good = good_edges(all);
   std::size_t bad_rejected = 0;
   std::size_t good_rejected = 0;
@@ -212,7 +211,7 @@ TEST(AssociationDirt, FindsThePeriodUnderHeavyDirt) {
                               .turns = 60,
                               .dirt = {.lost = 0.2, .spurious = 0.1, .spoilt = 0.1}},
                              rng);
-      const Association all = associate(pass.pulses);
+      const Association all = associated(pass.pulses);
       ASSERT_FALSE(all.closed.empty());
       ASSERT_NEAR(all.closed.front().period.period_s * rpm / 60.0, 1.0, 1e-3);
       ASSERT_NEAR(all.closed.back().period.period_s * rpm / 60.0, 1.0, 1e-3);
@@ -233,7 +232,7 @@ TEST(AssociationDirt, JudgesTheFirstEdgesAsWellAsLaterOnes) {
   for (int trial = 0; trial < 100; ++trial) {
     const Pass pass =
         made({.turns = 12, .dirt = {.lost = 0.03, .spurious = 0.0, .spoilt = 0.08}}, rng);
-    const auto found = good_edges(associate(pass.pulses));
+    const auto found = good_edges(associated(pass.pulses));
     for (const Pulse& pulse : pass.pulses) {
       const bool is_good = pass.turns.contains(pulse);
       const bool accepted = found.contains(pulse);
@@ -258,7 +257,7 @@ TEST(AssociationDirt, AGoodEdgeBehindASpoiltOneTakesItsPlace) {
     }
   }
   pass.pulses.insert(pass.pulses.end(), echoes.begin(), echoes.end());
-  const Association all = associate(pass.pulses);
+  const Association all = associated(pass.pulses);
   EXPECT_EQ(all.left_over.size(), echoes.size());
   for (const PulseUse& use : all.left_over) {
     EXPECT_FALSE(pass.turns.contains(use.pulse));
@@ -276,7 +275,7 @@ TEST(AssociationDirt, ASpoiltSun1IsRejectedAloneAndKeptWithItsRevolution) {
       pulse.t = spoilt_t = shifted(pulse.t, 0.005);
     }
   }
-  const Association all = associate(pulses);
+  const Association all = associated(pulses);
   ASSERT_EQ(all.closed.size(), 60U);
   const Revolution& spoilt = all.closed.at(40);
   EXPECT_EQ(spoilt.edge(Sun1), spoilt_t);
@@ -317,7 +316,7 @@ TEST(AssociationDirt, FollowsTheEarthFromALowOrbitAtAnyRate) {
     const std::vector<Pulse> pulses =
         testing::pulses_from(testing::edges_between(body, around, 0.0, 60.0 / rpm * 150.0), kStart,
                              body.config.noise, rng);
-    const auto good = good_edges(associate(pulses));
+    const auto good = good_edges(associated(pulses));
     // 3 sigma, 0.27 %, of 900, and the turn that begins before the first sun1.
     EXPECT_GE(good.size() + 20, pulses.size());
   }
@@ -336,7 +335,7 @@ TEST(AssociationDirt, RunsOnAnotherChannelWhereSun1IsDead) {
                 .dirt = {.lost = 0.05, .spurious = 0.03, .spoilt = 0.05}},
                rng),
           [&](const Pulse& p) { return p.channel == Sun1 || (sun2_too && p.channel == Sun2); });
-      const Association all = associate(pass.pulses);
+      const Association all = associated(pass.pulses);
       const Mistakes counted = mistakes(pass, all);
       EXPECT_EQ(counted.misplaced, 0);
       EXPECT_LE(counted.rejected, 0.03 * counted.good);
@@ -367,7 +366,7 @@ TEST(AssociationDirt, CountsRightWhereEdgesAreDoubledAndSpoiltByLittle) {
                                        .most_off_turns = 0.005,
                                        .doubled = 0.08}},
                              rng);
-      const Mistakes counted = mistakes(pass, associate(pass.pulses));
+      const Mistakes counted = mistakes(pass, associated(pass.pulses));
       EXPECT_EQ(counted.misplaced, 0);
       EXPECT_LE(counted.rejected, 0.05 * counted.good);
     }
@@ -385,7 +384,7 @@ TEST(AssociationDirt, RunsOnABeamOfALowOrbitWhileTheRateDrifts) {
                                     .dirt = {.lost = 0.25}},
                                    rng),
                               [&](const Pulse& p) { return sees_the_sun(p.channel); });
-    const Mistakes counted = mistakes(pass, associate(pass.pulses));
+    const Mistakes counted = mistakes(pass, associated(pass.pulses));
     EXPECT_EQ(counted.misplaced, 0);
     EXPECT_LE(counted.rejected, 0.03 * counted.good);
   }
@@ -404,7 +403,7 @@ TEST(AssociationDirt, HandsAClockThatABeamRanToASun1ThatAppears) {
                       .dirt = {.spoilt = 0.1, .most_off_turns = 0.005}},
                      rng),
                 [&](const Pulse& p) { return sees_the_sun(p.channel) && seconds_in(p) < 112.0; });
-    const Mistakes counted = mistakes(pass, associate(pass.pulses));
+    const Mistakes counted = mistakes(pass, associated(pass.pulses));
     EXPECT_EQ(counted.misplaced, 0);
     // The slits are learnt for some turns, the beams for one or two once sun1 counts.
     EXPECT_LE(counted.rejected, 0.06 * counted.good);
@@ -421,7 +420,7 @@ TEST(AssociationDirt, FollowsAStepOfTheRateOnABeamThatTookOverTheClock) {
         [&](const Pulse& p) {
           return p.channel != NorthOut && (p.channel != NorthIn || seconds_in(p) > 400.0);
         });
-    const Mistakes counted = mistakes(pass, associate(pass.pulses));
+    const Mistakes counted = mistakes(pass, associated(pass.pulses));
     EXPECT_EQ(counted.misplaced, 0);
     EXPECT_LE(counted.rejected, 0.05 * counted.good);
   }
@@ -437,7 +436,7 @@ TEST(AssociationDirt, ChangesOverToASun1ThatAppearsAndBackWhenItDies) {
                   const bool dead = seconds_in(p) < 99.5 || seconds_in(p) > 249.5;
                   return dead && (p.channel == Sun1 || (sun2_too && p.channel == Sun2));
                 });
-    const Association all = associate(pass.pulses);
+    const Association all = associated(pass.pulses);
     const Mistakes counted = mistakes(pass, all);
     // Behind which sun1 a chord is counted is not known before there is one.
     EXPECT_LE(counted.rejected, 0.01 * counted.good);
@@ -473,7 +472,7 @@ TEST(AssociationDirt, CountsRightThroughSilencesOfTenMinutes) {
                       [&](const Pulse& p) {
                         return seconds_in(p) > from_s && seconds_in(p) < from_s + silent * period_s;
                       });
-          const Mistakes counted = mistakes(pass, associate(pass.pulses));
+          const Mistakes counted = mistakes(pass, associated(pass.pulses));
           ASSERT_EQ(counted.misplaced, 0);
           ASSERT_LE(counted.rejected, 0.1 * counted.good);
         }
@@ -497,7 +496,7 @@ TEST(AssociationDirt, NoTimeIsTooAbsurd) {
       pulses.push_back({.t = tai_from_ns(0), .channel = channel});
       pulses.push_back({.t = tai_from_ns(step * 40'000'000'000'000'000), .channel = channel});
     }
-    const Association all = associate(pulses);
+    const Association all = associated(pulses);
     std::size_t out = all.left_over.size();
     for (const Revolution& revolution : all.closed) {
       out +=
@@ -525,7 +524,7 @@ TEST(Association, EveryEdgeIsAccountedForHoweverNoisyItIsSaidToBe) {
           pulses.push_back({.t = shifted(kStart, t_s), .channel = channel});
         }
       }
-      const Association all = associate(config, pulses);
+      const Association all = associated(config, pulses);
       std::size_t placed = 0;
       for (const Revolution& revolution : all.closed) {
         placed += (revolution.edge(Sun1) ? 1U : 0U) + (revolution.edge(NorthIn) ? 1U : 0U);
@@ -535,5 +534,4 @@ TEST(Association, EveryEdgeIsAccountedForHoweverNoisyItIsSaidToBe) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::association_dirt_test

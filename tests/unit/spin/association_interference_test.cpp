@@ -15,8 +15,7 @@
 #include "pipelines/spin/telemetry_order/interference.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::association_interference_test {
 
 using enum PulseChannel;
 
@@ -226,5 +225,4 @@ TEST(AssociationInterference, WithoutAWindowNobodyInterferes) {
   EXPECT_GE(outcome.good, 2 * kTurns * 98 / 100);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::association_interference_test

@@ -10,8 +10,7 @@
 
 #include "tests/support/edge_train.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::association_test {
 
 using enum PulseChannel;
 
@@ -283,5 +282,4 @@ TEST(Association, EveryEdgeComesOutExactlyOnce) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::association_test

@@ -14,8 +14,7 @@
 #include "pipelines/frames/celestial.h"
 #include "tests/support/axis_scene.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::axis_angles_test {
 
 using Scene = testing::AxisScene;
 using enum SpinQuantity;
@@ -144,5 +143,4 @@ TEST(AxisAngles, BothChordsAreToldApartAndOneOfTwoRootsIsRankedFirst) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::axis_angles_test

@@ -10,8 +10,7 @@
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "tests/support/axis_scene.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::axis_candidates_determinant_test {
 
 using testing::kExact_rad;
 using Scene = testing::AxisScene;
@@ -157,5 +156,4 @@ TEST(AxisCandidates, ASolutionThatTheNoiseDestroysIsRefused) {
   EXPECT_EQ(fix.error().code, ErrorCode::Unobservable);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::axis_candidates_determinant_test

@@ -16,8 +16,7 @@
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "tests/support/axis_scene.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::axis_candidates_horizon_test {
 
 using Scene = testing::AxisScene;
 using enum SpinQuantity;
@@ -201,5 +200,4 @@ TEST(AxisCandidatesOnTheEllipsoid, RootsThatOnlyTheSphereAllowsAreNone) {
   EXPECT_NE(found.error().message.find("wider than the Earth's disc"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::axis_candidates_horizon_test

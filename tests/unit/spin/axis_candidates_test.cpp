@@ -12,8 +12,7 @@
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "tests/support/axis_scene.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::axis_candidates_test {
 
 using testing::kExact_rad;
 using Scene = testing::AxisScene;
@@ -242,5 +241,4 @@ TEST(AxisCandidates, TwoConesMeetInTheTrueAndTheFalseSolutionOfTheGoldenValues) 
             kPrinted_rad);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::axis_candidates_test

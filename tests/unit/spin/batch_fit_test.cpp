@@ -11,8 +11,7 @@
 #include "pipelines/frames/celestial.h"
 #include "tests/support/batch_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::batch_fit_test {
 
 /// Edges without noise, and the state that they come from.
 struct ExactPass {
@@ -122,5 +121,4 @@ TEST(BatchFit, ErrorsFallWithTheRootOfTheNumberOfEdges) {
   EXPECT_LT(ratio, 2.8);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::batch_fit_test

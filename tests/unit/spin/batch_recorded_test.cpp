@@ -13,8 +13,7 @@
 #include "pipelines/spin/pass/spin_pass.h"
 #include "tests/support/recorded_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::batch_recorded_test {
 
 Expected<BatchSolution> solved(const testing::RecordedPass& recorded) {
   SpinPass pass{recorded.config, recorded.orbit};
@@ -68,5 +67,4 @@ INSTANTIATE_TEST_SUITE_P(Passes, BatchOfRecorded,
                            return name;
                          });
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::batch_recorded_test

@@ -8,8 +8,7 @@
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "tests/support/axis_scene.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::beam_view_test {
 
 using Scene = testing::AxisScene;
 
@@ -129,5 +128,4 @@ TEST(BeamView, OfABeamThatMissesIsOfOneThatDoesNot) {
   EXPECT_NEAR(north.lead_rad, 0.0, 1e-12);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::beam_view_test

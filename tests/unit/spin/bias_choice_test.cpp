@@ -8,8 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace spindrift {
-namespace {
+namespace spindrift::bias_choice_test {
 
 constexpr BiasSet kNone;
 
@@ -151,5 +150,4 @@ TEST(BiasChoice, OneThatAloneExplainsThemLeavesNothingOpen) {
   EXPECT_LT(other_biases_rad2(pass, kNone, NorthChordBias).norm(), 1e-100);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::bias_choice_test

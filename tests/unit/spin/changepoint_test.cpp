@@ -13,8 +13,7 @@
 #include "pipelines/time/time_span.h"
 #include "tests/support/batch_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::changepoint_test {
 
 constexpr double kTurns = 128.0;
 constexpr double kChangeTurn = 80.0;
@@ -193,5 +192,4 @@ TEST(Changepoint, AStateThatHasNoneOfTheEdgesShowsNone) {
   EXPECT_FALSE(find_changepoint(model, edges, opposite));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::changepoint_test

@@ -6,8 +6,7 @@
 
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::clock_start_test {
 
 constexpr TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 
@@ -59,5 +58,4 @@ TEST(StartClock, ByNotesIsNotMisledByPeriodsOfSeveralTurns) {
   EXPECT_DOUBLE_EQ(period_s_of({14.7, 14.7, 14.7, 9.0, 9.0}), 14.7);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::clock_start_test

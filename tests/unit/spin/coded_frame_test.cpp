@@ -18,8 +18,7 @@
 #include "tests/support/spinning_body.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::coded_frame_test {
 
 using ::testing::ElementsAre;
 using enum PulseChannel;
@@ -243,5 +242,4 @@ TEST(FrameReorderWindow, WaitsTwoAndAHalfTurnsOfTheSlowestBodyWithoutAPeriod) {
   EXPECT_EQ(reorder_horizon(frame), std::chrono::seconds{30});
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::coded_frame_test

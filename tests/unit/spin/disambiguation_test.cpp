@@ -13,8 +13,7 @@
 #include "tests/support/lone_fix.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::disambiguation_test {
 
 using enum SpinQuantity;
 
@@ -271,5 +270,4 @@ TEST(Disambiguation, MeasurementsThatContradictEachOtherAreNeverAccepted) {
   EXPECT_FALSE(fix.accepted);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::disambiguation_test

@@ -12,8 +12,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/statistics/distributions.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::dispersion_test {
 
 constexpr double kSigma_rad = 0.3 * kRadPerDeg;
 
@@ -244,5 +243,4 @@ TEST(Dispersion, AnErrorOfTheModelIsNoDrift) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::dispersion_test

@@ -16,8 +16,7 @@
 #include "tests/support/observed_spin.h"
 #include "tests/support/recorded_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::edge_information_test {
 
 using enum PulseChannel;
 
@@ -127,5 +126,4 @@ TEST(EdgeInformation, DoesNotDependOnWhenTimeBeginsNorOnTheFrame) {
   EXPECT_LT((turned.axis_covariance_rad2().value() - expected).norm(), 1e-6 * expected.norm());
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::edge_information_test

@@ -16,8 +16,7 @@
 #include "tests/support/observed_spin.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::edge_prediction_test {
 
 using enum PulseChannel;
 
@@ -27,9 +26,7 @@ struct Scene {
   std::mt19937_64 rng{5};
   testing::SpinningBody body = testing::random_body(
       testing::seen_from(orbit, testing::spherical_horizon_km(40.0)), 0.1, rng);
-  Eigen::Matrix3d R_spin_icrf =
-      Eigen::Quaterniond::FromTwoVectors(body.axis_icrf, Eigen::Vector3d::UnitZ())
-          .toRotationMatrix();
+  Eigen::Matrix3d R_spin_icrf = frame_about(body.axis_icrf).conjugate().toRotationMatrix();
 
   PredictedEdge predicted(PulseChannel channel, const SpinConfig& config) const {
     return predict_edge(config, sky, R_spin_icrf, {.t = sky.t, .channel = channel}).value();
@@ -79,10 +76,9 @@ TEST(EdgePrediction, TheSunHasAnAzimuthUpToHalfADegreeFromTheAxis) {
   const auto sun1_at = [&](double sun_angle_deg) {
     const Eigen::Vector3d axis_icrf =
         Eigen::AngleAxisd{sun_angle_deg * std::numbers::pi / 180.0, across} * scene.sky.sun_icrf;
-    return predict_edge(
-        scene.body.config, scene.sky,
-        Eigen::Quaterniond::FromTwoVectors(axis_icrf, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
-        {.t = scene.sky.t, .channel = Sun1});
+    return predict_edge(scene.body.config, scene.sky,
+                        frame_about(axis_icrf).conjugate().toRotationMatrix(),
+                        {.t = scene.sky.t, .channel = Sun1});
   };
   // An edge that no candidate could have would be held against the one near the Sun.
   EXPECT_TRUE(sun1_at(5.0));
@@ -134,5 +130,4 @@ TEST(EdgePrediction, AStepTowardsAnEdgeLeadsFromABeamThatMissesTheEarthToOneThat
   EXPECT_NEAR(predict_edge(config, scene.sky, tilted, edge).value().phase_rad, phase_rad, 0.005);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::edge_prediction_test

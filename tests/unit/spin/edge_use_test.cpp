@@ -8,8 +8,7 @@
 
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::edge_use_test {
 
 using enum PulseChannel;
 
@@ -44,5 +43,4 @@ TEST(EdgeUse, WithoutAnOrbitEvenALoneEdgeIsNotAccepted) {
   EXPECT_EQ(use_of(NorthOut, Rejection::Phase, Rejection::NoOrbit), Rejection::Phase);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::edge_use_test

@@ -9,8 +9,7 @@
 
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::expected_phases_test {
 
 using enum PulseChannel;
 
@@ -180,5 +179,4 @@ TEST_F(ExpectedPhasesTest, TheLatestIsThatOfAllChannels) {
   EXPECT_EQ(phases_.latest(5.0), 0.8);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::expected_phases_test

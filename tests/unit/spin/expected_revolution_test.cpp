@@ -12,8 +12,7 @@
 #include "pipelines/spin/measurement/measurement.h"
 #include "tests/support/observed_spin.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::expected_revolution_test {
 
 using enum PulseChannel;
 
@@ -96,5 +95,4 @@ TEST(ExpectedRevolution, LeavesOutEdgesThatMeet) {
   EXPECT_TRUE(met.revolution.good_edge(Sun1));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::expected_revolution_test

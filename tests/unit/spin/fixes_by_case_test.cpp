@@ -10,8 +10,7 @@
 #include "pipelines/frames/celestial.h"
 #include "tests/support/axis_scene.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::fixes_by_case_test {
 
 using Scene = testing::AxisScene;
 
@@ -178,5 +177,4 @@ TEST(FixesByCase, WhatIsTakenBackIsNotLeftOut) {
   EXPECT_NEAR(fixes.mean().settled_share, 0.5, 1e-4);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::fixes_by_case_test

@@ -11,8 +11,7 @@
 #include "pipelines/frames/celestial.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::geometry_test {
 
 constexpr double kPi = std::numbers::pi;
 // Half a unit of the ninth decimal of a degree, as the golden values are printed.
@@ -334,5 +333,4 @@ TEST(SpinGeometry, EarthAngleOfOneChordIsThatOfTheOracle) {
   EXPECT_GT(linear, kScenes / 2);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::geometry_test

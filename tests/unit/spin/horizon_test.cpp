@@ -15,8 +15,7 @@
 #include "pipelines/spin/sensor_model/edge_prediction.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::horizon_test {
 
 constexpr double kPi = std::numbers::pi;
 const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
@@ -65,9 +64,7 @@ Scene random_scene(HorizonModel model, std::mt19937_64& rng) {
 
 /// The frame `spin` of the oracle: its body before the first turn.
 Eigen::Matrix3d spin_frame(const testing::SpinningBody& body) {
-  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), body.axis_icrf)
-      .conjugate()
-      .toRotationMatrix();
+  return frame_about(body.axis_icrf).conjugate().toRotationMatrix();
 }
 
 class EdgesOnHorizons : public ::testing::TestWithParam<HorizonModel> {};
@@ -209,5 +206,4 @@ TEST(EdgePrediction, TheSunOnTheAxisGivesNoEdge) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::horizon_test

@@ -11,8 +11,7 @@
 
 #include "tests/support/sequential_scene.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::hypotheses_test {
 
 using testing::kFixSigma_rad;
 using testing::ObservedRevolution;
@@ -98,5 +97,4 @@ TEST(Hypotheses, OneThatIsAddedToWhatIsSettledOpensItAgain) {
   EXPECT_FALSE(race.hypotheses.settled());
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::hypotheses_test

@@ -12,8 +12,7 @@
 #include "pipelines/frames/celestial.h"
 #include "tests/support/batch_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::initial_state_test {
 
 using ::testing::HasSubstr;
 
@@ -135,5 +134,4 @@ TEST(FirstClock, AnAxisThatHasNoneOfTheEdgesIsRefused) {
   EXPECT_THAT(first.error().message, HasSubstr("no edge is one that a body"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::initial_state_test

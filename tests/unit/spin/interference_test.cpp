@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace spindrift {
-namespace {
+namespace spindrift::interference_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -107,5 +106,4 @@ TEST(Interference, AFloodWithinOneWindowComesOutWholeAndInOrder) {
   EXPECT_EQ(sorted(kWindow_s, flood).spoilt, flood);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::interference_test

@@ -12,8 +12,7 @@
 #include "tests/support/axis_scene.h"
 #include "tests/support/product_text.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::mean_estimator_test {
 
 /// A body at rest, revolution after revolution.
 class Pass {
@@ -86,5 +85,4 @@ TEST(MeanEstimator, FixesThatAreNotWhatTheirAnglesSayAreDoubtful) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::mean_estimator_test

@@ -13,8 +13,7 @@
 #include "pipelines/frames/celestial.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::measurement_test {
 
 using enum PulseChannel;
 
@@ -329,5 +328,4 @@ TEST(SpinMeasurements, SigmaIsTheScatterThatTheNoiseMakes) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::measurement_test

@@ -9,8 +9,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::mixed_azimuth_test {
 
 constexpr double kPi = std::numbers::pi;
 const SunSensor kSensor{.slit_cant_rad = 40.0 * kRadPerDeg,
@@ -94,5 +93,4 @@ TEST(MixedAzimuth, IsPredictedAsItIsMeasured) {
   EXPECT_FALSE(predict_mixed_azimuth_rad(kSensor, 141.0 * kRadPerDeg, 1.1));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::mixed_azimuth_test

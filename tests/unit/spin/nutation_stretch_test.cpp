@@ -12,8 +12,7 @@
 #include "pipelines/time/time_span.h"
 #include "tests/support/wobbling_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::nutation_stretch_test {
 
 constexpr double kDuration_s = 60.0;
 
@@ -122,5 +121,4 @@ TEST(NutationStretch, SlopesAreThoseOfTheResidual) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::nutation_stretch_test

@@ -15,8 +15,7 @@
 
 #include "pipelines/frames/angle.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::nutation_test {
 
 using ::testing::AllOf;
 using ::testing::Contains;
@@ -217,5 +216,4 @@ TEST(Nutation, RefusesWhatItCannotUse) {
               HasSubstr("by 0 sigmas"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::nutation_test

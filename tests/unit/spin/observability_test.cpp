@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-namespace spindrift {
-namespace {
+namespace spindrift::observability_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -104,5 +103,4 @@ TEST(Observability, TheErrorOfAnAxisIsWhereItWouldMoveAndWhatIsOpenThen) {
               std::sqrt(2.0 / tilt), 1e-12);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::observability_test

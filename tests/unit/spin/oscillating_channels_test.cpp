@@ -7,8 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace spindrift {
-namespace {
+namespace spindrift::oscillating_channels_test {
 
 constexpr std::size_t kSun2 = index_of(PulseChannel::Sun2);
 
@@ -61,5 +60,4 @@ TEST(OscillatingChannels, SpuriousEdgesAreNoNoise) {
   EXPECT_EQ(noise_after(200, [](int i) { return i % 4 == 0 ? 1000.0 * (i % 3 - 1) : 0.0; }), 1.0);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::oscillating_channels_test

@@ -9,8 +9,7 @@
 
 #include "pipelines/frames/celestial.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::pass_edges_test {
 
 PulseUse use(std::int64_t t_ns, PulseChannel channel, std::optional<std::int64_t> revolution,
              std::optional<Rejection> rejected_by = std::nullopt) {
@@ -115,5 +114,4 @@ TEST(PassEdges, BeginAtEstimatesThatDifferByADegree) {
   EXPECT_EQ(pass.starts({}).axes_icrf.size(), 1U);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::pass_edges_test

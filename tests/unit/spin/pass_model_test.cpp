@@ -11,8 +11,7 @@
 #include "pipelines/frames/angle.h"
 #include "tests/support/batch_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::pass_model_test {
 
 struct Scene {
   std::mt19937_64 rng{11};
@@ -99,5 +98,4 @@ INSTANTIATE_TEST_SUITE_P(Horizons, PassModels,
                            return model.param == HorizonModel::Sphere ? "Sphere" : "Ellipsoid";
                          });
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::pass_model_test

@@ -10,8 +10,7 @@
 #include "services/words/notice_words.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::pass_notices_test {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
@@ -274,5 +273,4 @@ TEST(PassNotices, APriorThatIsFarFromTheAxisIsNamedOnceThoughNothingHadToBeChose
       ElementsAre(HasSubstr("11.5 deg from the prior of the mission (spin.prior), 12 times")));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::pass_notices_test

@@ -4,8 +4,7 @@
 
 #include "pipelines/time/time_span.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::period_intervals_test {
 
 using enum PulseChannel;
 
@@ -81,5 +80,4 @@ TEST_F(PeriodIntervalsTest, WithoutAnEdgeOfTheReferenceThereIsNone) {
   EXPECT_FALSE(candidate(with_sun1(1), Sun2));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::period_intervals_test

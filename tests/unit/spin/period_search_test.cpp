@@ -10,8 +10,7 @@
 #include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/time_span.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::period_search_test {
 
 const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 constexpr double kNoise_s = 1e-4;
@@ -146,5 +145,4 @@ TEST(PeriodSearch, EdgesAtRandomHaveSeldomAPeriod) {
   EXPECT_LE(found, 3);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::period_search_test

@@ -5,8 +5,7 @@
 #include <array>
 #include <utility>
 
-namespace spindrift {
-namespace {
+namespace spindrift::products_test {
 
 TEST(SpinProducts, QuantitiesHaveTheNamesOfTheArchive) {
   using enum SpinQuantity;
@@ -71,5 +70,4 @@ TEST(SpinProducts, AChannelIsFoundByItsExactNameOnly) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::products_test

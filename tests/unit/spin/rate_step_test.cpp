@@ -4,8 +4,7 @@
 
 #include "pipelines/time/time_span.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::rate_step_test {
 
 const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 constexpr double kNoise_s = 1e-4;
@@ -109,5 +108,4 @@ TEST(RateStep, AHalvedRateIsOne) {
   EXPECT_NEAR(comb->period_s, 2.02, 1e-9);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::rate_step_test

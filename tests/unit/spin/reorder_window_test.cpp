@@ -8,8 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace spindrift {
-namespace {
+namespace spindrift::reorder_window_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -275,5 +274,4 @@ TEST(ReorderWindow, ADuplicateDoesNotSpeakAgainstAJump) {
   EXPECT_THAT(window.release(), ::testing::Contains(pulse_at(100 * kSecond_ns)));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::reorder_window_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace spindrift {
-namespace {
+namespace spindrift::revolution_consistency_test {
 
 AxisCandidates found(bool consistent) {
   const AxisCandidate candidate{.axis_icrf = Eigen::Vector3d::UnitX(),
@@ -48,5 +47,4 @@ TEST(RevolutionConsistency, ForgetsWhatIsLongPast) {
   EXPECT_FALSE(trust.most_consistent());
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::revolution_consistency_test

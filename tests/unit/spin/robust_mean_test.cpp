@@ -9,8 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace spindrift {
-namespace {
+namespace spindrift::robust_mean_test {
 
 constexpr ClipRule kThreeSigma{.sigma = 3.0, .stated = 1.0};
 
@@ -164,5 +163,4 @@ TEST(RobustMean, ForgetsAllButTheLastValues) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::robust_mean_test

@@ -13,8 +13,7 @@
 #include "pipelines/frames/celestial.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::screening_test {
 
 using enum SpinQuantity;
 
@@ -247,5 +246,4 @@ TEST(ScreeningWindow, RejectsTheShareOfGaussianNoiseThatLiesBeyondThreeSigma) {
   EXPECT_NEAR(static_cast<double>(rejected) / kResiduals, 0.0037, 0.0018);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::screening_test

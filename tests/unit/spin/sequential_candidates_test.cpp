@@ -16,8 +16,7 @@
 #include "tests/support/assessed.h"
 #include "tests/support/sequential_scene.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::sequential_candidates_test {
 
 using testing::at_first;
 using testing::error_deg;
@@ -242,5 +241,4 @@ TEST(Sequential, WhatIsSettledIsOpenAgainWhereFixesNameOtherAxes) {
   EXPECT_EQ(all.back().assessment.quality, Quality::Ambiguous);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::sequential_candidates_test

@@ -16,8 +16,7 @@
 #include "tests/support/recorded_pass.h"
 #include "tests/support/sequential_scene.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::sequential_test {
 
 using testing::at_first;
 using testing::error_deg;
@@ -372,5 +371,4 @@ TEST(Sequential, SpuriousEdgesAreCountedAndDoNoHarm) {
   EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::sequential_test

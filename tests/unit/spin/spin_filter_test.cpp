@@ -10,12 +10,12 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "tests/support/normalised_square.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/recorded_pass.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_filter_test {
 
 using testing::ObservedRevolution;
 using testing::SpinningBody;
@@ -40,7 +40,7 @@ double sigma_deg(const SpinFilter& filter) {
 /// Squared error in sigmas: chi-square of two degrees of freedom.
 double squared_error(const SpinFilter& filter, const Eigen::Vector3d& true_icrf) {
   const Eigen::Vector2d error_rad = testing::error_rad(filter.axis_icrf(), true_icrf);
-  return error_rad.dot(filter.axis_covariance_rad2().ldlt().solve(error_rad));
+  return testing::normalised_square(error_rad, filter.axis_covariance_rad2());
 }
 
 constexpr double kOneInTenThousand = 18.42;  // chi-square, two degrees of freedom.
@@ -197,5 +197,4 @@ INSTANTIATE_TEST_SUITE_P(
                       Place{"JustBelowZero", {.ra_rad = -1e-4, .dec_rad = -0.3}, 1.5, 0.5 * kPi}),
     [](const auto& place) { return place.param.name; });
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_filter_test

@@ -17,8 +17,7 @@
 #include "tests/support/product_text.h"
 #include "tests/support/recorded_pass.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_pass_test {
 
 using testing::all_of;
 using ::testing::AnyOf;
@@ -360,5 +359,4 @@ TEST(SpinPass, TheAxisStandsWhileThePassRuns) {
   EXPECT_GE(estimates, 27U);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_pass_test

@@ -4,8 +4,7 @@
 
 #include <numbers>
 
-namespace spindrift {
-namespace {
+namespace spindrift::spin_period_window_test {
 
 constexpr double kEdgeSigma_s = 1e-4;
 constexpr double kCandidateSigma_s = std::numbers::sqrt2 * kEdgeSigma_s;
@@ -84,5 +83,4 @@ TEST(SpinPeriodWindow, FollowsAChangeOfRateOnceItIsTheMajority) {
   EXPECT_TRUE(last.accepted);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::spin_period_window_test

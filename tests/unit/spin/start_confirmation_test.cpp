@@ -9,8 +9,7 @@
 #include "pipelines/frames/angle.h"
 #include "tests/support/observed_spin.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::start_confirmation_test {
 
 constexpr double kFixSigma_rad = 4.0 * kRadPerDeg;
 const Eigen::Vector3d kAxis_icrf = Eigen::Vector3d{0.3, -0.5, 0.8}.normalized();
@@ -61,5 +60,4 @@ TEST(StartConfirmation, NorDoFixesThatProveNothing) {
   EXPECT_TRUE(after(100, followed, [](SpinFix& fix) { fix.near_tangent = true; }).unconfirmed());
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::start_confirmation_test

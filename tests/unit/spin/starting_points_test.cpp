@@ -11,8 +11,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::starting_points_test {
 
 Eigen::Vector3d axis_at(double ra_deg, double dec_deg) {
   return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
@@ -103,5 +102,4 @@ TEST(StartingPoints, OneFixNeverNamesABranchTwice) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::starting_points_test

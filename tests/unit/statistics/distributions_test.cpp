@@ -6,8 +6,7 @@
 
 #include "pipelines/statistics/significance.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::distributions_test {
 
 TEST(Normal, IsExceededByTheChancesOfThePublishedTables) {
   // Abramowitz and Stegun table 26.5.
@@ -80,5 +79,4 @@ TEST(VarianceRatio, TailsOfARatioAndItsInverseAddUpToOne) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::distributions_test

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace spindrift {
-namespace {
+namespace spindrift::by_kind_test {
 
 TEST(TelemetryKinds, NoTwoShareATopicATableOrANameInMessages) {
   std::set<std::string_view> topics;
@@ -56,5 +55,4 @@ TEST(TelemetryOrder, TellsSamplesOfOneTimeApartByKindAndChannel) {
   EXPECT_EQ(order_of(StarFix{.t = t}), order_of(StarFix{.t = t, .q_icrf_sensor = {0, 1, 0, 0}}));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::by_kind_test

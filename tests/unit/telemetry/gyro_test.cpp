@@ -4,8 +4,7 @@
 
 #include "tests/support/telemetry_kind_checks.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::gyro_test {
 
 TEST(GyroTelemetry, HasTheColumnsOfTheContract) {
   EXPECT_EQ(header_of<GyroSample>(), "t_tai_ns,wx_rad_s,wy_rad_s,wz_rad_s");
@@ -36,5 +35,4 @@ TEST(GyroTelemetry, RefusesNanFromTheBus) {
   EXPECT_THAT(Telemetry<GyroSample>::why_impossible(sample), ::testing::HasSubstr("0, nan, 0"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::gyro_test

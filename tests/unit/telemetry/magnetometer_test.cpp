@@ -4,8 +4,7 @@
 
 #include "tests/support/telemetry_kind_checks.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::magnetometer_test {
 
 TEST(MagnetometerTelemetry, HasTheColumnsOfTheContract) {
   EXPECT_EQ(header_of<MagneticField>(), "t_tai_ns,bx_nt,by_nt,bz_nt");
@@ -30,5 +29,4 @@ TEST(MagnetometerTelemetry, RefusesNanFromTheBus) {
   EXPECT_THAT(Telemetry<MagneticField>::why_impossible(sample), ::testing::HasSubstr("nan"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::magnetometer_test

@@ -4,8 +4,7 @@
 
 #include "tests/support/telemetry_kind_checks.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::orbit_state_test {
 
 TEST(OrbitStateTelemetry, HasTheColumnsOfTheContract) {
   EXPECT_EQ(header_of<TimedOrbitState>(), "t_tai_ns,x_km,y_km,z_km,vx_km_s,vy_km_s,vz_km_s");
@@ -34,5 +33,4 @@ TEST(OrbitStateTelemetry, RefusesNanFromTheBus) {
   EXPECT_THAT(Telemetry<TimedOrbitState>::why_impossible(sample), ::testing::HasSubstr("x_km"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::orbit_state_test

@@ -4,8 +4,7 @@
 
 #include "tests/support/telemetry_kind_checks.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::star_test {
 
 TEST(StarTelemetry, HasTheColumnsOfTheContract) {
   EXPECT_EQ(header_of<StarFix>(), "t_tai_ns,qx,qy,qz,qw");
@@ -38,5 +37,4 @@ TEST(StarTelemetry, RefusesNanFromTheBus) {
   EXPECT_THAT(Telemetry<StarFix>::why_impossible(fix), ::testing::HasSubstr("nan, 0, 0, 1"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::star_test

@@ -4,8 +4,7 @@
 
 #include "tests/support/telemetry_kind_checks.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::sun_test {
 
 TEST(SunTelemetry, HasTheColumnsOfTheContract) {
   EXPECT_EQ(header_of<SunDirection>(), "t_tai_ns,sx,sy,sz");
@@ -29,5 +28,4 @@ TEST(SunTelemetry, RefusesNanFromTheBus) {
   EXPECT_THAT(Telemetry<SunDirection>::why_impossible(sample), ::testing::HasSubstr("nan"));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::sun_test

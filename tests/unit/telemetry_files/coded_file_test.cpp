@@ -9,8 +9,7 @@
 #include "tests/support/read_telemetry.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::coded_file_test {
 
 using ::testing::HasSubstr;
 
@@ -91,5 +90,4 @@ TEST(CodedFile, RejectsARowCutAnywhereThatLosesAColumn) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::coded_file_test

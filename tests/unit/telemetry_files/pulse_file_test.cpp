@@ -10,8 +10,7 @@
 #include "tests/support/read_telemetry.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::pulse_file_test {
 
 using ::testing::HasSubstr;
 
@@ -182,5 +181,4 @@ TEST(PulseFile, OfAnotherKindIsRefused) {
   EXPECT_EQ(file.error().message, path.string() + ": holds star telemetry, must hold pulses");
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::pulse_file_test

@@ -13,8 +13,7 @@
 #include "tests/support/read_telemetry.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::telemetry_files_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -143,5 +142,4 @@ TEST(TelemetryFiles, ThatAreNoRegularFilesAreRefusedInsteadOfReadForEver) {
                                                "/dev/zero: cannot be read: not a regular file");
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::telemetry_files_test

@@ -17,8 +17,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::telemetry_stream_test {
 
 using ::testing::HasSubstr;
 
@@ -262,5 +261,4 @@ TEST(TelemetryStream, GoesOnBehindALineLongerThanItsReads) {
   EXPECT_EQ(telemetry.samples[0].origin.seq, 3U);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::telemetry_stream_test

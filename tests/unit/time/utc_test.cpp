@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace spindrift {
-namespace {
+namespace spindrift::utc_test {
 
 using std::chrono::nanoseconds;
 using std::chrono::seconds;
@@ -190,5 +189,4 @@ TEST(Utc, RefusesWhatIsNoTime) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::utc_test

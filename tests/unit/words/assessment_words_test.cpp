@@ -6,8 +6,7 @@
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::assessment_words_test {
 
 using enum ReasonCode;
 
@@ -53,5 +52,4 @@ TEST(AssessmentWords, AreDocumentedWithTheirCodes) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::assessment_words_test

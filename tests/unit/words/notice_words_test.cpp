@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace spindrift {
-namespace {
+namespace spindrift::notice_words_test {
 
 using enum NoticeCode;
 
@@ -32,5 +31,4 @@ TEST(NoticeWords, SayWhatIsNotFinite) {
             "stored; look for a value in the mission file that no instrument has");
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::notice_words_test

@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace spindrift {
-namespace {
+namespace spindrift::reasons_json_test {
 
 using enum ReasonCode;
 
@@ -29,5 +28,4 @@ TEST(ReasonsJson, LeavesOutWhatIsNoReason) {
               ::testing::ElementsAre(Reason{Fixes}));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::reasons_json_test
