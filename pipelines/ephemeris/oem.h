@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -67,7 +69,16 @@ class OrbitEphemeris {
   std::vector<OemSegment> segments_;
 };
 
-/// Reads the text of an OEM.
+/// One line of a message, without its end.
+struct OemLine {
+  int number;             ///< From 1.
+  std::string_view text;  ///< Good until the next line is asked for.
+};
+
+/// Gives the lines one after the other, blank ones or not; empty behind the last.
+using OemLines = std::function<Expected<std::optional<OemLine>>()>;
+
+/// Reads an OEM.
 ///
 /// Earth-centred; EME2000 (J2000), ICRF or GCRF, one frame here, for their axes differ by 0.02
 /// arcsec; UTC or TAI. A segment is usable where its USEABLE times, its START and STOP times and
@@ -76,7 +87,11 @@ class OrbitEphemeris {
 /// only. Each state must follow from the one before (`jump_km` of state_jump.h; lesser jumps are
 /// taken, and `orbit_jumps` finds them); between segments the velocity may change. Where lines are
 /// left out so that the interpolation goes astray, there is no orbit (`cut_at_holes`).
-/// @return InvalidConfiguration with the line number, the key and what is allowed.
+/// @return InvalidConfiguration with the line number, the key and what is allowed; the errors of
+///         `next_line`.
+Expected<OrbitEphemeris> parse_oem(const OemLines& next_line);
+
+/// Likewise, of all its text.
 Expected<OrbitEphemeris> parse_oem(std::string_view text);
 
 }  // namespace spindrift

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/core/shown.h"
 #include "pipelines/ephemeris/oem.h"
 #include "pipelines/ephemeris/oem_holes.h"
 #include "pipelines/ephemeris/state_jump.h"
@@ -34,7 +35,7 @@ constexpr std::size_t kDefaultHermitePoints = 4;
 /// One that says something: not blank, not a comment.
 struct Line {
   int number;
-  std::string_view text;
+  std::string text;
 };
 
 struct KeyRule {
@@ -61,8 +62,9 @@ constexpr std::array kCovarianceRules = {
 
 struct Entry {
   int line;
-  std::string_view value;
+  std::string value;
 };
+/// By the key of its rule.
 using Entries = std::map<std::string_view, Entry>;
 
 using ReadTime = Expected<TaiTime> (*)(std::string_view);
@@ -85,7 +87,7 @@ Unexpected refused(int line, std::string_view what) {
 }
 
 Unexpected refused(std::string_view key, const Entry& entry, std::string_view what) {
-  return refused(entry.line, fmt::format("{} = {}: {}", key, entry.value, what));
+  return refused(entry.line, fmt::format("{} = {}: {}", shown(key), shown(entry.value), what));
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -114,17 +116,8 @@ std::string upper_case(std::string_view text) {
   return upper;
 }
 
-std::vector<Line> meaningful_lines(std::string_view text) {
-  std::vector<Line> lines;
-  for (int number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = trimmed(text.substr(0, end));
-    if (!line.empty() && line != "COMMENT" && !line.starts_with("COMMENT ")) {
-      lines.push_back({number, line});
-    }
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return lines;
+bool is_meaningful(std::string_view line) {
+  return !line.empty() && line != "COMMENT" && !line.starts_with("COMMENT ");
 }
 
 std::optional<double> number_from(std::string_view word) {
@@ -143,7 +136,7 @@ Expected<std::vector<double>> numbers_of(std::span<const std::string_view> words
   for (const std::string_view word : words) {
     const std::optional<double> number = number_from(word);
     if (!number) {
-      return refused(line, fmt::format("'{}' is not a number", word));
+      return refused(line, fmt::format("'{}' is not a number", shown(word)));
     }
     numbers.push_back(*number);
   }
@@ -287,16 +280,20 @@ OemSegment segment_from(const Meta& meta, std::vector<EphemerisPoint> points) {
 /// Takes lines from the front of what is left over.
 class OemReader {
  public:
-  explicit OemReader(std::span<const Line> lines) : rest_{lines} {}
+  explicit OemReader(const OemLines& next_line) : next_line_{next_line} { advance(); }
 
-  bool done() const { return rest_.empty(); }
+  /// No line is left, or none can be had.
+  bool done() const { return !front_; }
+
+  /// Why no more lines were to be had.
+  const std::optional<Error>& failure() const { return failure_; }
 
   /// The first data line read that is not later than the one before it: told of what is otherwise
   /// well formed.
   const std::optional<Error>& disorder() const { return disorder_; }
 
   Expected<void> read_header() {
-    if (done() || !rest_.front().text.starts_with("CCSDS_OEM_VERS")) {
+    if (done() || !front_->text.starts_with("CCSDS_OEM_VERS")) {
       return refused(line_number(), "an OEM in KVN form must begin with CCSDS_OEM_VERS");
     }
     const Expected<Entries> entries = read_entries(kHeaderRules);
@@ -350,14 +347,32 @@ class OemReader {
   }
 
  private:
-  bool at(std::string_view marker) const { return !done() && rest_.front().text == marker; }
+  bool at(std::string_view marker) const { return !done() && front_->text == marker; }
 
-  int line_number() const { return done() ? last_line_ : rest_.front().number; }
+  int line_number() const { return done() ? last_line_ : front_->number; }
+
+  void advance() {
+    front_.reset();
+    while (true) {
+      const auto line = next_line_();
+      if (!line) {
+        failure_ = line.error();
+        return;
+      }
+      if (!*line) {
+        return;
+      }
+      if (const std::string_view text = trimmed((*line)->text); is_meaningful(text)) {
+        front_ = Line{.number = (*line)->number, .text = std::string{text}};
+        return;
+      }
+    }
+  }
 
   Line take() {
-    const Line taken = rest_.front();
-    rest_ = rest_.subspan(1);
+    Line taken = *std::move(front_);
     last_line_ = taken.number;
+    advance();
     return taken;
   }
 
@@ -372,19 +387,21 @@ class OemReader {
   /// Takes `KEY = value` lines until one that is none, and holds them against the rules.
   Expected<Entries> read_entries(std::span<const KeyRule> rules) {
     Entries entries;
-    while (!done() && rest_.front().text.find('=') != std::string_view::npos) {
+    while (!done() && front_->text.find('=') != std::string::npos) {
       const Line taken = take();
-      const std::size_t equals = taken.text.find('=');
-      const std::string_view key = trimmed(taken.text.substr(0, equals));
-      const Entry entry{taken.number, trimmed(taken.text.substr(equals + 1))};
-      if (std::none_of(rules.begin(), rules.end(),
-                       [key](const KeyRule& rule) { return rule.key == key; })) {
+      const std::string_view text = taken.text;
+      const std::size_t equals = text.find('=');
+      const std::string_view key = trimmed(text.substr(0, equals));
+      const Entry entry{taken.number, std::string{trimmed(text.substr(equals + 1))}};
+      const auto rule = std::find_if(rules.begin(), rules.end(),
+                                     [key](const KeyRule& one) { return one.key == key; });
+      if (rule == rules.end()) {
         return refused(key, entry, "this key is not allowed here");
       }
       if (entry.value.empty()) {
         return refused(key, entry, "a value must follow");
       }
-      if (!entries.emplace(key, entry).second) {
+      if (!entries.emplace(rule->key, entry).second) {
         return refused(key, entry, "this key stands here twice");
       }
     }
@@ -415,7 +432,7 @@ class OemReader {
     if (*time < meta.start || *time > meta.stop) {
       return refused(line.number, fmt::format("the time {} must lie between START_TIME and "
                                               "STOP_TIME",
-                                              words.front()));
+                                              shown(words.front())));
     }
     const auto numbers = numbers_of(std::span{words}.subspan(1), line.number);
     if (!numbers) {
@@ -454,7 +471,7 @@ class OemReader {
     }
     for (std::size_t row = 1; row <= kCovarianceRows; ++row) {
       const std::vector<std::string_view> words =
-          done() ? std::vector<std::string_view>{} : words_of(rest_.front().text);
+          done() ? std::vector<std::string_view>{} : words_of(front_->text);
       const auto numbers = numbers_of(words, line_number());
       if (!numbers) {
         return Unexpected{numbers.error()};
@@ -469,17 +486,15 @@ class OemReader {
     return {};
   }
 
-  std::span<const Line> rest_;
+  const OemLines& next_line_;
+  std::optional<Line> front_;
+  std::optional<Error> failure_;
   int last_line_ = 1;
   std::optional<Error> disorder_;
   std::optional<EphemerisPoint> last_point_;  ///< Of this segment or the one before.
 };
 
-}  // namespace
-
-Expected<OrbitEphemeris> parse_oem(std::string_view text) {
-  const std::vector<Line> lines = meaningful_lines(text);
-  OemReader reader{lines};
+Expected<OrbitEphemeris> message_from(OemReader& reader) {
   if (const auto header = reader.read_header(); !header) {
     return Unexpected{header.error()};
   }
@@ -495,6 +510,28 @@ Expected<OrbitEphemeris> parse_oem(std::string_view text) {
     return Unexpected{*reader.disorder()};
   }
   return OrbitEphemeris::make(std::move(segments)).and_then(cut_at_holes);
+}
+
+}  // namespace
+
+Expected<OrbitEphemeris> parse_oem(const OemLines& next_line) {
+  OemReader reader{next_line};
+  auto ephemeris = message_from(reader);
+  // What else seems wrong then only lacks the lines that could not be had.
+  return reader.failure() ? Expected<OrbitEphemeris>{Unexpected{*reader.failure()}}
+                          : std::move(ephemeris);
+}
+
+Expected<OrbitEphemeris> parse_oem(std::string_view text) {
+  int number = 0;
+  return parse_oem([&]() -> Expected<std::optional<OemLine>> {
+    if (text.empty()) {
+      return std::nullopt;
+    }
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    return OemLine{.number = ++number, .text = line};
+  });
 }
 
 }  // namespace spindrift

@@ -9,6 +9,8 @@
 #include <iterator>
 #include <optional>
 
+#include "pipelines/core/shown.h"
+
 namespace spindrift {
 namespace {
 
@@ -19,9 +21,9 @@ using std::chrono::sys_days;
 using std::chrono::year;
 
 constexpr sys_days kUtcStart{year{1972} / 1 / 1};
-// 64-bit nanoseconds end on 2262-04-11 and begin on 1677-09-21.
-constexpr sys_days kFirstDay{year{1678} / 1 / 1};
-constexpr sys_days kLastDay{year{2261} / 12 / 31};
+// 64-bit nanoseconds hold the difference of any two instants that are 292 years apart at most.
+constexpr sys_days kFirstDay{year{1900} / 1 / 1};
+constexpr sys_days kLastDay{year{2189} / 12 / 31};
 constexpr std::string_view kCalendarMask = "dddd-dd-ddTdd:dd:dd";
 constexpr std::string_view kOrdinalMask = "dddd-dddTdd:dd:dd";
 constexpr std::size_t kClockDigits = std::string_view{"dd:dd:dd"}.size();
@@ -35,7 +37,7 @@ struct CivilTime {
 };
 
 Unexpected rejected(std::string_view text, std::string_view what) {
-  return Unexpected{{ErrorCode::InvalidInput, fmt::format("time '{}': {}", text, what)}};
+  return Unexpected{{ErrorCode::InvalidInput, fmt::format("time '{}': {}", shown(text), what)}};
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -103,7 +105,7 @@ Expected<CivilTime> parse_civil(std::string_view text) {
     return rejected(text, "there is no such day in the calendar");
   }
   if (*day < kFirstDay || *day > kLastDay) {
-    return rejected(text, "the year must lie in 1678 to 2261");
+    return rejected(text, "the year must lie in 1900 to 2189");
   }
   const std::size_t clock = length - kClockDigits;
   const int hour = number_at(text, clock, 2);

@@ -18,10 +18,10 @@ namespace spindrift {
 /// (2026-324T03:00:00), any number of decimals (rounded to 1 ns), with or without a final Z.
 /// 23:59:60 is read where a leap second was.
 /// @return InvalidInput with the text and what is wrong with it; likewise before 1972 and after
-///         2261, where 64-bit nanoseconds end.
+///         2189: 64-bit nanoseconds do not hold the difference of instants centuries apart.
 Expected<TaiTime> parse_utc(std::string_view text);
 
-/// The same text read as TAI (no leap seconds).
+/// The same text read as TAI (no leap seconds), from 1900 on.
 Expected<TaiTime> parse_tai(std::string_view text);
 
 /// ISO 8601 with `decimals` (0 to 9) decimals, truncated, and a final Z; 23:59:60 within a leap

@@ -16,6 +16,8 @@
 #include <system_error>
 #include <utility>
 
+#include "pipelines/core/shown.h"
+
 namespace spindrift {
 namespace {
 
@@ -34,16 +36,16 @@ std::string this_process() {
   std::replace(command.begin(), command.end(), '\0', ' ');
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
-  return fmt::format("pid {} ({}) on {} since {:%FT%TZ}", getpid(), command, host.data(),
+  return fmt::format("pid {} ({}) on {} since {:%FT%TZ}", getpid(), shown(command), host.data(),
                      fmt::gmtime(std::chrono::system_clock::now()));
 }
 
 Unexpected failure(const std::filesystem::path& lock, int error) {
   // Where no file can be made is no place for an archive.
   const bool no_place = error == ENOENT || error == EACCES || error == EROFS || error == EPERM;
-  return Unexpected{
-      {no_place ? ErrorCode::InvalidConfiguration : ErrorCode::Unavailable,
-       fmt::format("cannot lock {}: {}", lock.string(), std::system_category().message(error))}};
+  return Unexpected{{no_place ? ErrorCode::InvalidConfiguration : ErrorCode::Unavailable,
+                     fmt::format("cannot lock {}: {}", shown(lock.string()),
+                                 std::system_category().message(error))}};
 }
 
 bool write_text(int file, const std::string& text) {
@@ -66,8 +68,9 @@ Expected<WriteLock> WriteLock::acquire(const std::filesystem::path& archive) {
     if (error != EWOULDBLOCK) {
       return failure(path, error);
     }
-    return Unexpected{{ErrorCode::Unavailable, fmt::format("archive {} is being written by {}",
-                                                           archive.string(), text_of(path))}};
+    return Unexpected{
+        {ErrorCode::Unavailable, fmt::format("archive {} is being written by {}",
+                                             shown(archive.string()), shown(text_of(path)))}};
   }
   if (!write_text(file, this_process())) {
     return failure(path, errno);

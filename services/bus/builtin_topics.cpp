@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "pipelines/core/shown.h"
+
 namespace spindrift::bus {
 
 std::vector<std::string> partitions_of(const dds_qos_t* qos) {
@@ -24,7 +26,7 @@ std::string property(const dds_qos_t* qos, const char* name) {
     return "unknown";
   }
   const std::unique_ptr<char, decltype(&dds_free)> owner{value, &dds_free};
-  return value;
+  return shown(value);
 }
 
 }  // namespace spindrift::bus

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <system_error>
 
+#include "pipelines/core/shown.h"
 #include "services/archive/connection.h"
 #include "services/doctor/archive.h"
 
@@ -45,7 +46,7 @@ std::optional<std::string> writer_of(const std::filesystem::path& archive) {
     return std::nullopt;
   }
   std::ifstream file{lock, std::ios::binary};
-  return std::string{std::istreambuf_iterator<char>{file}, {}};
+  return shown(std::string{std::istreambuf_iterator<char>{file}, {}});
 }
 
 /// Empty when SQLite finds nothing wrong.

@@ -1,12 +1,11 @@
 #include <erfa.h>
 
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "pipelines/time/utc.h"
 #include "services/doctor/leap_seconds.h"
+#include "services/input_file/input_file.h"
 
 namespace spindrift::doctor {
 namespace {
@@ -70,11 +69,9 @@ std::optional<LeapTable> machine_table(std::string_view text) {
 }
 
 LeapFacts leap_facts() {
-  std::ifstream file{kMachineTable, std::ios::binary};
-  const std::string text{std::istreambuf_iterator<char>{file}, {}};
   return {.today = floor<days>(std::chrono::system_clock::now()),
           .erfa = erfa_table(),
-          .machine = machine_table(text)};
+          .machine = machine_table(read_text_file(kMachineTable).value_or(std::string{}))};
 }
 
 }  // namespace spindrift::doctor

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "pipelines/core/shown.h"
 #include "services/doctor/presence.h"
 #include "services/telemetry/telemetry_kinds.h"
 
@@ -25,9 +26,9 @@ std::string lines(const std::set<std::string>& texts) {
 
 /// "spindrift/pulse: written by ..., partition live"
 std::string description(const Endpoint& endpoint) {
-  return fmt::format("{} {} by {}, partition '{}'", endpoint.topic,
+  return fmt::format("{} {} by {}, partition '{}'", shown(endpoint.topic),
                      endpoint.writes ? "written" : "read", endpoint.owner,
-                     fmt::join(endpoint.partitions, "', '"));
+                     shown(fmt::format("{}", fmt::join(endpoint.partitions, "', '"))));
 }
 
 std::string listed(const std::vector<bus::Shortfall>& shortfalls,

@@ -7,13 +7,13 @@
 #include <optional>
 #include <utility>
 
+#include "services/input_file/sha256.h"
 #include "services/mission/mission_orbit.h"
 #include "services/mission/mission_schema.h"
 #include "services/mission/mission_spin.h"
 #include "services/mission/mission_three_axis.h"
 #include "services/mission/orbit_doubts.h"
 #include "services/toml_schema/document.h"
-#include "services/toml_schema/text_file.h"
 #include "services/toml_schema/values.h"
 
 namespace spindrift {

@@ -9,31 +9,52 @@
 #include <string_view>
 #include <utility>
 
+#include "pipelines/core/shown.h"
 #include "pipelines/frames/angle.h"
-#include "services/toml_schema/text_file.h"
+#include "services/input_file/file_lines.h"
+#include "services/input_file/sha256.h"
 #include "services/toml_schema/values.h"
 
 namespace spindrift {
 namespace {
 
-Expected<MissionOrbit> orbit_from_oem(const std::string& oem, const std::filesystem::path& folder) {
-  const auto refused = [&](const std::string& reason) {
-    return Unexpected{
-        {ErrorCode::InvalidConfiguration, fmt::format("orbit.oem = \"{}\": {}", oem, reason)}};
-  };
-  const auto text = read_text_file(folder / oem);
-  if (!text) {
-    return refused(text.error().message);
-  }
-  auto ephemeris = parse_oem(*text);
-  if (!ephemeris) {
-    return refused(ephemeris.error().message);
-  }
-  auto sha256 = sha256_hex(*text);
+Expected<std::optional<OemLine>> next_line(FileLines& lines) {
+  FileLine line{};
+  return lines.next(line).and_then([&](bool there) -> Expected<std::optional<OemLine>> {
+    if (!there) {
+      return std::nullopt;
+    }
+    if (line.too_long) {
+      return Unexpected{
+          {ErrorCode::InvalidConfiguration, fmt::format("line {}: must be {} bytes long at most",
+                                                        line.number, FileLines::kLongestLine)}};
+    }
+    return OemLine{.number = static_cast<int>(line.number), .text = line.text};
+  });
+}
+
+/// The same open file gives both, so that they are of the same bytes.
+Expected<MissionOrbit> orbit_from(InputFile file) {
+  auto sha256 = sha256_hex(file);
   if (!sha256) {
-    return refused(sha256.error().message);
+    return Unexpected{std::move(sha256.error())};
   }
-  return MissionOrbit{.orbit = Orbit{std::move(*ephemeris)}, .file_sha256 = std::move(*sha256)};
+  if (auto begun = file.rewind(); !begun) {
+    return Unexpected{std::move(begun.error())};
+  }
+  FileLines lines{std::move(file)};
+  return parse_oem([&lines] { return next_line(lines); }).map([&](OrbitEphemeris&& ephemeris) {
+    return MissionOrbit{.orbit = Orbit{std::move(ephemeris)}, .file_sha256 = std::move(*sha256)};
+  });
+}
+
+Expected<MissionOrbit> orbit_from_oem(const std::string& oem, const std::filesystem::path& folder) {
+  return InputFile::open(folder / oem, kMostOrbitBytes)
+      .and_then([](InputFile&& file) { return orbit_from(std::move(file)); })
+      .map_error([&](const Error& error) {
+        return Error{ErrorCode::InvalidConfiguration,
+                     fmt::format("orbit.oem = \"{}\": {}", shown(oem), error.message)};
+      });
 }
 
 Expected<MissionOrbit> orbit_from_elements(const TomlValues& values) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,6 +14,9 @@
 #include "services/toml_schema/scalar.h"
 
 namespace spindrift {
+
+/// Of an orbit file: ten million states.
+inline constexpr std::uint64_t kMostOrbitBytes = std::uint64_t{1} << 30U;
 
 struct MissionOrbit {
   std::optional<Orbit> orbit;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/core/shown.h"
 #include "pipelines/ephemeris/oem_holes.h"
 #include "pipelines/ephemeris/state_jump.h"
 #include "pipelines/frames/angle.h"
@@ -24,7 +25,7 @@ std::string doubt_about_name(const OrbitEphemeris& ephemeris, std::string_view s
              : fmt::format(
                    "the orbit file says OBJECT_NAME = {}, OBJECT_ID = {}, the mission "
                    "file spacecraft.id = \"{}\"",
-                   other->object_name, other->object_id, spacecraft_id);
+                   shown(other->object_name), shown(other->object_id), spacecraft_id);
 }
 
 /// Empty: none.
@@ -44,7 +45,7 @@ std::string doubt_about_jumps(const OrbitEphemeris& ephemeris, std::string_view 
       "orbit.oem = \"{}\", line {}: the orbit jumps by {:.3g} km at {}{}: states of different "
       "solutions spliced? The nadir direction is off by up to {:.2g} deg there, the axis by "
       "several times that where the geometry is poor",
-      file, first.to.line, first.off_km, format_utc(first.to.t),
+      shown(file), first.to.line, first.off_km, format_utc(first.to.t),
       jumps.size() == 1 ? std::string{} : fmt::format(", the first of {} such steps", jumps.size()),
       nadir_off_deg(worst));
 }
@@ -61,8 +62,8 @@ std::string doubt_about_gaps(const OrbitEphemeris& ephemeris, std::string_view f
   return fmt::format(
       "orbit.oem = \"{}\", line {}: no orbit for {:.9g} s before it, from {} to {}{}: the states "
       "there are too far apart or belong to different segments, and nothing is computed between",
-      file, longest->line, seconds_between(longest->from, longest->to), format_utc(longest->from),
-      format_utc(longest->to),
+      shown(file), longest->line, seconds_between(longest->from, longest->to),
+      format_utc(longest->from), format_utc(longest->to),
       gaps.size() == 1 ? std::string{} : fmt::format(", the longest of {} gaps", gaps.size()));
 }
 

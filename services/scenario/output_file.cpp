@@ -7,11 +7,13 @@
 #include <system_error>
 #include <utility>
 
+#include "pipelines/core/shown.h"
+
 namespace spindrift {
 
 Unexpected OutputFile::failed() const {
   return Unexpected{
-      {ErrorCode::Unavailable, fmt::format("{}: cannot be written: {}", path_.string(),
+      {ErrorCode::Unavailable, fmt::format("{}: cannot be written: {}", shown(path_.string()),
                                            std::generic_category().message(errno))}};
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "pipelines/core/shown.h"
 #include "pipelines/ephemeris/oem_writer.h"
 #include "services/scenario/output_file.h"
 #include "services/scenario/simulated_telemetry.h"
@@ -72,7 +73,7 @@ Expected<void> prepare(const std::filesystem::path& folder,
     const bool full = failure == std::errc::no_space_on_device;
     return Unexpected{
         {full ? ErrorCode::Unavailable : ErrorCode::InvalidConfiguration,
-         fmt::format("{}: cannot be made or read: {}", folder.string(), failure.message())}};
+         fmt::format("{}: cannot be made or read: {}", shown(folder.string()), failure.message())}};
   }
   for (const auto& entry : entries) {
     if (entry.path().extension() == ".csv" &&
@@ -81,7 +82,7 @@ Expected<void> prepare(const std::filesystem::path& folder,
           {ErrorCode::InvalidConfiguration,
            fmt::format("{}: is not of this pass; a folder given as telemetry means every *.csv in "
                        "it: remove it, or choose another --out",
-                       entry.path().string())}};
+                       shown(entry.path().string()))}};
     }
   }
   return {};

@@ -7,16 +7,17 @@
 #include <string_view>
 #include <utility>
 
+#include "pipelines/core/shown.h"
 #include "pipelines/ephemeris/earth_pole.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/utc.h"
+#include "services/input_file/input_file.h"
 #include "services/mission/mission_orbit.h"
 #include "services/mission/mission_spin.h"
 #include "services/scenario/mission_text.h"
 #include "services/scenario/scenario_schema.h"
 #include "services/toml_schema/document.h"
-#include "services/toml_schema/text_file.h"
 #include "services/toml_schema/values.h"
 #include "services/units/degrees.h"
 
@@ -42,7 +43,7 @@ std::optional<TaiTime> start_of(TomlDocument& document) {
   const bool in_range = t && *t >= kEarliest && *t <= kLatest;
   if (!in_range) {
     add_problem(document, "pass.start_utc",
-                fmt::format("pass.start_utc = \"{}\": {}", *text,
+                fmt::format("pass.start_utc = \"{}\": {}", shown(*text),
                             t ? fmt::format("must lie in [{}, {}]", format_utc(kEarliest, 0),
                                             format_utc(kLatest, 0))
                               : t.error().message));
@@ -244,7 +245,7 @@ SimulatedTelemetry telemetry_of(const TomlValues& values) {
 /// Of the orbit's file, once that was found good.
 std::optional<std::string> oem_text_of(const TomlDocument& document) {
   const auto oem = value_if<std::string>(document.values, "orbit.oem");
-  const auto text = oem ? read_text_file(document.path.parent_path() / *oem)
+  const auto text = oem ? read_text_file(document.path.parent_path() / *oem, kMostOrbitBytes)
                         : Expected<std::string>{Unexpected{Error{}}};
   return text ? std::optional{*text} : std::nullopt;
 }

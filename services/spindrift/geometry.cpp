@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/core/shown.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/time_span.h"
@@ -136,7 +137,8 @@ Expected<PlannedPass> planned(const GeometryOptions& options, const Mission& mis
                               const PassRequest& request) {
   auto plan = plan_pass(*mission.spin(), *mission.orbit, request);
   if (!plan) {
-    return refused(fmt::format("{}: orbit: {}", options.mission.string(), plan.error().message));
+    return refused(
+        fmt::format("{}: orbit: {}", shown(options.mission.string()), plan.error().message));
   }
   return PlannedPass{.spacecraft_id = mission.spacecraft_id,
                      .config = *mission.spin(),

@@ -2,11 +2,13 @@
 
 #include <spdlog/spdlog.h>
 
+#include "pipelines/core/shown.h"
+
 namespace spindrift {
 
 void warn_of_orbit(const std::filesystem::path& file, const Mission& mission) {
   for (const std::string& doubt : mission.orbit_doubts) {
-    spdlog::warn("{}: {}", file.string(), doubt);
+    spdlog::warn("{}: {}", shown(file.string()), doubt);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "pipelines/core/shown.h"
 #include "services/progress/progress_bar.h"
 #include "services/scenario/pass_files.h"
 #include "services/scenario/scenario.h"
@@ -96,8 +97,8 @@ Expected<void> simulate(const SimulateOptions& options) {
   }
   const auto pass = simulated_pass(*scenario);
   if (!pass) {
-    return Unexpected{{pass.error().code,
-                       fmt::format("{}: {}", options.scenario.string(), pass.error().message)}};
+    return Unexpected{{pass.error().code, fmt::format("{}: {}", shown(options.scenario.string()),
+                                                      pass.error().message)}};
   }
   return options.publish ? to_bus(options, *scenario, *pass) : to_files(options, *scenario, *pass);
 }

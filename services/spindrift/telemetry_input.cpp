@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "pipelines/core/shown.h"
 #include "services/telemetry_files/telemetry_rows.h"
 
 namespace spindrift {
@@ -36,7 +37,7 @@ Expected<void> find_bad_rows_of(const std::filesystem::path& path, BadRows& bad)
 
 /// A front-end that was stopped before its first line leaves such a file.
 RejectedInput empty_file(const TelemetryFile& file) {
-  return {.source = file.path.string(),
+  return {.source = shown(file.path.string()),
           .line = 1,
           .reason = "the file is empty: must begin with a header line"};
 }
@@ -44,7 +45,7 @@ RejectedInput empty_file(const TelemetryFile& file) {
 Error nothing_in(std::span<const TelemetryFile> files) {
   std::string text = "no row of telemetry: files with a header line and rows are needed";
   for (const TelemetryFile& file : files) {
-    text += fmt::format("\n  {}: {}", file.path.string(),
+    text += fmt::format("\n  {}: {}", shown(file.path.string()),
                         file.kind ? "no rows" : "empty, without a header");
   }
   return {ErrorCode::InvalidConfiguration, text};

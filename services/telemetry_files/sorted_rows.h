@@ -62,7 +62,9 @@ class SortedRows {
 
 template <class Value>
 SortedRows<Value>::SortedRows(TelemetryRows<Value> rows, std::size_t capacity)
-    : file_{std::move(rows)}, file_name_{file_.path().filename().string()}, capacity_{capacity} {
+    : file_{std::move(rows)},
+      file_name_{shown(file_.path().filename().string())},
+      capacity_{capacity} {
   rows_.reserve(capacity_);
 }
 

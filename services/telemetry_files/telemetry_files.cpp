@@ -7,14 +7,14 @@
 #include <system_error>
 #include <utility>
 
-#include "services/telemetry_files/csv.h"
+#include "pipelines/core/shown.h"
 
 namespace spindrift {
 namespace {
 
 Unexpected refused(const std::filesystem::path& path, std::string_view reason) {
   return Unexpected{
-      {ErrorCode::InvalidConfiguration, fmt::format("{}: {}", path.string(), reason)}};
+      {ErrorCode::InvalidConfiguration, fmt::format("{}: {}", shown(path.string()), reason)}};
 }
 
 Expected<std::vector<std::filesystem::path>> csv_files_in(const std::filesystem::path& folder) {
@@ -36,9 +36,7 @@ Expected<std::vector<std::filesystem::path>> csv_files_in(const std::filesystem:
 }
 
 Expected<TelemetryFile> recognised(const std::filesystem::path& path) {
-  std::error_code unknown;
-  if (std::filesystem::is_regular_file(path, unknown) &&
-      std::filesystem::file_size(path, unknown) == 0) {
+  if (const auto file = InputFile::open(path); file && file->size() == 0) {
     return TelemetryFile{.path = path, .kind = std::nullopt};
   }
   return open_telemetry(path).map([&](const OpenTelemetry& opened) {

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "pipelines/core/shown.h"
+
 namespace spindrift {
 namespace {
 
@@ -30,8 +32,8 @@ std::optional<TelemetryKind> kind_of(const CsvFields& columns) {
   return found;
 }
 
-Expected<TelemetryLayout> read_layout(CsvLines& lines, const std::filesystem::path& path) {
-  CsvLine header{};
+Expected<TelemetryLayout> read_layout(FileLines& lines, const std::filesystem::path& path) {
+  FileLine header{};
   const auto there = lines.next(header);
   if (!there) {
     return Unexpected{there.error()};
@@ -39,7 +41,7 @@ Expected<TelemetryLayout> read_layout(CsvLines& lines, const std::filesystem::pa
   if (!*there) {
     return Unexpected{{ErrorCode::InvalidConfiguration,
                        fmt::format("{}: is empty: must begin with a header line, one of {}",
-                                   path.string(), all_headers())}};
+                                   shown(path.string()), all_headers())}};
   }
   CsvFields columns{header.text};
   const std::size_t count = columns.count();
@@ -55,7 +57,7 @@ Expected<TelemetryLayout> read_layout(CsvLines& lines, const std::filesystem::pa
     return Unexpected{
         {ErrorCode::InvalidConfiguration,
          fmt::format("{}:{}: header {}: must be one of {}; a column spacecraft may be added",
-                     path.string(), header.number, quoted(header.text), all_headers())}};
+                     shown(path.string()), header.number, quoted(header.text), all_headers())}};
   }
   return TelemetryLayout{.kind = *kind, .columns = count, .spacecraft_column = spacecraft_column};
 }
@@ -63,12 +65,13 @@ Expected<TelemetryLayout> read_layout(CsvLines& lines, const std::filesystem::pa
 }  // namespace
 
 Expected<OpenTelemetry> open_telemetry(const std::filesystem::path& path) {
-  auto lines = CsvLines::open(path);
-  if (!lines) {
-    return Unexpected{std::move(lines.error())};
+  auto file = InputFile::open(path);
+  if (!file) {
+    return Unexpected{std::move(file.error())};
   }
-  return read_layout(*lines, path).map([&](const TelemetryLayout& layout) {
-    return OpenTelemetry{.lines = std::move(*lines), .layout = layout};
+  FileLines lines{std::move(*file)};
+  return read_layout(lines, path).map([&](const TelemetryLayout& layout) {
+    return OpenTelemetry{.lines = std::move(lines), .layout = layout};
   });
 }
 

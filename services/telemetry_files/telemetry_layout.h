@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "pipelines/core/expected.h"
+#include "services/input_file/file_lines.h"
 #include "services/telemetry/by_kind.h"
 #include "services/telemetry_files/csv.h"
 
@@ -24,7 +25,7 @@ struct TelemetryLayout {
 };
 
 struct OpenTelemetry {
-  CsvLines lines;  ///< Those behind the header.
+  FileLines lines;  ///< Those behind the header.
   TelemetryLayout layout;
 };
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "pipelines/core/shown.h"
 #include "services/telemetry/rejected_input.h"
 #include "services/telemetry/spacecraft_id.h"
 #include "services/telemetry_files/csv.h"
@@ -63,17 +64,17 @@ class TelemetryRows {
   std::uint64_t bytes_read() const { return lines_.bytes_read(); }
 
  private:
-  TelemetryRows(CsvLines lines, TelemetryLayout layout, std::filesystem::path path,
+  TelemetryRows(FileLines lines, TelemetryLayout layout, std::filesystem::path path,
                 std::string spacecraft)
       : lines_{std::move(lines)},
         layout_{layout},
         path_{std::move(path)},
         spacecraft_{std::move(spacecraft)} {}
 
-  Expected<TelemetryRow<Value>> row_from(const CsvLine& line);
+  Expected<TelemetryRow<Value>> row_from(const FileLine& line);
   Expected<std::uint16_t> spacecraft_from(std::string_view field);
 
-  CsvLines lines_;
+  FileLines lines_;
   TelemetryLayout layout_;
   std::filesystem::path path_;
   std::vector<std::string> spacecraft_;  ///< The first: of the rows, where the file does not say.
@@ -91,7 +92,7 @@ Expected<TelemetryRows<Value>> TelemetryRows<Value>::open(const std::filesystem:
   const TelemetryLayout& layout = opened->layout;
   if (layout.kind != TelemetryKind{Kind<Value>{}}) {
     return Unexpected{{ErrorCode::InvalidConfiguration,
-                       fmt::format("{}: holds {} telemetry, must hold {}", path.string(),
+                       fmt::format("{}: holds {} telemetry, must hold {}", shown(path.string()),
                                    name_of(layout.kind), Telemetry<Value>::kName)}};
   }
   return TelemetryRows{std::move(opened->lines), layout, path, std::move(spacecraft)};
@@ -99,7 +100,7 @@ Expected<TelemetryRows<Value>> TelemetryRows<Value>::open(const std::filesystem:
 
 template <class Value>
 Expected<std::optional<typename TelemetryRows<Value>::Row>> TelemetryRows<Value>::next() {
-  CsvLine line{};
+  FileLine line{};
   const auto more = lines_.next(line);
   if (!more) {
     return Unexpected{more.error()};
@@ -109,14 +110,15 @@ Expected<std::optional<typename TelemetryRows<Value>::Row>> TelemetryRows<Value>
   }
   auto row = row_from(line);
   if (!row) {
-    return RejectedInput{
-        .source = path_.string(), .line = line.number, .reason = std::move(row.error().message)};
+    return RejectedInput{.source = shown(path_.string()),
+                         .line = line.number,
+                         .reason = std::move(row.error().message)};
   }
   return *row;
 }
 
 template <class Value>
-Expected<TelemetryRow<Value>> TelemetryRows<Value>::row_from(const CsvLine& line) {
+Expected<TelemetryRow<Value>> TelemetryRows<Value>::row_from(const FileLine& line) {
   if (line.too_long) {
     return refused_row(fmt::format("row {}: too long for telemetry", quoted(line.text)));
   }

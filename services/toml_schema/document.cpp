@@ -5,19 +5,27 @@
 #include <algorithm>
 #include <utility>
 
-#include "services/toml_schema/text_file.h"
+#include "pipelines/core/shown.h"
+#include "services/input_file/input_file.h"
+#include "services/toml_schema/nesting.h"
 
 namespace spindrift {
 namespace {
 
 Expected<toml::table> parse(const std::filesystem::path& path, const std::string& text) {
+  if (const auto line = line_nested_too_deep(text)) {
+    return Unexpected{{ErrorCode::InvalidConfiguration,
+                       fmt::format("{}:{}: tables and arrays must not stand deeper than {} in each "
+                                   "other",
+                                   shown(path.string()), *line, kDeepestNesting)}};
+  }
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
     const auto& at = error.source().begin;
     return Unexpected{
-        {ErrorCode::InvalidConfiguration,
-         fmt::format("{}:{}:{}: {}", path.string(), at.line, at.column, error.description())}};
+        {ErrorCode::InvalidConfiguration, fmt::format("{}:{}:{}: {}", shown(path.string()), at.line,
+                                                      at.column, shown(error.description()))}};
   }
 }
 
@@ -54,7 +62,7 @@ Expected<void> soundness(const TomlDocument& document) {
   std::vector<TomlProblem> problems = document.problems;
   std::stable_sort(problems.begin(), problems.end(),
                    [](const auto& a, const auto& b) { return a.line - 1 < b.line - 1; });
-  const std::string file = document.path.string();
+  const std::string file = shown(document.path.string());
   std::vector<std::string> lines;
   lines.reserve(problems.size());
   for (const TomlProblem& problem : problems) {

@@ -6,6 +6,7 @@
 #include <set>
 #include <string_view>
 
+#include "pipelines/core/shown.h"
 #include "services/toml_schema/key_check.h"
 #include "services/toml_schema/nearest_name.h"
 
@@ -96,9 +97,9 @@ class Check {
       if (rule.keys.contains(name) || rule.tables.contains(name)) {
         continue;
       }
-      const std::string nearest = nearest_name(name, absent);
+      const std::string nearest = nearest_name(shown(name), absent);
       problem(key.source(),
-              fmt::format("{}: unknown; {}", joined(path, name),
+              fmt::format("{}: unknown; {}", joined(path, shown(name)),
                           nearest.empty()
                               ? fmt::format("allowed here: {}", fmt::join(names_in(rule), ", "))
                               : fmt::format("did you mean {}?", nearest)));

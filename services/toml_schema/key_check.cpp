@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipelines/core/shown.h"
 #include "pipelines/time/utc.h"
 #include "services/telemetry/spacecraft_id.h"
 #include "services/toml_schema/toml_scalar.h"
@@ -21,7 +22,6 @@ namespace {
 
 constexpr double kUnitTolerance = 1e-4;      // What a person rounds away when typing 0.7071.
 constexpr double kSymmetryTolerance = 1e-9;  // Relative to the largest moment.
-constexpr std::size_t kShownCharacters = 60;
 
 double as_number(const Scalar& value) {
   const auto* const integer = std::get_if<std::int64_t>(&value);
@@ -180,7 +180,7 @@ std::string shown(const toml::node& value) {
   value.visit([&](const auto& node) { out << node; });
   std::string text = out.str();
   std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.size() <= kShownCharacters ? text : text.substr(0, kShownCharacters) + "...";
+  return shown(text);
 }
 
 std::optional<std::string> objection(const KeyRule& rule, const toml::node& value) {

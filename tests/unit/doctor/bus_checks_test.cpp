@@ -192,5 +192,13 @@ TEST(DoctorPresence, FailsOnAMismatchOfThisPartitionAndNamesIt) {
               HasSubstr("asks for deadline 1 s, spindrift offers no deadline"));
 }
 
+TEST(Presence, IsShownWithTheNamesOfOthersEscaped) {
+  Endpoint endpoint = pulses_in("live\x1b[2J");
+  endpoint.topic = "spindrift/\x07";
+  const std::string found = check_presence(present({endpoint})).front().found;
+  EXPECT_THAT(found, HasSubstr("spindrift/\\x07 written"));
+  EXPECT_THAT(found, HasSubstr("partition 'live\\x1b[2J'"));
+}
+
 }  // namespace
 }  // namespace spindrift::doctor

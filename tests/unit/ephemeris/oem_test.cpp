@@ -343,4 +343,46 @@ TEST(Oem, OrbitsOfThePassesAreRead) {
   }
 }
 
+TEST(Oem, IsRefusedWithItsTextEscapedAndCut) {
+  EXPECT_THAT(fault(with_line(7, "CENTER_NAME = MARS\x1b[2J", kValid)),
+              HasSubstr("CENTER_NAME = MARS\\x1b[2J: must be EARTH"));
+  EXPECT_THAT(fault(with_line(3, "K\xff = 1", kValid)), HasSubstr("K\\xff = 1: this key"));
+  EXPECT_THAT(fault(with_line(18, "2026-11-20T03:01:00 6990 450 0 0 7.5 \x1b]0;x\x07", kValid)),
+              HasSubstr("'\\x1b]0;x\\x07' is not a number"));
+  EXPECT_THAT(fault(with_line(18, "2026\x1b[2J", kValid)), HasSubstr("time '2026\\x1b[2J'"));
+  const std::string letters(100'000, 'x');
+  const std::string digits(100'000, '1');
+  for (const std::string& line : {"K = " + letters, digits, "2026-11-20T03:09:00." + digits,
+                                  "2026-11-20T03:01:00 " + letters}) {
+    const std::string message = fault(with_line(18, line, kValid));
+    EXPECT_LT(message.size(), 600U) << message;
+  }
+}
+
+// By UBSan: no difference of two times that are read overflows.
+TEST(Oem, WithEpochsMoreThanThreeCenturiesApartIsRefused) {
+  for (const std::string year : {"1677", "1678", "1899", "2190", "2261"}) {
+    const std::string text = with_line(10, "START_TIME = " + year + "-01-01T00:00:00", kValid);
+    EXPECT_THAT(fault(text), HasSubstr("must lie in 1900 to 2189"));
+  }
+  std::string text = with_line(10, "START_TIME = 1900-01-01T00:00:00", kValid);
+  text = with_line(13, "STOP_TIME = 2189-12-31T23:59:59", text);
+  text = with_line(17, "1900-01-01T00:00:00 7000 0 0 0 7.5 0", text);
+  text = with_line(21, "2189-12-31T23:59:59 6960 1800 0 0 7.5 0", text);
+  EXPECT_EQ(fault(text), "accepted");
+}
+
+TEST(Oem, OfWhichALineCannotBeHadIsRefusedForThat) {
+  int given = 0;
+  const auto refused = parse_oem([&]() -> Expected<std::optional<OemLine>> {
+    if (given == 2) {
+      return Unexpected{{ErrorCode::Unavailable, "the disk is gone"}};
+    }
+    ++given;
+    return OemLine{.number = given, .text = given == 1 ? "CCSDS_OEM_VERS = 2.0" : "ORIGINATOR = A"};
+  });
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message, "the disk is gone");
+}
+
 }  // namespace spindrift::oem_test

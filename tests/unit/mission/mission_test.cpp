@@ -519,7 +519,8 @@ TEST(Mission, ThatIsNotThereIsRefusedWithItsPath) {
   EXPECT_EQ(none.error().message, path.string() + ": cannot be read: No such file or directory");
   const auto directory = load_mission(folder.path());
   ASSERT_FALSE(directory);
-  EXPECT_EQ(directory.error().message, folder.path().string() + ": cannot be read: not a file");
+  EXPECT_EQ(directory.error().message,
+            folder.path().string() + ": cannot be read: not a regular file");
 }
 
 TEST(Mission, WithABrokenOrbitFileIsRefusedNamingIt) {
@@ -530,6 +531,48 @@ TEST(Mission, WithABrokenOrbitFileIsRefusedNamingIt) {
   EXPECT_THAT(mission.error().message,
               AllOf(HasSubstr("mission.toml:5: orbit.oem = \"orbit.oem\": "),
                     ::testing::Not(HasSubstr("\n"))));
+}
+
+const std::string kEndless(100'000, 'x');
+
+TEST(Mission, IsRefusedWithItsTextEscapedAndCut) {
+  const std::string quotes(100'000, '"');
+  for (const std::string& toml :
+       {std::string{"[spacecraft]\n\"k\\u001b[2J\" = 1\n"}, std::string{"\"\\u009b2J\" = 1\n"},
+        std::string{"[spacecraft]\nid = \"A\\u001b[2J\"\n"},
+        std::string{"[spacecraft]\nid = \"\"\"A\n\\u0007\"\"\"\n"},
+        std::string{"[orbit]\noem = \"\\u001b[2J.oem\"\n"}, std::string{"a = \x1b\n"},
+        std::string{"[\"\\u001b\"]\n[\"\\u001b\"]\n"}, std::string{"\xff = 1\n"},
+        "\"" + kEndless + "\" = 1\n", "id = \"" + kEndless + "\"\n",
+        "[spacecraft]\nid = [" + quotes + "]\n"}) {
+    for (const std::string& problem : problems_of(toml)) {
+      EXPECT_LT(problem.size(), 1000U) << problem;
+      EXPECT_TRUE(std::all_of(problem.begin(), problem.end(), [](char c) {
+        return c >= ' ' && c <= '~';
+      })) << problem;
+    }
+    EXPECT_FALSE(problems_of(toml).empty());
+  }
+}
+
+TEST(Mission, ThatNestsTooDeepIsRefusedBeforeItIsParsed) {
+  std::string deep = "[spacecraft]\n";
+  for (int i = 0; i < 100'000; ++i) {
+    deep += "a.";
+  }
+  EXPECT_THAT(problems_of(deep + "a = 1\n"),
+              ElementsAre("mission.toml:2: tables and arrays must not stand deeper than 16 in each "
+                          "other"));
+}
+
+TEST(Mission, WithAnOrbitFileOfOneEndlessLineIsRefusedByLine) {
+  const TemporaryFolder folder;
+  folder.write("orbit.oem", "CCSDS_OEM_VERS = 2.0\nCOMMENT " + kEndless);
+  const auto mission =
+      load_mission(folder.write("mission.toml", text_of(kData / "mission" / "contract.toml")));
+  ASSERT_FALSE(mission);
+  EXPECT_THAT(mission.error().message, HasSubstr("line 2: must be 1024 bytes long at most"));
+  EXPECT_LT(mission.error().message.size(), 1000U);
 }
 
 }  // namespace spindrift::mission_test

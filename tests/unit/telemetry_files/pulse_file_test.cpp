@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipelines/core/shown.h"
 #include "services/telemetry_files/telemetry_stream.h"
 #include "tests/support/read_telemetry.h"
 #include "tests/support/temporary_folder.h"
@@ -155,7 +156,7 @@ TEST(PulseFile, RejectsALineWithoutEndInConstantMemory) {
     EXPECT_EQ(pulses.samples.size(), 2U);
     ASSERT_EQ(pulses.rejected.size(), 1U);
     EXPECT_EQ(pulses.rejected[0].line, 3);
-    EXPECT_LT(pulses.rejected[0].reason.size(), 200U);
+    EXPECT_LT(pulses.rejected[0].reason.size(), kMostShown + 100);
   }
 }
 

@@ -30,14 +30,6 @@ TEST(TelemetryStream, OfAFileThatHasGoneIsAnError) {
   EXPECT_THAT(pulses.error().message, HasSubstr("gone.csv: cannot be read: No such file"));
 }
 
-TEST(TelemetryStream, OfAFileThatFailsWhileReadingIsAnError) {
-  // A regular file that opens; nothing is mapped at address 0, where reading begins.
-  const auto file = TelemetryRows<Pulse>::open("/proc/self/mem", "SPINNER");
-  ASSERT_FALSE(file);
-  EXPECT_EQ(file.error().code, ErrorCode::Unavailable);
-  EXPECT_THAT(file.error().message, HasSubstr("/proc/self/mem: reading failed"));
-}
-
 TEST(TelemetryStream, RejectsBadRowsOfEveryKind) {
   const TemporaryFolder folder;
   folder.write("pulses.csv", "t_tai_ns,channel\n1795143637568806257,sun1\n");

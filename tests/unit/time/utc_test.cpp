@@ -67,7 +67,7 @@ TEST(Utc, EveryLeapSecondIsWrittenAsTheSixtyFirst) {
 TEST(Utc, ReadsBackToTheNanosecondWhatItWrites) {
   std::mt19937_64 rng{1972};
   std::uniform_int_distribution<std::int64_t> any_ns{tai_ns(leap_seconds().front().start),
-                                                     utc_ns("2261-12-31T00:00:00")};
+                                                     utc_ns("2189-12-31T00:00:00")};
   for (int trial = 0; trial < 20'000; ++trial) {
     const TaiTime t = tai_from_ns(any_ns(rng));
     const std::string text = format_utc(t, 9);
@@ -176,8 +176,8 @@ TEST(Utc, RefusesWhatIsNoTime) {
       {"2026-11-20T03:00:60", "time of day"},
       {"2026-11-20T23:59:61", "time of day"},
       {"2026-11-20T23:59:60", "no leap second"},
-      {"2262-01-01T00:00:00", "2261"},
-      {"9999-12-31T00:00:00", "2261"},
+      {"2190-01-01T00:00:00", "2189"},
+      {"9999-12-31T00:00:00", "2189"},
   };
   for (const auto& [text, reason] : cases) {
     SCOPED_TRACE(text);

@@ -1,0 +1,60 @@
+/// @file
+/// A file that somebody gives us to read.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "pipelines/core/expected.h"
+
+namespace spindrift {
+
+/// Far more than anybody writes by hand.
+inline constexpr std::uint64_t kMostTextBytes = std::uint64_t{64} << 20U;
+
+class InputFile {
+ public:
+  /// @return InvalidConfiguration with path and reason for what is not a regular file that can be
+  ///         read, or is larger than `most_bytes`.
+  static Expected<InputFile> open(
+      const std::filesystem::path& path,
+      std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());
+
+  /// When it was opened, bytes.
+  std::uint64_t size() const { return size_; }
+
+  /// Fills `buffer`, but for the end of the file. @return how much of it; Unavailable when reading
+  /// fails.
+  Expected<std::size_t> read(std::span<char> buffer);
+
+  /// To its beginning. @return Unavailable when that fails.
+  Expected<void> rewind();
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { static_cast<void>(std::fclose(file)); }
+  };
+
+  InputFile(std::filesystem::path path, std::FILE* file, std::uint64_t size)
+      : path_{std::move(path)}, file_{file}, size_{size} {}
+
+  Unexpected failed() const;
+
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::uint64_t size_;
+};
+
+/// All of a file. @return the errors of InputFile.
+Expected<std::string> read_text_file(const std::filesystem::path& path,
+                                     std::uint64_t most_bytes = kMostTextBytes);
+
+}  // namespace spindrift
