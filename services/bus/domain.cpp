@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 
+#include "services/bus/cyclone_log.h"
 #include "services/bus/entity.h"
 #include "services/bus/network.h"
 
@@ -33,7 +34,7 @@ Registry& registry() {
 class LogCapture {
  public:
   LogCapture() { dds_set_log_sink(&append, &text_); }
-  ~LogCapture() { dds_set_log_sink(nullptr, nullptr); }
+  ~LogCapture() { log_what_cyclone_says(); }
   LogCapture(const LogCapture&) = delete;
   LogCapture& operator=(const LogCapture&) = delete;
   LogCapture(LogCapture&&) = delete;
