@@ -159,13 +159,15 @@ CREATE TABLE stream_silence (
 
 -- What came in and what became of it, by run.
 
--- Rows that could not be read or are impossible.
+-- Rows that could not be read or are impossible. Of a source on the bus the first 20 in a minute; the rest
+-- of the minute is one row, with the last of them and their number.
 CREATE TABLE rejected_input (
   run_id  TEXT NOT NULL REFERENCES run,
   source  TEXT NOT NULL,     -- the file's path as it was given; on the bus the sample's source
   session INTEGER NOT NULL,  -- 0 for a file
   line    INTEGER NOT NULL,  -- of the file, from 1; on the bus the sample's seq
   reason  TEXT NOT NULL,
+  samples INTEGER NOT NULL,  -- for which the row stands
   PRIMARY KEY (run_id, source, session, line, reason)
 ) STRICT, WITHOUT ROWID;
 

@@ -71,7 +71,7 @@ UNION ALL
 SELECT run_id, 'measurement', quantity, rejected_by, count(*)
 FROM spin_measurement WHERE accepted = 0 GROUP BY run_id, quantity, rejected_by
 UNION ALL
-SELECT run_id, 'input', source, reason, count(*)
+SELECT run_id, 'input', source, reason, sum(samples)
 FROM rejected_input GROUP BY run_id, source, reason;
 
 -- The answer of a pass: the last estimate of each estimator of each run; finished = 0: of a run that goes

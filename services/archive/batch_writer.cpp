@@ -68,8 +68,8 @@ BatchWriter::BatchWriter(SQLite::Database& database)
       samples_{insert_statements(database)},
       stream_silence_{database, "INSERT INTO stream_silence (run_id, arrival) VALUES (?, ?)"},
       rejected_input_{database,
-                      "INSERT INTO rejected_input (run_id, source, session, line, reason)"
-                      " VALUES (?, ?, ?, ?, ?) ON CONFLICT DO NOTHING"},
+                      "INSERT INTO rejected_input (run_id, source, session, line, reason, samples)"
+                      " VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING"},
       source_count_{database,
                     "INSERT OR REPLACE INTO source_count (run_id, source, received, gaps,"
                     " duplicates, disordered) VALUES (?, ?, ?, ?, ?, ?)"},
@@ -156,7 +156,7 @@ void BatchWriter::insert(const std::string& run_id, const TelemetrySample<Value>
 
 void BatchWriter::insert(const std::string& run_id, const RejectedInput& rejected) {
   execute(rejected_input_, run_id, rejected.source, as_signed(rejected.session), rejected.line,
-          rejected.reason);
+          rejected.reason, rejected.samples);
 }
 
 void BatchWriter::insert(const std::string& run_id, const SourceCount& count) {

@@ -28,7 +28,8 @@ constexpr const char* kFindRuns =
     // One that no revolution had a place for may have any time.
     "  (SELECT t_tai_ns FROM pulse_use AS one WHERE one.run_id = same.run_id"
     "   AND revolution IS NOT NULL ORDER BY t_tai_ns DESC LIMIT 1)),"
-    " (SELECT count(*) FROM rejected_input WHERE rejected_input.run_id = same.run_id)"
+    " (SELECT ifnull(sum(samples), 0) FROM rejected_input WHERE rejected_input.run_id = "
+    "same.run_id)"
     " FROM (SELECT *, lead(first_arrival) OVER following AS next_arrival,"
     "  lead(first_tai_ns) OVER following AS next_tai_ns"
     "  FROM run WHERE spacecraft_id = ? AND mode = ? AND software_version = ?"

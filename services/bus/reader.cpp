@@ -16,12 +16,25 @@ ReaderStatus& ReaderStatus::operator+=(const ReaderStatus& other) {
 }
 
 Expected<UntypedReader> UntypedReader::create(const Participant& participant, const char* topic,
-                                              const dds_topic_descriptor_t* type, const Qos& qos) {
+                                              const dds_topic_descriptor_t* type, const Qos& qos,
+                                              Filter accepts) {
   const auto created_topic =
       Entity::own(dds_create_topic(participant.handle(), type, topic, nullptr, nullptr),
                   fmt::format("DDS topic {}", topic));
   if (!created_topic) {
     return Unexpected{created_topic.error()};
+  }
+  auto filter = accepts ? std::make_unique<Filter>(std::move(accepts)) : nullptr;
+  if (filter) {
+    const dds_topic_filter by_sample{
+        .mode = DDS_TOPIC_FILTER_SAMPLE_ARG,
+        .f = {.sample_arg = [](const void* sample,
+                               void* arg) { return (*static_cast<Filter*>(arg))(sample); }},
+        .arg = filter.get()};
+    const dds_return_t result = dds_set_topic_filter_extended(created_topic->handle(), &by_sample);
+    if (result < 0) {
+      return Unexpected{dds_error(fmt::format("filter of DDS topic {}", topic), result)};
+    }
   }
   auto reader = Entity::own(
       dds_create_reader(participant.subscriber(), created_topic->handle(), qos.get(), nullptr),
@@ -34,7 +47,7 @@ Expected<UntypedReader> UntypedReader::create(const Participant& participant, co
   if (!data) {
     return Unexpected{data.error()};
   }
-  return UntypedReader{std::move(*reader), std::move(*data)};
+  return UntypedReader{std::move(filter), std::move(*reader), std::move(*data)};
 }
 
 Expected<ReaderStatus> UntypedReader::status() const {

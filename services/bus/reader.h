@@ -5,7 +5,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/bus/loan.h"
@@ -29,16 +32,22 @@ struct ReaderStatus {
 /// Everything about a reader that does not depend on the type of its samples.
 class UntypedReader {
  public:
+  /// @param accepts See Reader; empty: all.
   static Expected<UntypedReader> create(const Participant& participant, const char* topic,
-                                        const dds_topic_descriptor_t* type, const Qos& qos);
+                                        const dds_topic_descriptor_t* type, const Qos& qos,
+                                        std::function<bool(const void*)> accepts);
 
   const Entity& entity() const { return reader_; }
   const Entity& data() const { return data_; }
   Expected<ReaderStatus> status() const;
 
  private:
-  UntypedReader(Entity reader, Entity data) : reader_{std::move(reader)}, data_{std::move(data)} {}
+  using Filter = std::function<bool(const void*)>;
 
+  UntypedReader(std::unique_ptr<Filter> filter, Entity reader, Entity data)
+      : filter_{std::move(filter)}, reader_{std::move(reader)}, data_{std::move(data)} {}
+
+  std::unique_ptr<Filter> filter_;  // Before the reader, which it outlives.
   Entity reader_;
   Entity data_;
 };
@@ -46,10 +55,19 @@ class UntypedReader {
 template <class Sample>
 class Reader {
  public:
+  /// @param accepts Whether the reader keeps a sample; empty: every one. Called on threads of
+  /// Cyclone within the reader's lock: quick, and nothing of DDS. What is refused is acknowledged,
+  /// and leaves no instance behind.
   /// @return Unavailable, naming the topic, when Cyclone refuses.
   static Expected<Reader> create(const Participant& participant, const Topic<Sample>& topic,
-                                 const Qos& qos) {
-    return UntypedReader::create(participant, topic.name, topic.type, qos)
+                                 const Qos& qos, std::function<bool(const Sample&)> accepts = {}) {
+    std::function<bool(const void*)> filter;
+    if (accepts) {
+      filter = [accepts = std::move(accepts)](const void* sample) {
+        return accepts(*static_cast<const Sample*>(sample));
+      };
+    }
+    return UntypedReader::create(participant, topic.name, topic.type, qos, std::move(filter))
         .map([](UntypedReader&& reader) { return Reader{std::move(reader)}; });
   }
 

@@ -24,8 +24,8 @@ Expected<void> WaitSet::attach(const Entity& condition) {
   return {};
 }
 
-Expected<bool> WaitSet::wait() const {
-  const dds_return_t result = dds_waitset_wait(set_.handle(), nullptr, 0, DDS_INFINITY);
+Expected<bool> WaitSet::wait(std::chrono::nanoseconds at_most) const {
+  const dds_return_t result = dds_waitset_wait(set_.handle(), nullptr, 0, at_most.count());
   if (result < 0) {
     return Unexpected{dds_error("waiting on a DDS waitset", result)};
   }

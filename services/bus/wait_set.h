@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <chrono>
+
 #include "services/bus/participant.h"
 
 namespace spindrift::bus {
@@ -15,8 +17,8 @@ class WaitSet {
   /// From now on `condition` (of a reader: `Reader::data()`) ends a wait for as long as it holds.
   Expected<void> attach(const Entity& condition);
 
-  /// Waits for an attached condition. @return false once stopped.
-  Expected<bool> wait() const;
+  /// Waits for an attached condition, or `at_most`. @return false once stopped.
+  Expected<bool> wait(std::chrono::nanoseconds at_most = std::chrono::nanoseconds::max()) const;
 
   /// Ends every wait, now and later. From any thread.
   void stop() const;

@@ -12,24 +12,15 @@ namespace {
 
 constexpr bool is_printable(char c) { return c >= ' ' && c <= '~'; }
 
-/// Text of a stranger, safe to store and to show.
-std::string printable(std::string_view text) {
-  std::string shown{text};
-  std::replace_if(
-      shown.begin(), shown.end(), [](char c) { return !is_printable(c); }, '?');
-  return shown;
-}
-
 }  // namespace
 
 std::string why_header_impossible(std::string_view spacecraft, std::string_view source,
                                   std::int64_t t_tai_ns) {
   if (!is_spacecraft_id(spacecraft)) {
-    return fmt::format("spacecraft = \"{}\": must be {}", printable(spacecraft),
-                       kSpacecraftIdAllowed);
+    return fmt::format("spacecraft = \"{}\": must be {}", shown(spacecraft), kSpacecraftIdAllowed);
   }
   if (!std::all_of(source.begin(), source.end(), is_printable)) {
-    return fmt::format("source = \"{}\": must be printable ASCII", printable(source));
+    return fmt::format("source = \"{}\": must be printable ASCII", shown(source));
   }
   if (!is_telemetry_time(tai_from_ns(t_tai_ns))) {
     return fmt::format("t_tai_ns = {}: must lie in the years 1972 to 2099, [{}, {}) ns", t_tai_ns,
@@ -45,7 +36,7 @@ std::string why_no_channel(std::string_view name, std::uint32_t channel) {
 }
 
 RejectedInput rejected_from_idl(const Origin& origin, std::string reason) {
-  return {.source = printable(origin.source),
+  return {.source = origin.source,
           .line = static_cast<std::int64_t>(origin.seq),
           .reason = std::move(reason),
           .session = origin.session};

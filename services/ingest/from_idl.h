@@ -14,16 +14,17 @@
 #include <utility>
 
 #include "pipelines/core/expected.h"
+#include "pipelines/core/shown.h"
 #include "services/bus/telemetry_messages.h"
 #include "services/telemetry/rejected_input.h"
 #include "services/telemetry/telemetry_sample.h"
 
 namespace spindrift {
 
-/// Of any message.
+/// Of any message; a source that could not be shown, as it is shown.
 template <class Message>
 Origin origin_from_idl(const Message& message) {
-  return {.source = message.source, .session = message.session, .seq = message.seq};
+  return {.source = shown(message.source), .session = message.session, .seq = message.seq};
 }
 
 /// What is stored in the place of a telemetry sample of `origin`.

@@ -1,20 +1,31 @@
 #include "services/ingest/telemetry_subscriber.h"
 
+#include <chrono>
 #include <utility>
 
-#include "services/ingest/from_idl.h"
+#include "services/clock/wall_clock.h"
 
 namespace spindrift {
 namespace {
 
 // So many does Reader::take give at a time while there are more.
 constexpr std::int32_t kTakenAtOnce = 256;
+// Samples of other spacecraft do not wake the taking thread: so often it hands over their counts.
+constexpr std::chrono::seconds kBeat{1};
 
 template <class Value>
 Expected<bus::Reader<bus::MessageOf<Value>>> attached_reader(const bus::Participant& participant,
-                                                             bus::WaitSet& waitset) {
+                                                             bus::WaitSet& waitset,
+                                                             Arrivals& arrivals) {
+  const auto is_ours = [&arrivals](const bus::MessageOf<Value>& message) {
+    const bool ours = arrivals.is_ours(message.spacecraft);
+    if (!ours) {
+      arrivals.take_other<Value>(message);
+    }
+    return ours;
+  };
   auto reader = bus::Reader<bus::MessageOf<Value>>::create(participant, bus::topic_of<Value>(),
-                                                           bus::telemetry_reader_qos());
+                                                           bus::telemetry_reader_qos(), is_ours);
   if (reader) {
     if (const auto attached = waitset.attach(reader->data()); !attached) {
       return Unexpected{attached.error()};
@@ -36,8 +47,8 @@ Expected<std::tuple<Values...>> all_of(Expected<Values>... each) {
 
 template <class... Kinds>
 auto attached_readers(const bus::Participant& participant, bus::WaitSet& waitset,
-                      KindList<Kinds...> /*kinds*/) {
-  return all_of(attached_reader<Kinds>(participant, waitset)...);
+                      Arrivals& arrivals, KindList<Kinds...> /*kinds*/) {
+  return all_of(attached_reader<Kinds>(participant, waitset, arrivals)...);
 }
 
 /// Of all readers together.
@@ -57,28 +68,26 @@ Expected<bus::ReaderStatus> status_of(const Readers&... readers) {
 
 Expected<std::unique_ptr<TelemetrySubscriber>> TelemetrySubscriber::start(
     const bus::Participant& participant, BoundedQueue<SampleBatch>& queue,
-    const LastOrigins& stored) {
+    std::set<std::string, std::less<>> spacecraft, const LastOrigins& stored) {
   auto waitset = bus::WaitSet::create(participant);
   if (!waitset) {
     return Unexpected{waitset.error()};
   }
-  auto readers = attached_readers(participant, *waitset, TelemetryKinds{});
+  auto arrivals = std::make_unique<Arrivals>(std::move(spacecraft), stored);
+  auto readers = attached_readers(participant, *waitset, *arrivals, TelemetryKinds{});
   if (!readers) {
     return Unexpected{readers.error()};
   }
-  return std::unique_ptr<TelemetrySubscriber>{
-      new TelemetrySubscriber{std::move(*readers), std::move(*waitset), queue, stored}};
+  return std::unique_ptr<TelemetrySubscriber>{new TelemetrySubscriber{
+      std::move(arrivals), std::move(*readers), std::move(*waitset), queue}};
 }
 
-TelemetrySubscriber::TelemetrySubscriber(Readers readers, bus::WaitSet waitset,
-                                         BoundedQueue<SampleBatch>& queue,
-                                         const LastOrigins& stored)
-    : readers_{std::move(readers)}, waitset_{std::move(waitset)}, queue_{queue} {
-  for (std::size_t kind = 0; kind < stored.size(); ++kind) {
-    for (const Origin& last : stored.at(kind)) {
-      tracker_.go_on(last, kind);
-    }
-  }
+TelemetrySubscriber::TelemetrySubscriber(std::unique_ptr<Arrivals> arrivals, Readers readers,
+                                         bus::WaitSet waitset, BoundedQueue<SampleBatch>& queue)
+    : arrivals_{std::move(arrivals)},
+      readers_{std::move(readers)},
+      waitset_{std::move(waitset)},
+      queue_{queue} {
   thread_ = std::thread{[this] { run(); }};
 }
 
@@ -97,7 +106,7 @@ Expected<TelemetrySubscriberStatus> TelemetrySubscriber::status() const {
     return Unexpected{reader.error()};
   }
   const std::lock_guard lock{mutex_};
-  return TelemetrySubscriberStatus{.by_source = tracker_.by_source(),
+  return TelemetrySubscriberStatus{.by_source = arrivals_->by_source(),
                                    .reader = std::move(*reader),
                                    .taking = taking_,
                                    .failure = failure_};
@@ -114,7 +123,7 @@ void TelemetrySubscriber::run() {
 
 Expected<void> TelemetrySubscriber::take_until_stopped() {
   while (true) {
-    const auto more = waitset_.wait();
+    const auto more = waitset_.wait(kBeat);
     if (!more) {
       return Unexpected{more.error()};
     }
@@ -123,6 +132,9 @@ Expected<void> TelemetrySubscriber::take_until_stopped() {
     }
     if (const auto handed = hand_over_batches(); !handed) {
       return Unexpected{handed.error()};
+    }
+    if (auto handed = hand_over_rest(tai_now()); !handed) {
+      return handed;
     }
   }
 }
@@ -139,7 +151,7 @@ Expected<void> TelemetrySubscriber::take_what_is_left() {
       break;
     }
   }
-  return {};
+  return hand_over_rest(TaiTime::max());
 }
 
 // False: there was nothing to take.
@@ -156,38 +168,32 @@ Expected<bool> TelemetrySubscriber::hand_over_batches() {
 
 template <class Value>
 Expected<bool> TelemetrySubscriber::hand_over_batch() {
-  auto batch = take_batch<Value>();
-  if (!batch) {
-    return Unexpected{batch.error()};
+  SampleBatch batch;
+  const auto taken = std::get<kTelemetryKind<Value>>(readers_).take(
+      [&](const bus::MessageOf<Value>& message) { arrivals_->take<Value>(message, batch); });
+  if (!taken) {
+    return Unexpected{taken.error()};
   }
-  const bool empty = is_empty(*batch);
-  if (!empty && !queue_.push(std::move(*batch))) {
+  if (!is_empty(batch)) {
+    batch.counts = arrivals_->take_changed();
+    if (auto pushed = push(std::move(batch)); !pushed) {
+      return Unexpected{std::move(pushed.error())};
+    }
+  }
+  return *taken > 0;
+}
+
+Expected<void> TelemetrySubscriber::hand_over_rest(TaiTime now) {
+  SampleBatch rest = arrivals_->take_rest(now);
+  return is_empty(rest) ? Expected<void>{} : push(std::move(rest));
+}
+
+Expected<void> TelemetrySubscriber::push(SampleBatch batch) {
+  if (!queue_.push(std::move(batch))) {
     return Unexpected{
         Error{ErrorCode::Unavailable, "the queue of samples was closed while they arrive"}};
   }
-  return !empty;
-}
-
-template <class Value>
-Expected<SampleBatch> TelemetrySubscriber::take_batch() {
-  constexpr std::size_t kTopic = kTelemetryKind<Value>;
-  SampleBatch batch;
-  const std::lock_guard lock{mutex_};
-  return std::get<kTopic>(readers_)
-      .take([this, &batch](const bus::MessageOf<Value>& taken) {
-        if (auto sample = from_idl<Value>(taken)) {
-          tracker_.record(sample->origin, sample->spacecraft, kTopic);
-          batch.samples.of<Value>().push_back(std::move(*sample));
-        } else {
-          const Origin origin = origin_from_idl(taken);
-          tracker_.record(origin, taken.spacecraft, kTopic);
-          batch.rejected.push_back(rejected_from_idl(origin, std::move(sample.error().message)));
-        }
-      })
-      .map([this, &batch](std::size_t /*taken*/) {
-        batch.counts = tracker_.take_changed();
-        return std::move(batch);
-      });
+  return {};
 }
 
 }  // namespace spindrift

@@ -3,10 +3,11 @@
 
 #pragma once
 
-#include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -14,7 +15,7 @@
 #include "services/bus/reader.h"
 #include "services/bus/telemetry_messages.h"
 #include "services/bus/wait_set.h"
-#include "services/ingest/sequence_tracker.h"
+#include "services/ingest/arrivals.h"
 #include "services/queue/bounded_queue.h"
 #include "services/telemetry/last_origins.h"
 #include "services/telemetry/sample_batch.h"
@@ -29,14 +30,16 @@ struct TelemetrySubscriberStatus {
 };
 
 /// Takes from the topics of all kinds of telemetry for as long as it lives. When the queue is full
-/// it waits, the reader fills up, and the writers feel the pressure: nothing is dropped.
+/// it waits, the reader fills up, and the writers feel the pressure: nothing is dropped. Samples of
+/// other spacecraft are counted on the way and left to others.
 class TelemetrySubscriber {
  public:
-  /// `participant` and `queue` outlive it. @param stored Before a restart: no gap is counted again.
+  /// `participant` and `queue` outlive it. @param spacecraft That have a mission here.
+  /// @param stored Before a restart: no gap is counted again.
   /// @return Unavailable when Cyclone refuses.
-  static Expected<std::unique_ptr<TelemetrySubscriber>> start(const bus::Participant& participant,
-                                                              BoundedQueue<SampleBatch>& queue,
-                                                              const LastOrigins& stored = {});
+  static Expected<std::unique_ptr<TelemetrySubscriber>> start(
+      const bus::Participant& participant, BoundedQueue<SampleBatch>& queue,
+      std::set<std::string, std::less<>> spacecraft, const LastOrigins& stored = {});
 
   ~TelemetrySubscriber();
   TelemetrySubscriber(const TelemetrySubscriber&) = delete;
@@ -56,8 +59,8 @@ class TelemetrySubscriber {
   using ReaderOf = bus::Reader<bus::MessageOf<Value>>;
   using Readers = TelemetryKinds::Of<std::tuple, ReaderOf>;
 
-  TelemetrySubscriber(Readers readers, bus::WaitSet waitset, BoundedQueue<SampleBatch>& queue,
-                      const LastOrigins& stored);
+  TelemetrySubscriber(std::unique_ptr<Arrivals> arrivals, Readers readers, bus::WaitSet waitset,
+                      BoundedQueue<SampleBatch>& queue);
 
   void run();
   Expected<void> take_until_stopped();
@@ -65,15 +68,15 @@ class TelemetrySubscriber {
   Expected<bool> hand_over_batches();
   template <class Value>
   Expected<bool> hand_over_batch();
-  template <class Value>
-  Expected<SampleBatch> take_batch();
+  Expected<void> hand_over_rest(TaiTime now);
+  Expected<void> push(SampleBatch batch);
 
+  std::unique_ptr<Arrivals> arrivals_;  // Before the readers, whose filters use it.
   Readers readers_;
   bus::WaitSet waitset_;
   BoundedQueue<SampleBatch>& queue_;
 
-  mutable std::mutex mutex_;  // Guards the three below.
-  SequenceTracker tracker_;
+  mutable std::mutex mutex_;  // Guards the two below.
   bool taking_ = true;
   std::string failure_;
 

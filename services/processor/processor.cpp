@@ -17,8 +17,6 @@ namespace {
 /// So much of what was stored last is made again: longer than a pass holds anything back, since an
 /// orderly stop has settled early what was held.
 constexpr std::chrono::minutes kMadeAgain{10};
-constexpr std::size_t kMaxOthers = 256;
-constexpr const char* kOthers = "(others)";
 
 /// Products from here on are made again; all before are stored, for no table is behind the last
 /// stored revolution and each is filled in order. An orderly stop may have made revolutions of
@@ -146,6 +144,9 @@ Routed Processor::route(SampleBatch samples) {
     by_run[0].rejected = std::move(samples.rejected);
     by_run[0].counts = std::move(samples.counts);
   }
+  for (const auto& [spacecraft, count] : samples.others) {
+    count_other(spacecraft, count);
+  }
   samples.samples.for_each([&](auto& of_kind) { distribute(of_kind, by_run); });
   Routed routed;
   for (auto& [run, of_run] : by_run) {
@@ -168,7 +169,7 @@ void Processor::distribute(SamplesOfKind<Value>& samples,
           known == index_of_.end() ? nullptr : &by_run[known->second].samples.template of<Value>();
     }
     if (place == nullptr) {
-      count_other(sample.spacecraft);
+      count_other(sample.spacecraft, 1);
     } else {
       place->push_back(std::move(sample));
     }
@@ -212,12 +213,14 @@ std::vector<ArchiveBatch> Processor::finish() {
   return batches;
 }
 
-void Processor::count_other(const std::string& spacecraft) {
-  const bool room = other_spacecraft_.size() < kMaxOthers || other_spacecraft_.contains(spacecraft);
-  if (++other_spacecraft_[room ? spacecraft : kOthers] == 1) {
+void Processor::count_other(const std::string& spacecraft, std::int64_t samples) {
+  auto& [name, count] = entry_of(other_spacecraft_, spacecraft);
+  if (count == 0) {
     spdlog::warn("samples of {}, which has no mission file here, are left to others",
-                 room ? fmt::format("spacecraft '{}'", spacecraft) : "still more spacecraft");
+                 name == kStillMoreSpacecraft ? "still more spacecraft"
+                                              : fmt::format("spacecraft '{}'", name));
   }
+  count += samples;
 }
 
 std::vector<std::string> Processor::spacecraft() const {

@@ -77,7 +77,7 @@ class Processor {
   std::vector<RunSummary> summaries() const;
 
   /// Samples of spacecraft without a mission here; beyond 256 of them together, under "(others)".
-  const std::map<std::string, std::int64_t>& other_spacecraft() const { return other_spacecraft_; }
+  const OtherSpacecraft& other_spacecraft() const { return other_spacecraft_; }
 
  private:
   Processor() = default;
@@ -85,12 +85,12 @@ class Processor {
   template <class Value>
   void distribute(SamplesOfKind<Value>& samples, std::map<std::size_t, SampleBatch>& by_run);
   void go_on(std::size_t i, const std::vector<StoredPass>& stored, GoneOn& gone_on);
-  void count_other(const std::string& spacecraft);
+  void count_other(const std::string& spacecraft, std::int64_t samples);
 
   std::unordered_map<std::string, std::size_t> index_of_;  ///< Of a spacecraft, in both below.
   std::vector<SpacecraftRun> runs_;
   std::vector<std::variant<PassRun, ThreeAxisRun>> passes_;  ///< By kind of spacecraft.
-  std::map<std::string, std::int64_t> other_spacecraft_;
+  OtherSpacecraft other_spacecraft_;
 };
 
 }  // namespace spindrift

@@ -128,7 +128,9 @@ SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples) {
   Taken out = nothing_taken();
   in_order_of_arrival(samples.samples, [&](auto& sample) { sort(std::move(sample), out); });
   tell_both();
-  received_.rejected_inputs += static_cast<std::int64_t>(samples.rejected.size());
+  for (const RejectedInput& rejected : samples.rejected) {
+    received_.rejected_inputs += rejected.samples;
+  }
   ArchiveBatch& last = out.batches.back();
   note_earliest(last);
   last.rejected = std::move(samples.rejected);

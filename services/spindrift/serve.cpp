@@ -4,8 +4,10 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -167,11 +169,14 @@ void lose_patience(const std::stop_token& done, Patience& patience,
 Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins,
                    const bus::Participant& participant, const ResultPublisher& publisher,
                    Processor& processor, Archive& archive, StopSignal& stop_signal) {
-  BoundedQueue<SampleBatch> queue{kSamplesTaken,
-                                  [](const SampleBatch& taken) { return size_of(taken); }};
+  BoundedQueue<SampleBatch> queue{kSamplesTaken, [](const SampleBatch& taken) {
+                                    return std::max<std::size_t>(size_of(taken), 1);
+                                  }};
   BoundedQueue<PassInput> work{kSamplesToCompute,
                                [](const PassInput& input) { return sample_count(input); }};
-  auto started = TelemetrySubscriber::start(participant, queue, last_origins);
+  const auto spacecraft = processor.spacecraft();
+  auto started = TelemetrySubscriber::start(participant, queue,
+                                            {spacecraft.begin(), spacecraft.end()}, last_origins);
   if (!started) {
     return Unexpected{started.error()};
   }

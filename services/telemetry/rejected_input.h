@@ -14,6 +14,7 @@ struct RejectedInput {
   std::int64_t line;          ///< Line of the file, from 1; on the bus the sample's seq.
   std::string reason;         ///< Field, value and what is allowed.
   std::uint64_t session = 0;  ///< Of the source on the bus, which `line` counts in; 0 for a file.
+  std::int64_t samples = 1;   ///< More than one: it stands for so many, of which it is the last.
 };
 
 }  // namespace spindrift

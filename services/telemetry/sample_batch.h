@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "services/telemetry/by_kind.h"
+#include "services/telemetry/other_spacecraft.h"
 #include "services/telemetry/rejected_input.h"
 #include "services/telemetry/sequence_counts.h"
 
@@ -18,6 +19,8 @@ namespace spindrift {
 struct SampleBatch {
   TelemetrySamples samples = {};
   std::vector<RejectedInput> rejected = {};
+  /// From the bus, which does not hand these samples over. Of a file they stand among `samples`.
+  OtherSpacecraft others = {};
   /// Of the sources in it, from the start up to and including this batch. Empty for a file.
   std::map<std::string, SequenceCounts> counts = {};
 };
@@ -27,6 +30,9 @@ inline std::size_t size_of(const SampleBatch& batch) {
   return count_of(batch.samples) + batch.rejected.size();
 }
 
-inline bool is_empty(const SampleBatch& batch) { return size_of(batch) == 0; }
+/// Whether nothing at all came, not even to be counted.
+inline bool is_empty(const SampleBatch& batch) {
+  return size_of(batch) == 0 && batch.others.empty() && batch.counts.empty();
+}
 
 }  // namespace spindrift

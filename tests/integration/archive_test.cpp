@@ -50,7 +50,7 @@ TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
       {"magnetometer_sample", {"spacecraft_id", "t_tai_ns", "bx_nt", "by_nt", "bz_nt"}},
       {"orbit_state_sample",
        {"spacecraft_id", "t_tai_ns", "x_km", "y_km", "z_km", "vx_km_s", "vy_km_s", "vz_km_s"}},
-      {"rejected_input", {"run_id", "source", "session", "line", "reason"}},
+      {"rejected_input", {"run_id", "source", "session", "line", "reason", "samples"}},
       {"pulse_use",
        {"run_id", "spacecraft_id", "t_tai_ns", "channel", "revolution", "accepted", "rejected_by"}},
       {"revolution", {"run_id", "revolution", "t_tai_ns", "period_s"}},

@@ -2,9 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <optional>
 
+#include "services/bus/cyclone_log.h"
 #include "services/bus/network.h"
 #include "services/bus/telemetry_messages.h"
 #include "services/bus/wait_set.h"
@@ -286,6 +289,39 @@ TEST(WaitSet, WakesForDataAndForStop) {
   EXPECT_FALSE(waitset.wait().value());
   stopper.join();
   EXPECT_FALSE(waitset.wait().value());
+}
+
+TEST(LogLimit, SaysWhatAPlaceRepeatsOnceAMinute) {
+  bus::LogLimit limit;
+  const auto now = std::chrono::steady_clock::now();
+  EXPECT_EQ(limit.pass("a.c", 1, now), 0U);
+  EXPECT_EQ(limit.pass("a.c", 2, now), 0U);
+  EXPECT_EQ(limit.pass("b.c", 1, now), 0U);
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_EQ(limit.pass("a.c", 1, now + 59s), std::nullopt);
+  }
+  EXPECT_EQ(limit.pass("a.c", 1, now + 60s), 1000U);
+  EXPECT_EQ(limit.pass("a.c", 1, now + 61s), std::nullopt);
+}
+
+TEST(Reader, HandsOverNothingThatItsFilterRefuses) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  std::atomic<int> asked = 0;
+  const auto reader = Reader<spindrift_Pulse>::create(participant, bus::topic_of<Pulse>(),
+                                                      bus::telemetry_reader_qos(),
+                                                      [&asked](const spindrift_Pulse& pulse) {
+                                                        ++asked;
+                                                        return pulse.seq % 2 == 0;
+                                                      })
+                          .value();
+  const auto writer = Writer<spindrift_Pulse>::create(participant, bus::topic_of<Pulse>(),
+                                                      bus::telemetry_writer_qos())
+                          .value();
+  for (std::uint64_t seq = 0; seq < 10; ++seq) {
+    ASSERT_TRUE(writer.write(idl_pulse(seq)));
+  }
+  EXPECT_EQ(seqs_of(take_samples(reader, 5)), (std::vector<std::uint64_t>{0, 2, 4, 6, 8}));
+  EXPECT_EQ(asked, 10);
 }
 
 }  // namespace spindrift::bus_test

@@ -28,7 +28,7 @@ class Station {
                    Consumer consumer = Consumer::Works)
       : participant_{Participant::create(config).value()},
         queue_{capacity},
-        subscriber_{TelemetrySubscriber::start(participant_, queue_).value()},
+        subscriber_{TelemetrySubscriber::start(participant_, queue_, {"SPINNER"}).value()},
         consumer_{[this] { consume(); }} {
     if (consumer == Consumer::Works) {
       release();
@@ -77,6 +77,9 @@ class Station {
       });
       std::move(batch->rejected.begin(), batch->rejected.end(),
                 std::back_inserter(arrived_.rejected));
+      for (const auto& [spacecraft, samples] : batch->others) {
+        arrived_.others[spacecraft] += samples;
+      }
     }
   }
 
@@ -136,9 +139,9 @@ TEST(FromIdl, RefusesWhatCannotBeTrueWithItsReason) {
   const std::vector<Impossible> cases = {
       {[](auto& pulse) { pulse.spacecraft[0] = '\0'; },
        "spacecraft = \"\": must be 1 to 32 printable ASCII characters"},
-      {[](auto& pulse) { pulse.spacecraft[1] = '\n'; }, "spacecraft = \"S?INNER\": must be"},
+      {[](auto& pulse) { pulse.spacecraft[1] = '\n'; }, "spacecraft = \"S\\x0aINNER\": must be"},
       {[](auto& pulse) { pulse.source[0] = '\xFF'; },
-       "source = \"?ront-end\": must be printable ASCII"},
+       "source = \"\\xffront-end\": must be printable ASCII"},
       {[](auto& pulse) { pulse.t_tai_ns = 63'072'009'999'999'999; },
        "t_tai_ns = 63072009999999999: must lie in the years 1972 to 2099"},
       {[](auto& pulse) { pulse.t_tai_ns = 4'102'444'800'000'000'000; }, "must lie in the years"},
@@ -415,11 +418,77 @@ TEST(TelemetrySubscriber, HandsOverWhatIsAcknowledgedWhenStopped) {
 TEST(TelemetrySubscriber, SaysSoWhenItsQueueIsClosedTooEarly) {
   const auto participant = Participant::create(bus_of_its_own()).value();
   BoundedQueue<SampleBatch> queue{4};
-  const auto subscriber = TelemetrySubscriber::start(participant, queue).value();
+  const auto subscriber = TelemetrySubscriber::start(participant, queue, {"SPINNER"}).value();
   queue.close();
   ASSERT_TRUE(pulse_writer(participant).write(idl_pulse(0)));
   ASSERT_TRUE(eventually([&] { return !subscriber->status().value().taking; }));
   EXPECT_THAT(subscriber->status().value().failure, HasSubstr("closed while they arrive"));
+}
+
+TEST(TelemetrySubscriber, CountsSamplesOfOtherSpacecraftAndDoesNotHandThemOver) {
+  Station station{bus_of_its_own()};
+  const auto writer = pulse_writer(station.participant());
+  spindrift_Pulse other = idl_pulse(1);
+  other.spacecraft[0] = 'X';
+  spindrift_Pulse impossible = idl_pulse(2);
+  impossible.spacecraft[0] = ' ';
+  ASSERT_TRUE(writer.write(idl_pulse(0)));
+  ASSERT_TRUE(writer.write(other));
+  ASSERT_TRUE(writer.write(impossible));
+  ASSERT_TRUE(writer.write(idl_pulse(3)));
+  ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 4; }));
+  EXPECT_EQ(station.counts_of("front-end"), (SequenceCounts{.received = 4}));
+  const SampleBatch arrived = station.finish();
+  EXPECT_EQ(seqs_of(arrived.samples.of<Pulse>()), (std::vector<std::uint64_t>{0, 3}));
+  EXPECT_EQ(arrived.others, (OtherSpacecraft{{"XPINNER", 1}}));
+  ASSERT_EQ(arrived.rejected.size(), 1U);
+  EXPECT_EQ(arrived.rejected[0].line, 2);
+}
+
+TEST(TelemetrySubscriber, HandsOverCountsOfOtherSpacecraftThoughNothingElseArrives) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  BoundedQueue<SampleBatch> queue{4};
+  const auto subscriber = TelemetrySubscriber::start(participant, queue, {"SPINNER"}).value();
+  spindrift_Pulse other = idl_pulse(0);
+  other.spacecraft[0] = 'X';
+  ASSERT_TRUE(pulse_writer(participant).write(other));
+  const auto batch = queue.take();
+  ASSERT_TRUE(batch);
+  EXPECT_EQ(batch->others, (OtherSpacecraft{{"XPINNER", 1}}));
+  EXPECT_EQ(batch->counts.at("front-end"), (SequenceCounts{.received = 1}));
+}
+
+TEST(TelemetrySubscriber, CountsASourceThatCannotBeShownAsItIsShown) {
+  Station station{bus_of_its_own()};
+  const auto writer = pulse_writer(station.participant());
+  spindrift_Pulse pulse = idl_pulse(0);
+  pulse.source[0] = '\x1b';
+  pulse.source[1] = '\xff';
+  ASSERT_TRUE(writer.write(pulse));
+  ASSERT_TRUE(eventually([&] { return station.counts_of("\\x1b\\xffont-end").received == 1; }));
+  const SampleBatch arrived = station.finish();
+  ASSERT_EQ(arrived.rejected.size(), 1U);
+  EXPECT_EQ(arrived.rejected[0].source, "\\x1b\\xffont-end");
+}
+
+TEST(TelemetrySubscriber, KeepsFewOfManyImpossibleSamplesAndTheNumberOfTheRest) {
+  Station station{bus_of_its_own()};
+  const auto writer = pulse_writer(station.participant());
+  constexpr std::int64_t kSent = 2000;
+  for (std::uint64_t seq = 0; seq < kSent; ++seq) {
+    spindrift_Pulse pulse = idl_pulse(seq);
+    pulse.t_tai_ns = -1;
+    ASSERT_TRUE(writer.write(pulse, std::stop_token{}));
+  }
+  ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == kSent; }));
+  const SampleBatch arrived = station.finish();
+  std::int64_t samples = 0;
+  for (const RejectedInput& rejected : arrived.rejected) {
+    samples += rejected.samples;
+  }
+  EXPECT_EQ(samples, kSent);
+  // Of two minutes at most, on the slowest of machines.
+  EXPECT_LE(arrived.rejected.size(), 2 * (RejectionLimit::kKept + 1));
 }
 
 }  // namespace spindrift::ingest_test

@@ -68,7 +68,7 @@ std::vector<std::string> members_of(const Value& value) {
 TEST(TelemetryKinds, EachComesOverTheBusAsItWasSent) {
   const auto participant = bus::Participant::create(bus_of_its_own()).value();
   BoundedQueue<SampleBatch> queue{1000};
-  const auto subscriber = TelemetrySubscriber::start(participant, queue).value();
+  const auto subscriber = TelemetrySubscriber::start(participant, queue, {"SAT"}).value();
   TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
     SCOPED_TRACE(Telemetry<Value>::kName);
     auto publisher = TelemetryPublisher<Value>::create(participant, "station", 7).value();
@@ -88,7 +88,7 @@ TEST(TelemetryKinds, EachComesOverTheBusAsItWasSent) {
 TEST(TelemetryKinds, NumbersThatAreNoneAreRejectedWithTheirReason) {
   const auto participant = bus::Participant::create(bus_of_its_own()).value();
   BoundedQueue<SampleBatch> queue{1000};
-  const auto subscriber = TelemetrySubscriber::start(participant, queue).value();
+  const auto subscriber = TelemetrySubscriber::start(participant, queue, {"SAT"}).value();
   auto publisher = TelemetryPublisher<GyroSample>::create(participant, "station", 7).value();
   GyroSample sample = Example<GyroSample>::value();
   sample.rate_body_rad_s.z() = std::numeric_limits<double>::infinity();

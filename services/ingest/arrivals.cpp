@@ -1,0 +1,35 @@
+#include "services/ingest/arrivals.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace spindrift {
+
+Arrivals::Arrivals(std::set<std::string, std::less<>> spacecraft, const LastOrigins& stored)
+    : ours_{std::move(spacecraft)} {
+  for (std::size_t kind = 0; kind < stored.size(); ++kind) {
+    for (const Origin& last : stored.at(kind)) {
+      tracker_.go_on(last, kind);
+    }
+  }
+}
+
+std::map<std::string, SequenceCounts> Arrivals::take_changed() {
+  const std::lock_guard lock{mutex_};
+  return tracker_.take_changed();
+}
+
+SampleBatch Arrivals::take_rest(TaiTime now) {
+  const std::lock_guard lock{mutex_};
+  std::vector<RejectedInput> only_counted = limit_.take_rest(now);
+  std::move(only_counted.begin(), only_counted.end(), std::back_inserter(rest_.rejected));
+  rest_.counts = tracker_.take_changed();
+  return std::exchange(rest_, {});
+}
+
+std::map<std::string, SequenceCounts> Arrivals::by_source() const {
+  const std::lock_guard lock{mutex_};
+  return tracker_.by_source();
+}
+
+}  // namespace spindrift

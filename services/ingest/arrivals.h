@@ -1,0 +1,85 @@
+/// @file
+/// What arrives from the bus: counted, converted, and sorted into ours, others' and impossible.
+
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "services/clock/wall_clock.h"
+#include "services/ingest/from_idl.h"
+#include "services/ingest/rejection_limit.h"
+#include "services/ingest/sequence_tracker.h"
+#include "services/telemetry/last_origins.h"
+#include "services/telemetry/sample_batch.h"
+
+namespace spindrift {
+
+/// From any thread. Its memory is bounded whatever is sent.
+class Arrivals {
+ public:
+  /// @param spacecraft That have a mission here. @param stored Before a restart: no gap is counted
+  /// again.
+  Arrivals(std::set<std::string, std::less<>> spacecraft, const LastOrigins& stored);
+
+  bool is_ours(std::string_view spacecraft) const { return ours_.contains(spacecraft); }
+
+  /// A sample of ours: its value, or why there is none, into `batch`.
+  template <class Value>
+  void take(const bus::MessageOf<Value>& message, SampleBatch& batch) {
+    auto sample = from_idl<Value>(message);
+    const std::lock_guard lock{mutex_};
+    if (note(message, sample, batch)) {
+      batch.samples.template of<Value>().push_back(std::move(*sample));
+    }
+  }
+
+  /// A sample of another spacecraft: `take_rest` gives what is to be known of it.
+  template <class Value>
+  void take_other(const bus::MessageOf<Value>& message) {
+    const auto sample = from_idl<Value>(message);
+    const std::lock_guard lock{mutex_};
+    if (note(message, sample, rest_)) {
+      ++entry_of(rest_.others, sample->spacecraft).second;
+    }
+  }
+
+  /// Of the sources of which samples came since this was last asked.
+  std::map<std::string, SequenceCounts> take_changed();
+
+  /// What belongs to no batch of samples. @param now See RejectionLimit.
+  SampleBatch take_rest(TaiTime now);
+
+  std::map<std::string, SequenceCounts> by_source() const;
+
+ private:
+  /// @return whether it can be true.
+  template <class Value>
+  bool note(const bus::MessageOf<Value>& message, const Expected<TelemetrySample<Value>>& sample,
+            SampleBatch& batch) {
+    const Origin origin = sample ? sample->origin : origin_from_idl(message);
+    tracker_.record(origin, message.spacecraft, kTelemetryKind<Value>);
+    if (sample) {
+      return true;
+    }
+    if (auto rejected = limit_.pass(rejected_from_idl(origin, sample.error().message), tai_now())) {
+      batch.rejected.push_back(*std::move(rejected));
+    }
+    return false;
+  }
+
+  const std::set<std::string, std::less<>> ours_;
+
+  mutable std::mutex mutex_;  // Guards the three below.
+  SequenceTracker tracker_;
+  RejectionLimit limit_;
+  SampleBatch rest_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,31 @@
+// Samples of ever more spacecraft without a mission here.
+
+#include <gtest/gtest.h>
+
+#include "tests/support/service.h"
+
+namespace spindrift {
+namespace {
+
+/// @return memory that a service has at most while samples of so many spacecraft of others come,
+/// KiB.
+long peak_kib(int spacecraft) {
+  Service service{"nominal"};
+  EXPECT_TRUE(service.ready()) << service.program().log();
+  ForeignWriter sender{service.bus(), "keys", spacecraft};
+  EXPECT_EQ(sender.exit_status(), 0);
+  EXPECT_EQ(service.stop(), 0) << service.program().log();
+  return service.program().peak_kib();
+}
+
+TEST(ManyKeys, OfOtherSpacecraftCostNoMemory) {
+  if (is_sanitized()) {
+    GTEST_SKIP() << "sanitizers need memory of their own";
+  }
+  const long few_kib = peak_kib(100);
+  // An instance of Cyclone takes 0.6 KiB: 200,000 KiB.
+  EXPECT_LT(peak_kib(300'000), few_kib + 40'000);
+}
+
+}  // namespace
+}  // namespace spindrift
