@@ -10,8 +10,7 @@
 #include "tests/support/archive_rows.h"
 #include "tests/support/service.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::hostile_sender_test {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
@@ -73,5 +72,4 @@ TEST(HostileSender, WhoseNamesAreForATerminalReachesNoLogWithThem) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::hostile_sender_test

@@ -4,8 +4,7 @@
 
 #include "tests/support/service.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::many_keys_test {
 
 /// @return memory that a service has at most while samples of so many spacecraft of others come,
 /// KiB.
@@ -27,5 +26,4 @@ TEST(ManyKeys, OfOtherSpacecraftCostNoMemory) {
   EXPECT_LT(peak_kib(300'000), few_kib + 40'000);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::many_keys_test

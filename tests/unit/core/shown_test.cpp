@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace spindrift {
-namespace {
+namespace spindrift::shown_test {
 
 TEST(Shown, LeavesTextOfAnyScriptAsItIs) {
   EXPECT_EQ(shown(""), "");
@@ -42,5 +41,4 @@ TEST(Shown, IsAtMost200CharactersAndThePlaceOfTheRest) {
   EXPECT_EQ(shown(std::string(1'000'000, '\x01')).size(), 203U);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::shown_test

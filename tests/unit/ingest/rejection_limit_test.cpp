@@ -5,8 +5,7 @@
 
 #include <chrono>
 
-namespace spindrift {
-namespace {
+namespace spindrift::rejection_limit_test {
 
 using namespace std::chrono_literals;
 using ::testing::StartsWith;
@@ -71,5 +70,4 @@ TEST(RejectionLimit, IsBoundedWhateverSourcesAreNamed) {
   EXPECT_EQ(rest[0].samples + kept, kSent);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::rejection_limit_test

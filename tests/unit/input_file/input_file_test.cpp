@@ -11,8 +11,7 @@
 #include "services/input_file/sha256.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::input_file_test {
 
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
@@ -109,5 +108,4 @@ TEST(Sha256, OfAFileIsThatOfItsBytes) {
   EXPECT_EQ(sha256_hex(file).value(), sha256_hex(text).value());
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::input_file_test

@@ -5,8 +5,7 @@
 
 #include <string>
 
-namespace spindrift {
-namespace {
+namespace spindrift::nesting_test {
 
 std::string times(int count, const std::string& text) {
   std::string all;
@@ -43,5 +42,4 @@ TEST(Nesting, IsFoundTooDeepWithItsLine) {
   EXPECT_EQ(line_nested_too_deep("k = ['\\', " + times(17, "[")), 1U);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::nesting_test
