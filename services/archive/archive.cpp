@@ -14,6 +14,7 @@
 #include "services/archive/checkpointer.h"
 #include "services/archive/connection.h"
 #include "services/archive/write_lock.h"
+#include "services/queue/contained.h"
 
 namespace spindrift {
 namespace {
@@ -155,7 +156,7 @@ Expected<void> Archive::close() {
     writer_.join();
   }
   store_.reset();
-  if (rows_lost_ > 0) {
+  if (rows_lost_ > 0 || gave_up_) {
     return Unexpected{
         {ErrorCode::Unavailable, fmt::format("{} rows that were accepted are not in archive {}: {}",
                                              rows_lost_, path_, failure_->message)}};
@@ -173,6 +174,28 @@ ArchiveStatistics Archive::statistics() const {
 }
 
 void Archive::run() {
+  if (const auto ended = contained("archive " + path_, [this] { store_what_comes(); }); !ended) {
+    give_up(ended.error());
+  }
+}
+
+// Of a thread that ends too early: what is queued is not stored.
+void Archive::give_up(const Error& error) {
+  {
+    const std::lock_guard lock{mutex_};
+    state_ = State::Stopped;
+    failure_ = error;
+  }
+  gave_up_ = true;
+  changed_.notify_all();
+  queue_.close();
+  for (auto left = queue_.take(); !left.empty(); left = queue_.take()) {
+    rows_lost_ += row_count(left);
+  }
+  options_.on_failure(error);
+}
+
+void Archive::store_what_comes() {
   for (auto batches = queue_.take(); !batches.empty(); batches = queue_.take()) {
     if (gave_up_ || !store_patiently(batches)) {
       store_singly(batches);
@@ -204,7 +227,7 @@ void Archive::store_singly(std::span<const ArchiveBatch> batches) {
 
 Expected<void> Archive::store(std::span<const ArchiveBatch> batches) {
   const auto begun = steady_clock::now();
-  auto stored = store_->writer.write(batches);
+  auto stored = contained("archive " + path_, [&] { return store_->writer.write(batches); });
   const std::chrono::duration<double, std::milli> duration = steady_clock::now() - begun;
   if (stored) {
     options_.on_committed(batches);

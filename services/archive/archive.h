@@ -90,6 +90,8 @@ class Archive {
   Archive(std::string path, std::unique_ptr<Store> store, ArchiveOptions options);
 
   void run();
+  void store_what_comes();
+  void give_up(const Error& error);
   bool store_patiently(std::span<const ArchiveBatch> batches);
   void store_singly(std::span<const ArchiveBatch> batches);
   Expected<void> store(std::span<const ArchiveBatch> batches);

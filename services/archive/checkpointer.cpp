@@ -3,6 +3,7 @@
 #include <sqlite3.h>
 
 #include "services/archive/paced_writes.h"
+#include "services/queue/contained.h"
 
 namespace spindrift {
 namespace {
@@ -41,7 +42,12 @@ Checkpointer::Checkpointer(SQLite::Database& writer)
       due_frames_{kLongLog_frames} {
   // A connection has no log before it has read; without one a checkpoint does nothing.
   own_.execAndGet("SELECT count(*) FROM sqlite_schema");
-  thread_ = std::jthread{[this] { run(); }};
+  thread_ = std::jthread{[this] {
+    if (!contained("carrying over", [this] { run(); })) {
+      state_ = State::Stopped;
+      state_.notify_one();
+    }
+  }};
   // In place of SQLite's automatic checkpoint.
   sqlite3_wal_hook(writer_.getHandle(), &Checkpointer::on_commit, this);
 }

@@ -265,4 +265,17 @@ TEST_F(ArchiveFailure, KillAtAnyMomentLosesNothingThatWasReportedCommitted) {
   }
 }
 
+TEST_F(ArchiveFailure, AnExceptionInItsThreadIsAFailure) {
+  std::promise<Error> failed;
+  ArchiveOptions options;
+  options.on_write_failure = OnWriteFailure::Retry;
+  options.on_committed = [](const auto& /*stored*/) { throw std::bad_alloc{}; };
+  options.on_failure = first_into(failed);
+  const auto archive = open(options);
+  ASSERT_TRUE(archive->submit(start_of("run-1")));
+  EXPECT_THAT(failed.get_future().get().message, HasSubstr("out of memory"));
+  EXPECT_FALSE(archive->submit(pulses_from(0)));
+  EXPECT_FALSE(archive->close());
+}
+
 }  // namespace spindrift::archive_failure_test
