@@ -36,4 +36,9 @@ Expected<Participant> Participant::create(const BusConfig& config) {
                                  config.partition, network_configuration().name)};
 }
 
+void Participant::set_deaf(bool deaf) const {
+  // Refused only for what is no entity of a domain.
+  static_cast<void>(dds_domain_set_deafmute(participant_.handle(), deaf, false, DDS_INFINITY));
+}
+
 }  // namespace spindrift::bus

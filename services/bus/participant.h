@@ -25,6 +25,10 @@ class Participant {
   /// Domain, partition and the network configuration in force, for the log.
   const std::string& description() const { return description_; }
 
+  /// Deaf, Cyclone drops whatever arrives from other processes, in the whole domain, and neither
+  /// takes nor acknowledges; what is reliable is sent again afterwards.
+  void set_deaf(bool deaf) const;
+
   dds_entity_t handle() const { return participant_.handle(); }
   dds_entity_t publisher() const { return publisher_.handle(); }
   dds_entity_t subscriber() const { return subscriber_.handle(); }

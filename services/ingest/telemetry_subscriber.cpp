@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "services/clock/wall_clock.h"
+#include "services/ingest/from_idl.h"
+#include "services/queue/contained.h"
 
 namespace spindrift {
 namespace {
@@ -12,6 +14,10 @@ namespace {
 constexpr std::int32_t kTakenAtOnce = 256;
 // Samples of other spacecraft do not wake the taking thread: so often it hands over their counts.
 constexpr std::chrono::seconds kBeat{1};
+// What a stop takes at most: a full reader, and as much again from what Cyclone has in hand.
+constexpr std::int32_t kBatchesLeft = 2 * bus::kTelemetryReaderSamples / kTakenAtOnce;
+// For its threads to deliver what they have in hand.
+constexpr std::chrono::milliseconds kInHand{20};
 
 template <class Value>
 Expected<bus::Reader<bus::MessageOf<Value>>> attached_reader(const bus::Participant& participant,
@@ -79,12 +85,14 @@ Expected<std::unique_ptr<TelemetrySubscriber>> TelemetrySubscriber::start(
     return Unexpected{readers.error()};
   }
   return std::unique_ptr<TelemetrySubscriber>{new TelemetrySubscriber{
-      std::move(arrivals), std::move(*readers), std::move(*waitset), queue}};
+      participant, std::move(arrivals), std::move(*readers), std::move(*waitset), queue}};
 }
 
-TelemetrySubscriber::TelemetrySubscriber(std::unique_ptr<Arrivals> arrivals, Readers readers,
+TelemetrySubscriber::TelemetrySubscriber(const bus::Participant& participant,
+                                         std::unique_ptr<Arrivals> arrivals, Readers readers,
                                          bus::WaitSet waitset, BoundedQueue<SampleBatch>& queue)
-    : arrivals_{std::move(arrivals)},
+    : participant_{participant},
+      arrivals_{std::move(arrivals)},
       readers_{std::move(readers)},
       waitset_{std::move(waitset)},
       queue_{queue} {
@@ -93,15 +101,48 @@ TelemetrySubscriber::TelemetrySubscriber(std::unique_ptr<Arrivals> arrivals, Rea
 
 TelemetrySubscriber::~TelemetrySubscriber() { stop(); }
 
+// A full reader holds up Cyclone's receive thread, and deleting any reader waits for that thread:
+// for ever, as no one can take from a reader that is being deleted. So the network is shut out
+// until the readers are empty and gone.
 void TelemetrySubscriber::stop() {
+  if (!readers_) {
+    return;
+  }
+  participant_.set_deaf(true);
   waitset_.stop();
   if (thread_.joinable()) {
     thread_.join();
   }
+  discard_what_is_left();
+  {
+    const std::lock_guard lock{readers_mutex_};
+    last_reader_status_ = reader_status();
+    readers_.reset();
+  }
+  participant_.set_deaf(false);
+}
+
+// Nothing, unless the queue was closed or the thread has failed.
+void TelemetrySubscriber::discard_what_is_left() {
+  const auto discard = [this](const auto& reader) {
+    std::size_t taken = 1;
+    for (std::int32_t batch = 0; batch < kBatchesLeft && taken > 0; ++batch) {
+      taken = reader.take([this](const auto& /*sample*/) { ++discarded_; }).value_or(0);
+    }
+  };
+  const std::lock_guard lock{mutex_};
+  std::apply([&](const auto&... all) { (discard(all), ...); }, *readers_);
+}
+
+Expected<bus::ReaderStatus> TelemetrySubscriber::reader_status() const {
+  return readers_ ? std::apply([](const auto&... all) { return status_of(all...); }, *readers_)
+                  : last_reader_status_;
 }
 
 Expected<TelemetrySubscriberStatus> TelemetrySubscriber::status() const {
-  auto reader = std::apply([](const auto&... all) { return status_of(all...); }, readers_);
+  std::unique_lock readers_lock{readers_mutex_};
+  auto reader = reader_status();
+  readers_lock.unlock();
   if (!reader) {
     return Unexpected{reader.error()};
   }
@@ -109,11 +150,12 @@ Expected<TelemetrySubscriberStatus> TelemetrySubscriber::status() const {
   return TelemetrySubscriberStatus{.by_source = arrivals_->by_source(),
                                    .reader = std::move(*reader),
                                    .taking = taking_,
-                                   .failure = failure_};
+                                   .failure = failure_,
+                                   .discarded = discarded_};
 }
 
 void TelemetrySubscriber::run() {
-  const auto ended = take_until_stopped();
+  const auto ended = contained("taking samples", [this] { return take_until_stopped(); });
   const std::lock_guard lock{mutex_};
   taking_ = false;
   if (!ended) {
@@ -139,17 +181,22 @@ Expected<void> TelemetrySubscriber::take_until_stopped() {
   }
 }
 
-// What the reader holds is acknowledged: its writers take it for stored. No more than that, or a
-// fast writer would keep a stopping service going.
+// What the readers hold is acknowledged: its writers take it for stored. From other processes
+// nothing more comes; a writer of this one must not keep a stopping service going.
 Expected<void> TelemetrySubscriber::take_what_is_left() {
-  for (std::int32_t batch = 0; batch <= bus::kTelemetryReaderSamples / kTakenAtOnce; ++batch) {
+  bool waited = false;
+  for (std::int32_t batch = 0; batch < kBatchesLeft; ++batch) {
     const auto handed = hand_over_batches();
     if (!handed) {
       return Unexpected{handed.error()};
     }
-    if (!*handed) {
+    if (!*handed && waited) {
       break;
     }
+    if (!*handed) {
+      std::this_thread::sleep_for(kInHand);
+    }
+    waited = !*handed;
   }
   return hand_over_rest(TaiTime::max());
 }
@@ -169,7 +216,7 @@ Expected<bool> TelemetrySubscriber::hand_over_batches() {
 template <class Value>
 Expected<bool> TelemetrySubscriber::hand_over_batch() {
   SampleBatch batch;
-  const auto taken = std::get<kTelemetryKind<Value>>(readers_).take(
+  const auto taken = std::get<kTelemetryKind<Value>>(*readers_).take(
       [&](const bus::MessageOf<Value>& message) { arrivals_->take<Value>(message, batch); });
   if (!taken) {
     return Unexpected{taken.error()};

@@ -3,10 +3,13 @@
 
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -27,6 +30,7 @@ struct TelemetrySubscriberStatus {
   bus::ReaderStatus reader;  ///< Of all topics together.
   bool taking;               ///< False: the thread ended, stopped or failed (see `failure`).
   std::string failure;
+  std::uint64_t discarded;  ///< Acknowledged to their writers, but not queued when it stopped.
 };
 
 /// Takes from the topics of all kinds of telemetry for as long as it lives. When the queue is full
@@ -47,8 +51,9 @@ class TelemetrySubscriber {
   TelemetrySubscriber(TelemetrySubscriber&&) = delete;
   TelemetrySubscriber& operator=(TelemetrySubscriber&&) = delete;
 
-  /// Ends taking: what was taken is in the queue when this returns. Until then somebody must go on
-  /// emptying the queue; close it afterwards. Once is enough, from the thread that owns this.
+  /// Ends taking, however fast writers go on: what they were told is delivered is in the queue when
+  /// this returns, and no reader is left. Until then somebody must go on emptying the queue; close
+  /// it afterwards. Once is enough, from the thread that owns this.
   void stop();
 
   /// From any thread. @return Unavailable when Cyclone refuses.
@@ -59,8 +64,8 @@ class TelemetrySubscriber {
   using ReaderOf = bus::Reader<bus::MessageOf<Value>>;
   using Readers = TelemetryKinds::Of<std::tuple, ReaderOf>;
 
-  TelemetrySubscriber(std::unique_ptr<Arrivals> arrivals, Readers readers, bus::WaitSet waitset,
-                      BoundedQueue<SampleBatch>& queue);
+  TelemetrySubscriber(const bus::Participant& participant, std::unique_ptr<Arrivals> arrivals,
+                      Readers readers, bus::WaitSet waitset, BoundedQueue<SampleBatch>& queue);
 
   void run();
   Expected<void> take_until_stopped();
@@ -70,15 +75,21 @@ class TelemetrySubscriber {
   Expected<bool> hand_over_batch();
   Expected<void> hand_over_rest(TaiTime now);
   Expected<void> push(SampleBatch batch);
+  void discard_what_is_left();
+  Expected<bus::ReaderStatus> reader_status() const;
 
+  const bus::Participant& participant_;
   std::unique_ptr<Arrivals> arrivals_;  // Before the readers, whose filters use it.
-  Readers readers_;
+  mutable std::mutex readers_mutex_;    // Guards that readers are there; the thread outlives none.
+  std::optional<Readers> readers_;
+  Expected<bus::ReaderStatus> last_reader_status_;  ///< Once they are gone.
   bus::WaitSet waitset_;
   BoundedQueue<SampleBatch>& queue_;
 
-  mutable std::mutex mutex_;  // Guards the two below.
+  mutable std::mutex mutex_;  // Guards the three below.
   bool taking_ = true;
   std::string failure_;
+  std::uint64_t discarded_ = 0;
 
   std::thread thread_;  // Last: it uses all the others, and begins once they are there.
 };

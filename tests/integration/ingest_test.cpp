@@ -491,4 +491,29 @@ TEST(TelemetrySubscriber, KeepsFewOfManyImpossibleSamplesAndTheNumberOfTheRest) 
   EXPECT_LE(arrived.rejected.size(), 2 * (RejectionLimit::kKept + 1));
 }
 
+TEST(TelemetrySubscriber, SaysSoWhenAnExceptionEndsItsTaking) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  BoundedQueue<SampleBatch> queue{
+      4, [](const SampleBatch& /*batch*/) -> std::size_t { throw std::bad_alloc{}; }};
+  const auto subscriber = TelemetrySubscriber::start(participant, queue).value();
+  ASSERT_TRUE(pulse_writer(participant).write(idl_pulse(0)));
+  ASSERT_TRUE(eventually([&] { return !subscriber->status().value().taking; }));
+  EXPECT_EQ(subscriber->status().value().failure, "taking samples: out of memory");
+}
+
+// Deleting a full reader waits for Cyclone's receive thread, which waits for room in it.
+TEST(TelemetrySubscriber, StopsAndCountsWhatNobodyTookWhileItsReaderIsFull) {
+  const auto config = bus_of_its_own();
+  const auto participant = Participant::create(config).value();
+  BoundedQueue<SampleBatch> queue{1};
+  const auto subscriber = TelemetrySubscriber::start(participant, queue).value();
+  const ForeignWriter writer{config, "telemetry", 1'000'000'000};
+  ASSERT_TRUE(eventually([&] { return subscriber->status().value().reader.rejected > 0; }));
+  queue.close();
+  subscriber->stop();
+  EXPECT_GE(subscriber->status().value().discarded,
+            static_cast<std::uint64_t>(bus::kTelemetryReaderSamples));
+  EXPECT_GT(subscriber->status().value().reader.rejected, 0U);
+}
+
 }  // namespace spindrift::ingest_test
