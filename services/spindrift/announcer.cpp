@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "services/queue/contained.h"
 #include "services/spindrift/summary_text.h"
 
 namespace spindrift {
@@ -24,8 +25,10 @@ std::vector<Product> news(const std::vector<Product>& products, const StoredResu
 
 }  // namespace
 
-Announcer::Announcer(const ResultPublisher& publisher)
-    : publisher_{publisher}, thread_{[this] { run(); }} {}
+Announcer::Announcer(const ResultPublisher& publisher, ThreadFailures& failures)
+    : publisher_{publisher}, thread_{[this, &failures] {
+        failures.note(contained("announcing", [this] { run(); }));
+      }} {}
 
 Announcer::~Announcer() {
   waiting_.close();

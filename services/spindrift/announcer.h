@@ -15,13 +15,14 @@
 #include "services/archive/stored_results.h"
 #include "services/publisher/announcements.h"
 #include "services/publisher/result_publisher.h"
+#include "services/spindrift/thread_failures.h"
 
 namespace spindrift {
 
 class Announcer {
  public:
-  /// `publisher` outlives it.
-  explicit Announcer(const ResultPublisher& publisher);
+  /// Both outlive it.
+  Announcer(const ResultPublisher& publisher, ThreadFailures& failures);
   ~Announcer();
   Announcer(const Announcer&) = delete;
   Announcer& operator=(const Announcer&) = delete;

@@ -4,15 +4,21 @@
 #include <sched.h>
 #include <spdlog/spdlog.h>
 
+#include <atomic>
+#include <chrono>
 #include <future>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 namespace spindrift {
 namespace {
+
+constexpr std::chrono::milliseconds kPatiencePoll{200};
 
 /// Nobody waits for the solution of a minute, and everybody for fixes: it gets what processor time
 /// they leave.
@@ -28,18 +34,33 @@ void give_way_to_other_threads() {
   }
 }
 
+std::atomic<bool> given_up = false;
+
 /// In a thread that does nothing else: one that gives way must not hold the archive's locks, and
-/// without privileges none can cease to give way.
-Expected<ArchiveBatch> solve_giving_way(const BackgroundTask& task) {
-  return std::async(std::launch::async,
-                    [&task] {
-                      give_way_to_other_threads();
-                      return task.solve();
-                    })
-      .get();
+/// without privileges none can cease to give way. Among busy processes it takes minutes: it is left
+/// to itself when patience ends. @return nothing then.
+std::optional<Expected<ArchiveBatch>> solve_giving_way(const BackgroundTask& task,
+                                                       const Patience& patience) {
+  std::packaged_task<Expected<ArchiveBatch>()> solving{[task] {
+    give_way_to_other_threads();
+    return task.solve();
+  }};
+  auto solution = solving.get_future();
+  std::thread thread{std::move(solving)};
+  while (solution.wait_for(kPatiencePoll) != std::future_status::ready) {
+    if (patience.ended) {
+      given_up = true;
+      thread.detach();
+      return std::nullopt;
+    }
+  }
+  thread.join();
+  return solution.get();
 }
 
 }  // namespace
+
+bool is_solution_given_up() { return given_up; }
 
 void solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& archive,
                          const Patience& patience) {
@@ -48,13 +69,16 @@ void solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& archive,
     if (patience.ended) {
       continue;
     }
-    auto solution = solve_giving_way(*task);
+    auto solution = solve_giving_way(*task, patience);
     if (!solution) {
+      continue;
+    }
+    if (!*solution) {
       std::string& reason = said[task->spacecraft_id];
-      if (std::exchange(reason, solution.error().message) != solution.error().message) {
+      if (std::exchange(reason, solution->error().message) != solution->error().message) {
         spdlog::warn("{}: no batch solution: {}", task->spacecraft_id, reason);
       }
-    } else if (!archive.submit(*std::move(solution))) {
+    } else if (!archive.submit(**std::move(solution))) {
       tasks.close();  // Those who compute meet the same archive, and say so.
     }
   }

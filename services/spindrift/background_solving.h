@@ -20,4 +20,8 @@ inline constexpr std::size_t kMostBackgroundTasks = 256;
 void solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& archive,
                          const Patience& patience);
 
+/// A solution was not awaited when patience ended: its thread goes on, until the process ends by
+/// `_exit`.
+bool is_solution_given_up();
+
 }  // namespace spindrift

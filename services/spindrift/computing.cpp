@@ -49,7 +49,6 @@ Expected<void> Computing::work_off() {
   let_samples_come_first();
   while (const auto input = backlog_.take()) {
     if (auto stored = compute(*input); !stored) {
-      backlog_.close();  // Nobody empties it any more.
       return stored;
     }
     --waiting_;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "services/clock/wall_clock.h"
+#include "services/queue/contained.h"
 
 namespace spindrift {
 namespace {
@@ -29,10 +30,10 @@ SequenceCounts total(const TelemetrySubscriberStatus& status) {
 
 }  // namespace
 
-Heartbeat::Heartbeat(const Watched& watched, std::function<void()> on_failure)
-    : watched_{watched},
-      on_failure_{std::move(on_failure)},
-      thread_{[this](const std::stop_token& stop) { run(stop); }} {}
+Heartbeat::Heartbeat(const Watched& watched, ThreadFailures& failures)
+    : watched_{watched}, failures_{failures}, thread_{[this](const std::stop_token& stop) {
+        failures_.note(contained("heartbeat", [&] { run(stop); }));
+      }} {}
 
 Heartbeat::~Heartbeat() = default;
 
@@ -64,8 +65,7 @@ void Heartbeat::beat() {
   note_storing(watched_.archive.statistics().failure);
   publish_health(*status);
   if (!status->taking && !status->failure.empty() && !std::exchange(failed_, true)) {
-    spdlog::critical("not taking samples: {}", status->failure);
-    on_failure_();
+    failures_.note(Unexpected{{ErrorCode::Unavailable, "not taking samples: " + status->failure}});
   }
 }
 

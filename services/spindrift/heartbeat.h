@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -18,6 +17,7 @@
 #include "services/processor/pass_run.h"
 #include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"
+#include "services/spindrift/thread_failures.h"
 
 namespace spindrift {
 
@@ -33,8 +33,8 @@ class Heartbeat {
     const LinkWatch& links;
   };
 
-  /// @param on_failure Called once, on its thread, when taking samples has failed.
-  Heartbeat(const Watched& watched, std::function<void()> on_failure);
+  /// @param failures Outlives it, and is told when taking samples has failed.
+  Heartbeat(const Watched& watched, ThreadFailures& failures);
   ~Heartbeat();
   Heartbeat(const Heartbeat&) = delete;
   Heartbeat& operator=(const Heartbeat&) = delete;
@@ -52,7 +52,7 @@ class Heartbeat {
   void say_once(const std::string& problem);
 
   Watched watched_;
-  std::function<void()> on_failure_;
+  ThreadFailures& failures_;
   std::set<std::string> said_;
   GapWatch gap_watch_;
   std::map<std::string, std::uint64_t> gaps_;  ///< Lasting ones, as last told.

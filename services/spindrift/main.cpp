@@ -1,9 +1,11 @@
 /// @file
 /// The program: its command line and its exit status.
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/details/os.h>
+#include <spdlog/sinks/ansicolor_sink.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -28,6 +30,7 @@
 
 #include "services/processor/version.h"
 #include "services/progress/progress_bar.h"
+#include "services/spindrift/background_solving.h"
 #include "services/spindrift/batch.h"
 #include "services/spindrift/doctor.h"
 #include "services/spindrift/geometry.h"
@@ -35,6 +38,7 @@
 #include "services/spindrift/replay.h"
 #include "services/spindrift/serve.h"
 #include "services/spindrift/simulate.h"
+#include "services/standard_error/standard_error.h"
 
 namespace {
 
@@ -305,22 +309,52 @@ int run_safely(int argc, char** argv) {
   }
 }
 
+/// A closed one's number would become that of a file or socket, which messages are then written
+/// into. As before, writing to it fails.
+void reserve_standard_streams() {
+  int descriptor = STDIN_FILENO;
+  while (descriptor >= 0 && descriptor <= STDERR_FILENO) {
+    descriptor = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  }
+  ::close(descriptor);
+}
+
+/// Standard output is for results, standard error for people.
+void log_to_standard_error(bool in_terminal) {
+  const bool in_colour = in_terminal && spdlog::details::os::is_color_terminal();
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+      "spindrift", std::make_shared<spdlog::sinks::ansicolor_stderr_sink_mt>(
+                       in_colour ? spdlog::color_mode::always : spdlog::color_mode::never)));
+  const std::string begin_line = in_terminal ? spindrift::kEraseLine : "";
+  spdlog::set_pattern(begin_line + "%Y-%m-%dT%H:%M:%S.%eZ %^%l%$ %v",
+                      spdlog::pattern_time_type::utc);
+}
+
+/// As `run_safely`; what cannot be written of its results is a failure, too.
+int run_and_flush(int argc, char** argv) {
+  const int status = run_safely(argc, argv);
+  if (std::fflush(stdout) != 0) {
+    fmt::print(stderr, "spindrift: standard output: {}\n", std::generic_category().message(errno));
+    return status == EXIT_SUCCESS ? kFailed : status;
+  }
+  return status;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    // A full disk shall be an error of the write, not the end of the process.
+    // A full disk and a reader who is gone shall be errors of the write, not the end of the
+    // process.
     std::signal(SIGXFSZ, SIG_IGN);
-    // Standard output is for results, standard error for people.
-    spdlog::set_default_logger(spdlog::stderr_color_mt("spindrift"));
-    const std::string begin_line = isatty(STDERR_FILENO) == 1 ? spindrift::kEraseLine : "";
-    spdlog::set_pattern(begin_line + "%Y-%m-%dT%H:%M:%S.%eZ %^%l%$ %v",
-                        spdlog::pattern_time_type::utc);
-    const int status = run_safely(argc, argv);
-    if (std::fflush(stdout) != 0) {
-      fmt::print(stderr, "spindrift: standard output: {}\n",
-                 std::generic_category().message(errno));
-      return status == EXIT_SUCCESS ? kFailed : status;
+    std::signal(SIGPIPE, SIG_IGN);
+    reserve_standard_streams();
+    spindrift::StandardError standard_error;
+    log_to_standard_error(isatty(STDERR_FILENO) == 1);
+    const int status = run_and_flush(argc, argv);
+    const bool all_is_out = standard_error.close();
+    if (!all_is_out || spindrift::is_solution_given_up()) {
+      ::_exit(status);  // Threads go on that nobody can wait for.
     }
     return status;
   } catch (const std::exception& exception) {

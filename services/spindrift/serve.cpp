@@ -1,6 +1,7 @@
 #include "services/spindrift/serve.h"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <chrono>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -23,6 +25,7 @@
 #include "services/processor/silence_watch.h"
 #include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"
+#include "services/queue/contained.h"
 #include "services/spindrift/announcer.h"
 #include "services/spindrift/background_solving.h"
 #include "services/spindrift/comparison_notice.h"
@@ -34,6 +37,7 @@
 #include "services/spindrift/stop_signal.h"
 #include "services/spindrift/submit_all.h"
 #include "services/spindrift/summary_text.h"
+#include "services/spindrift/thread_failures.h"
 
 namespace spindrift {
 namespace {
@@ -45,7 +49,8 @@ constexpr std::size_t kSamplesToCompute = 1'000'000;
 constexpr std::chrono::milliseconds kStuckPoll{200};
 // A backlog of what was stored is computed for so long after the signal to stop. What is left then
 // is computed at the next start.
-constexpr std::chrono::seconds kComputedWhenStopped{10};
+constexpr std::chrono::seconds kComputedWhenStopped{8};
+constexpr int kUntilRead_ms = 1000;
 
 Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::path>& paths) {
   std::vector<Mission> missions;
@@ -115,43 +120,51 @@ Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& ta
       stored = computing.take(std::move(*input), taken.size());
     }
     if (!stored) {
-      taken.close();  // Nobody empties it any more: the taking thread must not wait for room.
       return stored;
     }
   }
   return {};
 }
 
-/// In the end runs are finished of which all samples are computed.
-Expected<void> route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
-                                 BoundedQueue<PassInput>& backlog, Processor& processor,
-                                 Archive& archive, const Patience& patience, LinkWatch& links) {
+/// In the end runs are finished of which all samples are computed. Who can no longer empty a queue
+/// closes it: nobody must wait for room.
+void route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
+                       BoundedQueue<PassInput>& backlog, Processor& processor, Archive& archive,
+                       const Patience& patience, LinkWatch& links, ThreadFailures& failures) {
   BoundedQueue<BackgroundTask> tasks{kMostBackgroundTasks};
   Computing computing{processor, archive, backlog, tasks, patience};
-  Expected<void> worked_off;
-  std::thread solving{[&] { solve_in_background(tasks, archive, patience); }};
-  std::thread working_off{[&] { worked_off = computing.work_off(); }};
-  const auto routed = route(std::move(again), taken, processor, archive, computing, links);
+  std::thread solving{[&] {
+    failures.note(contained("solving", [&] { solve_in_background(tasks, archive, patience); }));
+    tasks.close();
+  }};
+  std::thread working_off{[&] {
+    failures.note(contained("computing the backlog", [&] { return computing.work_off(); }));
+    backlog.close();
+  }};
+  failures.note(contained("taking in", [&] {
+    return route(std::move(again), taken, processor, archive, computing, links);
+  }));
+  taken.close();
   backlog.close();
   working_off.join();
   tasks.close();
   solving.join();
-  if (!routed || !worked_off) {
-    return routed ? worked_off : routed;
+  if (!failures.first()) {
+    return;
   }
   if (computing.samples_left() > 0) {
     spdlog::warn("{} samples are stored and not computed yet: the next start of the service will",
                  computing.samples_left());
-    return {};
+    return;
   }
-  return submit_all(archive, processor.finish());
+  failures.note(contained("finishing", [&] { return submit_all(archive, processor.finish()); }));
 }
 
 /// A service that is told to stop waits a while for the mathematics, and while writing fails not at
 /// all: it makes the last attempt now.
 void lose_patience(const std::stop_token& done, Patience& patience,
                    BoundedQueue<SampleBatch>& queue, Archive& archive) {
-  std::chrono::milliseconds waited{0};
+  std::optional<std::chrono::steady_clock::time_point> until;
   while (!done.stop_requested()) {
     if (patience.stopping && archive.statistics().failure) {
       queue.close();
@@ -159,16 +172,38 @@ void lose_patience(const std::stop_token& done, Patience& patience,
           archive.close());  // What it could not store is said when it is closed again.
       return;
     }
-    waited += patience.stopping ? kStuckPoll : std::chrono::milliseconds{0};
-    patience.ended = waited >= kComputedWhenStopped;
+    const auto now = std::chrono::steady_clock::now();
+    if (patience.stopping && !until) {
+      until = now + kComputedWhenStopped;
+    }
+    patience.ended = until && now >= *until;
     std::this_thread::sleep_for(kStuckPoll);
   }
+}
+
+/// Of a subscriber that was stopped.
+Expected<void> how_taking_ended(const TelemetrySubscriber& subscriber) {
+  const auto status = subscriber.status();
+  if (!status) {
+    return Unexpected{status.error()};
+  }
+  if (status->discarded > 0) {
+    spdlog::error(
+        "{} samples that their senders take for delivered were discarded by the stop: "
+        "send them again",
+        status->discarded);
+  }
+  if (!status->failure.empty()) {
+    return Unexpected{{ErrorCode::Unavailable, status->failure}};
+  }
+  return {};
 }
 
 /// From "ready" until a signal, or a failure, and everything taken is with the archive.
 Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins,
                    const bus::Participant& participant, const ResultPublisher& publisher,
-                   Processor& processor, Archive& archive, StopSignal& stop_signal) {
+                   Processor& processor, Archive& archive, StopSignal& stop_signal,
+                   ThreadFailures& failures) {
   BoundedQueue<SampleBatch> queue{kSamplesTaken, [](const SampleBatch& taken) {
                                     return std::max<std::size_t>(size_of(taken), 1);
                                   }};
@@ -186,12 +221,13 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
   stop_signal.on_stop([&] {
     spdlog::info("stopping");
     patience.stopping = true;
-    subscriber.stop();
+    failures.note(contained("stopping", [&] { subscriber.stop(); }));
     queue.close();
   });
-  const std::jthread watching{
-      [&](const std::stop_token& done) { lose_patience(done, patience, queue, archive); }};
-  Expected<void> worked;
+  const std::jthread watching{[&](const std::stop_token& done) {
+    failures.note(
+        contained("watching the stop", [&] { lose_patience(done, patience, queue, archive); }));
+  }};
   {
     const Heartbeat heartbeat{{.subscriber = subscriber,
                                .taken = queue,
@@ -199,22 +235,13 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
                                .archive = archive,
                                .publisher = publisher,
                                .links = links},
-                              &StopSignal::raise};
+                              failures};
     spdlog::info("ready");
-    worked = route_and_compute(std::move(again), queue, work, processor, archive, patience, links);
-  }
-  if (!worked) {
-    StopSignal::raise();
+    route_and_compute(std::move(again), queue, work, processor, archive, patience, links, failures);
   }
   stop_signal.join();
-
-  const auto status = subscriber.status();
-  if (worked && !status) {
-    worked = Unexpected{status.error()};
-  } else if (worked && !status->failure.empty()) {
-    worked = Unexpected{{ErrorCode::Unavailable, status->failure}};
-  }
-  return worked;
+  const auto taking = how_taking_ended(subscriber);
+  return failures.first().and_then([&] { return taking; });
 }
 
 Expected<Processor> make_processor(const ServeOptions& options) {
@@ -229,12 +256,14 @@ Expected<Processor> make_processor(const ServeOptions& options) {
 }
 
 Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db,
-                                                Announcer& announcer) {
+                                                Announcer& announcer, ThreadFailures& failures) {
   return Archive::open(db, {.on_write_failure = OnWriteFailure::Retry,
                             .on_committed =
                                 [&](std::span<const ArchiveBatch> stored) {
-                                  announcer.committed(stored);
-                                  warn_of_disagreements(db, stored);
+                                  failures.note(contained("announcing", [&] {
+                                    announcer.committed(stored);
+                                    warn_of_disagreements(db, stored);
+                                  }));
                                 },
                             .on_failure =
                                 [](const Error& error) {
@@ -260,10 +289,21 @@ Expected<void> note_announced(const std::filesystem::path& db,
   return {};
 }
 
+/// A pipe that is full and that nobody reads must not keep a service that has stopped.
+Expected<void> print_if_read(const std::string& text) {
+  pollfd out{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
+  if (::poll(&out, 1, kUntilRead_ms) == 0) {
+    return Unexpected{{ErrorCode::Unavailable, "standard output: nobody reads it"}};
+  }
+  fmt::print("{}", text);
+  return {};
+}
+
 }  // namespace
 
 Expected<void> serve(const ServeOptions& options) {
-  auto processor = make_processor(options);
+  // To the end of the process: a solution that was given up may still use it.
+  static auto processor = make_processor(options);
   if (!processor) {
     return Unexpected{processor.error()};
   }
@@ -279,8 +319,9 @@ Expected<void> serve(const ServeOptions& options) {
   if (!publisher) {
     return Unexpected{publisher.error()};
   }
-  Announcer announcer{*publisher};
-  const auto opened = open_archive(options.db, announcer);
+  ThreadFailures failures;
+  Announcer announcer{*publisher, failures};
+  const auto opened = open_archive(options.db, announcer, failures);
   if (!opened) {
     return Unexpected{opened.error()};
   }
@@ -293,15 +334,13 @@ Expected<void> serve(const ServeOptions& options) {
         .and_then([&] { return archive.flush(); })
         .and_then([&] {
           return run(std::move(stored.routed.work), stored.last_origins, *participant, *publisher,
-                     *processor, archive, stop_signal);
+                     *processor, archive, stop_signal, failures);
         });
   });
   if (auto outcome = outcome_of(done, archive.close()); !outcome) {
     return outcome;
   }
-  return report(*processor, options.db, options.json).map([](const std::string& text) {
-    fmt::print("{}", text);
-  });
+  return report(*processor, options.db, options.json).and_then(&print_if_read);
 }
 
 }  // namespace spindrift

@@ -20,7 +20,8 @@ struct ServeOptions {
   bool json = false;
 };
 
-/// Runs until SIGINT or SIGTERM, then stores everything that was taken and prints its summary.
+/// Runs until SIGINT, SIGTERM or SIGHUP, then stores everything that was taken and prints its
+/// summary.
 /// @return InvalidConfiguration for bad input; Unavailable when the bus or the archive failed.
 Expected<void> serve(const ServeOptions& options);
 

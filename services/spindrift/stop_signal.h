@@ -1,5 +1,5 @@
 /// @file
-/// SIGINT and SIGTERM as an ordinary call on an ordinary thread.
+/// SIGINT, SIGTERM and SIGHUP as an ordinary call on an ordinary thread.
 
 #pragma once
 

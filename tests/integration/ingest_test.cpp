@@ -495,7 +495,7 @@ TEST(TelemetrySubscriber, SaysSoWhenAnExceptionEndsItsTaking) {
   const auto participant = Participant::create(bus_of_its_own()).value();
   BoundedQueue<SampleBatch> queue{
       4, [](const SampleBatch& /*batch*/) -> std::size_t { throw std::bad_alloc{}; }};
-  const auto subscriber = TelemetrySubscriber::start(participant, queue).value();
+  const auto subscriber = TelemetrySubscriber::start(participant, queue, {"SPINNER"}).value();
   ASSERT_TRUE(pulse_writer(participant).write(idl_pulse(0)));
   ASSERT_TRUE(eventually([&] { return !subscriber->status().value().taking; }));
   EXPECT_EQ(subscriber->status().value().failure, "taking samples: out of memory");
@@ -506,7 +506,7 @@ TEST(TelemetrySubscriber, StopsAndCountsWhatNobodyTookWhileItsReaderIsFull) {
   const auto config = bus_of_its_own();
   const auto participant = Participant::create(config).value();
   BoundedQueue<SampleBatch> queue{1};
-  const auto subscriber = TelemetrySubscriber::start(participant, queue).value();
+  const auto subscriber = TelemetrySubscriber::start(participant, queue, {"SPINNER"}).value();
   const ForeignWriter writer{config, "telemetry", 1'000'000'000};
   ASSERT_TRUE(eventually([&] { return subscriber->status().value().reader.rejected > 0; }));
   queue.close();

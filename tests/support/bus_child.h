@@ -18,7 +18,8 @@ namespace spindrift {
 
 /// "telemetry": writes `count` pulses, seq 0 on, and goes when all are acknowledged. "keys": each
 /// of another spacecraft; "impossible": of a time that cannot be; "foreign": of another type of the
-/// same name. "weak": offers BEST_EFFORT and VOLATILE, and stays until killed.
+/// same name; "patient": waits a minute in each write that is held up. "weak": offers BEST_EFFORT
+/// and VOLATILE, and stays until killed.
 class ForeignWriter {
  public:
   ForeignWriter(const bus::BusConfig& bus, std::string kind, int count)

@@ -32,9 +32,18 @@ bus::Qos short_qos() {
   return qos;
 }
 
+bus::Qos patient_qos() {
+  bus::Qos qos = bus::telemetry_writer_qos();
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_SECS(60));
+  return qos;
+}
+
 bus::Qos qos_of(const std::string& kind) {
   if (kind == "weak") {
     return weak_qos();
+  }
+  if (kind == "patient") {
+    return patient_qos();
   }
   return kind == "keys" ? short_qos() : bus::telemetry_writer_qos();
 }

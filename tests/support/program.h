@@ -26,9 +26,11 @@ class Program {
  public:
   /// @param largest_file_kib Beyond which no file of it may grow, as on a full disk; 0: any.
   /// @param out Where its standard output goes; empty: to a file that `out()` gives.
+  /// @param log Likewise its standard error, and `log()`.
   explicit Program(std::vector<std::string> arguments, int largest_file_kib = 0,
-                   const std::string& out = "")
-      : out_path_{out.empty() ? (folder_.path() / "out").string() : out} {
+                   const std::string& out = "", const std::string& log = "")
+      : out_path_{out.empty() ? (folder_.path() / "out").string() : out},
+        log_path_{log.empty() ? (folder_.path() / "log").string() : log} {
     arguments.insert(arguments.begin(), {spindrift_program().string()});
     if (largest_file_kib > 0) {
       const std::string limit = "ulimit -f " + std::to_string(largest_file_kib);
@@ -44,7 +46,7 @@ class Program {
     const int flags = O_WRONLY | O_CREAT | O_TRUNC;
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out_path_.c_str(), flags, 0600);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log_path().c_str(), flags, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log_path_.c_str(), flags, 0600);
     if (posix_spawn(&pid_, argv.front(), &actions, nullptr, argv.data(), environ) != 0) {
       pid_ = 0;
     }
@@ -88,13 +90,12 @@ class Program {
   long peak_kib() const { return peak_kib_; }
 
   std::string out() const { return text_of(out_path_); }
-  std::string log() const { return text_of(log_path()); }
+  std::string log() const { return text_of(log_path_); }
 
  private:
-  std::string log_path() const { return (folder_.path() / "log").string(); }
-
   TemporaryFolder folder_;
   std::string out_path_;
+  std::string log_path_;
   pid_t pid_ = 0;
   long peak_kib_ = 0;
 };

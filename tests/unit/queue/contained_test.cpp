@@ -5,8 +5,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace spindrift {
-namespace {
+namespace spindrift::contained_test {
 
 TEST(Contained, GivesWhatTheWorkGives) {
   EXPECT_TRUE(contained("work", [] {}));
@@ -33,5 +32,4 @@ TEST(Contained, MakesAnExceptionThatWouldEndTheProcessAnError) {
   EXPECT_EQ(other.error().message, "announcing: no clock");
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::contained_test

@@ -11,8 +11,7 @@
 #include <string>
 #include <thread>
 
-namespace spindrift {
-namespace {
+namespace spindrift::standard_error_test {
 
 using ::testing::EndsWith;
 
@@ -128,5 +127,4 @@ TEST(StandardError, SurvivesAReaderWhoIsGone) {
   ::close(before);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::standard_error_test

@@ -1,0 +1,145 @@
+// `spindrift serve` whose log or results nobody reads.
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/archive_rows.h"
+#include "tests/support/bus_fixture.h"
+#include "tests/support/program.h"
+#include "tests/support/recorded_files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace spindrift::serve_log_test {
+
+using ::testing::HasSubstr;
+
+/// A pipe with a name, and its reader.
+class Pipe {
+ public:
+  Pipe() : path_{(folder_.path() / "pipe").string()} {
+    EXPECT_EQ(mkfifo(path_.c_str(), 0600), 0);
+    reader_ = open(path_.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+  }
+  ~Pipe() { close(reader_); }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  Pipe(Pipe&&) = delete;
+  Pipe& operator=(Pipe&&) = delete;
+
+  const std::string& path() const { return path_; }
+
+  void fill() const {
+    const std::array<char, 4096> some{};
+    while (write(reader_, some.data(), some.size()) > 0) {
+    }
+  }
+
+  /// Once the program has opened it.
+  void lose_reader() { close(std::exchange(reader_, -1)); }
+
+ private:
+  TemporaryFolder folder_;
+  std::string path_;
+  int reader_ = -1;
+};
+
+/// A service with streams of the test's choice; empty: as usual.
+class Listening {
+ public:
+  Listening(const std::string& out, const std::string& log)
+      : program_{on_bus({"serve", "--mission", mission(), "--db", db().string()}), 0, out, log} {}
+
+  Program& program() { return program_; }
+  std::filesystem::path db() const { return folder_.path() / "served.db"; }
+
+  /// It takes a whole pass. @return of `replay`.
+  int replay() const {
+    Program replay{on_bus({"replay", "--mission", mission(), "--telemetry",
+                           (kPasses / "nominal").string(), "--speed", "0"})};
+    return replay.exit_status();
+  }
+
+  int stop() {
+    program_.signal(SIGTERM);
+    return program_.exit_status();
+  }
+
+  std::int64_t stored() const { return number_of(db(), "SELECT count(*) FROM pulse"); }
+  std::int64_t finished_runs() const {
+    return number_of(db(), "SELECT count(*) FROM run WHERE finished_utc IS NOT NULL");
+  }
+
+ private:
+  static std::string mission() { return (kPasses / "nominal" / "mission.toml").string(); }
+  std::vector<std::string> on_bus(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(),
+                     {"--domain", std::to_string(bus_.domain), "--partition", bus_.partition});
+    return arguments;
+  }
+
+  TemporaryFolder folder_;
+  bus::BusConfig bus_ = bus_of_its_own();
+  Program program_;
+};
+
+TEST(ServeLog, HoldsNothingUpWhenNobodyReadsIt) {
+  const Pipe pipe;
+  pipe.fill();
+  Listening service{"", pipe.path()};
+  ASSERT_EQ(service.replay(), 0);
+  EXPECT_EQ(service.stop(), 0);
+  EXPECT_EQ(service.stored(), 3600);
+  EXPECT_THAT(service.program().out(), HasSubstr("3600 edges"));
+}
+
+TEST(ServeLog, EndsNothingWhenItsReaderIsGone) {
+  Pipe pipe;
+  Listening service{"", pipe.path()};
+  ASSERT_EQ(service.replay(), 0);
+  pipe.lose_reader();
+  EXPECT_EQ(service.stop(), 0);
+  EXPECT_EQ(service.stored(), 3600);
+}
+
+TEST(ServeLog, IsNotWrittenIntoAFileWhenItsStreamIsClosed) {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "processed.db";
+  const std::string command = "'" + spindrift_program().string() + "' process --mission '" +
+                              (kPasses / "nominal" / "mission.toml").string() + "' --telemetry '" +
+                              (kPasses / "nominal").string() + "' --db '" + db.string() +
+                              "' > /dev/null 2>&-";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  for (const auto& file : std::filesystem::directory_iterator{folder.path()}) {
+    EXPECT_EQ(text_of(file.path().string()).find("Z info "), std::string::npos) << file.path();
+  }
+}
+
+TEST(ServeResults, AreAnErrorOfTheEndWhenTheirReaderIsGone) {
+  Pipe pipe;
+  Listening service{pipe.path(), ""};
+  ASSERT_TRUE(service.program().says("ready"));
+  pipe.lose_reader();
+  EXPECT_EQ(service.stop(), 1);
+  EXPECT_THAT(service.program().log(), HasSubstr("standard output: Broken pipe"));
+  EXPECT_EQ(service.finished_runs(), 1);
+}
+
+TEST(ServeResults, HoldNothingUpWhenNobodyReadsThemNorTheLog) {
+  const Pipe pipe;
+  pipe.fill();
+  Listening service{pipe.path(), pipe.path()};
+  ASSERT_EQ(service.replay(), 0);
+  EXPECT_EQ(service.stop(), 1);
+  EXPECT_EQ(service.stored(), 3600);
+}
+
+}  // namespace spindrift::serve_log_test
