@@ -394,6 +394,15 @@ CREATE TABLE spin_coning (
   PRIMARY KEY (run_id, t_tai_ns)
 ) STRICT, WITHOUT ROWID;
 
+-- What the program's own mathematics threw: the answer of the run is DOUBTFUL. At the last edge of a solution of
+-- `batch` only this one is missing; at a sample (0: before any) nothing later was computed of the run.
+CREATE TABLE run_fault (
+  run_id   TEXT NOT NULL REFERENCES run,
+  t_tai_ns INTEGER NOT NULL,
+  what     TEXT NOT NULL,  -- of the exception
+  PRIMARY KEY (run_id, t_tai_ns)
+) STRICT, WITHOUT ROWID;
+
 -- q_icrf_body; rates in body axes, NULL where they are not estimated.
 CREATE TABLE attitude (
   run_id       TEXT NOT NULL REFERENCES run,

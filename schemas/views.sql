@@ -51,6 +51,17 @@ SELECT
   *
 FROM spin_estimate;
 
+CREATE VIEW run_fault_utc AS
+SELECT
+  (SELECT strftime('%Y-%m-%dT%H:%M:', t_tai_ns / 1000000000 - tai_minus_utc_s, 'unixepoch')
+     || format('%02d.%03dZ',
+               (t_tai_ns / 1000000000 - tai_minus_utc_s) % 60 + (start_tai_ns > t_tai_ns),
+               t_tai_ns / 1000000 % 1000)
+   FROM leap_second WHERE start_tai_ns <= t_tai_ns + 1000000000
+   ORDER BY start_tai_ns DESC LIMIT 1) AS utc,
+  *
+FROM run_fault;
+
 CREATE VIEW spin_measurement_utc AS
 SELECT revolution_utc.utc, spin_measurement.*
 FROM spin_measurement LEFT JOIN revolution_utc USING (run_id, revolution);
@@ -109,14 +120,20 @@ SELECT *, apart_deg / sigma_deg AS apart_sigmas, apart_deg > 3 * sigma_deg AS di
 FROM pair;
 
 -- One row a run: the answer to report, that of `batch`, where there is none of `sequential`, else of `mean`;
--- and whether to act on it. NULL from estimator to sigma_deg: the run has no answer. A spin axis leaves
--- qx to qw NULL.
+-- and whether to act on it: one of a run that failed to compute (run_fault) is DOUBTFUL, unless it is LOST.
+-- NULL from estimator to sigma_deg: the run has no answer; quality is then that of the run that failed. A spin
+-- axis leaves qx to qw NULL.
 CREATE VIEW pass_verdict AS
 SELECT run.run_id, run.spacecraft_id, run.started_utc, run.finished_utc IS NOT NULL AS finished,
-  estimator, quality, ra_deg, dec_deg, NULL AS qx, NULL AS qy, NULL AS qz, NULL AS qw, sigma_deg,
-  ifnull(status, 'no estimate') || ifnull(
+  estimator,
+  CASE WHEN fault.what IS NULL OR quality = 'LOST' THEN quality ELSE 'DOUBTFUL' END AS quality,
+  ra_deg, dec_deg, NULL AS qx, NULL AS qy, NULL AS qz, NULL AS qw, sigma_deg,
+  ifnull('computing failed' || ifnull(' at ' || fault.utc, '') || ': ' || fault.what || '; ', '')
+    || ifnull(status, 'no estimate') || ifnull(
     (SELECT group_concat('; ' || one || ' and ' || other || ' disagree', '')
      FROM spin_comparison WHERE spin_comparison.run_id = run.run_id AND disagree), '') AS why
 FROM run LEFT JOIN pass_answer AS answer ON answer.run_id = run.run_id AND estimator =
   (SELECT estimator FROM pass_answer WHERE pass_answer.run_id = run.run_id
-   ORDER BY CASE estimator WHEN 'batch' THEN 1 WHEN 'sequential' THEN 2 ELSE 3 END LIMIT 1);
+   ORDER BY CASE estimator WHEN 'batch' THEN 1 WHEN 'sequential' THEN 2 ELSE 3 END LIMIT 1)
+LEFT JOIN run_fault_utc AS fault ON fault.run_id = run.run_id AND fault.t_tai_ns =
+  (SELECT min(t_tai_ns) FROM run_fault WHERE run_fault.run_id = run.run_id);

@@ -14,6 +14,7 @@
 #include "pipelines/spin/types/products.h"
 #include "services/archive/disagreement.h"
 #include "services/mission/mission.h"
+#include "services/products/run_fault.h"
 
 namespace spindrift {
 
@@ -36,6 +37,7 @@ struct RunSummary {
   std::map<SpinEstimator, SpinEstimate> estimates;               ///< The last of each.
   std::optional<BatchSolution> batch;
   std::vector<Disagreement> disagreements = {};  ///< Likewise from the archive.
+  std::vector<RunFault> faults = {};             ///< Likewise.
   bool finished = true;                          ///< Likewise; not where the run was interrupted.
 
   void count(const SpinProduct& product);

@@ -12,6 +12,7 @@
 #include "services/products/product_kind.h"
 #include "services/products/pulse_use.h"
 #include "services/products/revolution.h"
+#include "services/products/run_fault.h"
 #include "services/products/spin_estimate.h"
 #include "services/products/spin_fix.h"
 #include "services/products/spin_measurement.h"
@@ -19,8 +20,8 @@
 namespace spindrift {
 
 /// The list.
-using Product =
-    std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate, BatchProduct>;
+using Product = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate,
+                             BatchProduct, RunFault>;
 
 /// Its place in the list.
 template <class Kind>

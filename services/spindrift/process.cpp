@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "services/archive/archive.h"
+#include "services/archive/stored_faults.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
 #include "services/progress/progress_bar.h"
@@ -77,6 +78,16 @@ void warn_where_no_edge_came(const Processor& processor, std::uint64_t bad_rows)
   }
 }
 
+Expected<bool> computed_without_fault(const Processor& processor, const std::filesystem::path& db) {
+  for (const RunSummary& summary : processor.summaries()) {
+    const auto faults = find_faults(db, summary.run_id);
+    if (!faults || !faults->empty()) {
+      return faults.map([](const auto& /*faults*/) { return false; });
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 Expected<bool> process(const ProcessOptions& options) {
@@ -111,9 +122,11 @@ Expected<bool> process(const ProcessOptions& options) {
     spdlog::warn("{}", telemetry->bad_rows().text());
   }
   warn_where_no_edge_came(*processor, telemetry->bad_rows().count);
-  return report(*processor, options.db, options.json).map([&](const std::string& text) {
+  return report(*processor, options.db, options.json).and_then([&](const std::string& text) {
     fmt::print("{}", text);
-    return *done;
+    return computed_without_fault(*processor, options.db).map([&](bool sound) {
+      return *done && sound;
+    });
   });
 }
 

@@ -8,6 +8,7 @@
 #include "pipelines/time/utc.h"
 #include "services/archive/disagreement.h"
 #include "services/archive/last_run.h"
+#include "services/archive/stored_faults.h"
 #include "services/archive/stored_pass.h"
 #include "services/products/to_json.h"
 #include "services/spindrift/batch_text.h"
@@ -105,6 +106,21 @@ std::string disagreements_text(const RunSummary& summary) {
   return text;
 }
 
+std::string faults_text(const RunSummary& summary) {
+  std::string text;
+  for (const RunFault& fault : summary.faults) {
+    text +=
+        fmt::format("  DOUBTFUL     computing failed at {}: {}\n", format_utc(fault.t), fault.what);
+  }
+  return text;
+}
+
+nlohmann::json to_json(const RunFault& fault) {
+  nlohmann::json object = json_of(fault);
+  object["utc"] = format_utc(fault.t);
+  return object;
+}
+
 nlohmann::json to_json(const Disagreement& disagreement) {
   return {{"one", disagreement.one},
           {"other", disagreement.other},
@@ -144,8 +160,8 @@ std::string to_text(const RunSummary& summary) {
     text += fmt::format("               {} rejected: {}\n", count, test);
   }
   text += fmt::format("  revolutions  {} with sun1\n", summary.revolutions);
-  return text + fixes_text(summary) + axis_text(summary) + disagreements_text(summary) +
-         (summary.batch ? to_text(*summary.batch) : std::string{});
+  return text + fixes_text(summary) + axis_text(summary) + faults_text(summary) +
+         disagreements_text(summary) + (summary.batch ? to_text(*summary.batch) : std::string{});
 }
 
 nlohmann::json to_json(const RunSummary& summary) {
@@ -168,6 +184,7 @@ nlohmann::json to_json(const RunSummary& summary) {
                       {"mean", nullptr},
                       {"sequential", nullptr},
                       {"batch", nullptr},
+                      {"faults", nlohmann::json::array()},
                       {"disagreements", nlohmann::json::array()}};
   for (const auto& [plural, count] : summary.samples_received) {
     json["samples_received"][json_key(plural)] = count;
@@ -177,6 +194,9 @@ nlohmann::json to_json(const RunSummary& summary) {
   }
   if (summary.batch) {
     json["batch"].update(to_json(*summary.batch));
+  }
+  for (const RunFault& fault : summary.faults) {
+    json["faults"].push_back(to_json(fault));
   }
   for (const Disagreement& disagreement : summary.disagreements) {
     json["disagreements"].push_back(to_json(disagreement));
@@ -208,6 +228,11 @@ Expected<std::string> report(const Processor& processor, const std::filesystem::
       return Unexpected{finished.error()};
     }
     summary.finished = *finished;
+    auto faults = find_faults(db, summary.run_id);
+    if (!faults) {
+      return Unexpected{faults.error()};
+    }
+    summary.faults = *std::move(faults);
     auto disagreements = find_disagreements(db, summary.run_id);
     if (!disagreements) {
       return Unexpected{disagreements.error()};

@@ -89,6 +89,32 @@ TEST_F(ArchiveProducts, VerdictOfAPassIsThatOfBatchElseOfSequentialElseOfMean) {
               ElementsAre("- 0 no estimate", "mean 30 OK", "sequential 30 OK", "batch 30 OK"));
 }
 
+TEST_F(ArchiveProducts, VerdictOfARunThatFailedToComputeIsDoubtfulUnlessItIsLost) {
+  const RunFault fault{.t = tai_from_ns(1'795'143'637'250'000'000), .what = "no such angle"};
+  SpinEstimate lost = estimate_at(1, SpinEstimator::Mean, 20.0);
+  lost.assessment.quality = Quality::Lost;
+  const auto archive = open();
+  for (const auto& [run_id, products] : std::vector<std::pair<std::string, std::vector<Product>>>{
+           {"1", {fault}},
+           {"2", {fault, estimate_at(1, SpinEstimator::Mean, 30.0)}},
+           {"3", {fault, lost}}}) {
+    ArchiveBatch batch = start_of(run_id);
+    batch.products = products;
+    ASSERT_TRUE(archive->submit(batch));
+  }
+  ASSERT_TRUE(archive->flush());
+
+  SQLite::Database database = reader();
+  EXPECT_THAT(
+      column(database,
+             "SELECT format('%s %.3g %s', quality, ifnull(dec_deg, 0), why)"
+             " FROM pass_verdict ORDER BY run_id"),
+      ElementsAre(
+          "DOUBTFUL 0 computing failed at 2026-11-20T03:00:00.250Z: no such angle; no estimate",
+          "DOUBTFUL 30 computing failed at 2026-11-20T03:00:00.250Z: no such angle; OK",
+          "LOST 20 computing failed at 2026-11-20T03:00:00.250Z: no such angle; LOST"));
+}
+
 TEST_F(ArchiveProducts, SpinFixIsStoredInDegreesWithItsCovariance) {
   ArchiveBatch batch = start_of("run-1");
   batch.products = {fix_at(100.0, -55.0)};

@@ -1,0 +1,35 @@
+/// @file
+/// That computing failed, as a kind of product.
+
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "pipelines/time/tai_time.h"
+#include "services/products/product_kind.h"
+
+namespace spindrift {
+
+struct RunFault {
+  TaiTime t = {};  ///< Of the sample that was computed, of the last edge of a batch solution.
+  std::string what = {};  ///< Of the exception.
+};
+
+struct RunFaultTable {
+  static constexpr std::string_view kName = "run_fault";
+  static constexpr std::array<std::string_view, 1> kKey{"t_tai_ns"};
+  static constexpr std::tuple kColumns{
+      ProductColumn{"t_tai_ns", [](const RunFault& fault) { return tai_ns(fault.t); }},
+      ProductColumn{"what", [](const RunFault& fault) { return fault.what; }}};
+};
+
+template <>
+struct ProductKind<RunFault> {
+  static constexpr ProductWeight kWeight = ProductWeight::Result;
+  using Tables = std::tuple<RunFaultTable>;
+};
+
+}  // namespace spindrift
