@@ -66,10 +66,7 @@ std::vector<StoredPass> find_runs(const SQLite::Database& database,
                     .earliest = time_of(query.getColumn(2)),
                     .last_revolution = time_of(query.getColumn(5)),
                     .rejected_inputs = query.getColumn(6).getInt64(),
-                    .source_counts = {},
-                    .last_origins = {},
-                    .values = {},
-                    .silences = {}});
+                    .source_counts = {}});
   }
   return runs;
 }
@@ -94,6 +91,15 @@ void read_silences(const SQLite::Database& database, StoredPass& pass) {
   query.bind(1, pass.run_id);
   while (query.executeStep()) {
     pass.silences.push_back(query.getColumn(0).getInt64());
+  }
+}
+
+void read_batches(const SQLite::Database& database, StoredPass& pass) {
+  SQLite::Statement query{database,
+                          "SELECT t_tai_ns FROM spin_batch WHERE run_id = ? ORDER BY t_tai_ns"};
+  query.bind(1, pass.run_id);
+  while (query.executeStep()) {
+    pass.batches.push_back(tai_from_ns(query.getColumn(0).getInt64()));
   }
 }
 
@@ -173,6 +179,7 @@ Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path
     for (StoredPass& pass : passes) {
       read_source_counts(database, pass);
       read_silences(database, pass);
+      read_batches(database, pass);
       if (pass.earliest) {
         TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
           read_values<Value>(database, spacecraft_id, pass);

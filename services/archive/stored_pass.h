@@ -32,8 +32,9 @@ struct StoredPass {
   std::optional<TaiTime> last_revolution;
   std::int64_t rejected_inputs;
   std::vector<SourceCount> source_counts;
-  LastOrigins last_origins;                 ///< Of its samples, as they arrived first.
-  TelemetryValues values;                   ///< Each kind in order of arrival.
+  std::vector<TaiTime> batches = {};        ///< Of its solutions of `batch`, in order.
+  LastOrigins last_origins = {};            ///< Of its samples, as they arrived first.
+  TelemetryValues values = {};              ///< Each kind in order of arrival.
   std::vector<std::int64_t> silences = {};  ///< Each before the sample of that arrival.
 };
 

@@ -4,17 +4,18 @@
 #pragma once
 
 #include <functional>
-#include <string>
+#include <vector>
 
 #include "pipelines/core/expected.h"
 #include "services/archive/records.h"
 
 namespace spindrift {
 
+/// Those of a run are solved and stored in the order in which it handed them out.
 struct BackgroundTask {
-  std::string spacecraft_id;
-  /// On any thread, while the run that handed it out is there. What it gives is for the archive.
-  std::function<Expected<ArchiveBatch>()> solve;
+  ArchiveBatch batch;  ///< For the archive, with what `solve` gives, if anything.
+  /// On any thread, one task of a run at a time, while the run that handed it out is there.
+  std::function<Expected<std::vector<Product>>()> solve;
 };
 
 }  // namespace spindrift

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <iterator>
 #include <memory>
@@ -9,7 +10,9 @@
 #include <variant>
 
 #include "pipelines/spin/batch/batch_estimator.h"
+#include "pipelines/time/utc.h"
 #include "services/clock/wall_clock.h"
+#include "services/processor/what_is_thrown.h"
 #include "services/words/notice_words.h"
 
 namespace spindrift {
@@ -17,7 +20,7 @@ namespace {
 
 constexpr std::chrono::minutes kBetweenBatches{1};
 
-Expected<BatchSolution> solve(const SpinConfig& config, const Orbit& orbit, PassEdges edges) {
+Expected<BatchSolution> solve_edges(const SpinConfig& config, const Orbit& orbit, PassEdges edges) {
   const auto starts = edges.starts(config.prior);
   return spindrift::solve_batch(config, orbit, std::move(edges).edges(), starts);
 }
@@ -51,9 +54,13 @@ void PassRun::begin(const std::string& run_id) {
   fresh.spacecraft_id = spacecraft_id_;
   summary_ = std::move(fresh);
   pass_ = SpinPass{config_, orbit_};
-  again_from_.reset();
+  const auto made = made_before_.find(run_id);
+  again_from_ = made == made_before_.end() ? std::nullopt : std::optional{made->second.again_from};
+  reached_ = {};
+  failed_ = false;
   edges_ = {};
   next_batch_.reset();
+  last_batch_.reset();
 }
 
 ArchiveBatch PassRun::batch() const {
@@ -63,35 +70,55 @@ ArchiveBatch PassRun::batch() const {
   return batch;
 }
 
-void PassRun::go_on(const std::string& run_id, TaiTime again_from) {
-  begin(run_id);
-  again_from_ = again_from;
+void PassRun::go_on(const std::string& first, std::map<std::string, MadeBefore> made) {
+  made_before_ = std::move(made);
+  begin(first);
 }
 
 std::vector<ArchiveBatch> PassRun::compute(const PassInput& input) {
   std::vector<ArchiveBatch> batches;
   if (input.run_id != summary_.run_id) {
-    batches.push_back(finish());
-    finished_.push_back(std::move(summary_));
+    end_run(batches);
     begin(input.run_id);
   }
   Computed computed;
   computed.fill(batch());
-  const auto take = [&]<class Value>(const Arrived<Value>& arrived) {
-    // Of the other kinds of telemetry it knows nothing.
-    if constexpr (requires { pass_.push(arrived.value); }) {
-      keep(pass_.push(arrived.value), arrived.value.t, computed);
-    }
-  };
-  in_order_of_arrival(input.values, input.silences, take, [&](std::int64_t /*place*/) {
-    keep(pass_.fall_silent(), std::nullopt, computed);
-  });
+  // What was made of the samples before one that fails is kept, however many came with it.
+  compute_or_fail(computed.front().products, [&] { compute(input, computed); });
   for (ArchiveBatch& batch : computed) {
     if (!batch.products.empty() || batch.continuation) {
       batches.push_back(std::move(batch));
     }
   }
   return batches;
+}
+
+void PassRun::compute(const PassInput& input, Computed& computed) {
+  const auto take = [&]<class Value>(const Arrived<Value>& arrived) {
+    // Of the other kinds of telemetry it knows nothing.
+    if constexpr (requires { pass_.push(arrived.value); }) {
+      reached_ = arrived.value.t;
+      keep(pass_.push(arrived.value), arrived.value.t, computed);
+    }
+  };
+  in_order_of_arrival(input.values, input.silences, take, [&](std::int64_t /*place*/) {
+    keep(pass_.fall_silent(), std::nullopt, computed);
+  });
+}
+
+template <class Compute>
+void PassRun::compute_or_fail(std::vector<Product>& products, const Compute& compute) {
+  if (failed_) {
+    return;
+  }
+  if (const auto what = what_is_thrown(compute)) {
+    failed_ = true;
+    spdlog::error(
+        "{}: computing failed at {}: {}: run {} is DOUBTFUL, its samples are stored, and nothing "
+        "more is computed of it",
+        spacecraft_id_, format_utc(reached_), *what, summary_.run_id);
+    products.emplace_back(RunFault{.t = reached_, .what = *what});
+  }
 }
 
 void PassRun::keep(SpinOutput output, std::optional<TaiTime> t, Computed& computed) {
@@ -110,45 +137,69 @@ void PassRun::keep(SpinOutput output, std::optional<TaiTime> t, Computed& comput
   }
 }
 
-BackgroundTask PassRun::batch_task() const {
-  return {.spacecraft_id = spacecraft_id_,
-          // Configuration and orbit stay as they are.
-          .solve = [this, solved = batch(), edges = edges_]() -> Expected<ArchiveBatch> {
-            const auto solution = solve(config_, orbit_, edges);
-            return solution.and_then(&products_of).map([&](std::vector<Product> products) {
-              ArchiveBatch with_solution = solved;
-              with_solution.products = std::move(products);
-              return with_solution;
-            });
-          }};
-}
-
-/// By the time of telemetry, so that the same telemetry gives the same solutions. What is stored
-/// already needs none.
+/// By the time of telemetry, so that the same telemetry gives the same solutions.
 void PassRun::note_time(TaiTime t) {
   if (plan_ == BatchPlan::WholePass || (next_batch_ && t < *next_batch_)) {
     return;
   }
-  if (next_batch_ && !again_from_) {
+  if (next_batch_) {
     edges_.keep_last(kLastRevolutions);
-    due_.push_back(batch_task());
+    const auto last = edges_.last();
+    // Its last edge names a solution: one a minute, and one only.
+    if (last && last != last_batch_ && !is_stored(*last)) {
+      due_.push_back({.batch = batch(), .solve = [this, edges = edges_] { return solve(edges); }});
+    }
+    last_batch_ = last;
   }
   next_batch_ = t + kBetweenBatches;
 }
 
+/// And is not withdrawn.
+bool PassRun::is_stored(TaiTime batch) const {
+  const auto made = made_before_.find(summary_.run_id);
+  return made != made_before_.end() && batch < made->second.again_from &&
+         std::binary_search(made->second.batches.begin(), made->second.batches.end(), batch);
+}
+
 std::vector<BackgroundTask> PassRun::take_background_tasks() { return std::exchange(due_, {}); }
 
-ArchiveBatch PassRun::finish() {
-  ArchiveBatch last = batch();
-  SpinOutput output = pass_.finish();
-  withheld_.take_from(output);
-  const std::size_t due = due_.size();
-  note(output);
-  due_.erase(due_.begin() + static_cast<std::ptrdiff_t>(due), due_.end());  // The last is below.
-  for (SpinProduct& product : output.products) {
-    last.products.push_back(product_of(std::move(product)));
+Expected<std::vector<Product>> PassRun::solve(const PassEdges& edges) {
+  Expected<std::vector<Product>> products;
+  const auto what = what_is_thrown(
+      [&] { products = solve_edges(config_, orbit_, edges).and_then(&products_of); });
+  if (!what) {
+    return products;
   }
-  last.finished_utc = utc_now();
+  const TaiTime t = edges.last().value_or(TaiTime{});
+  if (std::exchange(batch_fault_, *what) != *what) {
+    spdlog::error("{}: batch solution failed at {}: {}: its run is DOUBTFUL", spacecraft_id_,
+                  format_utc(t), *what);
+  }
+  return std::vector<Product>{RunFault{.t = t, .what = *what}};
+}
+
+Expected<std::vector<Product>> PassRun::solve_last(const PassEdges& edges, RunSummary& summary) {
+  auto products = solve(edges);
+  const auto* const solution = products ? std::get_if<BatchProduct>(&products->back()) : nullptr;
+  if (solution != nullptr) {
+    summary.count((*solution)->estimate);
+    summary.batch = **solution;
+  }
+  return products;
+}
+
+/// What was still held. Then the last batch solution is due, whatever became due before.
+void PassRun::settle(std::vector<Product>& products) {
+  const std::size_t due = due_.size();
+  compute_or_fail(products, [&] {
+    SpinOutput output = pass_.finish();
+    withheld_.take_from(output);
+    note(output);
+    for (SpinProduct& product : output.products) {
+      products.push_back(product_of(std::move(product)));
+    }
+  });
+  due_.erase(due_.begin() + static_cast<std::ptrdiff_t>(due), due_.end());
   if (plan_ == BatchPlan::EveryMinute) {
     edges_.keep_last(kLastRevolutions);
   }
@@ -156,23 +207,44 @@ ArchiveBatch PassRun::finish() {
     spdlog::warn("{}: more edges than the batch solution can hold: it rests on the last {}",
                  spacecraft_id_, PassEdges::kMost);
   }
-  solve_batch(last);
+}
+
+ArchiveBatch PassRun::finish() {
+  ArchiveBatch last = batch();
+  settle(last.products);
+  if (!failed_) {
+    if (auto products = solve_last(std::exchange(edges_, {}), summary_)) {
+      std::move(products->begin(), products->end(), std::back_inserter(last.products));
+    } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {
+      spdlog::warn("{}: no batch solution: {}", spacecraft_id_, products.error().message);
+    }
+  }
+  last.finished_utc = utc_now();
   return last;
 }
 
-void PassRun::solve_batch(ArchiveBatch& last) {
-  const auto solution = solve(config_, orbit_, std::exchange(edges_, {}));
-  if (auto products = solution.and_then(&products_of)) {
-    summary_.count(solution->estimate);
-    summary_.batch = *solution;
-    std::move(products->begin(), products->end(), std::back_inserter(last.products));
-  } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {
-    spdlog::warn("{}: no batch solution: {}", spacecraft_id_, products.error().message);
+/// Where solutions of the run may be waiting to be solved it is finished behind them, so that a run
+/// that is finished lacks none.
+void PassRun::end_run(std::vector<ArchiveBatch>& batches) {
+  if (plan_ == BatchPlan::WholePass) {
+    batches.push_back(finish());
+    finished_.push_back(std::move(summary_));
+    return;
   }
+  ArchiveBatch held = batch();
+  settle(held.products);
+  BackgroundTask last{.batch = batch(), .solve = {}};
+  last.batch.finished_utc = utc_now();
+  RunSummary& summary = finished_.emplace_back(std::move(summary_));
+  last.solve = [this, &summary, failed = failed_, edges = std::exchange(edges_, {})] {
+    return failed ? std::vector<Product>{} : solve_last(edges, summary);
+  };
+  batches.push_back(std::move(held));
+  due_.push_back(std::move(last));
 }
 
 std::vector<RunSummary> PassRun::summaries() const {
-  std::vector<RunSummary> summaries = finished_;
+  std::vector<RunSummary> summaries{finished_.begin(), finished_.end()};
   summaries.push_back(summary_);
   return summaries;
 }

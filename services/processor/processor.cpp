@@ -120,13 +120,17 @@ Expected<GoneOn> Processor::go_on(const std::filesystem::path& archive) {
 
 void Processor::go_on(std::size_t i, const std::vector<StoredPass>& stored, GoneOn& gone_on) {
   SpacecraftRun::Taken taken = runs_[i].go_on(stored);
-  // Products of a later run are never stored before the end of an earlier one.
-  const StoredPass& first = stored.front();
+  const std::string& first = stored.front().run_id;
   if (auto* const spin = std::get_if<PassRun>(&passes_[i])) {
-    spin->go_on(first.run_id,
-                stored.size() > 1 ? TaiTime::min() : made_again_from(first, runs_[i].reached()));
+    std::map<std::string, MadeBefore> made;
+    for (std::size_t run = 0; run < stored.size(); ++run) {
+      made.emplace(stored[run].run_id,
+                   MadeBefore{.again_from = made_again_from(stored[run], taken.reached.at(run)),
+                              .batches = stored[run].batches});
+    }
+    spin->go_on(first, std::move(made));
   } else {
-    std::get<ThreeAxisRun>(passes_[i]).go_on(first.run_id);
+    std::get<ThreeAxisRun>(passes_[i]).go_on(first);
   }
   add(std::move(taken), gone_on.routed);
   for (const StoredPass& pass : stored) {

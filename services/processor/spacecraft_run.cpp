@@ -91,6 +91,7 @@ SpacecraftRun::Taken SpacecraftRun::go_on(const std::vector<StoredPass>& stored)
   Taken out;
   for (const StoredPass& pass : stored) {
     go_on(pass, out);
+    out.reached.push_back(watch_.reached());
   }
   stored_.emplace(stored.back());
   return out;

@@ -71,6 +71,8 @@ class SpacecraftRun {
   struct Taken {
     std::vector<ArchiveBatch> batches;
     std::vector<PassInput> inputs;  ///< Some may be empty.
+    /// Of `go_on`, run by run: how far its pass has come, see PassWatch.
+    std::vector<std::optional<TaiTime>> reached = {};
   };
   Taken take(SampleBatch samples);
 
@@ -80,9 +82,6 @@ class SpacecraftRun {
   /// In place of `begin`: the runs of `stored`, oldest first, at the point to which their samples
   /// brought them. The last of them is the one that goes on.
   Taken go_on(const std::vector<StoredPass>& stored);
-
-  /// The pass has come so far: see PassWatch.
-  std::optional<TaiTime> reached() const { return watch_.reached(); }
 
   /// What waited for a sample to tell which pass it belongs to, and none came.
   std::vector<PassInput> finish();

@@ -14,6 +14,7 @@
 #include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace spindrift {
 namespace {
@@ -39,9 +40,9 @@ std::atomic<bool> given_up = false;
 /// In a thread that does nothing else: one that gives way must not hold the archive's locks, and
 /// without privileges none can cease to give way. Among busy processes it takes minutes: it is left
 /// to itself when patience ends. @return nothing then.
-std::optional<Expected<ArchiveBatch>> solve_giving_way(const BackgroundTask& task,
-                                                       const Patience& patience) {
-  std::packaged_task<Expected<ArchiveBatch>()> solving{[task] {
+std::optional<Expected<std::vector<Product>>> solve_giving_way(const BackgroundTask& task,
+                                                               const Patience& patience) {
+  std::packaged_task<Expected<std::vector<Product>>()> solving{[task] {
     give_way_to_other_threads();
     return task.solve();
   }};
@@ -65,22 +66,33 @@ bool is_solution_given_up() { return given_up; }
 void solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& archive,
                          const Patience& patience) {
   std::map<std::string, std::string> said;
-  while (const auto task = tasks.take()) {
+  std::map<std::string, std::size_t> left;
+  while (auto task = tasks.take()) {
+    const std::string& spacecraft = task->batch.spacecraft_id;
     if (patience.ended) {
+      ++left[spacecraft];
       continue;
     }
-    auto solution = solve_giving_way(*task, patience);
-    if (!solution) {
+    auto products = solve_giving_way(*task, patience);
+    if (!products) {
+      ++left[spacecraft];
       continue;
     }
-    if (!*solution) {
-      std::string& reason = said[task->spacecraft_id];
-      if (std::exchange(reason, solution->error().message) != solution->error().message) {
-        spdlog::warn("{}: no batch solution: {}", task->spacecraft_id, reason);
+    if (*products) {
+      task->batch.products = **std::move(products);
+    } else {
+      std::string& reason = said[spacecraft];
+      if (std::exchange(reason, products->error().message) != products->error().message) {
+        spdlog::warn("{}: no batch solution: {}", spacecraft, reason);
       }
-    } else if (!archive.submit(**std::move(solution))) {
+    }
+    if (row_count(task->batch) > 0 && !archive.submit(std::move(task->batch))) {
       tasks.close();  // Those who compute meet the same archive, and say so.
     }
+  }
+  for (const auto& [spacecraft, count] : left) {
+    spdlog::warn("{}: {} batch solutions are not computed yet: the next start of the service will",
+                 spacecraft, count);
   }
 }
 

@@ -15,8 +15,8 @@ namespace spindrift {
 /// That wait: those of a minute of many spacecraft, or of hours in a replay.
 inline constexpr std::size_t kMostBackgroundTasks = 256;
 
-/// Solves until `tasks` is closed and empty, or patience ends: the end of a run has a solution of
-/// its own.
+/// Solves until `tasks` is closed and empty. What is left when patience ends it counts and says:
+/// the next start makes what is not stored.
 void solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& archive,
                          const Patience& patience);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <set>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
+#include "services/scenario/pass_files.h"
 #include "services/telemetry_files/telemetry_files.h"
 #include "services/telemetry_files/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"
@@ -46,10 +48,28 @@ std::vector<TelemetrySample<Pulse>> two_passes() {
   return all;
 }
 
-Processor new_processor() {
-  return Processor::make({load_mission(kPass / "mission.toml").value()},
+Processor new_processor(const std::filesystem::path& pass = kPass) {
+  return Processor::make({load_mission(pass / "mission.toml").value()},
                          {.mode = "live", .telemetry = {"DDS domain 0, partition live"}})
       .value();
+}
+
+/// Twenty minutes: twice what is made again after a restart.
+void write_long_pass(const std::filesystem::path& folder) {
+  Scenario scenario = load_scenario(scenarios() / "gto-nominal.toml").value();
+  scenario.duration_s = 1200.0;
+  ASSERT_TRUE(write_pass(folder, scenario, simulated_pass(scenario).value()));
+}
+
+std::vector<TelemetrySample<Pulse>> all_edges(const std::filesystem::path& pass) {
+  const std::vector<TelemetryFile> files{{.path = pass / "pulses.csv", .kind = Kind<Pulse>{}}};
+  auto stream = TelemetryStream::open(files, "SPINNER").value();
+  std::vector<TelemetrySample<Pulse>> all;
+  for (auto batch = stream.next().value(); !is_empty(batch); batch = stream.next().value()) {
+    const auto& edges = batch.samples.of<Pulse>();
+    all.insert(all.end(), edges.begin(), edges.end());
+  }
+  return all;
 }
 
 /// What goes to the archive, in the order in which it does. Samples pass products there.
@@ -57,6 +77,8 @@ struct Submitted {
   Batches samples;
   Batches products;
   std::vector<std::size_t> samples_before;  ///< Of each batch of products: it waits for those.
+  std::size_t solved = 0;                   ///< Batch solutions.
+  std::size_t left = 0;                     ///< Those that were due and were not solved.
 
   void add_products(Batches batches) {
     for (ArchiveBatch& batch : batches) {
@@ -66,22 +88,34 @@ struct Submitted {
   }
 };
 
-void work(Processor& processor, Routed routed, Submitted& out) {
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+
+/// @param solved So many batch solutions there is time for.
+void work(Processor& processor, Routed routed, Submitted& out, std::size_t solved) {
   for (ArchiveBatch& batch : routed.samples) {
     out.samples.push_back(std::move(batch));
   }
   for (const PassInput& input : routed.work) {
     out.add_products(processor.compute(input));
+    for (BackgroundTask& task : processor.take_background_tasks(input)) {
+      if (out.solved == solved) {
+        ++out.left;
+        continue;
+      }
+      ++out.solved;
+      task.batch.products = task.solve().value_or(std::vector<Product>{});
+      out.add_products({std::move(task.batch)});
+    }
   }
 }
 
 void receive(Processor& processor, const std::vector<TelemetrySample<Pulse>>& pulses,
-             Submitted& out) {
+             Submitted& out, std::size_t solved = kAll) {
   for (std::size_t i = 0; i < pulses.size(); i += kEdgesABatch) {
     const auto first = pulses.begin() + static_cast<std::ptrdiff_t>(i);
     const auto end =
         pulses.begin() + static_cast<std::ptrdiff_t>(std::min(i + kEdgesABatch, pulses.size()));
-    work(processor, processor.route(testing::batch_of_samples<Pulse>({first, end})), out);
+    work(processor, processor.route(testing::batch_of_samples<Pulse>({first, end})), out, solved);
   }
 }
 
@@ -99,7 +133,8 @@ class ProcessorRestart : public testing::ArchiveFixture {
 
   /// Goes on with what `db` holds, and receives what of `sent` it does not.
   static Submitted go_on(const std::filesystem::path& db,
-                         const std::vector<TelemetrySample<Pulse>>& sent) {
+                         const std::vector<TelemetrySample<Pulse>>& sent,
+                         const std::filesystem::path& pass = kPass, std::size_t solved = kAll) {
     std::set<std::string> stored;
     for (const std::string& row : rows_of(db, "SELECT t_tai_ns, channel FROM pulse")) {
       stored.insert(row);
@@ -110,18 +145,17 @@ class ProcessorRestart : public testing::ArchiveFixture {
                    return !stored.contains(fmt::format("{}|{}|", tai_ns(sample.value.t),
                                                        name_of(sample.value.channel)));
                  });
-    Processor processor = new_processor();
+    Processor processor = new_processor(pass);
     Submitted out;
-    work(processor, processor.go_on(db).value().routed, out);
-    receive(processor, missing, out);
+    work(processor, processor.go_on(db).value().routed, out, solved);
+    receive(processor, missing, out, solved);
     out.add_products(processor.finish());
     return out;
   }
 
   /// Products run by run, and the runs themselves.
   static std::vector<std::string> rows(const std::filesystem::path& db) {
-    std::vector<std::string> all = product_rows(db);
-    std::sort(all.begin(), all.end());
+    std::vector<std::string> all = all_rows(db);
     for (const std::string& table :
          std::vector<std::string>{"revolution", "spin_fix", "pulse_use", "spin_estimate"}) {
       for (std::string& row :
@@ -184,6 +218,49 @@ TEST_F(ProcessorRestart, KilledAtAnyPointBetweenTwoPassesGivesWhatNoRestartWould
       store(killed, first(rest, rest.samples.size(), rest.products.size()));
       ASSERT_EQ(rows(killed), whole);
     }
+  }
+}
+
+/// How many of the batch solutions of a pass are solved before the service ends, and how it does.
+struct Ended {
+  std::size_t solved;
+  bool orderly;
+};
+
+TEST_F(ProcessorRestart, MakesEveryBatchSolutionThatIsNotStored) {
+  const std::filesystem::path pass = directory() / "pass";
+  write_long_pass(pass);
+  const std::vector<TelemetrySample<Pulse>> sent = all_edges(pass);
+  const auto receive_all = [&](const Ended& ended) {
+    Processor processor = new_processor(pass);
+    Submitted all;
+    all.samples = processor.begin();
+    receive(processor, sent, all, ended.solved);
+    if (ended.orderly) {
+      all.add_products(processor.finish());
+    }
+    return all;
+  };
+  const Submitted whole = receive_all({.solved = kAll, .orderly = true});
+  store(db("whole"), first(whole, whole.samples.size(), whole.products.size()));
+  ASSERT_EQ(whole.solved, 19U);
+  ASSERT_EQ(number_of(db("whole"), "SELECT count(*) FROM spin_batch"), 20);
+
+  for (const Ended& ended :
+       {Ended{.solved = 0, .orderly = false}, Ended{.solved = 7, .orderly = false},
+        Ended{.solved = 7, .orderly = true}}) {
+    SCOPED_TRACE(fmt::format("{} solved, {}", ended.solved, ended.orderly ? "stopped" : "killed"));
+    const auto restarted = db(fmt::format("{}-{}", ended.solved, ended.orderly));
+    const Submitted before = receive_all(ended);
+    ASSERT_EQ(before.left, whole.solved - ended.solved);
+    store(restarted, first(before, before.samples.size(), before.products.size()));
+    const Submitted again = go_on(restarted, sent, pass, 2);
+    // Killed once more, before the end.
+    store(restarted, first(again, again.samples.size(), again.products.size() - 1));
+    const Submitted rest = go_on(restarted, sent, pass);
+    EXPECT_EQ(rest.solved, whole.solved - ended.solved - 2);
+    store(restarted, first(rest, rest.samples.size(), rest.products.size()));
+    EXPECT_EQ(rows(restarted), rows(db("whole")));
   }
 }
 

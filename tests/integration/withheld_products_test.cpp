@@ -43,27 +43,41 @@ std::vector<TelemetrySample<Pulse>> edges_of(const std::string& spacecraft) {
 }
 
 struct WithheldProducts : testing::ArchiveFixture {
-  /// Stores the edges of two spacecraft and what is made of them.
-  void process(const SpinConfig& odd) const {
+  /// Two spacecraft of a service.
+  static Processor processor_of(const SpinConfig& odd) {
     std::vector<Mission> missions(2, load_mission(kPass / "mission.toml").value());
     missions[0].spacecraft_id = "ODD";
     missions[0].config = odd;
     missions[1].spacecraft_id = "SOUND";
-    auto processor =
-        Processor::make(missions, {.mode = "process", .telemetry = {"pulses.csv"}}).value();
+    return Processor::make(missions, {.mode = "live", .telemetry = {"DDS domain 0"}}).value();
+  }
+
+  /// Stores the edges of both and what is made of them; then once more, of what is stored.
+  void serve_twice(const SpinConfig& odd) const {
     const auto archive = open();
     const auto store = [&](std::vector<ArchiveBatch> batches) {
       for (ArchiveBatch& batch : batches) {
         ASSERT_TRUE(archive->submit(std::move(batch)));
       }
     };
+    Processor processor = processor_of(odd);
     store(processor.begin());
-    for (const Mission& mission : missions) {
-      store(processor.take(testing::batch_of_samples<Pulse>(edges_of(mission.spacecraft_id))));
+    for (const std::string spacecraft : {"ODD", "SOUND"}) {
+      store(processor.take(testing::batch_of_samples<Pulse>(edges_of(spacecraft))));
     }
     store(processor.finish());
     const auto stored = archive->flush();
-    EXPECT_TRUE(stored) << stored.error().message;
+    ASSERT_TRUE(stored) << stored.error().message;
+
+    Processor restarted = processor_of(odd);
+    Routed again = restarted.go_on(path()).value().routed;
+    store(std::move(again.samples));
+    for (const PassInput& input : again.work) {
+      store(restarted.compute(input));
+    }
+    store(restarted.finish());
+    const auto stored_again = archive->flush();
+    EXPECT_TRUE(stored_again) << stored_again.error().message;
   }
 
   std::int64_t count_of(const std::string& spacecraft, const std::string& rows) const {
@@ -75,7 +89,7 @@ struct WithheldProducts : testing::ArchiveFixture {
 TEST_F(WithheldProducts, StopNeitherTheirRunNorArchiveNorAnotherSpacecraft) {
   for (const SpinConfig& config : configs_of_no_instrument()) {
     std::filesystem::remove(path());
-    process(config);
+    serve_twice(config);
     for (const std::string spacecraft : {"ODD", "SOUND"}) {
       EXPECT_EQ(count_of(spacecraft, "pulse USING (spacecraft_id)"), kEdges);
       EXPECT_EQ(count_of(spacecraft, "pulse_use USING (run_id)"), kEdges);

@@ -7,6 +7,7 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -65,6 +66,30 @@ inline std::vector<std::string> product_rows(const std::filesystem::path& db) {
       rows.push_back(std::move(row));
     }
   }
+  return rows;
+}
+
+/// All that an archive holds, of every table, but what two services that take the same telemetry
+/// cannot have in common: names of runs and sessions, their source, times of the wall clock, and
+/// how often a sample was sent.
+inline std::vector<std::string> all_rows(const std::filesystem::path& db) {
+  const SQLite::Database database{db.string(), SQLite::OPEN_READONLY, kBusy_ms};
+  SQLite::Statement tables{
+      database,
+      "SELECT name, (SELECT group_concat(name) FROM pragma_table_info(stored.name)"
+      " WHERE name NOT IN ('run_id', 'session', 'started_utc', 'finished_utc', 'first_arrival',"
+      "  'arrival', 'received'))"
+      " FROM sqlite_schema AS stored WHERE type = 'table' AND name NOT LIKE 'sqlite_%'"
+      " AND name NOT IN ('run_telemetry', 'stream_silence')"};
+  std::vector<std::string> rows;
+  while (tables.executeStep()) {
+    const std::string table = tables.getColumn(0).getString();
+    for (const std::string& row :
+         rows_of(db, fmt::format("SELECT {} FROM {}", tables.getColumn(1).getString(), table))) {
+      rows.push_back(fmt::format("{}|{}", table, row));
+    }
+  }
+  std::sort(rows.begin(), rows.end());
   return rows;
 }
 

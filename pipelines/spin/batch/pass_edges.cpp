@@ -71,6 +71,13 @@ void PassEdges::keep_last(std::int64_t revolutions) {
   });
 }
 
+std::optional<TaiTime> PassEdges::last() const {
+  const auto last =
+      std::max_element(edges_.begin(), edges_.end(),
+                       [](const PassEdge& a, const PassEdge& b) { return a.pulse.t < b.pulse.t; });
+  return last == edges_.end() ? std::nullopt : std::optional{last->pulse.t};
+}
+
 std::vector<PassEdge> PassEdges::edges() && {
   std::vector<PassEdge> sorted = std::move(edges_);
   std::stable_sort(sorted.begin(), sorted.end(),

@@ -24,6 +24,9 @@ class PassEdges {
   /// Forgets all but so many of the last revolutions.
   void keep_last(std::int64_t revolutions);
 
+  /// When the last of them was: the time of the solution of all. Empty: there are none.
+  std::optional<TaiTime> last() const;
+
   /// More than `kMost` came.
   bool forgot_some() const { return forgot_some_; }
 

@@ -1,17 +1,23 @@
-// A service that is told to stop with most of a day's pass stored and not yet computed.
+// Services that are stopped or killed with most of a long pass stored and not yet computed.
 
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <optional>
+#include <random>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
 #include "tests/support/program.h"
 #include "tests/support/test_paths.h"
+#include "tests/support/text_of.h"
 
 namespace spindrift::backlog_test {
 
@@ -77,6 +83,85 @@ TEST(Backlog, IsComputedAtTheNextStartBitForBit) {
   ASSERT_EQ(service.exit_status(), 0) << service.log();
   EXPECT_EQ(number_of(served, "SELECT count(*) FROM run WHERE finished_utc IS NULL"), 0);
   EXPECT_TRUE(product_rows(served) == product_rows(offline));  // Too many to print.
+}
+
+/// The first two hours of the day.
+std::string two_hours_in(const std::filesystem::path& folder) {
+  std::string scenario = text_of(kScenario);
+  const std::string day = "duration_s = 86400.0";
+  scenario.replace(scenario.find(day), day.size(), "duration_s = 7200.0");
+  const auto path = folder / "two-hours.toml";
+  std::ofstream{path} << scenario;
+  return path.string();
+}
+
+class Backlogged {
+ public:
+  Backlogged(std::string mission, std::filesystem::path db)
+      : mission_{std::move(mission)}, db_{std::move(db)}, bus_{bus_of_its_own()} {
+    start();
+  }
+
+  void start() { service_.emplace(on_bus({"serve", "--mission", mission_, "--db", db_.string()})); }
+  Program& service() { return *service_; }
+
+  /// @return whether it has stored all.
+  bool takes(const std::filesystem::path& pass, std::int64_t edges) {
+    Program replay{
+        on_bus({"replay", "--mission", mission_, "--telemetry", pass.string(), "--speed", "0"})};
+    return replay.exit_status() == 0 && has("pulse", edges);
+  }
+
+  bool has(const std::string& table, std::int64_t rows) {
+    return comes([&] { return number_of(db_, "SELECT count(*) FROM " + table) >= rows; });
+  }
+
+ private:
+  std::vector<std::string> on_bus(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(),
+                     {"--domain", std::to_string(bus_.domain), "--partition", bus_.partition});
+    return arguments;
+  }
+
+  std::string mission_;
+  std::filesystem::path db_;
+  bus::BusConfig bus_;
+  std::optional<Program> service_;
+};
+
+TEST(Backlog, KilledAtTwentyRandomInstantsGivesWhatNoKillWouldHave) {
+  constexpr std::int64_t kEdges = 72'000;
+  constexpr std::int64_t kSolutions = 119;
+  const TemporaryFolder folder;
+  const auto pass = folder.path() / "pass";
+  Program simulate{{"simulate", two_hours_in(folder.path()), "--out", pass.string()}};
+  ASSERT_EQ(simulate.exit_status(), 0) << simulate.log();
+  const std::string mission = (pass / "mission.toml").string();
+  const auto whole_db = folder.path() / "whole.db";
+  const auto killed_db = folder.path() / "killed.db";
+
+  Backlogged whole{mission, whole_db};
+  ASSERT_TRUE(whole.service().says("ready")) << whole.service().log();
+  ASSERT_TRUE(whole.takes(pass, kEdges));
+  ASSERT_TRUE(whole.has("spin_batch", kSolutions));
+  whole.service().signal(SIGTERM);
+  ASSERT_EQ(whole.service().exit_status(), 0) << whole.service().log();
+
+  Backlogged killed{mission, killed_db};
+  ASSERT_TRUE(killed.service().says("ready")) << killed.service().log();
+  ASSERT_TRUE(killed.takes(pass, kEdges));
+  std::minstd_rand random{21};
+  for (int round = 0; round < 20; ++round) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{random() % 4000U});
+    killed.service().signal(SIGKILL);
+    ASSERT_EQ(killed.service().exit_status(), -1);
+    killed.start();
+    ASSERT_TRUE(killed.service().says("ready")) << killed.service().log();
+  }
+  ASSERT_TRUE(killed.has("spin_batch", kSolutions)) << killed.service().log();
+  killed.service().signal(SIGTERM);
+  ASSERT_EQ(killed.service().exit_status(), 0) << killed.service().log();
+  EXPECT_TRUE(all_rows(killed_db) == all_rows(whole_db));  // Too many to print.
 }
 
 }  // namespace spindrift::backlog_test
