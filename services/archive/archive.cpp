@@ -1,7 +1,5 @@
 #include "services/archive/archive.h"
 
-#include <SQLiteCpp/Database.h>
-#include <SQLiteCpp/Exception.h>
 #include <fmt/format.h>
 
 #include <chrono>
@@ -10,10 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "services/archive/batch_writer.h"
-#include "services/archive/checkpointer.h"
 #include "services/archive/connection.h"
-#include "services/archive/write_lock.h"
 #include "services/queue/contained.h"
 
 namespace spindrift {
@@ -22,6 +17,8 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kRetryPause{1};
+// So often the file is looked at when there is nothing to store.
+constexpr std::chrono::seconds kLookPeriod{1};
 constexpr std::size_t kCommitsRemembered = 1000;
 
 std::size_t row_count(std::span<const ArchiveBatch> batches) {
@@ -66,20 +63,6 @@ Expected<std::filesystem::path> resolved(const std::filesystem::path& path) {
 
 }  // namespace
 
-/// What the writer thread works with. The lock is let go of last.
-struct Archive::Store {
-  Store(WriteLock held, SQLite::Database opened)
-      : lock{std::move(held)},
-        database{std::move(opened)},
-        checkpointer{database},
-        writer{database} {}
-
-  WriteLock lock;
-  SQLite::Database database;
-  Checkpointer checkpointer;
-  BatchWriter writer;
-};
-
 Expected<std::unique_ptr<Archive>> Archive::open(const std::filesystem::path& path,
                                                  ArchiveOptions options) {
   const auto real = resolved(path);
@@ -94,24 +77,21 @@ Expected<std::unique_ptr<Archive>> Archive::open(const std::filesystem::path& pa
   if (!lock) {
     return Unexpected{lock.error()};
   }
-  auto database = open_for_writing(*real);
-  if (!database) {
-    return Unexpected{database.error()};
+  auto store = Store::open(*real);
+  if (!store) {
+    return Unexpected{store.error()};
   }
-  try {
-    auto store = std::make_unique<Store>(std::move(*lock), std::move(*database));
-    return std::unique_ptr<Archive>{
-        new Archive{real->string(), std::move(store), std::move(options)}};
-  } catch (const SQLite::Exception& exception) {
-    return Unexpected{archive_error(real->string(), exception)};
-  }
+  return std::unique_ptr<Archive>{
+      new Archive{real->string(), std::move(*lock), std::move(*store), std::move(options)}};
 }
 
-Archive::Archive(std::string path, std::unique_ptr<Store> store, ArchiveOptions options)
+Archive::Archive(std::string path, WriteLock lock, std::unique_ptr<Store> store,
+                 ArchiveOptions options)
     : path_{std::move(path)},
       options_{std::move(options)},
-      store_{std::move(store)},
+      lock_{std::move(lock)},
       queue_{options_.queue_rows},
+      store_{std::move(store)},
       commit_durations_{kCommitsRemembered},
       writer_{[this] { run(); }} {}
 
@@ -156,12 +136,20 @@ Expected<void> Archive::close() {
     writer_.join();
   }
   store_.reset();
+  lock_.reset();
   if (rows_lost_ > 0 || gave_up_) {
     return Unexpected{
         {ErrorCode::Unavailable, fmt::format("{} rows that were accepted are not in archive {}: {}",
                                              rows_lost_, path_, failure_->message)}};
   }
-  return {};
+  if (refuge_) {
+    return Unexpected{
+        {ErrorCode::Unavailable,
+         fmt::format("{} rows that were accepted are not in archive {}, where another file stands, "
+                     "but in {}, with all that was stored before",
+                     rows_committed_, path_, refuge_->string())}};
+  }
+  return end_;
 }
 
 ArchiveStatistics Archive::statistics() const {
@@ -196,11 +184,13 @@ void Archive::give_up(const Error& error) {
 }
 
 void Archive::store_what_comes() {
-  for (auto batches = queue_.take(); !batches.empty(); batches = queue_.take()) {
+  while (!queue_.is_drained()) {
+    const auto batches = queue_.take(steady_clock::now() + kLookPeriod);
     if (gave_up_ || !store_patiently(batches)) {
       store_singly(batches);
     }
   }
+  end_ = store({});
 }
 
 // Tries until it succeeds or the archive is closed.
@@ -227,10 +217,15 @@ void Archive::store_singly(std::span<const ArchiveBatch> batches) {
 
 Expected<void> Archive::store(std::span<const ArchiveBatch> batches) {
   const auto begun = steady_clock::now();
-  auto stored = contained("archive " + path_, [&] { return store_->writer.write(batches); });
+  auto stored = contained("archive " + path_, [&] {
+    auto right = put_right();
+    return right && !batches.empty() ? store_->write(batches) : right;
+  });
   const std::chrono::duration<double, std::milli> duration = steady_clock::now() - begun;
   if (stored) {
-    options_.on_committed(batches);
+    if (!batches.empty()) {
+      options_.on_committed(batches);
+    }
     note_success(batches, duration.count());
   } else {
     note_failure(stored.error());
@@ -238,10 +233,76 @@ Expected<void> Archive::store(std::span<const ArchiveBatch> batches) {
   return stored;
 }
 
+Expected<void> Archive::put_right() {
+  if (!store_) {
+    return reopen(path_);
+  }
+  if (copy_) {
+    return put_back();
+  }
+  if (auto whole = store_->undamaged(); !whole) {
+    return whole;
+  }
+  auto place = store_->file().in_place();
+  const bool is_news = !std::exchange(displaced_, !place);
+  // First it is said: whoever moves files about may not be done.
+  return place || (is_news && !is_closing()) ? place : put_back();
+}
+
+// By a copy, made at once, since what has no name ends with this process. An archive that is closed
+// must end somewhere: where the path is not free, as the copy.
+Expected<void> Archive::put_back() {
+  const ArchiveFile& file = store_->file();
+  if (!copy_) {
+    const auto copy = store_->copy();
+    if (!copy) {
+      return Unexpected{
+          {copy.error().code, fmt::format("{}, and what it had cannot be written again: {}",
+                                          file.in_place().error().message, copy.error().message)}};
+    }
+    copy_ = *copy;
+  }
+  if (const auto in_the_way = file.in_the_way()) {
+    file.take_log_away();
+    if (is_closing()) {
+      refuge_ = std::exchange(copy_, std::nullopt);
+      return reopen(*refuge_);
+    }
+    return Unexpected{
+        {ErrorCode::Unavailable,
+         fmt::format("archive {}: another file stands at {}, and all that was stored is in {}. "
+                     "Move the other file away, or put the right one back, and storing goes on",
+                     path_, in_the_way->string(), copy_->string())}};
+  }
+  if (const auto placed = file.give_way_to(*copy_); !placed) {
+    return placed;
+  }
+  copy_.reset();
+  return reopen(path_);
+}
+
+Expected<void> Archive::reopen(const std::filesystem::path& path) {
+  store_.reset();
+  auto opened = Store::open(path);
+  if (!opened) {
+    return Unexpected{opened.error()};
+  }
+  store_ = std::move(*opened);
+  displaced_ = false;
+  return {};
+}
+
+bool Archive::is_closing() const {
+  const std::lock_guard lock{mutex_};
+  return state_ == State::Closing;
+}
+
 void Archive::note_success(std::span<const ArchiveBatch> batches, double duration_ms) {
   {
     const std::lock_guard lock{mutex_};
-    commit_durations_.add(duration_ms);
+    if (!batches.empty()) {
+      commit_durations_.add(duration_ms);
+    }
     rows_committed_ += row_count(batches);
     for (const ArchiveBatch& batch : batches) {
       samples_committed_ += count_of(batch.samples);

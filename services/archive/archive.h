@@ -20,6 +20,8 @@
 #include "services/archive/batch_queue.h"
 #include "services/archive/recent_durations.h"
 #include "services/archive/records.h"
+#include "services/archive/store.h"
+#include "services/archive/write_lock.h"
 
 namespace spindrift {
 
@@ -53,6 +55,12 @@ struct ArchiveStatistics {
 /// Samples are stored in the order submitted, products in theirs and never before samples that were
 /// submitted before them; see batch_queue.h.
 ///
+/// Before each commit, and once a second, it is looked whether the file is still the one at the
+/// path. One that was deleted, moved away or replaced is copied from the connection, which has it
+/// whole, and the copy goes on at its path as soon as nothing else stands there; nothing is stored
+/// until then. One that was truncated or overwritten is not written any more. Both are failures of
+/// writing.
+///
 /// `submit`, `flush` and `statistics` may be called from any thread; `close` from one, after which
 /// the others give errors.
 class Archive {
@@ -78,16 +86,16 @@ class Archive {
   Expected<void> flush();
 
   /// Stores what is still queued, trying once more what failed, and lets go of the file.
-  /// @return Unavailable with the number of rows that were accepted and could not be stored.
+  /// @return Unavailable with the number of rows that were accepted and could not be stored, or
+  ///         where they are when something else stands at the path; also when the file is damaged.
   Expected<void> close();
 
   ArchiveStatistics statistics() const;
 
  private:
-  struct Store;
   enum class State { Accepting, Stopped, Closing };
 
-  Archive(std::string path, std::unique_ptr<Store> store, ArchiveOptions options);
+  Archive(std::string path, WriteLock lock, std::unique_ptr<Store> store, ArchiveOptions options);
 
   void run();
   void store_what_comes();
@@ -95,6 +103,10 @@ class Archive {
   bool store_patiently(std::span<const ArchiveBatch> batches);
   void store_singly(std::span<const ArchiveBatch> batches);
   Expected<void> store(std::span<const ArchiveBatch> batches);
+  Expected<void> put_right();
+  Expected<void> put_back();
+  Expected<void> reopen(const std::filesystem::path& path);
+  bool is_closing() const;
   void note_success(std::span<const ArchiveBatch> batches, double duration_ms);
   void note_failure(const Error& error);
   bool close_comes_first();
@@ -102,8 +114,16 @@ class Archive {
 
   const std::string path_;
   const ArchiveOptions options_;
-  std::unique_ptr<Store> store_;
+  std::optional<WriteLock> lock_;
   BatchQueue queue_;
+
+  // Of the writer thread.
+  std::unique_ptr<Store> store_;                 ///< Empty: to be opened again.
+  bool displaced_ = false;                       ///< Its file is not at the path, as was said.
+  std::optional<std::filesystem::path> copy_;    ///< With all that is committed, for the path.
+  std::optional<std::filesystem::path> refuge_;  ///< Where it ended instead of at the path.
+  Expected<void> end_;
+  bool gave_up_ = false;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -114,7 +134,6 @@ class Archive {
   std::uint64_t rows_committed_ = 0;
   std::uint64_t samples_committed_ = 0;
   std::size_t rows_lost_ = 0;
-  bool gave_up_ = false;  ///< Of the writer thread.
   RecentDurations commit_durations_;
 
   std::thread writer_;

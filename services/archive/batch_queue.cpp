@@ -71,9 +71,9 @@ bool BatchQueue::push(ArchiveBatch batch) {
   return true;
 }
 
-std::vector<ArchiveBatch> BatchQueue::take() {
+std::vector<ArchiveBatch> BatchQueue::take(Instant deadline) {
   std::unique_lock lock{mutex_};
-  wait_for_work(lock);
+  wait_for_work(lock, deadline);
   std::vector<ArchiveBatch> taken;
   const bool is_pressing = samples_.rows >= kPressing;
   owed_rows_ =
@@ -87,7 +87,7 @@ std::vector<ArchiveBatch> BatchQueue::take() {
   }
   const bool has_products = taken.size() > without_products;
   if (owed_rows_ > 0 && (!has_products || details_.rows() >= kManyDetails)) {
-    move_details(details_.take_due(closed_ ? DetailLane::Instant::max() : steady_clock::now(),
+    move_details(details_.take_due(closed_ ? Instant::max() : steady_clock::now(),
                                    static_cast<std::size_t>(owed_rows_)),
                  taken);
   }
@@ -98,14 +98,13 @@ std::vector<ArchiveBatch> BatchQueue::take() {
 }
 
 // Samples wait a moment more for others.
-void BatchQueue::wait_for_work(std::unique_lock<std::mutex>& lock) {
+void BatchQueue::wait_for_work(std::unique_lock<std::mutex>& lock, Instant deadline) {
   const auto is_due = [this] { return closed_ || !is_empty() || is_detail_due(); };
   while (!is_due()) {
-    if (const auto next = details_.next_due()) {
-      filled_.wait_until(lock, *next);
-    } else {
-      filled_.wait(lock);
+    if (steady_clock::now() >= deadline) {
+      return;
     }
+    filled_.wait_until(lock, std::min(deadline, details_.next_due().value_or(deadline)));
   }
   filled_.wait_for(lock, kGathering,
                    [this] { return closed_ || is_worth_a_commit() || is_detail_due(); });
@@ -152,6 +151,11 @@ void BatchQueue::close() {
   }
   room_.notify_all();
   filled_.notify_all();
+}
+
+bool BatchQueue::is_drained() const {
+  const std::lock_guard lock{mutex_};
+  return closed_ && is_empty() && details_.rows() == 0;
 }
 
 std::size_t BatchQueue::size() const {

@@ -24,6 +24,8 @@ namespace spindrift {
 /// `close()` pushes are refused and what is queued can still be taken.
 class BatchQueue {
  public:
+  using Instant = DetailLane::Instant;
+
   explicit BatchQueue(std::size_t capacity_rows) : capacity_rows_{capacity_rows} {}
 
   /// Waits for room. @return false when the queue is closed: `batch` was not taken.
@@ -32,8 +34,11 @@ class BatchQueue {
   /// Waits for at least one batch, and with samples only for a moment more: each commit costs a
   /// sync, and products wait behind it. Takes all the samples, and products: many, or in a
   /// burst of samples a small share; of details those that are due of one run. Empty only when
-  /// closed and drained.
-  std::vector<ArchiveBatch> take();
+  /// drained, or at `deadline`.
+  std::vector<ArchiveBatch> take(Instant deadline = Instant::max());
+
+  /// Closed and empty: nothing is to come.
+  bool is_drained() const;
 
   void close();
 
@@ -47,7 +52,7 @@ class BatchQueue {
   bool is_empty() const;
   bool is_worth_a_commit() const;
   bool is_detail_due() const;
-  void wait_for_work(std::unique_lock<std::mutex>& lock);
+  void wait_for_work(std::unique_lock<std::mutex>& lock, Instant deadline);
   void move_product(std::vector<ArchiveBatch>& taken);
   void move_details(std::vector<ArchiveBatch> details, std::vector<ArchiveBatch>& taken);
   static void append(ArchiveBatch batch, Lane& lane);

@@ -20,7 +20,7 @@ constexpr int kBusyTimeout_ms = 5000;
 constexpr std::string_view kMagic{"SQLite format 3\0", 16};
 constexpr std::size_t kUserVersionOffset = 60;
 constexpr std::size_t kApplicationIdOffset = 68;
-constexpr int kHeaderRead = kApplicationIdOffset + 4;
+static_assert(kHeaderBytes == kApplicationIdOffset + 4);
 
 std::int32_t number_at(std::string_view header, std::size_t offset) {
   std::uint32_t value = 0;
@@ -53,8 +53,8 @@ Expected<std::string> header_of(const std::filesystem::path& path) {
     const SQLite::Database database{path.string(), SQLite::OPEN_READONLY};
     sqlite3_file* file = nullptr;
     sqlite3_file_control(database.getHandle(), "main", SQLITE_FCNTL_FILE_POINTER, &file);
-    std::string header(kHeaderRead, '\0');
-    const int status = file->pMethods->xRead(file, header.data(), kHeaderRead, 0);
+    std::string header(kHeaderBytes, '\0');
+    const int status = file->pMethods->xRead(file, header.data(), kHeaderBytes, 0);
     if (status != SQLITE_OK && status != SQLITE_IOERR_SHORT_READ) {
       throw SQLite::Exception{sqlite3_errstr(status), status};
     }
@@ -107,6 +107,12 @@ Expected<void> refuse_unreadable(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+bool is_header_of_archive(std::string_view header) {
+  return header.starts_with(kMagic) &&
+         number_at(header, kApplicationIdOffset) == kArchiveApplicationId &&
+         number_at(header, kUserVersionOffset) == kArchiveSchemaVersion;
+}
 
 Expected<void> refuse_special_name(const std::filesystem::path& path) {
   const std::string name = path.string();

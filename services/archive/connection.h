@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "pipelines/core/expected.h"
@@ -19,6 +20,12 @@ namespace spindrift {
 /// @return InvalidConfiguration when `path` is not an archive, or one with other tables than this
 ///         program's, saying what to do.
 Expected<void> refuse_foreign_file(const std::filesystem::path& path);
+
+/// What of the head of a file tells whether it is an archive.
+inline constexpr int kHeaderBytes = 72;
+
+/// Of this program's schema.
+bool is_header_of_archive(std::string_view header);
 
 /// SQLite takes these names for something else than a file: ":memory:", and "file:" as a URI.
 /// @return InvalidConfiguration for such a name.

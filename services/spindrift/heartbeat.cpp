@@ -86,6 +86,9 @@ void Heartbeat::note_losses(const TelemetrySubscriberStatus& status) {
 }
 
 void Heartbeat::note_storing(const std::optional<Error>& failure) {
+  if (!failure && beats_not_storing_ > 0) {
+    spdlog::info("the archive stores again");
+  }
   beats_not_storing_ = failure ? beats_not_storing_ + 1 : 0;
   if (failure && beats_not_storing_ % kBeatsUntilSaidAgain == 0) {
     spdlog::critical("the archive still does not store, nothing more is accepted: {}",

@@ -7,6 +7,8 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <future>
 #include <limits>
@@ -210,6 +212,52 @@ TEST_F(ArchiveFailure, RowThatBreaksTheSchemaStopsEvenRetryAndCostsOnlyItsOwnBat
   ASSERT_FALSE(closed);
   EXPECT_THAT(closed.error().message, ::testing::StartsWith("1 rows that were accepted"));
   EXPECT_EQ(stored_pulses(), 2 * kPulsesPerBatch);
+}
+
+TEST_F(ArchiveFailure, StopRefusesWhenTheFileIsDeletedAndClosingWritesItAgain) {
+  std::promise<Error> failed;
+  const auto archive = open_watched(OnWriteFailure::Stop, failed);
+  std::filesystem::remove(path());
+  const Error error = failed.get_future().get();  // Nothing needs to be stored for it.
+  EXPECT_THAT(error.message, HasSubstr("was deleted or moved away while it was written"));
+  EXPECT_FALSE(archive->submit(pulses_from(0)));
+  const auto closed = archive->close();
+
+  EXPECT_TRUE(closed) << closed.error().message;
+  EXPECT_EQ(number("SELECT count(*) FROM run"), 1);
+}
+
+TEST_F(ArchiveFailure, ClosingSaysWhereTheRowsAreWhenAnotherFileIsAtThePath) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(start_of("run-1")));
+  ASSERT_TRUE(archive->flush());
+  ASSERT_TRUE(archive->submit(pulses_from(0)));
+  std::ofstream{directory() / "other"} << "another file";
+  std::filesystem::rename(directory() / "other", path());
+  const auto closed = archive->close();
+
+  ASSERT_FALSE(closed);
+  EXPECT_EQ(closed.error().code, ErrorCode::Unavailable);
+  EXPECT_THAT(closed.error().message, HasSubstr(path().string() + ".rescued-"));
+  for (const auto& entry : std::filesystem::directory_iterator{directory()}) {
+    if (entry.path().string().find(".rescued-") != std::string::npos) {
+      std::filesystem::rename(entry.path(), path());
+      break;
+    }
+  }
+  EXPECT_EQ(stored_pulses(), kPulsesPerBatch);
+}
+
+TEST_F(ArchiveFailure, ClosingFailsWhenTheFileWasTruncatedThoughNothingIsLeftToStore) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(start_of("run-1")));
+  ASSERT_TRUE(archive->flush());
+  std::filesystem::resize_file(path(), 4096);
+  const auto closed = archive->close();
+
+  ASSERT_FALSE(closed);
+  EXPECT_THAT(closed.error().message, HasSubstr("was truncated or overwritten"));
+  EXPECT_EQ(std::filesystem::file_size(path()), 4096U);
 }
 
 /// Submits numbered batches for ever and writes the number of each committed one to `reports`.

@@ -275,24 +275,42 @@ TEST_F(ArchiveFile, ReaderSeesWhatIsCommittedAndCannotWrite) {
   EXPECT_THROW(database.exec("DELETE FROM run"), SQLite::Exception);
 }
 
-// A process that lost its lock would see another one's sqlite3 delete the log under its feet.
-TEST_F(ArchiveFile, LookingAtTheFileLeavesItsWriterTheLocks) {
+/// The lock that SQLite has on the file, if any, as another process sees it.
+short lock_of_sqlite(const std::filesystem::path& path) {
   constexpr off_t kSqliteSharedFirst = 0x40000002;
-  const auto archive = open();
-  EXPECT_EQ(number("SELECT count(*) FROM run"), 0);
-  EXPECT_FALSE(Archive::open(path(), {}));
-
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): POSIX has no other open
-  const int probe = ::open(path().c_str(), O_RDWR | O_CLOEXEC);
+  const int probe = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   struct flock wanted {};
   wanted.l_type = F_WRLCK;
   wanted.l_whence = SEEK_SET;
   wanted.l_start = kSqliteSharedFirst;
   wanted.l_len = 1;
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): nor another fcntl
-  ASSERT_EQ(fcntl(probe, F_OFD_GETLK, &wanted), 0);
-  EXPECT_EQ(wanted.l_type, F_RDLCK);
+  EXPECT_EQ(fcntl(probe, F_OFD_GETLK, &wanted), 0);
   ::close(probe);
+  return wanted.l_type;
+}
+
+// A process that lost its lock would see another one's sqlite3 delete the log under its feet.
+TEST_F(ArchiveFile, LookingAtTheFileLeavesItsWriterTheLocks) {
+  const auto archive = open();
+  EXPECT_EQ(number("SELECT count(*) FROM run"), 0);
+  EXPECT_FALSE(Archive::open(path(), {}));
+  EXPECT_EQ(lock_of_sqlite(path()), F_RDLCK);
+}
+
+TEST_F(ArchiveFile, SecondWriterIsRefusedWhateverNameItHasForTheFile) {
+  const auto archive = open();
+  for (const char* name : {"link.db", "another.db"}) {
+    const std::filesystem::path other = directory() / name;
+    std::filesystem::create_hard_link(path(), other);
+    const auto second = Archive::open(other, {});
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().code, ErrorCode::Unavailable);
+    EXPECT_THAT(second.error().message, HasSubstr("is being written under another name"));
+    EXPECT_THAT(second.error().message, HasSubstr("by pid " + std::to_string(getpid())));
+  }
+  EXPECT_EQ(lock_of_sqlite(path()), F_RDLCK);
 }
 
 }  // namespace

@@ -173,4 +173,15 @@ TEST(BatchQueue, GivesWhatIsLeftOnceClosedAndThenNothing) {
   EXPECT_TRUE(queue.take().empty());
 }
 
+TEST(BatchQueue, GivesNothingAtTheDeadlineAndIsNotDrained) {
+  BatchQueue queue{1000};
+  EXPECT_TRUE(queue.take(BatchQueue::Instant{}).empty());
+  ASSERT_TRUE(queue.push(details(1)));
+  EXPECT_TRUE(queue.take(BatchQueue::Instant{}).empty());
+  queue.close();
+  EXPECT_FALSE(queue.is_drained());
+  EXPECT_THAT(names_of(queue.take()), ElementsAre("details"));
+  EXPECT_TRUE(queue.is_drained());
+}
+
 }  // namespace spindrift::batch_queue_test
