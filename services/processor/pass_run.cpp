@@ -163,7 +163,7 @@ bool PassRun::is_stored(TaiTime batch) const {
 
 std::vector<BackgroundTask> PassRun::take_background_tasks() { return std::exchange(due_, {}); }
 
-Expected<std::vector<Product>> PassRun::solve(const PassEdges& edges) {
+Expected<std::vector<Product>> PassRun::solve(const PassEdges& edges) const {
   Expected<std::vector<Product>> products;
   const auto what = what_is_thrown(
       [&] { products = solve_edges(config_, orbit_, edges).and_then(&products_of); });
@@ -171,21 +171,9 @@ Expected<std::vector<Product>> PassRun::solve(const PassEdges& edges) {
     return products;
   }
   const TaiTime t = edges.last().value_or(TaiTime{});
-  if (std::exchange(batch_fault_, *what) != *what) {
-    spdlog::error("{}: batch solution failed at {}: {}: its run is DOUBTFUL", spacecraft_id_,
-                  format_utc(t), *what);
-  }
+  spdlog::error("{}: batch solution failed at {}: {}: its run is DOUBTFUL", spacecraft_id_,
+                format_utc(t), *what);
   return std::vector<Product>{RunFault{.t = t, .what = *what}};
-}
-
-Expected<std::vector<Product>> PassRun::solve_last(const PassEdges& edges, RunSummary& summary) {
-  auto products = solve(edges);
-  const auto* const solution = products ? std::get_if<BatchProduct>(&products->back()) : nullptr;
-  if (solution != nullptr) {
-    summary.count((*solution)->estimate);
-    summary.batch = **solution;
-  }
-  return products;
 }
 
 /// What was still held. Then the last batch solution is due, whatever became due before.
@@ -213,7 +201,8 @@ ArchiveBatch PassRun::finish() {
   ArchiveBatch last = batch();
   settle(last.products);
   if (!failed_) {
-    if (auto products = solve_last(std::exchange(edges_, {}), summary_)) {
+    if (auto products = solve(std::exchange(edges_, {}))) {
+      summary_.count_batch(*products);
       std::move(products->begin(), products->end(), std::back_inserter(last.products));
     } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {
       spdlog::warn("{}: no batch solution: {}", spacecraft_id_, products.error().message);
@@ -233,12 +222,12 @@ void PassRun::end_run(std::vector<ArchiveBatch>& batches) {
   }
   ArchiveBatch held = batch();
   settle(held.products);
-  BackgroundTask last{.batch = batch(), .solve = {}};
+  BackgroundTask last{.batch = batch(),
+                      .solve = [this, failed = failed_, edges = std::exchange(edges_, {})] {
+                        return failed ? std::vector<Product>{} : solve(edges);
+                      }};
   last.batch.finished_utc = utc_now();
-  RunSummary& summary = finished_.emplace_back(std::move(summary_));
-  last.solve = [this, &summary, failed = failed_, edges = std::exchange(edges_, {})] {
-    return failed ? std::vector<Product>{} : solve_last(edges, summary);
-  };
+  last.summary = &finished_.emplace_back(std::move(summary_));
   batches.push_back(std::move(held));
   due_.push_back(std::move(last));
 }

@@ -77,13 +77,12 @@ class PassRun {
   template <class Compute>
   void compute_or_fail(std::vector<Product>& products, const Compute& compute);
   void end_run(std::vector<ArchiveBatch>& batches);
-  Expected<std::vector<Product>> solve(const PassEdges& edges);
-  Expected<std::vector<Product>> solve_last(const PassEdges& edges, RunSummary& summary);
+  Expected<std::vector<Product>> solve(const PassEdges& edges) const;
 
   std::string spacecraft_id_;
   SpinConfig config_;
   Orbit orbit_;
-  std::deque<RunSummary> finished_;  ///< They stay where they are: tasks fill in their solutions.
+  std::deque<RunSummary> finished_;  ///< They stay where they are: their last tasks point to them.
   RunSummary summary_;
   SpinPass pass_;
   std::map<std::string, MadeBefore> made_before_;  ///< By run.
@@ -94,7 +93,6 @@ class PassRun {
   PassEdges edges_;
   std::optional<TaiTime> next_batch_;
   std::optional<TaiTime> last_batch_;  ///< The last edge of the solution that was due last.
-  std::string batch_fault_;            ///< Said last, by whoever solved.
   std::vector<BackgroundTask> due_;
   Withheld withheld_;
 };

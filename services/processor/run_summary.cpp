@@ -53,4 +53,13 @@ struct Count {
 
 void RunSummary::count(const SpinProduct& product) { std::visit(Count{*this}, product); }
 
+void RunSummary::count_batch(const std::vector<Product>& products) {
+  for (const Product& product : products) {
+    if (const auto* const solution = std::get_if<BatchProduct>(&product)) {
+      count((*solution)->estimate);
+      batch = **solution;
+    }
+  }
+}
+
 }  // namespace spindrift

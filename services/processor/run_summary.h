@@ -14,7 +14,7 @@
 #include "pipelines/spin/types/products.h"
 #include "services/archive/disagreement.h"
 #include "services/mission/mission.h"
-#include "services/products/run_fault.h"
+#include "services/products/products.h"
 
 namespace spindrift {
 
@@ -41,6 +41,9 @@ struct RunSummary {
   bool finished = true;                          ///< Likewise; not where the run was interrupted.
 
   void count(const SpinProduct& product);
+
+  /// The last solution, if it is among them.
+  void count_batch(const std::vector<Product>& products);
 
   /// Case of every revolution whose fix is AMBIGUOUS: it may be given again, decided.
   std::map<std::int64_t, int> ambiguous = {};

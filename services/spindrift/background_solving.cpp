@@ -79,6 +79,9 @@ void solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& archive,
       continue;
     }
     if (*products) {
+      if (task->summary != nullptr) {
+        task->summary->count_batch(**products);
+      }
       task->batch.products = **std::move(products);
     } else {
       std::string& reason = said[spacecraft];
@@ -91,8 +94,8 @@ void solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& archive,
     }
   }
   for (const auto& [spacecraft, count] : left) {
-    spdlog::warn("{}: {} batch solutions are not computed yet: the next start of the service will",
-                 spacecraft, count);
+    spdlog::warn("{}: {} batch solution{} not computed yet: the next start of the service will",
+                 spacecraft, count, count == 1 ? " is" : "s are");
   }
 }
 

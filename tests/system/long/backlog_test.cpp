@@ -112,6 +112,24 @@ class Backlogged {
     return replay.exit_status() == 0 && has("pulse", edges);
   }
 
+  /// Stopped when it has so many, and started again while a stop leaves anything to compute.
+  bool computes_all(std::int64_t solutions) {
+    for (int stops = 0; stops < 20; ++stops) {
+      if (!service().says("ready") || !has("spin_batch", solutions)) {
+        return false;
+      }
+      service().signal(SIGTERM);
+      if (service().exit_status() != 0) {
+        return false;
+      }
+      if (service().log().find("not computed yet") == std::string::npos) {
+        return true;
+      }
+      start();
+    }
+    return false;
+  }
+
   bool has(const std::string& table, std::int64_t rows) {
     return comes([&] { return number_of(db_, "SELECT count(*) FROM " + table) >= rows; });
   }
@@ -143,9 +161,7 @@ TEST(Backlog, KilledAtTwentyRandomInstantsGivesWhatNoKillWouldHave) {
   Backlogged whole{mission, whole_db};
   ASSERT_TRUE(whole.service().says("ready")) << whole.service().log();
   ASSERT_TRUE(whole.takes(pass, kEdges));
-  ASSERT_TRUE(whole.has("spin_batch", kSolutions));
-  whole.service().signal(SIGTERM);
-  ASSERT_EQ(whole.service().exit_status(), 0) << whole.service().log();
+  ASSERT_TRUE(whole.computes_all(kSolutions)) << whole.service().log();
 
   Backlogged killed{mission, killed_db};
   ASSERT_TRUE(killed.service().says("ready")) << killed.service().log();
@@ -158,9 +174,7 @@ TEST(Backlog, KilledAtTwentyRandomInstantsGivesWhatNoKillWouldHave) {
     killed.start();
     ASSERT_TRUE(killed.service().says("ready")) << killed.service().log();
   }
-  ASSERT_TRUE(killed.has("spin_batch", kSolutions)) << killed.service().log();
-  killed.service().signal(SIGTERM);
-  ASSERT_EQ(killed.service().exit_status(), 0) << killed.service().log();
+  ASSERT_TRUE(killed.computes_all(kSolutions)) << killed.service().log();
   EXPECT_TRUE(all_rows(killed_db) == all_rows(whole_db));  // Too many to print.
 }
 
