@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <SQLiteCpp/Database.h>
+
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -54,7 +56,23 @@ class Service {
   }
 
   /// The whole pass at once, from ready to stopped. @return Whether all went well.
-  bool serves_its_pass() { return ready() && replay("0") == 0 && stop() == 0; }
+  bool serves_its_pass() { return ready() && replay("0") == 0 && stop_when_computed() == 0; }
+
+  /// Once it has stored nothing for a while: a stop computes for some seconds only.
+  int stop_when_computed() {
+    using namespace std::chrono_literals;
+    using Clock = std::chrono::steady_clock;
+    SQLite::Database archive{db().string()};
+    const auto commits = [&] { return archive.execAndGet("PRAGMA data_version").getInt(); };
+    int last = commits();
+    for (auto since = Clock::now(); Clock::now() - since < 2s; std::this_thread::sleep_for(50ms)) {
+      if (const int now = commits(); now != last) {
+        last = now;
+        since = Clock::now();
+      }
+    }
+    return stop();
+  }
 
   int stop() {
     program_->signal(SIGTERM);

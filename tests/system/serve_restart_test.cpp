@@ -85,7 +85,7 @@ TEST_P(ServeRestart, IntoARunningPassGivesWhatNoRestartWouldHave) {
   Service whole{"gms5"};
   ASSERT_TRUE(whole.ready()) << whole.program().log();
   ASSERT_TRUE((FrontEnd{whole.bus(), "GMS-5", pulses}.send_until(1.0)));
-  ASSERT_EQ(whole.stop(), 0) << whole.program().log();
+  ASSERT_EQ(whole.stop_when_computed(), 0) << whole.program().log();
   ASSERT_GT(number_of(whole.db(), "SELECT count(*) FROM pulse_use WHERE rejected_by = 'late'"), 0);
 
   Service service{"gms5"};
@@ -102,7 +102,7 @@ TEST_P(ServeRestart, IntoARunningPassGivesWhatNoRestartWouldHave) {
   EXPECT_TRUE(eventually([&] {
     return number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NULL") == 1;
   }));
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
 
   EXPECT_THAT(service.program().log(), HasSubstr("continuing run"));
   EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NOT NULL"), 1);
@@ -164,7 +164,7 @@ TEST_P(ServeRestart, AnnouncesNothingTwiceButWhatIsInForce) {
   }
   ASSERT_TRUE(service.ready()) << service.program().log();
   ASSERT_TRUE(front_end.send_until(1.0));
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
 
   const Announced announced = listener.take_all();
   ASSERT_EQ(announced.size(), 4U);
@@ -197,7 +197,7 @@ TEST(Serve, PublishesWhatIsInForceAgainAfterARestart) {
                              .value();
   const auto estimate = take_samples(estimates, 1);
   ASSERT_FALSE(estimate.empty());
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
 }
 
 TEST(Serve, CountsMissingSamplesOnceHoweverOftenTheyAreSentAgain) {
@@ -219,7 +219,7 @@ TEST(Serve, CountsMissingSamplesOnceHoweverOftenTheyAreSentAgain) {
       return number_of(service.db(), "SELECT max(seq) FROM pulse") ==
              static_cast<std::int64_t>(last);
     }));
-    EXPECT_EQ(service.stop(), 0) << service.program().log();
+    EXPECT_EQ(service.stop_when_computed(), 0) << service.program().log();
     return number_of(service.db(), "SELECT gaps FROM source_count");
   };
   ASSERT_TRUE(service.ready()) << service.program().log();
@@ -283,12 +283,12 @@ TEST_P(ServeTwoPasses, MakesTwoRunsHoweverTheServiceIsRestarted) {
   FrontEnd front_end{service.bus(), "SPINNER", pulses};
   ASSERT_TRUE(front_end.send_until(GetParam()));
   if (GetParam() < 1.0) {
-    ASSERT_EQ(service.stop(), 0) << service.program().log();
+    ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
     service.start();
     // What the front-end still has of the old pass comes again first, and tells nothing.
     ASSERT_TRUE(front_end.send_until(1.0));
   }
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
 
   EXPECT_EQ(rows_of(service.db(),
                     "SELECT min(t_tai_ns), min(revolution), max(revolution), count(*)"

@@ -60,7 +60,7 @@ TEST(Serve, GivesTheRowsOfProcessWhetherEdgesComeOneByOneOrInBursts) {
     ASSERT_TRUE(front_end.send_until((part + 0.6) / kParts));
     ASSERT_TRUE(front_end.send_until((part + 1.0) / kParts, 300us));
   }
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
   EXPECT_EQ(product_rows(service.db()), product_rows(offline));
 }
 
