@@ -19,6 +19,11 @@ Arrival SequenceTracker::record(const Origin& origin, const std::string& spacecr
   SequenceCounts& counts = last_.counts->second;
   last_.session->last_active = ++clock_;
   ++counts.received;
+  if (has_jumped(*last_.session, origin.seq)) {
+    counts.missing += last_.session->runs.empty() ? 0 : 1;
+    *last_.session = {.runs = {}, .floor = 0, .highest = {}, .last_active = clock_};
+    last_.highest = &highest_of(*last_.session, spacecraft, origin.seq);
+  }
   const Arrival arrival = insert(*last_.session, origin.seq, counts);
   if (arrival == Arrival::Duplicate) {
     ++counts.duplicates;
@@ -50,6 +55,13 @@ SequenceTracker::Place SequenceTracker::place_of(const Origin& origin,
           .counts = &counts_of(origin.source),
           .session = &session,
           .highest = &highest_of(session, spacecraft, origin.seq)};
+}
+
+bool SequenceTracker::has_jumped(const Session& session, std::uint64_t seq) {
+  const auto& runs = session.runs;
+  const std::uint64_t first = runs.empty() ? session.floor : runs.begin()->first;
+  const std::uint64_t last = runs.empty() ? seq : runs.rbegin()->second;
+  return (seq < first && first - seq > kFarthestJump) || (seq > last && seq - last > kFarthestJump);
 }
 
 Arrival SequenceTracker::insert(Session& session, std::uint64_t seq, SequenceCounts& counts) {

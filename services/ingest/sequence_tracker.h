@@ -25,6 +25,9 @@ enum class Arrival { New, Duplicate };
 /// A source numbers the samples of all its spacecraft together, and a reader gives them spacecraft
 /// by spacecraft: gaps come and go with that, and disorder is only told within a spacecraft.
 ///
+/// A jump by more than kFarthestJump is a new session in all but name: how many samples it passes
+/// over nobody can say, and it counts as one that is missing.
+///
 /// Memory is bounded. Of a session with more than kMaxRuns gaps the lowest are given up: they stay
 /// counted as missing, and what still arrives there counts as new. Beyond kMaxSessions the session
 /// silent for longest is forgotten; sources beyond kMaxSources are counted together, under
@@ -33,6 +36,8 @@ class SequenceTracker {
  public:
   /// More than the samples, and hence the gaps, that a reader can hold back.
   static constexpr std::size_t kMaxRuns = 16384;
+  /// More than a source sends in days.
+  static constexpr std::uint64_t kFarthestJump = 10'000'000;
   static constexpr std::size_t kMaxSessions = 256;
   static constexpr std::size_t kMaxSources = 256;
   static constexpr std::size_t kMaxSpacecraft = 64;
@@ -85,6 +90,7 @@ class SequenceTracker {
   };
 
   Place place_of(const Origin& origin, const std::string& spacecraft, std::size_t topic);
+  static bool has_jumped(const Session& session, std::uint64_t seq);
   static Arrival insert(Session& session, std::uint64_t seq, SequenceCounts& counts);
   static void join_neighbours(Session& session,
                               std::map<std::uint64_t, std::uint64_t>::iterator run);

@@ -133,6 +133,29 @@ TEST(SequenceTracker, TellsOfSourcesCountedTogetherUnderTheirCommonName) {
               ::testing::ElementsAre(::testing::Key(SequenceTracker::kOtherSources)));
 }
 
+TEST(SequenceTracker, CountsAJumpFurtherThanAnyGapAsOneThatIsMissing) {
+  constexpr std::uint64_t kWild = ~std::uint64_t{0};
+  SequenceTracker tracker;
+  EXPECT_EQ(counts_after(tracker, {10, 11, kWild}), (SequenceCounts{.received = 3, .missing = 1}));
+  EXPECT_EQ(counts_after(tracker, {12, 13, 15}), (SequenceCounts{.received = 6, .missing = 3}));
+  EXPECT_EQ(tracker.record(origin(15), kSpacecraft), Arrival::Duplicate);
+}
+
+TEST(SequenceTracker, CountsTheWholeOfAGapUpToTheFarthestJump) {
+  constexpr std::uint64_t kFarthest = SequenceTracker::kFarthestJump;
+  SequenceTracker tracker;
+  EXPECT_EQ(counts_after(tracker, {0, kFarthest}),
+            (SequenceCounts{.received = 2, .missing = kFarthest - 1}));
+  EXPECT_EQ(counts_after(tracker, {2 * kFarthest + 1}),
+            (SequenceCounts{.received = 3, .missing = kFarthest}));
+}
+
+TEST(SequenceTracker, GoesOnWithASessionOfWhichAWildSeqIsStored) {
+  SequenceTracker tracker;
+  tracker.go_on(origin(~std::uint64_t{0} / 2));
+  EXPECT_EQ(counts_after(tracker, {20, 22}), (SequenceCounts{.received = 2, .missing = 1}));
+}
+
 TEST(SequenceTracker, HoldsTheLastSeqThereIs) {
   SequenceTracker tracker;
   constexpr std::uint64_t kLast = ~std::uint64_t{0};
