@@ -28,7 +28,7 @@ CREATE TABLE run (
   orbit_sha256     TEXT,              -- of the orbit file; NULL: the mission names none
   started_utc      TEXT NOT NULL,
   finished_utc     TEXT,              -- NULL: running, interrupted or killed
-  first_arrival    INTEGER NOT NULL,  -- no sample of the run has an earlier one
+  first_arrival    INTEGER NOT NULL,  -- no sample of the run has an earlier one; rises from run to run
   first_tai_ns     INTEGER            -- the earliest of the run's samples; NULL: none yet
 ) STRICT;
 

@@ -46,6 +46,17 @@ Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& arch
   });
 }
 
+Expected<std::optional<std::int64_t>> find_last_first_arrival(const std::filesystem::path& archive,
+                                                              const std::string& spacecraft_id) {
+  return read_archive(archive, [&](SQLite::Database& database) -> std::optional<std::int64_t> {
+    SQLite::Statement query{database, "SELECT max(first_arrival) FROM run WHERE spacecraft_id = ?"};
+    query.bind(1, spacecraft_id);
+    query.executeStep();
+    const SQLite::Column last = query.getColumn(0);
+    return last.isNull() ? std::nullopt : std::optional{last.getInt64()};
+  });
+}
+
 Expected<bool> is_finished(const std::filesystem::path& archive, const std::string& run_id) {
   return read_archive(archive, [&](SQLite::Database& database) {
     SQLite::Statement query{database,

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,6 +26,11 @@ struct LastRun {
 Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& archive,
                                                const std::string& spacecraft_id,
                                                const std::string& mode);
+
+/// Where the newest run of the spacecraft begins, whatever its mode: counts up from run to run.
+/// @return none when there is none; errors as find_stored_passes.
+Expected<std::optional<std::int64_t>> find_last_first_arrival(const std::filesystem::path& archive,
+                                                              const std::string& spacecraft_id);
 
 /// Whether the run came to its end: it goes on, or was interrupted or killed, otherwise.
 Expected<bool> is_finished(const std::filesystem::path& archive, const std::string& run_id);

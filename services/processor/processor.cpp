@@ -86,6 +86,19 @@ Expected<Processor> Processor::make(const std::vector<Mission>& missions,
   return processor;
 }
 
+Expected<void> Processor::arrive_after(const std::filesystem::path& archive) {
+  for (SpacecraftRun& run : runs_) {
+    const auto last = find_last_first_arrival(archive, run.spacecraft_id());
+    if (!last) {
+      return Unexpected{last.error()};
+    }
+    if (*last) {
+      run.arrive_after(**last);
+    }
+  }
+  return {};
+}
+
 std::vector<ArchiveBatch> Processor::begin() {
   std::vector<ArchiveBatch> batches;
   for (SpacecraftRun& run : runs_) {

@@ -44,6 +44,10 @@ class Processor {
   static Expected<Processor> make(const std::vector<Mission>& missions,
                                   const TelemetrySource& source);
 
+  /// Before either of the two below: whatever the wall clock says, what a new run takes arrives
+  /// later than all that `archive` holds of its spacecraft. @return the error of reading it.
+  Expected<void> arrive_after(const std::filesystem::path& archive);
+
   std::vector<ArchiveBatch> begin();
 
   /// In place of `begin`: goes on with those runs that `archive` holds, and begins the others. Its

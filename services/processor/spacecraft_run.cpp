@@ -17,6 +17,8 @@
 namespace spindrift {
 namespace {
 
+// More samples than a run can have.
+constexpr std::int64_t kArrivalsOfARun = 1'000'000'000'000;
 // So many are worked on before anybody looks whether there is time for more.
 constexpr std::size_t kSamplesPerInput = 1024;
 
@@ -58,12 +60,18 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
              .orbit_sha256 = mission.orbit_sha256,
              .telemetry = source.telemetry,
              .started_utc = utc_now(),
-             // The clock only sets the run apart from earlier ones; within it samples are counted.
+             // Sets runs of different archives apart, should they be merged. Order does not rest on
+             // the clock: arrive_after.
              .first_arrival = tai_ns(tai_now())},
       run_id_{new_run_id()},
       next_arrival_{start_.first_arrival},
       silent_before_{next_arrival_},
       tables_{mission.tables} {}
+
+void SpacecraftRun::arrive_after(std::int64_t first_arrival) {
+  next_arrival_ = std::max(next_arrival_, first_arrival + kArrivalsOfARun);
+  silent_before_ = start_.first_arrival = next_arrival_;
+}
 
 ArchiveBatch SpacecraftRun::batch() const {
   ArchiveBatch batch;
@@ -103,6 +111,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, Taken& out) {
   }
   run_id_ = stored.run_id;
   received_ = {.rejected_inputs = stored.rejected_inputs};
+  next_arrival_ = stored.first_arrival;
   earliest_ = stored_earliest_ = stored.earliest;
   counts_before_.clear();
   for (const SourceCount& count : stored.source_counts) {

@@ -65,6 +65,9 @@ class SpacecraftRun {
   /// @param run_id Of the run, or of one before it.
   Received received(const std::string& run_id) const;
 
+  /// The archive holds a run that began so: what a new one takes is later than all of that run.
+  void arrive_after(std::int64_t first_arrival);
+
   /// The run itself, before its first sample.
   ArchiveBatch begin();
 

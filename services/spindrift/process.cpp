@@ -113,7 +113,9 @@ Expected<bool> process(const ProcessOptions& options) {
     return Unexpected{archive.error()};
   }
   stop_at_first_signal();
-  const auto done = run(*processor, *telemetry, **archive);
+  const auto done = processor->arrive_after(options.db).and_then([&] {
+    return run(*processor, *telemetry, **archive);
+  });
   // Whatever stopped the run: what was accepted is stored before the archive is let go.
   if (auto outcome = outcome_of(done.map([](bool) {}), (*archive)->close()); !outcome) {
     return Unexpected{outcome.error()};

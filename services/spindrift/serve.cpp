@@ -328,7 +328,10 @@ Expected<void> serve(const ServeOptions& options) {
   Archive& archive = **opened;
   spdlog::info("archive {}", options.db.string());
 
-  const auto done = processor->go_on(options.db).and_then([&](GoneOn stored) {
+  auto gone_on = processor->arrive_after(options.db).and_then([&] {
+    return processor->go_on(options.db);
+  });
+  const auto done = std::move(gone_on).and_then([&](GoneOn stored) {
     return note_announced(options.db, stored.routed.samples, announcer)
         .and_then([&] { return submit_all(archive, std::move(stored.routed.samples)); })
         .and_then([&] { return archive.flush(); })

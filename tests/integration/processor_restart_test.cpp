@@ -264,4 +264,31 @@ TEST_F(ProcessorRestart, MakesEveryBatchSolutionThatIsNotStored) {
   }
 }
 
+TEST_F(ProcessorRestart, ANewRunComesAfterAllThatIsStoredWhateverTheClockSays) {
+  const std::vector<TelemetrySample<Pulse>> sent = two_passes();
+  constexpr std::int64_t kFarAhead = 4'000'000'000'000'000'000;  // A clock in 2096.
+  ArchiveBatch earlier = testing::start_of("earlier");
+  earlier.start->first_arrival = kFarAhead;
+  earlier.samples.of<Pulse>() = sent;
+  std::int64_t arrival = kFarAhead + static_cast<std::int64_t>(sent.size());
+  for (TelemetrySample<Pulse>& sample : earlier.samples.of<Pulse>()) {
+    sample.arrival = --arrival;
+  }
+  store(db("clock"), {earlier});
+
+  Processor processor = new_processor();
+  ASSERT_TRUE(processor.arrive_after(db("clock")));
+  Submitted all;
+  all.samples = processor.begin();
+  receive(processor, sent, all);
+  store(db("clock"), all.samples);
+  EXPECT_EQ(rows_of(db("clock"), "SELECT t_tai_ns, channel FROM pulse ORDER BY arrival"),
+            rows_of(db("clock"), "SELECT t_tai_ns, channel FROM pulse ORDER BY t_tai_ns"));
+  EXPECT_EQ(number_of(db("clock"), "SELECT min(first_arrival) FROM run"), kFarAhead);
+  EXPECT_EQ(number_of(db("clock"),
+                      "SELECT count(*) FROM pulse WHERE arrival >="
+                      " (SELECT min(first_arrival) FROM run WHERE mode = 'live')"),
+            static_cast<std::int64_t>(sent.size()));
+}
+
 }  // namespace spindrift::processor_restart_test
