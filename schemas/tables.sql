@@ -43,7 +43,9 @@ CREATE TABLE run_telemetry (
 -- Telemetry: of the spacecraft, not of a run; stored once however often it arrives.
 -- source, session, seq: which sample of which sender came first with it. session and seq are the bus's
 -- unsigned 64 bits in SQLite's signed ones. arrival: order of arrival in the run that took the sample
--- last; larger is later. The keys begin with the spacecraft, so that its samples in a span lie together.
+-- last; larger is later. Negative: -arrival is its place among the others, and the run left the sample out,
+-- since its source's time disagreed with that of the others. The keys begin with the spacecraft, so that its
+-- samples in a span lie together; the indexes hold what was left out.
 
 CREATE TABLE pulse (
   spacecraft_id TEXT NOT NULL REFERENCES spacecraft,
@@ -57,6 +59,7 @@ CREATE TABLE pulse (
   arrival       INTEGER NOT NULL,
   PRIMARY KEY (spacecraft_id, t_tai_ns, channel)
 ) STRICT, WITHOUT ROWID;
+CREATE INDEX left_out_pulse ON pulse (spacecraft_id, arrival) WHERE arrival < 0;
 
 -- NULL: not received.
 CREATE TABLE coded_frame (
@@ -74,6 +77,7 @@ CREATE TABLE coded_frame (
   arrival       INTEGER NOT NULL,
   PRIMARY KEY (spacecraft_id, t_tai_ns)
 ) STRICT, WITHOUT ROWID;
+CREATE INDEX left_out_coded_frame ON coded_frame (spacecraft_id, arrival) WHERE arrival < 0;
 
 -- Body axes.
 CREATE TABLE gyro_sample (
@@ -88,6 +92,7 @@ CREATE TABLE gyro_sample (
   arrival       INTEGER NOT NULL,
   PRIMARY KEY (spacecraft_id, t_tai_ns)
 ) STRICT, WITHOUT ROWID;
+CREATE INDEX left_out_gyro_sample ON gyro_sample (spacecraft_id, arrival) WHERE arrival < 0;
 
 -- q_icrf_sensor, as received: its norm is 1 within 0.001.
 CREATE TABLE star_sample (
@@ -103,6 +108,7 @@ CREATE TABLE star_sample (
   arrival       INTEGER NOT NULL,
   PRIMARY KEY (spacecraft_id, t_tai_ns)
 ) STRICT, WITHOUT ROWID;
+CREATE INDEX left_out_star_sample ON star_sample (spacecraft_id, arrival) WHERE arrival < 0;
 
 -- Vector to the Sun, body axes.
 CREATE TABLE sun_sample (
@@ -117,6 +123,7 @@ CREATE TABLE sun_sample (
   arrival       INTEGER NOT NULL,
   PRIMARY KEY (spacecraft_id, t_tai_ns)
 ) STRICT, WITHOUT ROWID;
+CREATE INDEX left_out_sun_sample ON sun_sample (spacecraft_id, arrival) WHERE arrival < 0;
 
 -- Body axes.
 CREATE TABLE magnetometer_sample (
@@ -131,6 +138,7 @@ CREATE TABLE magnetometer_sample (
   arrival       INTEGER NOT NULL,
   PRIMARY KEY (spacecraft_id, t_tai_ns)
 ) STRICT, WITHOUT ROWID;
+CREATE INDEX left_out_magnetometer_sample ON magnetometer_sample (spacecraft_id, arrival) WHERE arrival < 0;
 
 -- EME2000.
 CREATE TABLE orbit_state_sample (
@@ -148,6 +156,7 @@ CREATE TABLE orbit_state_sample (
   arrival       INTEGER NOT NULL,
   PRIMARY KEY (spacecraft_id, t_tai_ns)
 ) STRICT, WITHOUT ROWID;
+CREATE INDEX left_out_orbit_state_sample ON orbit_state_sample (spacecraft_id, arrival) WHERE arrival < 0;
 
 -- Before the sample of this arrival the stream of the run's spacecraft had been silent for a second of
 -- wall-clock time, and what had come was computed: an edge from before that is late.

@@ -105,6 +105,14 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
       insert(batch.run_id, sample);
     }
   });
+  batch.moved.for_each([&]<class Value>(const std::vector<Arrived<Value>>& of_kind) {
+    for (const auto& [arrival, value] : of_kind) {
+      insert(
+          batch.run_id,
+          TelemetrySample<Value>{
+              .spacecraft = batch.spacecraft_id, .origin = {}, .value = value, .arrival = arrival});
+    }
+  });
   for (const std::int64_t arrival : batch.silences) {
     execute(stream_silence_, batch.run_id, arrival);
   }

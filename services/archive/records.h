@@ -53,8 +53,10 @@ struct ArchiveBatch {
   std::string spacecraft_id;
   std::optional<RunStart> start = {};
   std::optional<Continuation> continuation = {};
-  std::optional<TaiTime> earliest = {};     ///< A sample of it is earlier than the run's earliest.
-  TelemetrySamples samples = {};            ///< With their order of arrival in the run.
+  std::optional<TaiTime> earliest = {};  ///< A sample of it is earlier than the run's earliest.
+  /// With their order of arrival in the run; negative: the run leaves the sample out.
+  TelemetrySamples samples = {};
+  TelemetryValues moved = {};  ///< Stored already, and now of the run in this order of arrival.
   std::vector<std::int64_t> silences = {};  ///< Each before the sample of that arrival.
   std::vector<RejectedInput> rejected = {};
   std::vector<Product> products = {};
@@ -64,9 +66,9 @@ struct ArchiveBatch {
 
 /// Rows that `batch` asks for, those the archive already holds included.
 inline std::size_t row_count(const ArchiveBatch& batch) {
-  return count_of(batch.samples) + batch.rejected.size() + batch.products.size() +
-         batch.source_counts.size() + batch.silences.size() + (batch.start ? 1 : 0) +
-         (batch.finished_utc ? 1 : 0);
+  return count_of(batch.samples) + count_of(batch.moved) + batch.rejected.size() +
+         batch.products.size() + batch.source_counts.size() + batch.silences.size() +
+         (batch.start ? 1 : 0) + (batch.finished_utc ? 1 : 0);
 }
 
 }  // namespace spindrift

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "services/archive/connection.h"
 
@@ -18,7 +19,7 @@ std::optional<TaiTime> time_of(const SQLite::Column& column) {
 }
 
 constexpr const char* kFindRuns =
-    "SELECT run_id, first_arrival, first_tai_ns, next_arrival, next_tai_ns,"
+    "SELECT run_id, first_arrival, first_tai_ns, next_arrival,"
     // Each of these tables is filled in order, and one may be behind the others: detail_lane.h.
     " min((SELECT t_tai_ns FROM revolution AS last WHERE last.run_id = same.run_id"
     "   ORDER BY revolution DESC LIMIT 1),"
@@ -30,22 +31,12 @@ constexpr const char* kFindRuns =
     "   AND revolution IS NOT NULL ORDER BY t_tai_ns DESC LIMIT 1)),"
     " (SELECT ifnull(sum(samples), 0) FROM rejected_input WHERE rejected_input.run_id = "
     "same.run_id)"
-    " FROM (SELECT *, lead(first_arrival) OVER following AS next_arrival,"
-    "  lead(first_tai_ns) OVER following AS next_tai_ns"
+    " FROM (SELECT *, lead(first_arrival) OVER (ORDER BY first_arrival) AS next_arrival"
     "  FROM run WHERE spacecraft_id = ? AND mode = ? AND software_version = ?"
     "  AND config_sha256 = ? AND orbit_sha256 IS ?"
     "  AND ? = (SELECT group_concat(telemetry, char(10)) FROM (SELECT telemetry FROM run_telemetry"
-    "   WHERE run_telemetry.run_id = run.run_id ORDER BY position))"
-    "  WINDOW following AS (ORDER BY first_arrival)) AS same"
+    "   WHERE run_telemetry.run_id = run.run_id ORDER BY position))) AS same"
     " WHERE finished_utc IS NULL OR next_arrival IS NULL ORDER BY first_arrival";
-
-std::optional<NextRun> next_run(const SQLite::Column& first_arrival,
-                                const SQLite::Column& earliest) {
-  if (first_arrival.isNull()) {
-    return std::nullopt;
-  }
-  return NextRun{.first_arrival = first_arrival.getInt64(), .earliest = time_of(earliest)};
-}
 
 std::vector<StoredPass> find_runs(const SQLite::Database& database,
                                   const std::string& spacecraft_id, const RunStart& start) {
@@ -60,12 +51,14 @@ std::vector<StoredPass> find_runs(const SQLite::Database& database,
   query.bind(6, fmt::format("{}", fmt::join(start.telemetry, "\n")));
   std::vector<StoredPass> runs;
   while (query.executeStep()) {
+    const SQLite::Column next_arrival = query.getColumn(3);
     runs.push_back({.run_id = query.getColumn(0).getString(),
                     .first_arrival = query.getColumn(1).getInt64(),
-                    .next = next_run(query.getColumn(3), query.getColumn(4)),
+                    .next_arrival = next_arrival.isNull() ? std::nullopt
+                                                          : std::optional{next_arrival.getInt64()},
                     .earliest = time_of(query.getColumn(2)),
-                    .last_revolution = time_of(query.getColumn(5)),
-                    .rejected_inputs = query.getColumn(6).getInt64(),
+                    .last_revolution = time_of(query.getColumn(4)),
+                    .rejected_inputs = query.getColumn(5).getInt64(),
                     .source_counts = {}});
   }
   return runs;
@@ -105,18 +98,15 @@ void read_batches(const SQLite::Database& database, StoredPass& pass) {
 
 constexpr const char* kExtent =
     " WHERE spacecraft_id = ?1 AND t_tai_ns >= ?2 AND arrival >= ?3"
-    " AND (?4 IS NULL OR arrival < ?4 OR t_tai_ns < ?5)";
+    " AND (?4 IS NULL OR arrival < ?4)";
 
 void bind_extent(SQLite::Statement& query, const std::string& spacecraft_id,
                  const StoredPass& pass) {
   query.bind(1, spacecraft_id);
   query.bind(2, tai_ns(*pass.earliest));
   query.bind(3, pass.first_arrival);
-  if (pass.next) {
-    query.bind(4, pass.next->first_arrival);
-    if (pass.next->earliest) {
-      query.bind(5, tai_ns(*pass.next->earliest));
-    }
+  if (pass.next_arrival) {
+    query.bind(4, *pass.next_arrival);
   }
 }
 
@@ -131,26 +121,76 @@ void read(const SQLite::Column& column, PulseChannel& member) {
 }
 /// @}
 
+/// For `read_arrived`.
+template <class Value>
+std::string columns() {
+  std::string columns = "arrival, t_tai_ns";
+  std::apply([&](const auto&... column) { (((columns += ", ") += column.name), ...); },
+             Telemetry<Value>::kColumns);
+  return columns;
+}
+
+template <class Value>
+Arrived<Value> read_arrived(SQLite::Statement& row) {
+  Arrived<Value> arrived{.arrival = row.getColumn(0).getInt64(), .value = {}};
+  arrived.value.t = tai_from_ns(row.getColumn(1).getInt64());
+  for_each_column(arrived.value, [&, column = 1](std::string_view /*name*/, auto& member) mutable {
+    read(row.getColumn(++column), member);
+  });
+  return arrived;
+}
+
 template <class Value>
 void read_values(const SQLite::Database& database, const std::string& spacecraft_id,
                  StoredPass& pass) {
-  std::string columns;
-  std::apply([&](const auto&... column) { (((columns += ", ") += column.name), ...); },
-             Telemetry<Value>::kColumns);
-  SQLite::Statement query{database, fmt::format("SELECT arrival, t_tai_ns{} FROM {}{}", columns,
+  SQLite::Statement query{database, fmt::format("SELECT {} FROM {}{}", columns<Value>(),
                                                 Telemetry<Value>::kTable, kExtent)};
   bind_extent(query, spacecraft_id, pass);
   auto& values = pass.values.of<Value>();
   while (query.executeStep()) {
-    auto& [arrival, value] = values.emplace_back();
-    arrival = query.getColumn(0).getInt64();
-    value.t = tai_from_ns(query.getColumn(1).getInt64());
-    for_each_column(value, [&, column = 1](std::string_view /*name*/, auto& member) mutable {
-      read(query.getColumn(++column), member);
-    });
+    values.push_back(read_arrived<Value>(query));
   }
   std::sort(values.begin(), values.end(),
             [](const Arrived<Value>& a, const Arrived<Value>& b) { return a.arrival < b.arrival; });
+}
+
+LeftOut& left_out_of(StoredPass& pass, Origin origin) {
+  const auto known =
+      std::find_if(pass.left_out.begin(), pass.left_out.end(), [&](const LeftOut& left_out) {
+        return left_out.last.source == origin.source && left_out.last.session == origin.session;
+      });
+  return known != pass.left_out.end()
+             ? *known
+             : pass.left_out.emplace_back(LeftOut{.last = std::move(origin), .values = {}});
+}
+
+/// Negative arrivals: the latest first.
+template <class Value>
+void read_left_out(const SQLite::Database& database, const std::string& spacecraft_id,
+                   StoredPass& pass) {
+  SQLite::Statement query{
+      database, fmt::format("SELECT {}, source, session, seq FROM {} WHERE spacecraft_id = ?"
+                            " AND arrival < 0 AND arrival <= ? ORDER BY arrival LIMIT ?",
+                            columns<Value>(), Telemetry<Value>::kTable)};
+  query.bind(1, spacecraft_id);
+  query.bind(2, -pass.first_arrival);
+  query.bind(3, StoredPass::kMostLeftOut);
+  while (query.executeStep()) {
+    const int source = query.getColumnCount() - 3;
+    Arrived<Value> arrived = read_arrived<Value>(query);
+    arrived.arrival = -arrived.arrival;
+    const auto seq = static_cast<std::uint64_t>(query.getColumn(source + 2).getInt64());
+    LeftOut& left_out = left_out_of(
+        pass, {.source = query.getColumn(source).getString(),
+               .session = static_cast<std::uint64_t>(query.getColumn(source + 1).getInt64()),
+               .seq = seq});
+    left_out.last.seq = std::max(left_out.last.seq, seq);
+    left_out.values.of<Value>().push_back(std::move(arrived));
+  }
+  for (LeftOut& left_out : pass.left_out) {
+    auto& values = left_out.values.of<Value>();
+    std::reverse(values.begin(), values.end());
+  }
 }
 
 std::vector<Origin> last_origins(const SQLite::Database& database, std::string_view table,
@@ -180,6 +220,11 @@ Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path
       read_source_counts(database, pass);
       read_silences(database, pass);
       read_batches(database, pass);
+      if (!pass.next_arrival) {
+        TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
+          read_left_out<Value>(database, spacecraft_id, pass);
+        });
+      }
       if (pass.earliest) {
         TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
           read_values<Value>(database, spacecraft_id, pass);

@@ -16,18 +16,20 @@
 
 namespace spindrift {
 
-/// Where the next run begins. A sample from before its first one that arrived between those by
-/// which it began is still of the run before.
-struct NextRun {
-  std::int64_t first_arrival;
-  std::optional<TaiTime> earliest;
+/// What a run left out of one session.
+struct LeftOut {
+  Origin last;             ///< With its highest seq.
+  TelemetryValues values;  ///< Each kind in order of arrival.
 };
 
 struct StoredPass {
+  /// No more of what it left out, the newest, come back.
+  static constexpr std::int64_t kMostLeftOut = 1'000'000;
+
   std::string run_id;
   std::int64_t first_arrival;
-  std::optional<NextRun> next;
-  std::optional<TaiTime> earliest;  ///< Of its samples; empty: it has none.
+  std::optional<std::int64_t> next_arrival;  ///< Of the next run; empty: it is the newest.
+  std::optional<TaiTime> earliest;           ///< Of its samples; empty: it has none.
   /// The last one of which it has stored all began then.
   std::optional<TaiTime> last_revolution;
   std::int64_t rejected_inputs;
@@ -35,6 +37,7 @@ struct StoredPass {
   std::vector<TaiTime> batches = {};        ///< Of its solutions of `batch`, in order.
   LastOrigins last_origins = {};            ///< Of its samples, as they arrived first.
   TelemetryValues values = {};              ///< Each kind in order of arrival.
+  std::vector<LeftOut> left_out = {};       ///< Of the newest run: it may become of it yet.
   std::vector<std::int64_t> silences = {};  ///< Each before the sample of that arrival.
 };
 

@@ -107,7 +107,7 @@ std::vector<ArchiveBatch> Processor::begin() {
   return batches;
 }
 
-Expected<GoneOn> Processor::go_on(const std::filesystem::path& archive) {
+Expected<GoneOn> Processor::go_on(const std::filesystem::path& archive, const Moment& moment) {
   GoneOn gone_on;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     const auto stored = find_stored_passes(archive, runs_[i].spacecraft_id(), runs_[i].start());
@@ -125,14 +125,15 @@ Expected<GoneOn> Processor::go_on(const std::filesystem::path& archive) {
       }
       gone_on.routed.samples.push_back(runs_[i].begin());
     } else {
-      go_on(i, *stored, gone_on);
+      go_on(i, *stored, moment, gone_on);
     }
   }
   return gone_on;
 }
 
-void Processor::go_on(std::size_t i, const std::vector<StoredPass>& stored, GoneOn& gone_on) {
-  SpacecraftRun::Taken taken = runs_[i].go_on(stored);
+void Processor::go_on(std::size_t i, const std::vector<StoredPass>& stored, const Moment& moment,
+                      GoneOn& gone_on) {
+  SpacecraftRun::Taken taken = runs_[i].go_on(stored, moment);
   const std::string& first = stored.front().run_id;
   if (auto* const spin = std::get_if<PassRun>(&passes_[i])) {
     std::map<std::string, MadeBefore> made;
@@ -147,6 +148,13 @@ void Processor::go_on(std::size_t i, const std::vector<StoredPass>& stored, Gone
   }
   add(std::move(taken), gone_on.routed);
   for (const StoredPass& pass : stored) {
+    for (const LeftOut& left_out : pass.left_out) {
+      left_out.values.for_each([&]<class Value>(const std::vector<Arrived<Value>>& of_kind) {
+        if (!of_kind.empty()) {
+          gone_on.last_origins[kTelemetryKind<Value>].push_back(left_out.last);
+        }
+      });
+    }
     for (std::size_t kind = 0; kind < pass.last_origins.size(); ++kind) {
       append(gone_on.last_origins.at(kind), pass.last_origins.at(kind));
     }
@@ -155,7 +163,7 @@ void Processor::go_on(std::size_t i, const std::vector<StoredPass>& stored, Gone
   }
 }
 
-Routed Processor::route(SampleBatch samples) {
+Routed Processor::route(SampleBatch samples, const Moment& moment) {
   std::map<std::size_t, SampleBatch> by_run;
   if (!samples.rejected.empty() || !samples.counts.empty()) {
     by_run[0].rejected = std::move(samples.rejected);
@@ -167,7 +175,7 @@ Routed Processor::route(SampleBatch samples) {
   samples.samples.for_each([&](auto& of_kind) { distribute(of_kind, by_run); });
   Routed routed;
   for (auto& [run, of_run] : by_run) {
-    add(runs_.at(run).take(std::move(of_run)), routed);
+    add(runs_.at(run).take(std::move(of_run), moment), routed);
   }
   return routed;
 }
@@ -193,12 +201,35 @@ void Processor::distribute(SamplesOfKind<Value>& samples,
   }
 }
 
-Routed Processor::fall_silent(const std::vector<std::string>& spacecraft) {
+Routed Processor::fall_silent(const std::vector<std::string>& spacecraft, const Moment& moment) {
   Routed routed;
   for (const std::string& id : spacecraft) {
     add(runs_[index_of_.at(id)].fall_silent(), routed);
   }
+  for (SpacecraftRun& run : runs_) {
+    if (const auto next = run.next_decision(); next && *next <= moment.now) {
+      add(run.decide(moment), routed);
+    }
+  }
   return routed;
+}
+
+std::optional<std::chrono::steady_clock::time_point> Processor::next_decision() const {
+  std::optional<std::chrono::steady_clock::time_point> first;
+  for (const SpacecraftRun& run : runs_) {
+    if (const auto next = run.next_decision()) {
+      first = std::min(first.value_or(*next), *next);
+    }
+  }
+  return first;
+}
+
+std::vector<SourceProblem> Processor::source_problems() const {
+  std::vector<SourceProblem> problems;
+  for (const SpacecraftRun& run : runs_) {
+    append(problems, run.source_problems());
+  }
+  return problems;
 }
 
 std::vector<ArchiveBatch> Processor::compute(const PassInput& work) {
@@ -222,8 +253,10 @@ std::vector<ArchiveBatch> Processor::take(SampleBatch samples) {
 std::vector<ArchiveBatch> Processor::finish() {
   std::vector<ArchiveBatch> batches;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
-    for (const PassInput& rest : runs_[i].finish()) {
-      append(batches, compute(rest));
+    SpacecraftRun::Taken rest = runs_[i].finish();
+    append(batches, std::move(rest.batches));
+    for (const PassInput& input : rest.inputs) {
+      append(batches, compute(input));
     }
     batches.push_back(std::visit([](auto& pass) { return pass.finish(); }, passes_[i]));
   }
@@ -239,6 +272,8 @@ void Processor::count_other(const std::string& spacecraft, std::int64_t samples)
   }
   count += samples;
 }
+
+bool Processor::is_live() const { return !runs_.empty() && runs_.front().start().mode == "live"; }
 
 std::vector<std::string> Processor::spacecraft() const {
   std::vector<std::string> ids;

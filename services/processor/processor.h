@@ -4,10 +4,12 @@
 
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <variant>
@@ -53,16 +55,22 @@ class Processor {
   /// In place of `begin`: goes on with those runs that `archive` holds, and begins the others. Its
   /// batches are committed before the next of `route` are submitted; its work comes first.
   /// @return the error of reading the archive.
-  Expected<GoneOn> go_on(const std::filesystem::path& archive);
+  Expected<GoneOn> go_on(const std::filesystem::path& archive, const Moment& moment = {});
 
   /// What belongs to no spacecraft, rejected inputs and the counts of the sources, is stored under
   /// the first run only, so that sums over runs hold. A sample of a spacecraft without a mission
   /// here is another service's: it is counted and not stored.
-  Routed route(SampleBatch samples);
+  Routed route(SampleBatch samples, const Moment& moment = {});
 
   /// The streams of these spacecraft, which have missions here, gave nothing for so long that what
   /// is held is to be computed. As `route`, on its thread.
-  Routed fall_silent(const std::vector<std::string>& spacecraft);
+  /// That nothing comes may also tell whose time is right.
+  Routed fall_silent(const std::vector<std::string>& spacecraft, const Moment& moment = {});
+
+  /// When that nothing comes may tell whose time is right. Empty: not for now.
+  std::optional<std::chrono::steady_clock::time_point> next_decision() const;
+  /// Of all spacecraft. On the thread of `route`.
+  std::vector<SourceProblem> source_problems() const;
 
   std::vector<ArchiveBatch> compute(const PassInput& work);
 
@@ -73,6 +81,8 @@ class Processor {
   std::vector<ArchiveBatch> take(SampleBatch samples);
 
   std::vector<ArchiveBatch> finish();
+
+  bool is_live() const;
 
   /// Those with a mission here.
   std::vector<std::string> spacecraft() const;
@@ -88,7 +98,8 @@ class Processor {
 
   template <class Value>
   void distribute(SamplesOfKind<Value>& samples, std::map<std::size_t, SampleBatch>& by_run);
-  void go_on(std::size_t i, const std::vector<StoredPass>& stored, GoneOn& gone_on);
+  void go_on(std::size_t i, const std::vector<StoredPass>& stored, const Moment& moment,
+             GoneOn& gone_on);
   void count_other(const std::string& spacecraft, std::int64_t samples);
 
   std::unordered_map<std::string, std::size_t> index_of_;  ///< Of a spacecraft, in both below.

@@ -4,13 +4,18 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <string_view>
 #include <utility>
 
+#include "pipelines/time/time_span.h"
+#include "pipelines/time/utc.h"
 #include "services/clock/wall_clock.h"
 #include "services/processor/version.h"
 
@@ -42,6 +47,26 @@ SequenceCounts counts_of(const SourceCount& count) {
           .disordered = static_cast<std::uint64_t>(count.disordered)};
 }
 
+std::size_t total(const Received& received) {
+  return static_cast<std::size_t>(
+      std::accumulate(received.samples.begin(), received.samples.end(), std::int64_t{0}));
+}
+
+std::string named(const SourceId& source) {
+  return fmt::format("'{}' (session {})", source.name, source.session);
+}
+
+std::string span_text(TaiTime from, TaiTime to) {
+  return fmt::format("{:.0f} s {}", std::abs(elapsed_s(from, to)),
+                     to > from ? "ahead of" : "behind");
+}
+
+std::string problem_text(const std::string& spacecraft, const SourceWatch::News& apart) {
+  return fmt::format("{}: the samples of source {} are left out: it says {}, {} the others with {}",
+                     spacecraft, named(apart.source), format_utc(apart.t),
+                     span_text(apart.pass, apart.t), format_utc(apart.pass));
+}
+
 void lower(std::optional<TaiTime>& earliest, TaiTime t) {
   earliest = std::min(earliest.value_or(t), t);
 }
@@ -66,7 +91,8 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
       run_id_{new_run_id()},
       next_arrival_{start_.first_arrival},
       silent_before_{next_arrival_},
-      tables_{mission.tables} {}
+      tables_{mission.tables},
+      judges_sources_{source.mode != "process"} {}
 
 void SpacecraftRun::arrive_after(std::int64_t first_arrival) {
   next_arrival_ = std::max(next_arrival_, first_arrival + kArrivalsOfARun);
@@ -95,19 +121,40 @@ SpacecraftRun::Taken SpacecraftRun::nothing_taken() const {
   return {.batches = {batch()}, .inputs = {{.spacecraft = index_, .run_id = run_id_}}};
 }
 
-SpacecraftRun::Taken SpacecraftRun::go_on(const std::vector<StoredPass>& stored) {
+SpacecraftRun::Taken SpacecraftRun::go_on(const std::vector<StoredPass>& stored,
+                                          const Moment& moment) {
   Taken out;
   for (const StoredPass& pass : stored) {
     go_on(pass, out);
     out.reached.push_back(watch_.reached());
   }
   stored_.emplace(stored.back());
+  restore_sources(stored.back(), moment);
   return out;
+}
+
+void SpacecraftRun::restore_sources(const StoredPass& stored, const Moment& moment) {
+  std::int64_t last_in_time = 0;
+  stored.values.for_each([&](const auto& of_kind) {
+    last_in_time = std::max(last_in_time, of_kind.empty() ? 0 : of_kind.back().arrival);
+  });
+  for (const std::vector<Origin>& of_kind : stored.last_origins) {
+    for (const Origin& origin : of_kind) {
+      sources_.restore_carrier(origin, moment);
+    }
+  }
+  for (const LeftOut& left_out : stored.left_out) {
+    in_order_of_arrival(left_out.values, [&](const auto& arrived) {
+      next_arrival_ = std::max(next_arrival_, arrived.arrival + 1);
+      sources_.restore_apart(left_out.last, arrived, arrived.arrival > last_in_time, moment);
+    });
+  }
 }
 
 void SpacecraftRun::go_on(const StoredPass& stored, Taken& out) {
   if (!out.inputs.empty()) {
     received_before_.emplace(run_id_, received_);
+    release_held(out.inputs);
   }
   run_id_ = stored.run_id;
   received_ = {.rejected_inputs = stored.rejected_inputs};
@@ -118,7 +165,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, Taken& out) {
     counts_before_.emplace(count.source, counts_of(count));
   }
   watch_ = {};
-  held_.clear();
+  sources_ = {};
   // Not finished, whatever becomes of this service; nothing of it is withdrawn yet.
   out.batches.push_back(batch());
   out.batches.back().continuation = Continuation{.t = TaiTime::max()};
@@ -128,15 +175,17 @@ void SpacecraftRun::go_on(const StoredPass& stored, Taken& out) {
       [&](const auto& arrived) {
         next_arrival_ = std::max(next_arrival_, arrived.arrival + 1);
         received_.count(arrived.value);
+        sources_.restore(arrived.value.t);
         place(arrived, out);
       },
       [&](std::int64_t arrival) { hand_on_silence(arrival, out.inputs); });
 }
 
-SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples) {
+SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples, const Moment& moment) {
   tell_undescribed(samples.samples);
   Taken out = nothing_taken();
-  in_order_of_arrival(samples.samples, [&](auto& sample) { sort(std::move(sample), out); });
+  in_order_of_arrival(samples.samples, [&](auto& sample) { sort(std::move(sample), moment, out); });
+  decide(moment, out);
   tell_both();
   for (const RejectedInput& rejected : samples.rejected) {
     received_.rejected_inputs += rejected.samples;
@@ -146,6 +195,71 @@ SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples) {
   last.rejected = std::move(samples.rejected);
   last.source_counts = source_counts(samples.counts);
   return out;
+}
+
+SpacecraftRun::Taken SpacecraftRun::decide(const Moment& moment) {
+  Taken out = nothing_taken();
+  decide(moment, out);
+  note_earliest(out.batches.back());
+  return out;
+}
+
+void SpacecraftRun::decide(const Moment& moment, Taken& out) {
+  if (const auto successor = sources_.successor(moment)) {
+    follow(*successor, out);
+  }
+  tell_sources(moment);
+}
+
+void SpacecraftRun::follow(const SourceId& successor, Taken& out) {
+  const TaiTime before = sources_.pass_time().value();
+  const TaiTime t = sources_.recent(successor);
+  const std::string carrier = sources_.carrier() ? named(*sources_.carrier()) : "others";
+  const TelemetryValues held = sources_.follow(successor);
+  stored_.reset();
+  const auto span = span_between(before, t);
+  if (span <= PassWatch::kLongestSilence && !are_apart(before, std::min(before, t))) {
+    accept(held, out);
+    return;
+  }
+  spdlog::log(
+      span < span.zero() ? spdlog::level::warn : spdlog::level::info,
+      "{}: a new run begins with source {}: it says {}, {} source {} with {}, which is silent "
+      "or has the others or the clock of this host against it",
+      spacecraft_id_, named(successor), format_utc(t), span_text(before, t), carrier,
+      format_utc(before));
+  release_held(out.inputs);
+  begin_new_pass(held, out);
+}
+
+void SpacecraftRun::tell_sources(const Moment& moment) {
+  for (const SourceWatch::News& news : sources_.take_news()) {
+    if (news.healed) {
+      spdlog::warn("{}: source {} agrees with the others again", spacecraft_id_,
+                   named(news.source));
+    } else {
+      spdlog::warn("{}; until it agrees with them, or they are silent",
+                   problem_text(spacecraft_id_, news));
+    }
+  }
+  const auto pass = sources_.pass_time();
+  const auto carrier = sources_.carrier();
+  if (!told_host_ && moment.host && pass && carrier &&
+      are_apart(*pass, *moment.host, SourceWatch::kHostApart)) {
+    told_host_ = true;
+    spdlog::warn(
+        "{}: source {} says {}, and the clock of this host {}: one of them is wrong, or "
+        "what it sends is recorded",
+        spacecraft_id_, named(*carrier), format_utc(*pass), format_utc(*moment.host));
+  }
+}
+
+std::vector<SourceProblem> SpacecraftRun::source_problems() const {
+  std::vector<SourceProblem> problems;
+  for (const auto& [apart, heard] : sources_.apart()) {
+    problems.push_back({.text = problem_text(spacecraft_id_, apart), .heard = heard});
+  }
+  return problems;
 }
 
 SpacecraftRun::Taken SpacecraftRun::fall_silent() {
@@ -197,14 +311,62 @@ void SpacecraftRun::tell_undescribed(const TelemetrySamples& samples) {
   });
 }
 
-std::vector<PassInput> SpacecraftRun::finish() {
-  std::vector<PassInput> rest = nothing_taken().inputs;
-  release_held(rest);
+SpacecraftRun::Taken SpacecraftRun::finish() {
+  Taken rest = nothing_taken();
+  if (const auto successor = sources_.successor_at_end(total(received_))) {
+    follow(*successor, rest);
+  }
+  if (sources_.held() > 0) {
+    spdlog::warn("{}: {} samples are stored and left out, since their source's time disagrees",
+                 spacecraft_id_, sources_.held());
+  }
+  release_held(rest.inputs);
   return rest;
 }
 
 template <class Value>
-void SpacecraftRun::sort(TelemetrySample<Value>&& sample, Taken& out) {
+void SpacecraftRun::sort(TelemetrySample<Value>&& sample, const Moment& moment, Taken& out) {
+  switch (judge(sample, moment)) {
+    case SourceWatch::Verdict::Apart:
+      sample.arrival = -next_arrival_++;
+      out.batches.back().samples.of<Value>().push_back(std::move(sample));
+      return;
+    case SourceWatch::Verdict::Healed:
+      accept(sources_.take_held(sample.origin), out);
+      break;
+    case SourceWatch::Verdict::InTime:
+      break;
+  }
+  accept(std::move(sample), out);
+}
+
+template <class Value>
+SourceWatch::Verdict SpacecraftRun::judge(const TelemetrySample<Value>& sample,
+                                          const Moment& moment) {
+  if (!judges_sources_) {
+    return SourceWatch::Verdict::InTime;
+  }
+  if (stored_ && stored_->hold(sample.value)) {
+    sources_.hear(sample.origin, moment);
+    return SourceWatch::Verdict::InTime;
+  }
+  return sources_.see(sample.origin,
+                      Arrived<Value>{.arrival = next_arrival_, .value = sample.value}, moment);
+}
+
+/// In the order in which they came, but now.
+void SpacecraftRun::accept(const TelemetryValues& held, Taken& out) {
+  in_order_of_arrival(held, [&]<class Value>(const Arrived<Value>& left_out) {
+    const Arrived<Value> arrived{.arrival = next_arrival_++, .value = left_out.value};
+    received_.count(arrived.value);
+    lower(earliest_, arrived.value.t);
+    out.batches.back().moved.of<Value>().push_back(arrived);
+    place(arrived, out);
+  });
+}
+
+template <class Value>
+void SpacecraftRun::accept(TelemetrySample<Value>&& sample, Taken& out) {
   sample.arrival = next_arrival_++;
   received_.count(sample.value);
   lower(earliest_, sample.value.t);
@@ -218,10 +380,12 @@ void SpacecraftRun::sort(TelemetrySample<Value>&& sample, Taken& out) {
 /// Sent again: one sample is not to be believed for two.
 template <class Value>
 bool SpacecraftRun::is_known(const Value& value) const {
-  const auto is_it = [key = order_of(value)](const Held& held) {
-    return std::visit([&](const auto& arrived) { return order_of(arrived.value) == key; }, held);
-  };
-  return (stored_ && stored_->hold(value)) || std::any_of(held_.begin(), held_.end(), is_it);
+  const auto& held = held_.of<Value>();
+  return (stored_ && stored_->hold(value)) ||
+         std::any_of(held.begin(), held.end(),
+                     [key = order_of(value)](const Arrived<Value>& arrived) {
+                       return order_of(arrived.value) == key;
+                     });
 }
 
 template <class Value>
@@ -234,9 +398,12 @@ void SpacecraftRun::place(const Arrived<Value>& arrived, Taken& out) {
     release_held(out.inputs);
     hand_on(arrived.value, out.inputs);
   } else {
-    held_.emplace_back(arrived);
+    held_.of<Value>().push_back(arrived);
     if (verdict == PassWatch::Verdict::NewPass) {
-      begin_new_pass(out);
+      const TelemetryValues its_first = std::exchange(held_, {});
+      in_order_of_arrival(its_first, [&](const auto& first) { received_.count(first.value, -1); });
+      spdlog::info("{}: more than an hour of silence, a new run begins", spacecraft_id_);
+      begin_new_pass(its_first, out);
     }
   }
 }
@@ -251,48 +418,29 @@ void SpacecraftRun::hand_on(const Value& value, std::vector<PassInput>& inputs) 
 }
 
 void SpacecraftRun::release_held(std::vector<PassInput>& inputs) {
-  for (const Held& held : std::exchange(held_, {})) {
-    std::visit([&](const auto& arrived) { hand_on(arrived.value, inputs); }, held);
-  }
+  in_order_of_arrival(std::exchange(held_, {}),
+                      [&](const auto& held) { hand_on(held.value, inputs); });
 }
 
-void SpacecraftRun::begin_new_pass(Taken& out) {
-  const std::vector<Held> its_first = std::exchange(held_, {});
-  Received its_own;
-  for (const Held& held : its_first) {
-    std::visit(
-        [&](const auto& arrived) {
-          its_own.count(arrived.value);
-          received_.count(arrived.value, -1);
-        },
-        held);
-  }
+void SpacecraftRun::begin_new_pass(const TelemetryValues& its_first, Taken& out) {
   received_before_.emplace(run_id_, received_);
   note_earliest(out.batches.back());
 
   start_.started_utc = utc_now();
-  start_.first_arrival =
-      std::visit([](const auto& arrived) { return arrived.arrival; }, its_first.front());
+  start_.first_arrival = next_arrival_;
   run_id_ = new_run_id();
   out.batches.push_back(begin());
   out.inputs.push_back({.spacecraft = index_, .run_id = run_id_});
-  received_ = its_own;
+  received_ = {};
   earliest_.reset();
   stored_earliest_.reset();
   counts_before_.clear();
   counts_of_earlier_runs_ = latest_counts_;
   stored_.reset();
   watch_ = {};
-  for (const Held& held : its_first) {
-    std::visit(
-        [&](const auto& arrived) {
-          lower(earliest_, arrived.value.t);
-          place(arrived, out);
-        },
-        held);
-  }
+  accept(its_first, out);
   note_earliest(out.batches.back());
-  spdlog::info("{}: more than an hour of silence, a new run begins: {}", spacecraft_id_, run_id_);
+  spdlog::info("{}: run {}", spacecraft_id_, run_id_);
 }
 
 std::vector<SourceCount> SpacecraftRun::source_counts(

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -12,7 +13,6 @@
 #include <set>
 #include <string>
 #include <type_traits>
-#include <variant>
 #include <vector>
 
 #include "services/archive/records.h"
@@ -20,6 +20,8 @@
 #include "services/mission/mission.h"
 #include "services/processor/pass_run.h"
 #include "services/processor/pass_watch.h"
+#include "services/processor/source_problems.h"
+#include "services/processor/source_watch.h"
 #include "services/processor/stored_samples.h"
 #include "services/telemetry/sample_batch.h"
 
@@ -51,8 +53,11 @@ struct Received {
 };
 
 /// Everything that arrived goes to the archive at once, whatever is computed from it and when.
-/// After a silence that ends a pass (PassWatch) what arrives is of a new run. A run begins in the
-/// batch of the sample that makes its first ones accepted.
+/// After a silence that ends a pass (PassWatch), or when the time of another source is the right
+/// one (SourceWatch), what arrives is of a new run. A run begins in the batch of the sample that
+/// makes its first ones accepted; they have a place in the order of arrival again, so that the
+/// samples of a run have one without gaps. Files are read in order of time, whatever source they
+/// name.
 class SpacecraftRun {
  public:
   /// @param index Of the mission among all.
@@ -77,25 +82,41 @@ class SpacecraftRun {
     /// Of `go_on`, run by run: how far its pass has come, see PassWatch.
     std::vector<std::optional<TaiTime>> reached = {};
   };
-  Taken take(SampleBatch samples);
+  Taken take(SampleBatch samples, const Moment& moment);
 
   /// Nothing came for a while: a silence among the samples. None when none has come since the last.
   Taken fall_silent();
 
   /// In place of `begin`: the runs of `stored`, oldest first, at the point to which their samples
   /// brought them. The last of them is the one that goes on.
-  Taken go_on(const std::vector<StoredPass>& stored);
+  Taken go_on(const std::vector<StoredPass>& stored, const Moment& moment);
+
+  /// Time has gone by since samples were taken: sources may have fallen silent.
+  Taken decide(const Moment& moment);
+  /// When that may tell something.
+  std::optional<std::chrono::steady_clock::time_point> next_decision() const {
+    return sources_.next_decision();
+  }
+  /// Sources that are left out, in words, and when each was heard last.
+  std::vector<SourceProblem> source_problems() const;
 
   /// What waited for a sample to tell which pass it belongs to, and none came.
-  std::vector<PassInput> finish();
+  Taken finish();
 
  private:
-  using Held = TelemetryKinds::Of<std::variant, Arrived>;
-
   Taken nothing_taken() const;
   template <class Value>
-  void sort(TelemetrySample<Value>&& sample, Taken& out);
+  void sort(TelemetrySample<Value>&& sample, const Moment& moment, Taken& out);
+  template <class Value>
+  SourceWatch::Verdict judge(const TelemetrySample<Value>& sample, const Moment& moment);
+  template <class Value>
+  void accept(TelemetrySample<Value>&& sample, Taken& out);
+  void accept(const TelemetryValues& held, Taken& out);
   void go_on(const StoredPass& stored, Taken& out);
+  void restore_sources(const StoredPass& stored, const Moment& moment);
+  void decide(const Moment& moment, Taken& out);
+  void follow(const SourceId& successor, Taken& out);
+  void tell_sources(const Moment& moment);
   void note_earliest(ArchiveBatch& batch);
   template <class Value>
   bool is_known(const Value& value) const;
@@ -105,7 +126,7 @@ class SpacecraftRun {
   void hand_on(const Value& value, std::vector<PassInput>& inputs) const;
   void hand_on_silence(std::int64_t arrival, std::vector<PassInput>& inputs);
   void release_held(std::vector<PassInput>& inputs);
-  void begin_new_pass(Taken& out);
+  void begin_new_pass(const TelemetryValues& its_first, Taken& out);
   void tell_both();
   void tell_undescribed(const TelemetrySamples& samples);
   std::vector<SourceCount> source_counts(const std::map<std::string, SequenceCounts>& by_source);
@@ -127,9 +148,12 @@ class SpacecraftRun {
   bool told_both_ = false;
   std::set<std::string> tables_;  ///< Of the mission file.
   std::array<bool, kTelemetryKindCount> told_undescribed_{};
+  bool judges_sources_;
+  bool told_host_ = false;
+  SourceWatch sources_;
   PassWatch watch_;
   std::optional<StoredSamples> stored_;  ///< After a restart, until the pass has gone on.
-  std::vector<Held> held_;               ///< In order of arrival, until the pass is known.
+  TelemetryValues held_;                 ///< Until the pass is known.
 };
 
 }  // namespace spindrift

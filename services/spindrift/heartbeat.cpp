@@ -108,6 +108,9 @@ std::vector<std::string> Heartbeat::problems(const TelemetrySubscriberStatus& st
   }
   const auto& writers = status.reader.incompatible_writers;
   found.insert(found.end(), writers.begin(), writers.end());
+  const auto apart =
+      watched_.sources.since(std::chrono::steady_clock::now() - LinkWatch::kStaleAfter);
+  found.insert(found.end(), apart.begin(), apart.end());
   if (!gaps_.empty()) {
     found.push_back("samples missing: " + to_text(gaps_));
   }

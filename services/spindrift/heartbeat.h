@@ -15,6 +15,7 @@
 #include "services/ingest/gap_watch.h"
 #include "services/ingest/telemetry_subscriber.h"
 #include "services/processor/pass_run.h"
+#include "services/processor/source_problems.h"
 #include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"
 #include "services/spindrift/thread_failures.h"
@@ -31,6 +32,7 @@ class Heartbeat {
     const Archive& archive;
     const ResultPublisher& publisher;
     const LinkWatch& links;
+    const SourceProblems& sources;
   };
 
   /// @param failures Outlives it, and is told when taking samples has failed.

@@ -19,6 +19,7 @@
 #include "services/archive/archive.h"
 #include "services/archive/stored_results.h"
 #include "services/bus/participant.h"
+#include "services/clock/wall_clock.h"
 #include "services/ingest/telemetry_subscriber.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
@@ -83,38 +84,53 @@ void note_arrivals(const std::vector<ArchiveBatch>& samples, LinkWatch& links,
                    SilenceWatch& silences) {
   const auto now = std::chrono::steady_clock::now();
   for (const ArchiveBatch& batch : samples) {
-    batch.samples.for_each([&](const auto& of_kind) {
-      if (!of_kind.empty()) {
-        links.note(batch.spacecraft_id, of_kind.back().value.t, now);
+    const auto note = [&](const auto& of_kind) {
+      // A sample that is left out has a negative one.
+      const auto last = std::find_if(of_kind.rbegin(), of_kind.rend(),
+                                     [](const auto& sample) { return sample.arrival >= 0; });
+      if (last != of_kind.rend()) {
+        links.note(batch.spacecraft_id, last->value.t, now);
         silences.note(batch.spacecraft_id, now);
       }
-    });
+    };
+    batch.samples.for_each(note);
+    batch.moved.for_each(note);
   }
+}
+
+/// The clock of the host says something of samples of now only.
+Moment moment_of(const Processor& processor) {
+  return {.now = std::chrono::steady_clock::now(),
+          .host = processor.is_live() ? std::optional{tai_now()} : std::nullopt};
 }
 
 /// What is taken next; or that streams are silent, which only holds while nothing waits in `taken`.
 Routed next_routed(BoundedQueue<SampleBatch>& taken, Processor& processor, LinkWatch& links,
                    SilenceWatch& silences) {
   const auto next_silence = silences.next();
-  if (auto batch = next_silence ? taken.take_until(*next_silence) : taken.take()) {
-    Routed routed = processor.route(std::move(*batch));
-    note_arrivals(routed.samples, links, silences);
-    return routed;
-  }
-  return processor.fall_silent(silences.take_silent(std::chrono::steady_clock::now()));
+  const auto next_decision = processor.next_decision();
+  const auto next = next_silence && next_decision ? std::min(next_silence, next_decision)
+                                                  : std::max(next_silence, next_decision);
+  auto batch = next ? taken.take_until(*next) : taken.take();
+  const Moment moment = moment_of(processor);
+  Routed routed = batch ? processor.route(std::move(*batch), moment)
+                        : processor.fall_silent(silences.take_silent(moment.now), moment);
+  note_arrivals(routed.samples, links, silences);
+  return routed;
 }
 
 /// First `again`. Then hands what is taken to the archive and on to be computed, until `taken` is
 /// closed and empty, or the archive refuses.
 Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
-                     Processor& processor, Archive& archive, Computing& computing,
-                     LinkWatch& links) {
+                     Processor& processor, Archive& archive, Computing& computing, LinkWatch& links,
+                     SourceProblems& problems) {
   for (PassInput& input : again) {
     computing.leave_to_backlog(std::move(input));
   }
   SilenceWatch silences;
   while (!taken.is_drained()) {
     Routed routed = next_routed(taken, processor, links, silences);
+    problems.set(processor.source_problems());
     auto stored = submit_all(archive, std::move(routed.samples));
     for (auto input = routed.work.begin(); stored && input != routed.work.end(); ++input) {
       stored = computing.take(std::move(*input), taken.size());
@@ -130,7 +146,8 @@ Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& ta
 /// closes it: nobody must wait for room.
 void route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
                        BoundedQueue<PassInput>& backlog, Processor& processor, Archive& archive,
-                       const Patience& patience, LinkWatch& links, ThreadFailures& failures) {
+                       const Patience& patience, LinkWatch& links, SourceProblems& problems,
+                       ThreadFailures& failures) {
   BoundedQueue<BackgroundTask> tasks{kMostBackgroundTasks};
   Computing computing{processor, archive, backlog, tasks, patience};
   std::thread solving{[&] {
@@ -142,7 +159,7 @@ void route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& 
     backlog.close();
   }};
   failures.note(contained("taking in", [&] {
-    return route(std::move(again), taken, processor, archive, computing, links);
+    return route(std::move(again), taken, processor, archive, computing, links, problems);
   }));
   taken.close();
   backlog.close();
@@ -217,6 +234,7 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
   }
   TelemetrySubscriber& subscriber = **started;
   LinkWatch links{processor.spacecraft()};
+  SourceProblems problems;
   Patience patience;
   stop_signal.on_stop([&] {
     spdlog::info("stopping");
@@ -234,10 +252,12 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
                                .work = work,
                                .archive = archive,
                                .publisher = publisher,
-                               .links = links},
+                               .links = links,
+                               .sources = problems},
                               failures};
     spdlog::info("ready");
-    route_and_compute(std::move(again), queue, work, processor, archive, patience, links, failures);
+    route_and_compute(std::move(again), queue, work, processor, archive, patience, links, problems,
+                      failures);
   }
   stop_signal.join();
   const auto taking = how_taking_ended(subscriber);
@@ -329,7 +349,7 @@ Expected<void> serve(const ServeOptions& options) {
   spdlog::info("archive {}", options.db.string());
 
   auto gone_on = processor->arrive_after(options.db).and_then([&] {
-    return processor->go_on(options.db);
+    return processor->go_on(options.db, moment_of(*processor));
   });
   const auto done = std::move(gone_on).and_then([&](GoneOn stored) {
     return note_announced(options.db, stored.routed.samples, announcer)

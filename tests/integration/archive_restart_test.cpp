@@ -120,6 +120,46 @@ TEST_F(ArchiveRestart, SamplesOfARunThatAnEarlierOneHasStoredAreItsOwnToo) {
   EXPECT_THAT(times_of(*pass), ElementsAre(30, 20, 40));
 }
 
+TEST_F(ArchiveRestart, WhatARunLeftOutComesBackApartUntilARunTakesIt) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(begun("run-1", 100)));
+  ASSERT_TRUE(archive->submit(arrived("run-1", 100, {pulse_at(50)})));
+  ArchiveBatch left_out = batch_of("run-1");
+  left_out.samples.of<Pulse>() = {pulse_at(20, 8), pulse_at(10, 7)};
+  left_out.samples.of<Pulse>()[0].arrival = -101;
+  left_out.samples.of<Pulse>()[1].arrival = -102;
+  ASSERT_TRUE(archive->submit(left_out));
+  ASSERT_TRUE(archive->flush());
+
+  auto pass = stored();
+  ASSERT_TRUE(pass);
+  EXPECT_EQ(pass->earliest, tai_from_ns(50));
+  EXPECT_THAT(times_of(*pass), ElementsAre(50));
+  ASSERT_EQ(pass->left_out.size(), 1U);
+  EXPECT_EQ(pass->left_out[0].last.source, "station");
+  EXPECT_EQ(pass->left_out[0].last.seq, 8U);
+  const auto& pulses = pass->left_out[0].values.of<Pulse>();
+  ASSERT_EQ(pulses.size(), 2U);
+  EXPECT_EQ(pulses[0].arrival, 101);
+  EXPECT_EQ(pulses[1].arrival, 102);
+  EXPECT_EQ(pulses[1].value.t, tai_from_ns(10));
+
+  ArchiveBatch taken = begun("run-2", 200);
+  taken.earliest = tai_from_ns(10);
+  taken.moved.of<Pulse>() = {{.arrival = 200, .value = pulses[0].value},
+                             {.arrival = 201, .value = pulses[1].value}};
+  ASSERT_TRUE(archive->submit(taken));
+  ASSERT_TRUE(archive->flush());
+  pass = stored();
+  ASSERT_TRUE(pass);
+  EXPECT_THAT(times_of(*pass), ElementsAre(20, 10));
+  EXPECT_TRUE(pass->left_out.empty());
+  EXPECT_EQ(text("SELECT group_concat(source || ' ' || seq, ', ') FROM pulse WHERE arrival >= 200"),
+            "station 7, station 8");
+  EXPECT_THAT(times_of(find_stored_passes(path(), "SPINNER", kRunStart).value().front()),
+              ElementsAre(50));
+}
+
 TEST_F(ArchiveRestart, TheLastSampleOfEachSessionComesBack) {
   const auto archive = open();
   ASSERT_TRUE(archive->submit(begun("run-1", 100)));

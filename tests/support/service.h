@@ -89,10 +89,11 @@ class Service {
 /// A front-end, and the pulses of a recorded pass to send.
 class FrontEnd {
  public:
-  FrontEnd(const bus::BusConfig& bus, std::string spacecraft, std::vector<Pulse> pulses)
+  FrontEnd(const bus::BusConfig& bus, std::string spacecraft, std::vector<Pulse> pulses,
+           const std::string& source = "front-end")
       : spacecraft_{std::move(spacecraft)},
         participant_{bus::Participant::create(bus).value()},
-        publisher_{TelemetryPublisher<Pulse>::create(participant_, "front-end").value()},
+        publisher_{TelemetryPublisher<Pulse>::create(participant_, source).value()},
         pulses_{std::move(pulses)} {}
 
   /// Those from where it is to `share` of all, with a pause before each. @return false when nobody

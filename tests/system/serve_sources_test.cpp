@@ -1,0 +1,233 @@
+// `spindrift serve` when its senders disagree about the time.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <string>
+#include <vector>
+
+#include "tests/support/archive_rows.h"
+#include "tests/support/eventually.h"
+#include "tests/support/program.h"
+#include "tests/support/recorded_files.h"
+#include "tests/support/service.h"
+
+namespace spindrift::serve_sources_test {
+
+using namespace std::chrono_literals;
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::vector<Pulse> honest_pulses() {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "processed.db";
+  Program process{{"process", "--mission", (kPasses / "nominal" / "mission.toml").string(),
+                   "--telemetry", (kPasses / "nominal").string(), "--db", db.string()}};
+  EXPECT_EQ(process.exit_status(), 0) << process.log();
+  return pulses_in(db);
+}
+
+std::vector<Pulse> alien_pulses(TaiTime first, int count) {
+  std::vector<Pulse> pulses;
+  for (int i = 0; i < count; ++i) {
+    pulses.push_back({.t = first + i * 100ms, .channel = PulseChannel::Sun1});
+  }
+  return pulses;
+}
+
+std::vector<std::string> sorted(std::vector<std::string> rows) {
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+/// A pass of one honest source, and what a service makes of it that is not disturbed.
+class ServeSources : public ::testing::Test {
+ protected:
+  struct Whole {
+    std::vector<Pulse> pulses;
+    std::vector<std::string> products;
+    std::vector<std::string> batch;
+  };
+
+  static const Whole& whole() {
+    static const Whole kWhole = [] {
+      Whole whole{.pulses = honest_pulses(), .products = {}, .batch = {}};
+      Service service{"nominal"};
+      EXPECT_TRUE(service.ready()) << service.program().log();
+      EXPECT_TRUE((FrontEnd{service.bus(), "SPINNER", whole.pulses}.send_until(1.0)));
+      EXPECT_EQ(service.stop(), 0) << service.program().log();
+      whole.products = sorted(product_rows(service.db()));
+      whole.batch = last_batch_rows(service.db());
+      return whole;
+    }();
+    return kWhole;
+  }
+
+  void SetUp() override {
+    whole();
+    ASSERT_TRUE(service_.ready()) << service_.program().log();
+  }
+
+  FrontEnd honest() const { return {service_.bus(), "SPINNER", whole().pulses}; }
+
+  void send_alien(TaiTime first, int count) const {
+    ASSERT_TRUE(
+        (FrontEnd{service_.bus(), "SPINNER", alien_pulses(first, count), "alien"}.send_until(1.0)));
+  }
+
+  std::int64_t number(const std::string& query) const { return number_of(service_.db(), query); }
+
+  bool has_stored(std::size_t pulses) const {
+    return eventually(
+        [&] { return number("SELECT count(*) FROM pulse") == static_cast<std::int64_t>(pulses); });
+  }
+
+  void kill_and_restart() {
+    log_ += service_.program().log();
+    service_.program().signal(SIGKILL);
+    EXPECT_EQ(service_.program().exit_status(), -1);
+    service_.start();
+    ASSERT_TRUE(service_.ready()) << service_.program().log();
+  }
+
+  /// As if there had been the honest source only, in one run.
+  void expect_the_whole_pass() {
+    ASSERT_EQ(service_.stop(), 0) << service_.program().log();
+    log_ += service_.program().log();
+    const std::vector<std::string> rows = sorted(product_rows(service_.db()));
+    EXPECT_TRUE(
+        std::includes(rows.begin(), rows.end(), whole().products.begin(), whole().products.end()))
+        << log_;
+    EXPECT_EQ(last_batch_rows(service_.db()), whole().batch) << log_;
+    EXPECT_EQ(number("SELECT count(*) FROM pulse_use WHERE rejected_by IN ('late', 'out_of_time')"
+                     " AND t_tai_ns <= " +
+                     std::to_string(tai_ns(whole().pulses.back().t))),
+              0)
+        << log_;
+    EXPECT_EQ(number("SELECT count(DISTINCT run_id) FROM spin_estimate"), 1) << log_;
+  }
+
+  Service service_{"nominal"};
+  std::string log_;
+};
+
+struct AlienBefore {
+  int count;
+  bool computed;  ///< Before the honest source sends anything.
+};
+
+class ServeAlienBefore : public ServeSources, public ::testing::WithParamInterface<AlienBefore> {};
+
+TEST_P(ServeAlienBefore, CostsTheHonestSourceNothing) {
+  const auto& [count, computed] = GetParam();
+  send_alien(whole().pulses.front().t + 2h, count);
+  if (computed) {
+    ASSERT_TRUE(eventually([&] { return number("SELECT count(*) FROM stream_silence") == 1; }));
+  }
+  FrontEnd front_end = honest();
+  ASSERT_TRUE(front_end.send_until(1.0));
+  ASSERT_TRUE(has_stored(whole().pulses.size() + static_cast<std::size_t>(count)));
+  ASSERT_TRUE(eventually([&] { return number("SELECT count(*) FROM run") == 2; }))
+      << service_.program().log();
+  kill_and_restart();
+  expect_the_whole_pass();
+  EXPECT_THAT(log_, AllOf(HasSubstr("a new run begins with source 'front-end'"),
+                          HasSubstr("behind source 'alien'")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Alien, ServeAlienBefore,
+                         ::testing::Values(AlienBefore{8, true}, AlienBefore{100, true},
+                                           AlienBefore{8, false}, AlienBefore{100, false}),
+                         [](const auto& test) {
+                           return (test.param.computed ? "Computed" : "Burst") +
+                                  std::to_string(test.param.count);
+                         });
+
+struct AlienWithin {
+  int count;
+  std::chrono::minutes ahead;
+};
+
+class ServeAlienWithin : public ServeSources, public ::testing::WithParamInterface<AlienWithin> {};
+
+TEST_P(ServeAlienWithin, IsLeftOutAndNamed) {
+  const auto& [count, ahead] = GetParam();
+  const std::size_t half = whole().pulses.size() / 2;
+  FrontEnd front_end = honest();
+  ASSERT_TRUE(front_end.send_until(0.5));
+  send_alien(whole().pulses.at(half).t + ahead, count);
+  ASSERT_TRUE(front_end.send_until(0.75));
+  ASSERT_TRUE(has_stored(half + half / 2 + static_cast<std::size_t>(count)));
+  kill_and_restart();
+  ASSERT_TRUE(front_end.send_until(1.0));
+  expect_the_whole_pass();
+  EXPECT_EQ(number("SELECT count(*) FROM run"), 1);
+  EXPECT_EQ(number("SELECT count(*) FROM pulse WHERE arrival < 0 AND source = 'alien'"), count);
+  EXPECT_EQ(number("SELECT count(*) FROM pulse WHERE arrival < 0"), count);
+  EXPECT_THAT(log_, HasSubstr("SPINNER: the samples of source 'alien' (session "));
+}
+
+INSTANTIATE_TEST_SUITE_P(Alien, ServeAlienWithin,
+                         ::testing::Values(AlienWithin{8, 2h}, AlienWithin{100, 2h},
+                                           AlienWithin{8, 10min}, AlienWithin{100, 10min}),
+                         [](const auto& test) {
+                           return std::to_string(test.param.count) + "By" +
+                                  std::to_string(test.param.ahead.count()) + "Minutes";
+                         });
+
+TEST_F(ServeSources, OneThatHealsIsOneOfThemAgain) {
+  const std::size_t half = whole().pulses.size() / 2;
+  const auto middle = whole().pulses.begin() + static_cast<std::ptrdiff_t>(half);
+  std::vector<Pulse> pulses = alien_pulses(middle->t + 2h, 20);
+  pulses.insert(pulses.end(), middle, middle + 40);
+  FrontEnd front_end = honest();
+  ASSERT_TRUE(front_end.send_until(0.5));
+  ASSERT_TRUE((FrontEnd{service_.bus(), "SPINNER", pulses, "healing"}.send_until(1.0)));
+  ASSERT_TRUE(front_end.send_until(1.0));
+  expect_the_whole_pass();
+  EXPECT_EQ(number("SELECT count(*) FROM run"), 1);
+  EXPECT_THAT(log_, ContainsRegex("source 'healing' .*agrees with the others again"));
+}
+
+TEST_F(ServeSources, OneHandsOverToAnother) {
+  FrontEnd front_end = honest();
+  ASSERT_TRUE(front_end.send_until(0.5));
+  ASSERT_TRUE(eventually([&] { return number("SELECT count(*) FROM stream_silence") == 1; }));
+  const auto middle =
+      whole().pulses.begin() + static_cast<std::ptrdiff_t>(whole().pulses.size() / 2);
+  ASSERT_TRUE(
+      (FrontEnd{service_.bus(), "SPINNER", {middle, whole().pulses.end()}, "other"}.send_until(
+          1.0)));
+  expect_the_whole_pass();
+  EXPECT_EQ(number("SELECT count(*) FROM run"), 1);
+  EXPECT_EQ(number("SELECT count(*) FROM pulse WHERE arrival < 0"), 0);
+  EXPECT_THAT(log_, Not(HasSubstr("left out")));
+}
+
+TEST_F(ServeSources, OneThatBeginsWithItsLastMinutesCatchesUp) {
+  FrontEnd front_end = honest();
+  ASSERT_TRUE(front_end.send_until(0.75));
+  FrontEnd other{service_.bus(), "SPINNER", whole().pulses, "other"};
+  ASSERT_TRUE(other.send_until(1.0));
+  ASSERT_TRUE(has_stored(whole().pulses.size()));
+  ASSERT_EQ(service_.stop(), 0) << service_.program().log();
+  const std::string log = service_.program().log();
+  EXPECT_EQ(number("SELECT count(*) FROM run"), 1) << log;
+  EXPECT_EQ(number("SELECT count(*) FROM pulse WHERE arrival < 0"), 0) << log;
+  EXPECT_EQ(last_batch_rows(service_.db()), whole().batch) << log;
+}
+
+TEST_F(ServeSources, TheClockOfTheHostIsComparedOnce) {
+  ASSERT_TRUE(honest().send_until(1.0));
+  expect_the_whole_pass();
+  const std::string said = "and the clock of this host";
+  EXPECT_THAT(log_, HasSubstr(said));
+  EXPECT_EQ(log_.find(said, log_.find(said) + 1), std::string::npos);
+}
+
+}  // namespace spindrift::serve_sources_test
