@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "pipelines/frames/rotation_vector.h"
+
 namespace spindrift {
 
 /// Exactly the identity for zero.
@@ -19,10 +21,7 @@ inline Eigen::Matrix3d rotation_by(const Eigen::Vector3d& vector_rad) {
 /// rotation_by(v + dv) = rotation_by(J dv) rotation_by(v), the left Jacobian of SO(3); to the
 /// second power of v, 2e-7 at a degree.
 inline Eigen::Matrix3d rotation_per_vector(const Eigen::Vector3d& vector_rad) {
-  Eigen::Matrix3d cross;
-  cross << 0.0, -vector_rad.z(), vector_rad.y(),  //
-      vector_rad.z(), 0.0, -vector_rad.x(),       //
-      -vector_rad.y(), vector_rad.x(), 0.0;
+  const Eigen::Matrix3d cross = cross_matrix(vector_rad);
   return Eigen::Matrix3d::Identity() + 0.5 * cross + cross * cross / 6.0;
 }
 

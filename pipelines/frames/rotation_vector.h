@@ -1,0 +1,49 @@
+/// @file
+/// Rotations by their vector: along the axis, as long as the angle.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace spindrift {
+
+/// cross_matrix(a) b = a x b
+inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) {
+  Eigen::Matrix3d cross;
+  cross << 0.0, -a.z(), a.y(),  //
+      a.z(), 0.0, -a.x(),       //
+      -a.y(), a.x(), 0.0;
+  return cross;
+}
+
+/// Unit quaternion that turns by `vector_rad`, of any length.
+inline Eigen::Quaterniond quaternion_by(const Eigen::Vector3d& vector_rad) {
+  constexpr double kSeries_rad = 1e-3;  // The next term of the series is then 1e-17.
+  const double angle_rad = vector_rad.norm();
+  const double sine_per_rad = angle_rad < kSeries_rad ? 0.5 - angle_rad * angle_rad / 48.0
+                                                      : std::sin(0.5 * angle_rad) / angle_rad;
+  Eigen::Quaterniond q;
+  q.w() = std::cos(0.5 * angle_rad);
+  q.vec() = sine_per_rad * vector_rad;
+  return q;
+}
+
+/// The shortest vector that turns as `q`, which needs no unit length, does; at most pi long. `q`
+/// and `-q` are one rotation.
+inline Eigen::Vector3d rotation_vector_of(const Eigen::Quaterniond& q) {
+  const double sine = q.vec().norm();
+  if (sine == 0.0) {
+    return Eigen::Vector3d::Zero();
+  }
+  const double half_angle_rad = std::atan2(sine, std::abs(q.w()));
+  return (q.w() < 0.0 ? -2.0 : 2.0) * half_angle_rad / sine * q.vec();
+}
+
+/// The angle between two attitudes, [0, pi].
+inline double angle_between_rad(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
+  return rotation_vector_of(a.conjugate() * b).norm();
+}
+
+}  // namespace spindrift

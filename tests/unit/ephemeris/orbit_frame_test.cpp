@@ -1,0 +1,36 @@
+#include "pipelines/ephemeris/orbit_frame.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+namespace spindrift {
+namespace {
+
+constexpr double kRounding = 4e-15;
+
+TEST(OrbitFrame, LooksDownAheadAndAgainstTheNormal) {
+  // Over the equator at longitude 90 deg, northwards; the velocity leans up, as behind perigee.
+  const auto q =
+      orbit_frame({.position_icrf_km = {0.0, 7000.0, 0.0}, .velocity_icrf_km_s = {0.0, 0.5, 7.5}});
+  ASSERT_TRUE(q);
+  const Eigen::Matrix3d R = q->toRotationMatrix();
+  EXPECT_NEAR((R.col(2) - Eigen::Vector3d{0.0, -1.0, 0.0}).norm(), 0.0, kRounding);
+  EXPECT_NEAR((R.col(0) - Eigen::Vector3d{0.0, 0.0, 1.0}).norm(), 0.0, kRounding);
+  // The normal, position x velocity, is +x.
+  EXPECT_NEAR((R.col(1) - Eigen::Vector3d{-1.0, 0.0, 0.0}).norm(), 0.0, kRounding);
+}
+
+TEST(OrbitFrame, WithoutANormalThereIsNone) {
+  const auto falling = orbit_frame(
+      {.position_icrf_km = {7000.0, 100.0, -3.0}, .velocity_icrf_km_s = {-7.0, -0.1, 0.003}});
+  ASSERT_FALSE(falling);
+  EXPECT_EQ(falling.error().code, ErrorCode::Unobservable);
+  EXPECT_NE(falling.error().message.find("(-7, -0.1, 0.003) km/s"), std::string::npos)
+      << falling.error().message;
+  EXPECT_FALSE(orbit_frame(
+      {.position_icrf_km = Eigen::Vector3d::Zero(), .velocity_icrf_km_s = {1.0, 0.0, 0.0}}));
+}
+
+}  // namespace
+}  // namespace spindrift
