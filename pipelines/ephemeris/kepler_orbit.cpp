@@ -79,6 +79,38 @@ KeplerOrbit::KeplerOrbit(const KeplerElements& elements)
   semi_minor_icrf_km_ = a_km * std::sqrt((1.0 - e) * (1.0 + e)) * R_icrf_perifocal.col(1);
 }
 
+/// The ellipse's axes by its eccentricity vector; those of a circle lie anywhere.
+Expected<KeplerOrbit> KeplerOrbit::through(TaiTime t, const OrbitState& state) {
+  const Eigen::Vector3d& r_km = state.position_icrf_km;
+  const Eigen::Vector3d& v_km_s = state.velocity_icrf_km_s;
+  const Eigen::Vector3d momentum_km2_s = r_km.cross(v_km_s);
+  const Eigen::Vector3d to_perigee =
+      v_km_s.cross(momentum_km2_s) / kEarthMu_km3_s2 - r_km.normalized();
+  const double e = to_perigee.norm();
+  const double a_km = 1.0 / (2.0 / r_km.norm() - v_km_s.squaredNorm() / kEarthMu_km3_s2);
+  if (!(e < 1.0 && a_km * (1.0 - e) > wgs84::kEquatorialRadius_km)) {
+    return Unexpected{
+        {ErrorCode::InvalidInput,
+         fmt::format("orbit state ({}, {}, {}) km, ({}, {}, {}) km/s is on no ellipse above the "
+                     "Earth's radius of {} km",
+                     r_km.x(), r_km.y(), r_km.z(), v_km_s.x(), v_km_s.y(), v_km_s.z(),
+                     wgs84::kEquatorialRadius_km)}};
+  }
+  constexpr double kCircle = 1e-12;
+  const Eigen::Vector3d major = (e > kCircle ? to_perigee : r_km).normalized();
+  const Eigen::Vector3d minor = momentum_km2_s.normalized().cross(major);
+  const double b_km = a_km * std::sqrt((1.0 - e) * (1.0 + e));
+  const double eccentric_rad = std::atan2(r_km.dot(minor) / b_km, r_km.dot(major) / a_km + e);
+  KeplerOrbit orbit;
+  orbit.epoch_ = t;
+  orbit.eccentricity_ = e;
+  orbit.mean_anomaly_rad_ = eccentric_rad - e * std::sin(eccentric_rad);
+  orbit.mean_motion_rad_s_ = std::sqrt(kEarthMu_km3_s2 / a_km) / a_km;
+  orbit.semi_major_icrf_km_ = a_km * major;
+  orbit.semi_minor_icrf_km_ = b_km * minor;
+  return orbit;
+}
+
 Expected<OrbitState> KeplerOrbit::at(TaiTime t) const {
   const double mean_rad = mean_anomaly_rad_ + mean_motion_rad_s_ * seconds_between(epoch_, t);
   const double eccentric_rad = eccentric_anomaly_rad(mean_rad, eccentricity_);

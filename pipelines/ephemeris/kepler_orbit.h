@@ -32,10 +32,15 @@ class KeplerOrbit {
   ///         inside the Earth.
   static Expected<KeplerOrbit> make(const KeplerElements& elements);
 
+  /// The orbit that passes through a state.
+  /// @return InvalidInput for a state that is on no ellipse, or on one as above.
+  static Expected<KeplerOrbit> through(TaiTime t, const OrbitState& state);
+
   /// Never fails; the type is that of every source of orbits.
   Expected<OrbitState> at(TaiTime t) const;
 
  private:
+  KeplerOrbit() = default;
   explicit KeplerOrbit(const KeplerElements& elements);
 
   TaiTime epoch_;

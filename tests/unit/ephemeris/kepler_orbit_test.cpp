@@ -186,6 +186,40 @@ TEST(KeplerOrbit, CircleKeepsItsRadius) {
   }
 }
 
+TEST(KeplerOrbit, ThroughOneOfItsStatesItIsTheSame) {
+  KeplerElements circle = kTransfer;
+  circle.eccentricity = 0.0;
+  KeplerElements equatorial = kTransfer;
+  equatorial.inclination_rad = 0.0;
+  for (const KeplerElements& elements : {kTransfer, circle, equatorial}) {
+    for (double from_s = 0.0; from_s < 40'000.0; from_s += 3'331.0) {
+      const TaiTime from = shifted(kEpoch, from_s);
+      const auto orbit = KeplerOrbit::through(from, state(elements, from));
+      ASSERT_TRUE(orbit);
+      for (const double after_s : {0.0, 500.0, -9'000.0, 30'000.0}) {
+        const OrbitState there = orbit->at(shifted(from, after_s)).value();
+        const OrbitState expected = state(elements, shifted(from, after_s));
+        EXPECT_NEAR((there.position_icrf_km - expected.position_icrf_km).norm(), 0.0, 1e-5);
+        EXPECT_NEAR((there.velocity_icrf_km_s - expected.velocity_icrf_km_s).norm(), 0.0, 1e-8);
+      }
+    }
+  }
+}
+
+TEST(KeplerOrbit, GoesThroughNoStateOnNoEllipse) {
+  const auto through = [](const Eigen::Vector3d& position_km,
+                          const Eigen::Vector3d& velocity_km_s) {
+    return KeplerOrbit::through(kEpoch, {position_km, velocity_km_s});
+  };
+  for (const auto& orbit :
+       {through({7000.0, 0.0, 0.0}, {0.0, 11.0, 0.0}), through({7000.0, 0.0, 0.0}, {0.0, 5.0, 0.0}),
+        through({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}), through({7000.0, 0.0, 0.0}, {kNaN, 7.0, 0.0})}) {
+    ASSERT_FALSE(orbit);
+    EXPECT_EQ(orbit.error().code, ErrorCode::InvalidInput);
+    EXPECT_THAT(orbit.error().message, HasSubstr("no ellipse"));
+  }
+}
+
 TEST(KeplerOrbit, RefusesWhatIsNoOrbit) {
   const auto with = [](auto change) {
     KeplerElements elements = kTransfer;
