@@ -3,18 +3,10 @@
 
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
-
 #include "pipelines/core/expected.h"
+#include "pipelines/frames/uncertain_attitude.h"
 
 namespace spindrift {
-
-/// The true one is q_ref_body * quaternion_by(error), the error small.
-struct UncertainAttitude {
-  Eigen::Quaterniond q_ref_body;    ///< Unit.
-  Eigen::Matrix3d covariance_rad2;  ///< Of the error, body axes.
-};
 
 struct AttitudeDifference {
   double angle_rad;   ///< [0, pi]

@@ -41,6 +41,20 @@ inline Eigen::Vector3d rotation_vector_of(const Eigen::Quaterniond& q) {
   return (q.w() < 0.0 ? -2.0 : 2.0) * half_angle_rad / sine * q.vec();
 }
 
+/// quaternion_by(v + dv) = quaternion_by(v) quaternion_by(J dv), the right Jacobian of SO(3).
+inline Eigen::Matrix3d right_jacobian(const Eigen::Vector3d& vector_rad) {
+  constexpr double kSeries_rad = 1e-2;  // The next terms of the series are then 1e-11.
+  const double angle_rad = vector_rad.norm();
+  const Eigen::Matrix3d cross = cross_matrix(vector_rad);
+  if (angle_rad < kSeries_rad) {
+    return Eigen::Matrix3d::Identity() - (0.5 - angle_rad * angle_rad / 24.0) * cross +
+           (1.0 / 6.0 - angle_rad * angle_rad / 120.0) * cross * cross;
+  }
+  const double square = angle_rad * angle_rad;
+  return Eigen::Matrix3d::Identity() - (1.0 - std::cos(angle_rad)) / square * cross +
+         (angle_rad - std::sin(angle_rad)) / (square * angle_rad) * cross * cross;
+}
+
 /// The angle between two attitudes, [0, pi].
 inline double angle_between_rad(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   return rotation_vector_of(a.conjugate() * b).norm();

@@ -9,6 +9,8 @@ namespace spindrift {
 /// Beyond so many standard deviations things contradict each other: noise alone does it once in
 /// 1.7 million, so that none of the thousands of measurements of a pass does.
 inline constexpr double kContradictionSigmas = 5.0;
+/// By that chance, for quantities of more than one dimension.
+inline constexpr double kContradictionChance = 5.733e-7;
 /// The same where the standard deviation is stated by people, as that of a prior is.
 inline constexpr double kPriorSigmas = 3.0;
 

@@ -51,6 +51,24 @@ TEST(RotationVector, ComesBackFromItsQuaternionOfEitherSignAndAnyLength) {
   EXPECT_NEAR(rotation_vector_of({0.0, 0.0, 1.0, 0.0}).norm(), kPi, kRounding);
 }
 
+TEST(RotationVector, RightJacobianIsWhatAChangeOfTheVectorTurnsBy) {
+  std::mt19937 rng{13};
+  constexpr double kStep_rad = 1e-5;
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Eigen::Vector3d axis = random_vector(rng).normalized();
+    for (const double angle_rad : {0.0, 1e-4, 9.9e-3, 1.01e-2, 0.5, 2.5}) {
+      const Eigen::Vector3d vector_rad = angle_rad * axis;
+      const Eigen::Vector3d step_rad = kStep_rad * random_vector(rng).normalized();
+      const Eigen::Vector3d turned_rad =
+          0.5 * rotation_vector_of(quaternion_by(vector_rad - step_rad).conjugate() *
+                                   quaternion_by(vector_rad + step_rad));
+      ASSERT_NEAR((turned_rad - right_jacobian(vector_rad) * step_rad).norm(), 0.0,
+                  2e-10 * kStep_rad + 4e-15)
+          << angle_rad;
+    }
+  }
+}
+
 TEST(RotationVector, AngleBetweenAttitudesIsThatOfTheTurn) {
   const Eigen::Quaterniond a{Eigen::AngleAxisd{1.0, Eigen::Vector3d{1.0, 2.0, 2.0} / 3.0}};
   const Eigen::Quaterniond b = a * quaternion_by({0.0, 0.25, 0.0});
