@@ -51,6 +51,9 @@ std::string_view name_of(ReasonCode code) {
       "bias_open",
       "bias_at_bound",
       "bias_wanted",
+      "no_gyro",
+      "sensor_gated",
+      "sensor_noise",
   };
   return kNames.at(static_cast<std::size_t>(code));
 }

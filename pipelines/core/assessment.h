@@ -88,8 +88,11 @@ enum class ReasonCode {
   BiasOpen,             ///< bias
   BiasAtBound,          ///< bias
   BiasWanted,           ///< bias
+  NoGyro,               ///< why, since_tai_ns
+  SensorGated,          ///< sensor
+  SensorNoise,          ///< sensor, factor
 };
-inline constexpr int kReasonCodes = static_cast<int>(ReasonCode::BiasWanted) + 1;
+inline constexpr int kReasonCodes = static_cast<int>(ReasonCode::SensorNoise) + 1;
 std::string_view name_of(ReasonCode code);
 
 using Reason = Coded<ReasonCode>;

@@ -43,8 +43,11 @@ enum class NoticeCode {
   AmbiguousFarFromPrior,   ///< -
   AmbiguousNearPrior,      ///< prior_sigma_deg
   AmbiguousPriorNotBorne,  ///< -
+  LateSamples,             ///< -
+  SamplesOutOfTime,        ///< -
+  AttitudeNeverBegan,      ///< gyro, star, sun
 };
-inline constexpr int kNoticeCodes = static_cast<int>(NoticeCode::AmbiguousPriorNotBorne) + 1;
+inline constexpr int kNoticeCodes = static_cast<int>(NoticeCode::AttitudeNeverBegan) + 1;
 
 using Notice = Coded<NoticeCode>;
 

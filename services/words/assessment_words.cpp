@@ -47,6 +47,9 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
     {BiasOpen, "{bias} not determined"},
     {BiasAtBound, "{bias} runs to its bound"},
     {BiasWanted, "residuals ask for {bias}"},
+    {NoGyro, "no gyro since {since_tai_ns}: {why}"},
+    {SensorGated, "many {sensor} samples gated"},
+    {SensorNoise, "{sensor} noise x {factor:.1f}"},
 }};
 static_assert(are_by_code(kReasonPatterns));
 

@@ -104,6 +104,12 @@ constexpr std::array<Pattern<NoticeCode>, kNoticeCodes> kNoticePatterns{{
     {AmbiguousPriorNotBorne,
      "the axis is ambiguous to the end{missing}: the edges do not bear out the candidate that "
      "the prior of the mission (spin.prior) chooses"},
+    {LateSamples, "samples arrive after their time was processed: they are stored and left out"},
+    {SamplesOutOfTime,
+     "samples stamped far from the times of all others are left out: a sender's clock is wrong"},
+    {AttitudeNeverBegan,
+     "no attitude: {star} star fixes, {sun} sun vectors and {gyro} gyro samples do not anchor "
+     "one; it takes a star fix, or two directions not in line within 5 s"},
 }};
 static_assert(are_by_code(kNoticePatterns));
 

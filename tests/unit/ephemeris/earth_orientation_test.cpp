@@ -7,8 +7,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/time/utc.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::earth_orientation_test {
 
 TEST(EarthOrientation, IsThatOfTheSofaCookbook) {
   // SOFA Tools for Earth Attitude, 5.5: 2007 April 5, 12h UTC; UT1 - UTC is -0.072073685 s, by
@@ -41,5 +40,4 @@ TEST(EarthOrientation, TurnsOnceASiderealDayAcrossALeapSecond) {
   EXPECT_NEAR(Eigen::AngleAxisd{turned}.angle(), kMore_rad, 1e-6);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::earth_orientation_test

@@ -12,8 +12,7 @@
 #include "pipelines/frames/wgs84.h"
 #include "pipelines/time/utc.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::launch_frame_test {
 
 using Eigen::Vector3d;
 
@@ -83,5 +82,4 @@ TEST(LaunchFrame, ALauncherLevelAtTheSiteIsInTheOrbitFrameAsTheOrbitRunsThere) {
   EXPECT_NEAR(degrees(std::hypot(angles.phi_rad, angles.theta_rad)), degrees(vertical_rad), 0.01);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::launch_frame_test

@@ -4,8 +4,7 @@
 
 #include <Eigen/Geometry>
 
-namespace spindrift {
-namespace {
+namespace spindrift::orbit_frame_test {
 
 constexpr double kRounding = 4e-15;
 
@@ -32,5 +31,4 @@ TEST(OrbitFrame, WithoutANormalThereIsNone) {
       {.position_icrf_km = Eigen::Vector3d::Zero(), .velocity_icrf_km_s = {1.0, 0.0, 0.0}}));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::orbit_frame_test

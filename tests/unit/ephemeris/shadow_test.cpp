@@ -4,8 +4,7 @@
 
 #include "pipelines/frames/wgs84.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::shadow_test {
 
 TEST(Shadow, IsBehindTheEarthWithinItsRadius) {
   const Eigen::Vector3d sun = Eigen::Vector3d::UnitX();
@@ -16,5 +15,4 @@ TEST(Shadow, IsBehindTheEarthWithinItsRadius) {
   EXPECT_TRUE(is_in_shadow({-42164.0, 6000.0, 2000.0}, sun));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::shadow_test

@@ -6,8 +6,7 @@
 #include "pipelines/frames/euler312.h"
 #include "pipelines/frames/rotation_vector.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::attitude_difference_test {
 
 constexpr double kRounding = 4e-15;
 
@@ -65,5 +64,4 @@ TEST(AttitudeDifference, WithoutAnyErrorThereIsNoMeasure) {
   EXPECT_EQ(attitude_difference(exact, exact).error().code, ErrorCode::InvalidInput);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::attitude_difference_test

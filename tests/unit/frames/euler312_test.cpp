@@ -9,8 +9,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::euler312_test {
 
 constexpr double kRounding = 4e-15;
 
@@ -152,5 +151,4 @@ TEST(Euler312, ConstantRateOfThePaperLeadsBackToSeparation) {
   EXPECT_NEAR(degrees(t1.psi_rad), 162.793, 6e-4);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::euler312_test

@@ -6,8 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace spindrift {
-namespace {
+namespace spindrift::rotation_vector_test {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 4e-15;
@@ -76,5 +75,4 @@ TEST(RotationVector, AngleBetweenAttitudesIsThatOfTheTurn) {
   EXPECT_NEAR(angle_between_rad(a, Eigen::Quaterniond{-b.coeffs()}), 0.25, kRounding);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::rotation_vector_test

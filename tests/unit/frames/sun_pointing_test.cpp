@@ -10,8 +10,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
 
-namespace spindrift {
-namespace {
+namespace spindrift::sun_pointing_test {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 4e-15;
@@ -81,5 +80,4 @@ TEST(SunPointing, CorrectsTheAttitudeByTheLeastTurn) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::sun_pointing_test

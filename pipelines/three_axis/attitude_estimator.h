@@ -1,0 +1,133 @@
+/// @file
+/// Attitude and gyro bias from samples in order of time: begins, filters, gates, says how good it
+/// is, and begins anew (mekf.h).
+///
+/// It begins at a star fix, or at two directions (carried_directions.h); before that there is
+/// nothing. A star fix or a direction between two gyro samples is taken in when the second is
+/// there, as the rate changes evenly between them; where none comes the last rate is held, and the
+/// covariance grows by what the rate has shown of changing. An attitude that all sensors reject, or
+/// that nothing has held for long, is LOST; star fixes that it rejects and that agree with each
+/// other overrule it. Then it begins at the next fix.
+///
+/// Its quality is
+///     CONVERGING nothing speaks against it, but no ten fixes, or as much of directions about every
+///                axis, have checked it since it began
+///     OK         all is well
+///     DOUBTFUL   a sensor's samples are rejected while another's agree, or scatter beyond their
+///                noise, and the covariance is raised by that; or the gyro is out
+///     LOST       it may point anywhere, and the covariance says so; said once
+
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <deque>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "pipelines/core/assessment.h"
+#include "pipelines/three_axis/carried_directions.h"
+#include "pipelines/three_axis/config.h"
+#include "pipelines/three_axis/gyro_watch.h"
+#include "pipelines/three_axis/innovation_record.h"
+#include "pipelines/three_axis/mekf.h"
+#include "pipelines/three_axis/products.h"
+#include "pipelines/three_axis/samples.h"
+#include "pipelines/three_axis/star_agreement.h"
+
+namespace spindrift {
+
+/// A direction that a sensor measures, with its reference in ICRF.
+struct SeenDirection {
+  TaiTime t;
+  SampleKind kind;
+  ObservedDirection direction;
+};
+
+class AttitudeEstimator {
+ public:
+  using Products = std::vector<ThreeAxisProduct>;
+
+  /// So long after a gyro sample the next one is expected.
+  static constexpr double kGyroWait_s = 2.5;
+  /// So many rejected in a row, by all sensors together, and the attitude is lost.
+  static constexpr int kLostInARow = 10;
+  /// So much must have been able to contradict the attitude: of star fixes, their number.
+  static constexpr double kEnoughToCheck = 10.0;
+
+  explicit AttitudeEstimator(const ThreeAxisConfig& config);
+
+  // All samples not earlier than those before; the mission has their sensors.
+  void push(const GyroSample& sample, Products& out);
+  void push(const StarFix& fix, Products& out);
+  void push(const SeenDirection& direction, Products& out);
+
+  /// Nothing comes for now: what waits for a gyro sample is taken in without, and the newest
+  /// attitude is given.
+  void settle(Products& out);
+
+  /// A sample that something else than its innovation rules out.
+  void leave_out(const RejectedSample& rejected, Products& out);
+
+  const SensorHealths& sensors() const { return sensors_; }
+  /// Empty: it has not begun, or is lost.
+  const std::optional<Mekf>& filter() const { return filter_; }
+  bool ever_began() const { return since_.has_value(); }
+
+ private:
+  using Sample = std::variant<StarFix, SeenDirection>;
+
+  void push_direct(const Sample& sample, Products& out);
+  bool waits_for_gyro(TaiTime t) const;
+  void take_in_waiting(Products& out);
+  void take_in(const Sample& sample, Products& out);
+  void take_in_star(const StarFix& fix, Products& out);
+  void take_in_direction(const SeenDirection& seen, Products& out);
+  template <class Observed>
+  bool work_in(TaiTime t, SampleKind kind, const Observed& observed, Products& out);
+  void note_accepted(SampleKind kind, TaiTime t);
+
+  /// Between two gyro samples.
+  struct Interval {
+    TaiTime from;
+    double length_s;
+    bool is_gap;
+  };
+  void follow(const GyroSample& to, const Interval& interval);
+  void coast(TaiTime t, Products& out);
+  double coasted_rad2(TaiTime measured, TaiTime t) const;
+  void turn(const GyroSample& to, double turn_rad2);
+
+  void begin(const UncertainAttitude& attitude, Products& out);
+  void lose_where_unknown(Products& out);
+  void lose(Products& out);
+  void give(Products& out);
+  void give_where_due(Products& out);
+  double excess_noise() const;
+  bool gyro_is_out() const;
+  Reason why_no_gyro() const;
+  Assessment assess() const;
+
+  ThreeAxisConfig config_;
+  GyroWatch gyro_;
+  std::deque<Sample> waiting_;  ///< For the gyro sample behind them.
+
+  std::optional<TaiTime> t_;                   ///< To which the body has been followed.
+  std::optional<Eigen::Vector3d> rate_rad_s_;  ///< As measured, there; empty: no gyro yet.
+  bool coasting_ = false;                      ///< That rate is an older one, held.
+  std::optional<Mekf> filter_;
+  CarriedDirections carried_;  ///< While there is no filter.
+  StarAgreement rejected_stars_;
+
+  SensorHealths sensors_;
+  std::array<InnovationRecord, kSampleKinds> innovations_;  ///< Since it began; likewise:
+  int rejected_in_a_row_ = 0;
+  Eigen::Matrix3d checked_ = Eigen::Matrix3d::Zero();  ///< About which axes, ICRF.
+  bool is_checked_ = false;
+  std::optional<TaiTime> since_;
+  bool began_anew_ = false;
+  std::optional<TaiTime> given_;  ///< The last estimate.
+};
+
+}  // namespace spindrift

@@ -1,0 +1,128 @@
+#include "pipelines/three_axis/mekf.h"
+
+#include <Eigen/Cholesky>
+
+#include "pipelines/frames/rotation_vector.h"
+
+namespace spindrift {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// A correction beyond this (0.06 deg) is linearised anew where it ends, up to so many times.
+constexpr double kFarFromLinear_rad = 1e-3;
+constexpr int kMostPasses = 8;
+
+/// A measurement seen from an attitude: what it says of the turn from there.
+template <int kSize>
+struct Seen {
+  Eigen::Matrix<double, kSize, 1> turn_rad;
+  Eigen::Matrix<double, kSize, 3> axes;  ///< Rows: about which it says it.
+};
+
+/// Of the turn across the direction.
+Seen<2> seen_from(const Eigen::Quaterniond& q_icrf_body, const ObservedDirection& direction) {
+  const Vector3d expected = (q_icrf_body.conjugate() * direction.ref).normalized();
+  const Eigen::Quaterniond to_expected =
+      Eigen::Quaterniond::FromTwoVectors(direction.body, expected);
+  const Vector3d first = expected.unitOrthogonal();
+  Seen<2> seen;
+  seen.axes.row(0) = first;
+  seen.axes.row(1) = expected.cross(first);
+  seen.turn_rad = seen.axes * rotation_vector_of(to_expected);
+  return seen;
+}
+
+Seen<3> seen_from(const Eigen::Quaterniond& q_icrf_body, const ObservedAttitude& attitude) {
+  return {.turn_rad = rotation_vector_of(q_icrf_body.conjugate() * attitude.q_icrf_body),
+          .axes = Matrix3d::Identity()};
+}
+
+}  // namespace
+
+/// The second term of Magnus's expansion is what an axis that moves adds.
+Vector3d turned_rad(const RateSpan& span, const Vector3d& bias_rad_s) {
+  const Vector3d from_rad_s = span.from_rad_s - bias_rad_s;
+  const Vector3d to_rad_s = span.to_rad_s - bias_rad_s;
+  return 0.5 * span.dt_s * (from_rad_s + to_rad_s) +
+         span.dt_s * span.dt_s / 12.0 * from_rad_s.cross(to_rad_s);
+}
+
+Mekf::Mekf(const UncertainAttitude& attitude, double bias_sigma_rad_s)
+    : q_icrf_body_{attitude.q_ref_body} {
+  covariance_.topLeftCorner<3, 3>() = attitude.covariance_rad2;
+  covariance_.bottomRightCorner<3, 3>() =
+      bias_sigma_rad_s * bias_sigma_rad_s * Matrix3d::Identity();
+}
+
+/// The turn of the error: turn' = R^T turn - J dt more.
+void Mekf::propagate(const RateSpan& span, const SpanErrors& errors) {
+  const Vector3d vector_rad = turned_rad(span, bias_rad_s_);
+  const Eigen::Quaterniond q = quaternion_by(vector_rad);
+  q_icrf_body_ = (q_icrf_body_ * q).normalized();
+
+  const Matrix3d back = q.conjugate().toRotationMatrix();
+  const Matrix3d per_bias = -span.dt_s * right_jacobian(vector_rad);
+  const Matrix3d turn = covariance_.topLeftCorner<3, 3>();
+  const Matrix3d cross = covariance_.topRightCorner<3, 3>();
+  const Matrix3d bias = covariance_.bottomRightCorner<3, 3>();
+  const Matrix3d cross_turned = back * cross + per_bias * bias;
+  const Matrix3d mixed = back * cross * per_bias.transpose();
+  covariance_.topLeftCorner<3, 3>() = back * turn * back.transpose() + mixed + mixed.transpose() +
+                                      per_bias * bias * per_bias.transpose() +
+                                      errors.turn_rad2 * Matrix3d::Identity();
+  covariance_.topRightCorner<3, 3>() = cross_turned;
+  covariance_.bottomLeftCorner<3, 3>() = cross_turned.transpose();
+  covariance_.bottomRightCorner<3, 3>() += errors.bias_rad2_s2 * Matrix3d::Identity();
+}
+
+template <int kSize, class Observed>
+double Mekf::nis(const Observed& observed) const {
+  const Seen<kSize> seen = seen_from(q_icrf_body_, observed);
+  const Eigen::Matrix<double, kSize, kSize> expected =
+      seen.axes * covariance_.topLeftCorner<3, 3>() * seen.axes.transpose() +
+      observed.sigma_rad * observed.sigma_rad * Eigen::Matrix<double, kSize, kSize>::Identity();
+  return seen.turn_rad.dot(expected.llt().solve(seen.turn_rad));
+}
+
+/// Gauss and Newton's iteration of prior and measurement; each pass is a Kalman update from the
+/// prior, linearised at the end of the one before.
+template <int kSize, class Observed>
+void Mekf::work_in(const Observed& observed) {
+  using Square = Eigen::Matrix<double, kSize, kSize>;
+  const Square noise = observed.sigma_rad * observed.sigma_rad * Square::Identity();
+  Eigen::Matrix<double, 6, 1> error = Eigen::Matrix<double, 6, 1>::Zero();
+  Eigen::Matrix<double, 6, kSize> gain;
+  Eigen::Matrix<double, kSize, 3> slope;
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const Vector3d here_rad = error.head<3>();
+    const Seen<kSize> seen = seen_from(q_icrf_body_ * quaternion_by(here_rad), observed);
+    slope = seen.axes * right_jacobian(here_rad);
+    const Eigen::Matrix<double, 6, kSize> shared = covariance_.leftCols<3>() * slope.transpose();
+    const Square expected = slope * shared.template topRows<3>() + noise;
+    gain = expected.llt().solve(shared.transpose()).transpose();
+    error = gain * (seen.turn_rad + slope * here_rad);
+    if ((error.head<3>() - here_rad).norm() < kFarFromLinear_rad) {
+      break;
+    }
+  }
+  Covariance left = Covariance::Identity();
+  left.leftCols<3>() -= gain * slope;
+  // Into the quaternion, and to the axes that it has then.
+  const Matrix3d moved = right_jacobian(error.head<3>());
+  left.topRows<3>() = moved * left.topRows<3>();
+  gain.template topRows<3>() = moved * gain.template topRows<3>();
+  covariance_ = left * covariance_ * left.transpose() + gain * noise * gain.transpose();
+  q_icrf_body_ = (q_icrf_body_ * quaternion_by(error.head<3>())).normalized();
+  bias_rad_s_ += error.tail<3>();
+}
+
+double Mekf::squared_innovation(const ObservedDirection& direction) const {
+  return nis<2>(direction);
+}
+double Mekf::squared_innovation(const ObservedAttitude& attitude) const { return nis<3>(attitude); }
+void Mekf::update(const ObservedDirection& direction) { work_in<2>(direction); }
+void Mekf::update(const ObservedAttitude& attitude) { work_in<3>(attitude); }
+
+}  // namespace spindrift

@@ -1,0 +1,67 @@
+/// @file
+/// What the three-axis pipeline gives: values to be stored and published, in the order they arise.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <variant>
+
+#include "pipelines/core/assessment.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// At one instant they are taken in in this order.
+enum class SampleKind { OrbitState, Gyro, Star, Sun, Magnetometer };
+inline constexpr std::size_t kSampleKinds = 5;
+constexpr std::size_t index_of(SampleKind kind) { return static_cast<std::size_t>(kind); }
+std::string_view name_of(SampleKind kind);
+
+/// Why a sample was left out.
+enum class SampleRejection {
+  Late,        ///< Arrived after its time had been processed.
+  OutOfTime,   ///< Far from all others in time, by a clock that nothing else agrees with.
+  NoSensor,    ///< The mission file has no such sensor.
+  Saturated,   ///< Of the gyro: beyond its range.
+  Frozen,      ///< Of the gyro: the same numbers as too many before it.
+  Shadow,      ///< Of the sun sensor: the Earth is before the Sun.
+  NoOrbit,     ///< Of an orbit state: on no ellipse round the Earth.
+  Innovation,  ///< Too far from where the attitude has it.
+};
+std::string_view name_of(SampleRejection rejection);
+
+struct RejectedSample {
+  TaiTime t;
+  SampleKind kind;
+  SampleRejection rejected_by;
+  std::optional<double> squared_innovation = {};  ///< Normalised; of Innovation.
+};
+
+/// The record of one sensor in a pass.
+struct SensorHealth {
+  std::int64_t accepted = 0;
+  std::int64_t rejected = 0;
+  std::int64_t rejected_in_a_row = 0;  ///< Up to now.
+  std::optional<TaiTime> last_seen;    ///< The youngest sample, accepted or not.
+};
+using SensorHealths = std::array<SensorHealth, kSampleKinds>;  ///< By kind.
+
+struct AttitudeEstimate {
+  TaiTime t;
+  Eigen::Quaterniond q_icrf_body;
+  std::optional<Eigen::Vector3d> rate_body_rad_s;  ///< Less the bias; empty: no gyro at `t`.
+  Eigen::Matrix3d covariance_rad2;                 ///< Of a small turn, body axes.
+  Assessment assessment;
+
+  double sigma_rad() const;  ///< Root of the trace.
+};
+
+using ThreeAxisProduct = std::variant<RejectedSample, AttitudeEstimate>;
+
+}  // namespace spindrift

@@ -1,0 +1,95 @@
+/// @file
+/// The pass of one three-axis spacecraft: samples in, products out. The one composition of the
+/// three-axis pipeline, run alike live, offline and in replay.
+///
+///     sample -> order of time -> gyro, star fix ------------------> attitude
+///                             -> sun vector, beside the ephemeris ->
+///                             -> orbit state, where the mission has no orbit
+///
+/// One star tracker a spacecraft. Without an orbit the Sun is where the Earth's centre sees it, off
+/// by an arc minute in the geostationary ring, and no shadow is known.
+
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "pipelines/core/notice.h"
+#include "pipelines/ephemeris/orbit.h"
+#include "pipelines/ephemeris/sun.h"
+#include "pipelines/ephemeris/timed_orbit_state.h"
+#include "pipelines/three_axis/attitude_estimator.h"
+#include "pipelines/three_axis/config.h"
+#include "pipelines/three_axis/products.h"
+#include "pipelines/three_axis/samples.h"
+#include "pipelines/time/reorder_window.h"
+
+namespace spindrift {
+
+struct ThreeAxisOutput {
+  std::vector<ThreeAxisProduct> products;  ///< In the order they arose.
+  std::vector<Notice> notices;             ///< What a person should know; each said once a pass.
+};
+
+/// Any sample in its place: those of one kind and instant are one, and the first that came counts,
+/// as in the archive.
+struct OrderedSample {
+  TaiTime t;
+  std::variant<TimedOrbitState, GyroSample, StarFix, SunDirection> is;  ///< As SampleKind.
+
+  SampleKind kind() const { return static_cast<SampleKind>(is.index()); }
+  friend auto operator<=>(const OrderedSample& a, const OrderedSample& b) {
+    return std::pair{a.t, a.is.index()} <=> std::pair{b.t, b.is.index()};
+  }
+  friend bool operator==(const OrderedSample& a, const OrderedSample& b) { return (a <=> b) == 0; }
+};
+/// A second, as for pulses.
+std::chrono::nanoseconds reorder_horizon(const OrderedSample& sample);
+
+class ThreeAxisPass {
+ public:
+  /// @param orbit Of the mission file; empty: states on the way say it.
+  ThreeAxisPass(const ThreeAxisConfig& config, std::optional<Orbit> orbit);
+
+  // What is no number, or no unit vector or quaternion within 0.001, does not come here.
+  ThreeAxisOutput push(const GyroSample& sample) { return take({sample.t, sample}); }
+  ThreeAxisOutput push(const StarFix& fix) { return take({fix.t, fix}); }
+  ThreeAxisOutput push(const SunDirection& sun) { return take({sun.t, sun}); }
+  ThreeAxisOutput push(const TimedOrbitState& state) { return take({state.t, state}); }
+
+  /// Nothing comes for now: what is held back for the order of time is computed, and what comes
+  /// from before that later is late.
+  ThreeAxisOutput fall_silent();
+
+  /// The pass has ended: settles all that is still held.
+  ThreeAxisOutput finish();
+
+  /// Up to now.
+  const SensorHealths& sensors() const { return estimator_.sensors(); }
+
+ private:
+  ThreeAxisOutput take(const OrderedSample& sample);
+  void compute(const std::vector<OrderedSample>& in_order, ThreeAxisOutput& out);
+  void compute(const TimedOrbitState& state, ThreeAxisOutput& out);
+  void compute(const GyroSample& sample, ThreeAxisOutput& out);
+  void compute(const StarFix& fix, ThreeAxisOutput& out);
+  void compute(const SunDirection& sun, ThreeAxisOutput& out);
+  void leave_out(const OrderedSample& sample, SampleRejection rejected_by, ThreeAxisOutput& out);
+  bool has_sensor(SampleKind kind) const;
+  void say_once(Notice notice, ThreeAxisOutput& out);
+
+  ThreeAxisConfig config_;
+  std::optional<Orbit> orbit_;
+  bool orbit_is_of_mission_;
+  ApparentSun sun_;
+  BasicReorderWindow<OrderedSample> window_;
+  AttitudeEstimator estimator_;
+  std::set<NoticeCode> said_;
+};
+
+}  // namespace spindrift

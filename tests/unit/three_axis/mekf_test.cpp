@@ -1,0 +1,141 @@
+#include "pipelines/three_axis/mekf.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+
+#include "pipelines/frames/angle.h"
+#include "pipelines/frames/rotation_vector.h"
+#include "tests/support/turning_body.h"
+
+namespace spindrift::mekf_test {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using testing::any_attitude;
+using testing::error_rad;
+using testing::normal_vector;
+using testing::TurningBody;
+
+UncertainAttitude known_to(const Eigen::Quaterniond& q, double sigma_rad) {
+  return {.q_ref_body = q, .covariance_rad2 = sigma_rad * sigma_rad * Matrix3d::Identity()};
+}
+
+TEST(TurnOfAnEvenlyChangingRate, IsTheIntegralOfTheBody) {
+  const Vector3d from_rad_s{0.02, -0.03, 0.01};
+  const Vector3d to_rad_s{-0.01, 0.02, 0.04};
+  const Vector3d bias_rad_s{0.001, 0.002, -0.003};
+  const RateSpan span{.dt_s = 2.0, .from_rad_s = from_rad_s, .to_rad_s = to_rad_s};
+  const TurningBody body{Eigen::Quaterniond::Identity(), 2.0, [&](double t_s) {
+                           return from_rad_s + 0.5 * t_s * (to_rad_s - from_rad_s) - bias_rad_s;
+                         }};
+  const Eigen::Quaterniond turned = quaternion_by(turned_rad(span, bias_rad_s));
+  EXPECT_LT(angle_between_rad(turned, body.q_icrf_body(2.0)), 5e-6);
+  // The mean rate alone is off by far more.
+  EXPECT_GT(angle_between_rad(quaternion_by(from_rad_s + to_rad_s - 2.0 * bias_rad_s),
+                              body.q_icrf_body(2.0)),
+            1e-4);
+}
+
+/// By finite differences of the propagation itself.
+TEST(Mekf, CovarianceMovesAsTheErrorDoes) {
+  std::mt19937_64 rng{61};
+  const RateSpan span{
+      .dt_s = 3.0, .from_rad_s = normal_vector(rng, 0.3), .to_rad_s = normal_vector(rng, 0.3)};
+  const Eigen::Quaterniond q = any_attitude(rng);
+  Mekf filter{known_to(q, 0.02), 0.001};
+  // A measurement makes turn and bias depend on each other.
+  filter.propagate(span, {.turn_rad2 = 0.0, .bias_rad2_s2 = 0.0});
+  filter.update(ObservedAttitude{filter.q_icrf_body(), 1e-4});
+  const Mekf::Covariance before = filter.covariance();
+  const Eigen::Quaterniond q_before = filter.q_icrf_body();
+  const Vector3d bias = filter.bias_rad_s();
+  const Eigen::Quaterniond q_after = q_before * quaternion_by(turned_rad(span, bias));
+  constexpr double kStep = 1e-6;
+  Mekf::Covariance slope = Mekf::Covariance::Identity();
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d step = kStep * Vector3d::Unit(i);
+    slope.block<3, 1>(0, i) =
+        error_rad(q_after, q_before * quaternion_by(step) * quaternion_by(turned_rad(span, bias))) /
+        kStep;
+    // The Magnus term, small for spans between samples, is left out of the slope.
+    RateSpan mean = span;
+    mean.from_rad_s = mean.to_rad_s = turned_rad(span, bias) / span.dt_s + bias;
+    slope.block<3, 1>(0, 3 + i) =
+        error_rad(q_after, q_before * quaternion_by(turned_rad(mean, bias + step))) / kStep;
+  }
+  filter.propagate(span, {.turn_rad2 = 3e-6, .bias_rad2_s2 = 5e-9});
+  Mekf::Covariance expected = slope * before * slope.transpose();
+  expected.topLeftCorner<3, 3>() += 3e-6 * Matrix3d::Identity();
+  expected.bottomRightCorner<3, 3>() += 5e-9 * Matrix3d::Identity();
+  EXPECT_NEAR((filter.covariance() - expected).cwiseAbs().maxCoeff(), 0.0,
+              1e-5 * expected.cwiseAbs().maxCoeff());
+  EXPECT_NEAR(angle_between_rad(filter.q_icrf_body(), q_after), 0.0, 1e-12);
+}
+
+TEST(Mekf, AFixIsWeighedAgainstWhatWasKnown) {
+  const Eigen::Quaterniond truth{Eigen::AngleAxisd{1.0, Vector3d::UnitY()}};
+  Mekf filter{known_to(truth, 0.003), 0.001};
+  const Vector3d off_rad{0.004, 0.0, -0.001};
+  const ObservedAttitude fix{truth * quaternion_by(off_rad), 0.001};
+  EXPECT_NEAR(filter.squared_innovation(fix), off_rad.squaredNorm() / 1e-5, 1e-9);
+  filter.update(fix);
+  EXPECT_NEAR((error_rad(truth, filter.q_icrf_body()) - 0.9 * off_rad).norm(), 0.0, 1e-8);
+  EXPECT_NEAR((filter.attitude_covariance_rad2() - 9e-7 * Matrix3d::Identity()).norm(), 0.0, 1e-11);
+  EXPECT_EQ(filter.bias_rad_s(), Vector3d::Zero());
+}
+
+TEST(Mekf, EitherSignOfTheQuaternionIsTheSameFix) {
+  std::mt19937_64 rng{62};
+  for (int trial = 0; trial < 100; ++trial) {
+    const Eigen::Quaterniond truth = any_attitude(rng);
+    const Eigen::Quaterniond measured = truth * quaternion_by(normal_vector(rng, 0.01));
+    Mekf one{known_to(truth, 0.02), 0.001};
+    Mekf other = one;
+    const ObservedAttitude fix{measured, 0.01};
+    const ObservedAttitude flipped{Eigen::Quaterniond{-measured.coeffs()}, 0.01};
+    ASSERT_EQ(one.squared_innovation(fix), other.squared_innovation(flipped));
+    one.update(fix);
+    other.update(flipped);
+    ASSERT_EQ(one.q_icrf_body().coeffs(), other.q_icrf_body().coeffs());
+  }
+}
+
+TEST(Mekf, ADirectionSaysNothingOfTheTurnAboutIt) {
+  std::mt19937_64 rng{63};
+  for (int trial = 0; trial < 200; ++trial) {
+    const Eigen::Quaterniond truth = any_attitude(rng);
+    const Vector3d ref = normal_vector(rng, 1.0).normalized();
+    const Vector3d body = truth.conjugate() * ref;
+    // Far off: the correction is large.
+    const double sigma_rad = 10.0 * kRadPerDeg;
+    Mekf filter{known_to(truth * quaternion_by(normal_vector(rng, sigma_rad)), sigma_rad), 0.001};
+    for (int repeated = 0; repeated < 50; ++repeated) {
+      filter.update(ObservedDirection{body, ref, 0.002});
+    }
+    const Matrix3d covariance = filter.attitude_covariance_rad2();
+    ASSERT_NEAR(std::sqrt(body.dot(covariance * body)), sigma_rad, 0.03 * sigma_rad);
+    ASSERT_LT(std::sqrt(covariance.trace() - body.dot(covariance * body)), 0.0005);
+    // The prior still pulls: five of its sigmas, by the ratio of the variances.
+    ASSERT_NEAR((filter.q_icrf_body().conjugate() * ref - body).norm(), 0.0,
+                5.0 * (0.002 * 0.002 / 50.0) / sigma_rad);
+  }
+}
+
+TEST(Mekf, CovarianceStaysPositiveThroughSharpFixes) {
+  Mekf filter{known_to(Eigen::Quaterniond::Identity(), 0.5), 0.01};
+  const Vector3d rate_rad_s{0.0, 0.01, 0.0};
+  for (int i = 0; i < 20000; ++i) {
+    filter.propagate({.dt_s = 0.1, .from_rad_s = rate_rad_s, .to_rad_s = rate_rad_s},
+                     {.turn_rad2 = 1e-16, .bias_rad2_s2 = 0.0});
+    filter.update(ObservedAttitude{filter.q_icrf_body(), 1e-7});
+  }
+  const Eigen::SelfAdjointEigenSolver<Mekf::Covariance> solver{filter.covariance()};
+  EXPECT_GT(solver.eigenvalues()[0], 0.0);
+  EXPECT_NEAR((filter.covariance() - filter.covariance().transpose()).cwiseAbs().maxCoeff(), 0.0,
+              1e-20);
+}
+
+}  // namespace spindrift::mekf_test

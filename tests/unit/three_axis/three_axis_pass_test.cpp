@@ -1,0 +1,215 @@
+#include "pipelines/three_axis/three_axis_pass.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/frames/angle.h"
+#include "tests/support/turning_body.h"
+
+namespace spindrift::three_axis_pass_test {
+
+using testing::at_s;
+using testing::error_rad;
+using ::testing::IsEmpty;
+using testing::kStart_tai_ns;
+using testing::Sensors;
+using ::testing::SizeIs;
+using testing::TurningBody;
+using testing::usual_three_axis;
+
+/// At the Sun's side of the Earth, or behind it.
+TimedOrbitState state_towards(const Eigen::Vector3d& sun_icrf, double side) {
+  const Eigen::Vector3d position_km = side * 7000.0 * sun_icrf;
+  return {.t = at_s(-10.0),
+          .state = {.position_icrf_km = position_km,
+                    .velocity_icrf_km_s = 7.5 * position_km.unitOrthogonal()}};
+}
+
+class ThreeAxisPassTest : public ::testing::Test {
+ protected:
+  void add(ThreeAxisOutput output) {
+    std::move(output.products.begin(), output.products.end(), std::back_inserter(products_));
+    std::move(output.notices.begin(), output.notices.end(), std::back_inserter(notices_));
+  }
+  void gyro(double from_s, double to_s) {
+    for (double t_s = from_s; t_s < to_s; t_s += 0.25) {
+      add(pass_.push(sensors_.gyro(t_s)));
+    }
+  }
+  SunDirection sun(double t_s) {
+    return {.t = at_s(t_s),
+            .sun_body = sensors_.direction(t_s, sun_icrf_, config_.sun_sensor->noise_rad)};
+  }
+  std::vector<RejectedSample> rejected() const {
+    std::vector<RejectedSample> out;
+    for (const ThreeAxisProduct& product : products_) {
+      if (const auto* sample = std::get_if<RejectedSample>(&product)) {
+        out.push_back(*sample);
+      }
+    }
+    return out;
+  }
+  std::vector<SampleRejection> reasons() const {
+    std::vector<SampleRejection> out;
+    for (const RejectedSample& sample : rejected()) {
+      out.push_back(sample.rejected_by);
+    }
+    return out;
+  }
+  std::size_t estimates() const { return products_.size() - rejected().size(); }
+
+  std::mt19937_64 rng_{91};
+  ThreeAxisConfig config_ = usual_three_axis();
+  TurningBody body_ = TurningBody::smooth(rng_, 60.0, 0.02);
+  Sensors sensors_{body_, config_, rng_};
+  Eigen::Vector3d sun_icrf_ = -earth_motion(at_s(0.0)).heliocentric_icrf_km.normalized();
+  ThreeAxisPass pass_{config_, std::nullopt};
+  std::vector<ThreeAxisProduct> products_;
+  std::vector<Notice> notices_;
+};
+
+TEST_F(ThreeAxisPassTest, ComputesWhatIsASecondOld) {
+  add(pass_.push(sensors_.star(0.0)));
+  gyro(0.0, 1.0);
+  EXPECT_EQ(estimates(), 0U);
+  gyro(1.0, 1.25);
+  EXPECT_EQ(estimates(), 1U);
+}
+
+TEST_F(ThreeAxisPassTest, StarSunAndGyroMakeAnAttitude) {
+  for (int second = 0; second < 40; ++second) {
+    add(pass_.push(sensors_.star(second)));
+    add(pass_.push(sun(second)));
+    gyro(second, second + 1.0);
+  }
+  add(pass_.finish());
+  const auto& last = std::get<AttitudeEstimate>(products_.back());
+  EXPECT_EQ(last.assessment.quality, Quality::Ok);
+  EXPECT_LT(degrees(error_rad(last.q_icrf_body, body_.q_icrf_body(39.75)).norm()), 0.01);
+  EXPECT_THAT(rejected(), IsEmpty());
+  EXPECT_THAT(notices_, IsEmpty());
+  EXPECT_EQ(pass_.sensors().at(index_of(SampleKind::Sun)).accepted, 40);
+  EXPECT_EQ(pass_.sensors().at(index_of(SampleKind::Gyro)).last_seen, at_s(39.75));
+}
+
+TEST_F(ThreeAxisPassTest, LateSamplesAreLeftOutAndSaidOnce) {
+  gyro(0.0, 10.0);
+  add(pass_.push(sensors_.star(5.0)));
+  add(pass_.push(sensors_.star(6.0)));
+  EXPECT_THAT(reasons(), ::testing::ElementsAre(SampleRejection::Late, SampleRejection::Late));
+  EXPECT_EQ(rejected().front().kind, SampleKind::Star);
+  EXPECT_THAT(notices_, ::testing::ElementsAre(Notice{NoticeCode::LateSamples, {}}));
+  EXPECT_EQ(pass_.sensors().at(index_of(SampleKind::Star)).rejected, 2);
+}
+
+TEST_F(ThreeAxisPassTest, RepeatedSamplesChangeNothing) {
+  ThreeAxisPass once{config_, std::nullopt};
+  ThreeAxisPass twice{config_, std::nullopt};
+  std::vector<AttitudeEstimate> of_once;
+  std::vector<AttitudeEstimate> of_twice;
+  const auto keep = [](ThreeAxisOutput output, std::vector<AttitudeEstimate>& into) {
+    for (const ThreeAxisProduct& product : output.products) {
+      into.push_back(std::get<AttitudeEstimate>(product));
+    }
+  };
+  for (int i = 0; i < 80; ++i) {
+    GyroSample sample = sensors_.gyro(0.25 * i);
+    const StarFix fix = sensors_.star(0.25 * i);
+    keep(once.push(fix), of_once);
+    keep(once.push(sample), of_once);
+    keep(twice.push(fix), of_twice);
+    keep(twice.push(sample), of_twice);
+    keep(twice.push(fix), of_twice);
+    // Of the same instant, with other numbers: the first one counts, as in the archive.
+    sample.rate_body_rad_s *= 2.0;
+    keep(twice.push(sample), of_twice);
+  }
+  keep(once.finish(), of_once);
+  keep(twice.finish(), of_twice);
+  ASSERT_EQ(of_once.size(), of_twice.size());
+  ASSERT_GT(of_once.size(), 70U);
+  for (std::size_t i = 0; i < of_once.size(); ++i) {
+    EXPECT_EQ(of_once[i].q_icrf_body.coeffs(), of_twice[i].q_icrf_body.coeffs());
+  }
+}
+
+TEST_F(ThreeAxisPassTest, ASampleOfABadClockIsOutOfTime) {
+  gyro(0.0, 10.0);
+  StarFix ahead = sensors_.star(10.0);
+  ahead.t = at_s(5000.0);
+  add(pass_.push(ahead));
+  add(pass_.push(sensors_.star(10.0)));
+  gyro(10.0, 12.0);
+  add(pass_.finish());
+  EXPECT_THAT(reasons(), ::testing::ElementsAre(SampleRejection::OutOfTime));
+  EXPECT_GT(estimates(), 5U);
+}
+
+TEST_F(ThreeAxisPassTest, ASensorThatTheMissionLacksIsLeftOut) {
+  ThreeAxisConfig blind = config_;
+  blind.star_tracker.reset();
+  ThreeAxisPass pass{blind, std::nullopt};
+  add(pass.push(sensors_.star(0.0)));
+  EXPECT_THAT(reasons(), ::testing::ElementsAre(SampleRejection::NoSensor));
+}
+
+TEST_F(ThreeAxisPassTest, InTheEarthsShadowASunVectorIsLeftOut) {
+  add(pass_.push(state_towards(sun_icrf_, -1.0)));
+  add(pass_.push(sensors_.star(0.0)));
+  gyro(0.0, 2.0);
+  add(pass_.push(sun(1.0)));
+  gyro(2.0, 6.0);
+  add(pass_.finish());
+  EXPECT_THAT(reasons(), ::testing::ElementsAre(SampleRejection::Shadow));
+}
+
+TEST_F(ThreeAxisPassTest, InSunlightItIsTakenInAndBehindAMissionsOrbitStatesDoNotCount) {
+  const auto orbit = KeplerOrbit::through(at_s(-10.0), state_towards(sun_icrf_, 1.0).state);
+  ThreeAxisPass pass{config_, Orbit{orbit.value()}};
+  add(pass.push(state_towards(sun_icrf_, -1.0)));
+  add(pass.push(sensors_.star(0.0)));
+  add(pass.push(sun(1.0)));
+  add(pass.finish());
+  EXPECT_THAT(rejected(), IsEmpty());
+  EXPECT_EQ(pass.sensors().at(index_of(SampleKind::Sun)).accepted, 1);
+}
+
+TEST_F(ThreeAxisPassTest, AStateOnNoOrbitIsLeftOut) {
+  TimedOrbitState state = state_towards(sun_icrf_, 1.0);
+  state.state.velocity_icrf_km_s *= 2.0;
+  add(pass_.push(state));
+  gyro(-9.0, 0.0);
+  EXPECT_THAT(reasons(), ::testing::ElementsAre(SampleRejection::NoOrbit));
+}
+
+TEST_F(ThreeAxisPassTest, ASilentStreamIsComputedToItsEnd) {
+  add(pass_.push(sensors_.star(0.0)));
+  gyro(0.0, 5.0);
+  const std::size_t before = estimates();
+  add(pass_.fall_silent());
+  EXPECT_EQ(estimates(), before + 4);
+  EXPECT_EQ(std::get<AttitudeEstimate>(products_.back()).t, at_s(4.75));
+  add(pass_.push(sensors_.gyro(4.5)));
+  EXPECT_THAT(rejected(), IsEmpty());  // Known already.
+  add(pass_.push(sensors_.star(4.6)));
+  EXPECT_THAT(reasons(), ::testing::ElementsAre(SampleRejection::Late));
+}
+
+TEST_F(ThreeAxisPassTest, APassWithoutAFixSaysWhatItTakes) {
+  gyro(0.0, 5.0);
+  add(pass_.push(sun(4.0)));
+  add(pass_.finish());
+  EXPECT_EQ(estimates(), 0U);
+  EXPECT_THAT(
+      notices_,
+      ::testing::ElementsAre(Notice{
+          NoticeCode::AttitudeNeverBegan,
+          {{"gyro", std::int64_t{20}}, {"star", std::int64_t{0}}, {"sun", std::int64_t{1}}}}));
+}
+
+}  // namespace spindrift::three_axis_pass_test
