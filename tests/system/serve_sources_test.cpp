@@ -60,7 +60,7 @@ class ServeSources : public ::testing::Test {
       Service service{"nominal"};
       EXPECT_TRUE(service.ready()) << service.program().log();
       EXPECT_TRUE((FrontEnd{service.bus(), "SPINNER", whole.pulses}.send_until(1.0)));
-      EXPECT_EQ(service.stop(), 0) << service.program().log();
+      EXPECT_EQ(service.stop_when_computed(), 0) << service.program().log();
       whole.products = sorted(product_rows(service.db()));
       whole.batch = last_batch_rows(service.db());
       return whole;
@@ -97,7 +97,7 @@ class ServeSources : public ::testing::Test {
 
   /// As if there had been the honest source only, in one run.
   void expect_the_whole_pass() {
-    ASSERT_EQ(service_.stop(), 0) << service_.program().log();
+    ASSERT_EQ(service_.stop_when_computed(), 0) << service_.program().log();
     log_ += service_.program().log();
     const std::vector<std::string> rows = sorted(product_rows(service_.db()));
     EXPECT_TRUE(
@@ -215,7 +215,7 @@ TEST_F(ServeSources, OneThatBeginsWithItsLastMinutesCatchesUp) {
   FrontEnd other{service_.bus(), "SPINNER", whole().pulses, "other"};
   ASSERT_TRUE(other.send_until(1.0));
   ASSERT_TRUE(has_stored(whole().pulses.size()));
-  ASSERT_EQ(service_.stop(), 0) << service_.program().log();
+  ASSERT_EQ(service_.stop_when_computed(), 0) << service_.program().log();
   const std::string log = service_.program().log();
   EXPECT_EQ(number("SELECT count(*) FROM run"), 1) << log;
   EXPECT_EQ(number("SELECT count(*) FROM pulse WHERE arrival < 0"), 0) << log;
