@@ -4,6 +4,7 @@
 #pragma once
 
 #include <SQLiteCpp/Database.h>
+#include <gtest/gtest.h>
 
 #include <chrono>
 #include <csignal>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "services/publisher/telemetry_publisher.h"
+#include "tests/support/archive_rows.h"
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"
 #include "tests/support/program.h"
@@ -85,6 +87,16 @@ class Service {
   std::string pass_;
   std::optional<Program> program_;
 };
+
+/// The pulses of a recorded pass, by way of an archive.
+inline std::vector<Pulse> pulses_of(const std::string& pass) {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "processed.db";
+  Program process{{"process", "--mission", (kPasses / pass / "mission.toml").string(),
+                   "--telemetry", (kPasses / pass).string(), "--db", db.string()}};
+  EXPECT_EQ(process.exit_status(), 0) << process.log();
+  return pulses_in(db);
+}
 
 /// A front-end, and the pulses of a recorded pass to send.
 class FrontEnd {

@@ -58,15 +58,6 @@ TEST(Serve, LeavesAWholeArchiveWhenKilled) {
             0);
 }
 
-std::vector<Pulse> pulses_of(const std::string& pass) {
-  const TemporaryFolder folder;
-  const auto db = folder.path() / "processed.db";
-  Program process{{"process", "--mission", (kPasses / pass / "mission.toml").string(),
-                   "--telemetry", (kPasses / pass).string(), "--db", db.string()}};
-  EXPECT_EQ(process.exit_status(), 0) << process.log();
-  return pulses_in(db);
-}
-
 /// As they would be sent, but that every 97th comes 50 later: late by seconds, or within the
 /// reorder window.
 std::vector<Pulse> disordered_pulses(const std::string& pass) {

@@ -17,19 +17,10 @@ namespace spindrift::serve_silence_test {
 
 using namespace std::chrono_literals;
 
-std::vector<Pulse> pulses_of_nominal() {
-  const TemporaryFolder folder;
-  const auto db = folder.path() / "processed.db";
-  Program process{{"process", "--mission", (kPasses / "nominal" / "mission.toml").string(),
-                   "--telemetry", (kPasses / "nominal").string(), "--db", db.string()}};
-  EXPECT_EQ(process.exit_status(), 0) << process.log();
-  return pulses_in(db);
-}
-
 TEST(Serve, ComputesASilentStreamToItsEndAndRepeatsThatAfterAKill) {
   constexpr std::size_t kEdges = 360;
   constexpr std::int64_t kEdgesOfARevolution = 6;
-  std::vector<Pulse> pulses = pulses_of_nominal();
+  std::vector<Pulse> pulses = pulses_of("nominal");
   pulses.resize(kEdges);
   Service service{"nominal"};
   ASSERT_TRUE(service.ready()) << service.program().log();

@@ -23,15 +23,6 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::vector<Pulse> honest_pulses() {
-  const TemporaryFolder folder;
-  const auto db = folder.path() / "processed.db";
-  Program process{{"process", "--mission", (kPasses / "nominal" / "mission.toml").string(),
-                   "--telemetry", (kPasses / "nominal").string(), "--db", db.string()}};
-  EXPECT_EQ(process.exit_status(), 0) << process.log();
-  return pulses_in(db);
-}
-
 std::vector<Pulse> alien_pulses(TaiTime first, int count) {
   std::vector<Pulse> pulses;
   for (int i = 0; i < count; ++i) {
@@ -56,7 +47,7 @@ class ServeSources : public ::testing::Test {
 
   static const Whole& whole() {
     static const Whole kWhole = [] {
-      Whole whole{.pulses = honest_pulses(), .products = {}, .batch = {}};
+      Whole whole{.pulses = pulses_of("nominal"), .products = {}, .batch = {}};
       Service service{"nominal"};
       EXPECT_TRUE(service.ready()) << service.program().log();
       EXPECT_TRUE((FrontEnd{service.bus(), "SPINNER", whole.pulses}.send_until(1.0)));

@@ -340,7 +340,7 @@ TEST_F(AttitudeEstimatorTest, NoiseBeyondTheStatedIsSaidAndInTheSigma) {
   run(0.0, 100.0, [&](double t_s) { estimator_.push(worse.star(t_s), products_); });
   EXPECT_EQ(quality(), Quality::Doubtful);
   ASSERT_TRUE(has(last().assessment, ReasonCode::SensorNoise));
-  const Reason& noise = last().assessment.reasons.front();
+  const Reason noise = last().assessment.reasons.front();
   EXPECT_EQ(std::get<std::string>(noise.values[0].value), "star");
   EXPECT_NEAR(std::get<double>(noise.values[1].value), 1.8, 0.3);
 }
