@@ -55,6 +55,19 @@ inline Eigen::Matrix3d right_jacobian(const Eigen::Vector3d& vector_rad) {
          (angle_rad - std::sin(angle_rad)) / (square * angle_rad) * cross * cross;
 }
 
+/// Its inverse: rotation_vector_of(quaternion_by(v) quaternion_by(e)) = v + J e, of vectors shorter
+/// than a turn.
+inline Eigen::Matrix3d inverse_right_jacobian(const Eigen::Vector3d& vector_rad) {
+  constexpr double kSeries_rad = 1e-2;
+  const double squared = vector_rad.squaredNorm();
+  const double angle = std::sqrt(squared);
+  const double second = angle < kSeries_rad
+                            ? 1.0 / 12.0 + squared / 720.0 + squared * squared / 30240.0
+                            : 1.0 / squared - 0.5 / (angle * std::tan(0.5 * angle));
+  const Eigen::Matrix3d cross = cross_matrix(vector_rad);
+  return Eigen::Matrix3d::Identity() + 0.5 * cross + second * cross * cross;
+}
+
 /// The angle between two attitudes, [0, pi].
 inline double angle_between_rad(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   return rotation_vector_of(a.conjugate() * b).norm();

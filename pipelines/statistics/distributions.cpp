@@ -20,6 +20,11 @@ double chi_square_beyond(double chance, double freedom) {
   return quantile(complement(boost::math::chi_squared{freedom}, chance));
 }
 
+double chi_square_tail(double squares, double freedom) {
+  assert(squares >= 0.0 && freedom > 0.0);
+  return cdf(complement(boost::math::chi_squared{freedom}, squares));
+}
+
 double variance_ratio_tail(double freedom_above, double freedom_below, double ratio) {
   assert(freedom_above > 0.0 && freedom_below > 0.0 && ratio >= 0.0);
   return cdf(complement(boost::math::fisher_f{freedom_above, freedom_below}, ratio));

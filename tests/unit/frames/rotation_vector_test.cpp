@@ -68,6 +68,18 @@ TEST(RotationVector, RightJacobianIsWhatAChangeOfTheVectorTurnsBy) {
   }
 }
 
+TEST(RotationVector, InverseRightJacobianIsItsInverse) {
+  std::mt19937 rng{14};
+  for (int trial = 0; trial < 1000; ++trial) {
+    for (const double angle_rad : {0.0, 1e-4, 9.9e-3, 1.01e-2, 0.5, 3.1}) {
+      const Eigen::Vector3d vector_rad = angle_rad * random_vector(rng).normalized();
+      const Eigen::Matrix3d product =
+          inverse_right_jacobian(vector_rad) * right_jacobian(vector_rad);
+      ASSERT_NEAR((product - Eigen::Matrix3d::Identity()).norm(), 0.0, 1e-10) << angle_rad;
+    }
+  }
+}
+
 TEST(RotationVector, AngleBetweenAttitudesIsThatOfTheTurn) {
   const Eigen::Quaterniond a{Eigen::AngleAxisd{1.0, Eigen::Vector3d{1.0, 2.0, 2.0} / 3.0}};
   const Eigen::Quaterniond b = a * quaternion_by({0.0, 0.25, 0.0});

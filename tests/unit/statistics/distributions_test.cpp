@@ -31,6 +31,8 @@ TEST(ChiSquare, IsExceededByTheChancesOfThePublishedTables) {
   // Abramowitz and Stegun table 26.8.
   EXPECT_NEAR(chi_square_beyond(0.05, 10.0), 18.3070, 5e-5);
   EXPECT_NEAR(chi_square_beyond(0.01, 30.0), 50.8922, 5e-5);
+  EXPECT_NEAR(chi_square_tail(18.3070, 10.0), 0.05, 1e-6);
+  EXPECT_EQ(chi_square_tail(0.0, 3.0), 1.0);
 }
 
 TEST(Significance, NumbersWithFewerDigitsAreThoseOfTheNormalDistribution) {
