@@ -54,6 +54,22 @@ std::string_view name_of(ReasonCode code) {
       "no_gyro",
       "sensor_gated",
       "sensor_noise",
+      "sun_vectors",
+      "sun_outliers",
+      "sun_vectors_shadowed",
+      "shadow_unknown",
+      "star_fixes",
+      "star_fixes_gated",
+      "star_fixes_contradict",
+      "gyro_gaps",
+      "gyro_saturated",
+      "gyro_frozen",
+      "samples_repeated",
+      "constant_rate",
+      "gyro_bias_open",
+      "gyro_bias_open_by_sun",
+      "gyro_bias_far_off",
+      "attitude_open",
   };
   return kNames.at(static_cast<std::size_t>(code));
 }

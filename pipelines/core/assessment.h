@@ -91,8 +91,25 @@ enum class ReasonCode {
   NoGyro,               ///< why, since_tai_ns
   SensorGated,          ///< sensor
   SensorNoise,          ///< sensor, factor
+  // Of a reconstruction.
+  SunVectors,           ///< count
+  SunOutliers,          ///< count
+  SunVectorsShadowed,   ///< count
+  ShadowUnknown,        ///< count
+  StarFixes,            ///< count
+  StarFixesGated,       ///< count
+  StarFixesContradict,  ///< -
+  GyroGaps,             ///< count, longest_s
+  GyroSaturated,        ///< count
+  GyroFrozen,           ///< count
+  SamplesRepeated,      ///< count
+  ConstantRate,         ///< -
+  GyroBiasOpen,         ///< sigma_deg_s
+  GyroBiasOpenBySun,    ///< sigma_deg_s, off_sun_deg
+  GyroBiasFarOff,       ///< prior_sigmas
+  AttitudeOpen,         ///< deg
 };
-inline constexpr int kReasonCodes = static_cast<int>(ReasonCode::SensorNoise) + 1;
+inline constexpr int kReasonCodes = static_cast<int>(ReasonCode::AttitudeOpen) + 1;
 std::string_view name_of(ReasonCode code);
 
 using Reason = Coded<ReasonCode>;

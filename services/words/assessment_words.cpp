@@ -50,6 +50,23 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
     {NoGyro, "no gyro since {since_tai_ns}: {why}"},
     {SensorGated, "many {sensor} samples gated"},
     {SensorNoise, "{sensor} noise x {factor:.1f}"},
+    {SunVectors, "{count} sun vectors"},
+    {SunOutliers, "{count} sun outliers"},
+    {SunVectorsShadowed, "{count} sun vectors in the Earth's shadow"},
+    {ShadowUnknown, "{count} sun vectors outside the orbit"},
+    {StarFixes, "{count} star fixes"},
+    {StarFixesGated, "{count} star fixes gated"},
+    {StarFixesContradict, "star fixes contradict each other"},
+    {GyroGaps, "{count} gyro gaps, up to {longest_s:.1f} s"},
+    {GyroSaturated, "{count} gyro samples saturated"},
+    {GyroFrozen, "{count} gyro samples frozen"},
+    {SamplesRepeated, "{count} samples repeated"},
+    {ConstantRate, "constant rate before T2"},
+    {GyroBiasOpen, "gyro bias open by {sigma_deg_s:.2g} deg/s"},
+    {GyroBiasOpenBySun,
+     "gyro bias open by {sigma_deg_s:.2g} deg/s, {off_sun_deg:.0f} deg off the Sun line"},
+    {GyroBiasFarOff, "gyro bias more than {prior_sigmas:.0f} times its prior"},
+    {AttitudeOpen, "attitude at T1 open by {deg:.0f} deg"},
 }};
 static_assert(are_by_code(kReasonPatterns));
 

@@ -1,0 +1,159 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/frames/rotation_vector.h"
+#include "pipelines/reconstruction/chain_covariance.h"
+#include "pipelines/reconstruction/chain_fit.h"
+#include "pipelines/reconstruction/chain_solution.h"
+#include "pipelines/reconstruction/history.h"
+#include "pipelines/reconstruction/methods.h"
+#include "pipelines/reconstruction/observations.h"
+#include "pipelines/reconstruction/reconstruction_assessment.h"
+
+namespace spindrift {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// The measurements must at least halve what was known of the bias before.
+constexpr double kObservableShare = 0.5;
+// Fewer residuals say nothing of their noise.
+constexpr std::int64_t kFewResiduals = 10;
+
+SensorResiduals sun_residuals(const ChainSolution& fine) {
+  constexpr double kOutlierWeight = 0.5;
+  const Chain& chain = fine.solved.chain;
+  SensorResiduals residuals;
+  double squares = 0.0;
+  for (const ChainSun& sun : chain.sun) {
+    const double own =
+        (predicted_sun(fine.solved.state, sun) - sun.of.measured_body).squaredNorm() /
+        std::pow(chain.noise.sun_rad, 2);
+    if (weight_of(own) < kOutlierWeight) {
+      ++residuals.outliers;
+    } else {
+      squares += own;
+      ++residuals.count;
+    }
+  }
+  if (residuals.count > kFewResiduals) {
+    residuals.noise =
+        fine.louder_sun * std::sqrt(squares / (2.0 * static_cast<double>(residuals.count)));
+  }
+  return residuals;
+}
+
+SensorResiduals star_residuals(const ChainSolution& fine) {
+  const Chain& chain = fine.solved.chain;
+  SensorResiduals residuals{.count = std::ssize(chain.stars), .outliers = fine.stars.gated};
+  double squares = 0.0;
+  for (const ChainStar& star : chain.stars) {
+    squares +=
+        std::pow(angle_between_rad(fine.solved.state.q_icrf_body[star.node], star.of.q_icrf_body) /
+                     chain.noise.star_rad,
+                 2);
+  }
+  if (residuals.count > kFewResiduals) {
+    residuals.noise = std::sqrt(squares / (3.0 * static_cast<double>(residuals.count - 1)));
+  }
+  return residuals;
+}
+
+std::vector<OpenBiasDirection> open_directions(const Observations& all, const ChainSolution& fine,
+                                               const Matrix3d& covariance_rad2_s2) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> axes{covariance_rad2_s2};
+  std::vector<OpenBiasDirection> open;
+  for (Eigen::Index i = 3; i-- > 0;) {
+    const double sigma_rad_s = std::sqrt(axes.eigenvalues()[i]);
+    const double share = sigma_rad_s / fine.solved.chain.noise.bias_rad_s;
+    if (share > kObservableShare) {
+      const Vector3d axis = axes.eigenvectors().col(i);
+      std::optional<double> off_sun_rad;
+      if (!all.sun.empty()) {
+        const double angle_rad = angle_between_rad(axis, all.sun.back().measured_body);
+        off_sun_rad = std::min(angle_rad, std::numbers::pi - angle_rad);
+      }
+      open.push_back({.axis_body = axis,
+                      .sigma_rad_s = sigma_rad_s,
+                      .share = share,
+                      .off_sun_rad = off_sun_rad});
+    }
+  }
+  return open;
+}
+
+/// @param gyro_noise_rad_s Of the samples, as in the chain.
+NodeEstimates nodes_of(const SolvedChain& solved, const ChainCovariance& known,
+                       double gyro_noise_rad_s) {
+  return {.times_s = solved.chain.times_s,
+          .q_icrf_body = solved.state.q_icrf_body,
+          .covariances_rad2 = known.nodes_rad2,
+          .bias_rad_s = solved.state.bias_rad_s,
+          .bias_covariance_rad2_s2 = known.shared.topLeftCorner<3, 3>(),
+          .start_bias_covariance = known.node_shared.front().leftCols<3>(),
+          .gyro_noise_rad_s = gyro_noise_rad_s};
+}
+
+/// With the noise as stated, whatever the samples show.
+History bound_of(const ReconstructionRequest& request, const Observations& all,
+                 const ChainSolution& fine) {
+  SolvedChain stated = fine.solved;
+  const double stated_rad_s = request.sensors.gyro->noise_rad_s;
+  stated.chain.noise.sun_rad /= fine.louder_sun;
+  for (Turn& turn : stated.chain.turns) {
+    turn.covariance_rad2 *= std::pow(stated_rad_s / all.gyro_noise_rad_s, 2);
+  }
+  return history_of(request, all,
+                    nodes_of(stated, covariance_of(stated.chain, stated.state), stated_rad_s));
+}
+
+std::vector<ReconstructedEvent> bounded_events(const ReconstructionRequest& request,
+                                               const Observations& all, const ChainSolution& fine,
+                                               const History& history) {
+  std::vector<ReconstructedEvent> events = events_of(all, history);
+  const History bound = bound_of(request, all, fine);
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    events[i].bound_rad = bound.attitudes[bound.events[i]].sigma_rad();
+  }
+  return events;
+}
+
+}  // namespace
+
+Expected<Reconstruction> reconstruct_batch(const ReconstructionRequest& request,
+                                           const Observations& all) {
+  const auto fine = solution_of(request, all);
+  if (!fine) {
+    return Unexpected{fine.error()};
+  }
+  const SolvedChain& solved = fine->solved;
+  const ChainCovariance known = covariance_of(solved.chain, solved.state);
+  History history = history_of(request, all, nodes_of(solved, known, all.gyro_noise_rad_s));
+  const Matrix3d bias_covariance_rad2_s2 = known.shared.topLeftCorner<3, 3>();
+  Reconstruction result{.method = ReconstructionMethod::Batch,
+                        .events = bounded_events(request, all, *fine, history),
+                        .history = std::move(history.attitudes),
+                        .bias = GyroBias{solved.state.bias_rad_s, bias_covariance_rad2_s2},
+                        .misalignment = std::nullopt,
+                        .open_bias = open_directions(all, *fine, bias_covariance_rad2_s2),
+                        .gyro = gyro_residuals(all),
+                        .sun = sun_residuals(*fine),
+                        .star = star_residuals(*fine),
+                        .assessment = {},
+                        .iterations = solved.iterations};
+  if (request.sun_misalignment_sigma_rad) {
+    result.misalignment =
+        SunMisalignment{solved.state.misalignment_rad, known.shared.bottomRightCorner<3, 3>()};
+  }
+  result.assessment = assess(request, all, result, fine->stars);
+  return result;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,72 @@
+#include "pipelines/reconstruction/chain.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "pipelines/frames/rotation_vector.h"
+
+namespace spindrift {
+namespace {
+
+/// Of every turn, per axis. Two samples a nanosecond apart would be held together by so much that
+/// the digits of a double do not hold what else is known of them.
+constexpr double kLeastNoise_rad = 1e-8;
+
+}  // namespace
+
+std::size_t node_at(const Chain& chain, double t_s) {
+  const auto found = std::lower_bound(chain.times_s.begin(), chain.times_s.end(), t_s);
+  return static_cast<std::size_t>(std::distance(chain.times_s.begin(), found));
+}
+
+Chain chain_of(const RateTrack& rates, std::vector<double> times_s,
+               std::span<const SunObservation> sun, std::span<const StarObservation> stars,
+               const Eigen::Vector3d& bias_rad_s, const ChainNoise& noise) {
+  for (const SunObservation& one : sun) {
+    times_s.push_back(one.t_s);
+  }
+  for (const StarObservation& one : stars) {
+    times_s.push_back(one.t_s);
+  }
+  std::sort(times_s.begin(), times_s.end());
+  times_s.erase(std::unique(times_s.begin(), times_s.end()), times_s.end());
+  Chain chain{.times_s = std::move(times_s),
+              .turns = {},
+              .bias_rad_s = bias_rad_s,
+              .sun = {},
+              .stars = {},
+              .noise = noise};
+  chain.turns = rates.turns(chain.times_s, bias_rad_s);
+  for (Turn& turn : chain.turns) {
+    turn.covariance_rad2.diagonal().array() += kLeastNoise_rad * kLeastNoise_rad;
+  }
+  for (const SunObservation& one : sun) {
+    chain.sun.push_back({.node = node_at(chain, one.t_s), .of = one});
+  }
+  for (const StarObservation& one : stars) {
+    chain.stars.push_back({.node = node_at(chain, one.t_s), .of = one});
+  }
+  return chain;
+}
+
+ChainState started_at(const Chain& chain, const ChainStar& star) {
+  ChainState state{.q_icrf_body = std::vector<Eigen::Quaterniond>(chain.times_s.size()),
+                   .bias_rad_s = chain.bias_rad_s};
+  std::vector<Eigen::Quaterniond>& q = state.q_icrf_body;
+  q[star.node] = star.of.q_icrf_body;
+  for (std::size_t i = star.node; i > 0; --i) {
+    q[i - 1] = (q[i] * chain.turns[i - 1].turn.conjugate()).normalized();
+  }
+  for (std::size_t i = star.node; i < chain.turns.size(); ++i) {
+    q[i + 1] = (q[i] * chain.turns[i].turn).normalized();
+  }
+  return state;
+}
+
+Eigen::Vector3d predicted_sun(const ChainState& state, const ChainSun& sun) {
+  return quaternion_by(state.misalignment_rad) *
+         (state.q_icrf_body[sun.node].conjugate() * sun.of.sun_icrf);
+}
+
+}  // namespace spindrift

@@ -1,0 +1,236 @@
+#include "pipelines/reconstruction/chain_fit.h"
+
+#include <ceres/loss_function.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
+#include <ceres/sized_cost_function.h>
+#include <ceres/solver.h>
+#include <ceres/types.h>
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <deque>
+#include <utility>
+
+#include "pipelines/frames/rotation_vector.h"
+#include "pipelines/reconstruction/rotation_slopes.h"
+
+namespace spindrift {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Jacobian = Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
+
+constexpr double kFunctionTolerance = 1e-9;
+constexpr int kMostIterations = 100;
+/// As far as Ceres goes: none of Levenberg and Marquardt's damping. It holds each attitude where it
+/// is by a part of its own weight, and so nearly stops a turn of all of them together, which their
+/// links leave free.
+constexpr double kTrustRegion = 1e16;
+constexpr double kFarLoss_sigmas = 3.0;
+constexpr double kFullWeight = 16.0;  ///< Squares of sigmas.
+constexpr double kNoWeight = 64.0;
+
+class NearLoss final : public ceres::LossFunction {
+ public:
+  void Evaluate(double squares, double* rho) const override {
+    constexpr double kSpan = kNoWeight - kFullWeight;
+    const double left = std::clamp((kNoWeight - squares) / kSpan, 0.0, 1.0);
+    rho[0] = std::min(squares, kFullWeight) + kSpan * (1.0 - left * left * left) / 3.0;
+    rho[1] = weight_of(squares);
+    rho[2] = left < 1.0 ? -2.0 * left / kSpan : 0.0;
+  }
+};
+
+void write_vector_slopes(const Matrix3d& slopes, double* jacobian) {
+  if (jacobian != nullptr) {
+    Jacobian{jacobian} = slopes;
+  }
+}
+
+/// Parameters: earlier and later attitude (quaternions, x y z w), bias in rad/s.
+class GyroCost final : public ceres::SizedCostFunction<3, 4, 4, 3> {
+ public:
+  GyroCost(const Turn& turn, const Vector3d& bias_rad_s)
+      : turn_{&turn},
+        bias_rad_s_{bias_rad_s},
+        whitening_{turn.covariance_rad2.llt().matrixL().solve(Matrix3d::Identity())} {}
+
+  bool Evaluate(double const* const* at, double* residual, double** jacobians) const override {
+    const Quaterniond earlier = quaternion_at(at[0]);
+    const Quaterniond later = quaternion_at(at[1]);
+    const Vector3d correction_rad =
+        turn_->per_bias_s * (Eigen::Map<const Vector3d>{at[2]} - bias_rad_s_);
+    const Quaterniond turned = earlier.conjugate() * later;
+    const Vector3d off_rad =
+        rotation_vector_of(quaternion_by(-correction_rad) * (turn_->turn.conjugate() * turned));
+    Eigen::Map<Vector3d>{residual} = whitening_ * off_rad;
+    if (jacobians != nullptr) {
+      const Matrix3d inverse = inverse_right_jacobian(off_rad);
+      const Matrix3d slopes = whitening_ * inverse;
+      write_slopes(-slopes * turned.toRotationMatrix().transpose(), earlier, jacobians[0]);
+      write_slopes(slopes, later, jacobians[1]);
+      write_vector_slopes(
+          -whitening_ * inverse.transpose() * right_jacobian(correction_rad) * turn_->per_bias_s,
+          jacobians[2]);
+    }
+    return true;
+  }
+
+ private:
+  const Turn* turn_;
+  Vector3d bias_rad_s_;
+  Matrix3d whitening_;
+};
+
+/// Parameters: attitude, misalignment in rad.
+class SunCost final : public ceres::SizedCostFunction<3, 4, 3> {
+ public:
+  SunCost(const SunObservation& sun, double noise_rad) : sun_{&sun}, noise_rad_{noise_rad} {}
+
+  bool Evaluate(double const* const* at, double* residual, double** jacobians) const override {
+    const Quaterniond q = quaternion_at(at[0]);
+    const Vector3d misalignment_rad = Eigen::Map<const Vector3d>{at[1]};
+    const Matrix3d aligned = quaternion_by(misalignment_rad).toRotationMatrix();
+    const Vector3d sun_body = q.conjugate() * sun_->sun_icrf;
+    const Vector3d predicted = aligned * sun_body;
+    Eigen::Map<Vector3d>{residual} = (predicted - sun_->measured_body) / noise_rad_;
+    if (jacobians != nullptr) {
+      write_slopes(aligned * cross_matrix(sun_body) / noise_rad_, q, jacobians[0]);
+      write_vector_slopes(
+          -cross_matrix(predicted) * right_jacobian(misalignment_rad).transpose() / noise_rad_,
+          jacobians[1]);
+    }
+    return true;
+  }
+
+ private:
+  const SunObservation* sun_;
+  double noise_rad_;
+};
+
+/// Parameter: attitude.
+class StarCost final : public ceres::SizedCostFunction<3, 4> {
+ public:
+  StarCost(const StarObservation& star, double noise_rad) : star_{&star}, noise_rad_{noise_rad} {}
+
+  bool Evaluate(double const* const* at, double* residual, double** jacobians) const override {
+    const Quaterniond q = quaternion_at(at[0]);
+    const Vector3d off_rad = rotation_vector_of(star_->q_icrf_body.conjugate() * q);
+    Eigen::Map<Vector3d>{residual} = off_rad / noise_rad_;
+    if (jacobians != nullptr) {
+      write_slopes(inverse_right_jacobian(off_rad) / noise_rad_, q, jacobians[0]);
+    }
+    return true;
+  }
+
+ private:
+  const StarObservation* star_;
+  double noise_rad_;
+};
+
+/// Parameter: what is zero but for `sigma`.
+class PriorCost final : public ceres::SizedCostFunction<3, 3> {
+ public:
+  explicit PriorCost(double sigma) : sigma_{sigma} {}
+
+  bool Evaluate(double const* const* at, double* residual, double** jacobians) const override {
+    Eigen::Map<Vector3d>{residual} = Eigen::Map<const Vector3d>{at[0]} / sigma_;
+    if (jacobians != nullptr) {
+      write_vector_slopes(Matrix3d::Identity() / sigma_, jacobians[0]);
+    }
+    return true;
+  }
+
+ private:
+  double sigma_;
+};
+
+/// Keeps what Ceres points to where it is.
+class ChainProblem {
+ public:
+  ChainProblem(const Chain& chain, ChainState& state, SunLoss loss)
+      : problem_{keeping()},
+        bias_prior_{chain.noise.bias_rad_s},
+        misalignment_prior_{chain.noise.misalignment_rad.value_or(1.0)} {
+    ceres::LossFunction* const sun_loss =
+        loss == SunLoss::Far ? &far_ : static_cast<ceres::LossFunction*>(&near_);
+    double* const bias = state.bias_rad_s.data();
+    double* const misalignment = state.misalignment_rad.data();
+    const auto q = [&](std::size_t node) { return state.q_icrf_body[node].coeffs().data(); };
+    for (std::size_t i = 0; i < state.q_icrf_body.size(); ++i) {
+      problem_.AddParameterBlock(q(i), 4, &manifold_);
+    }
+    for (std::size_t i = 0; i < chain.turns.size(); ++i) {
+      GyroCost& cost = gyro_.emplace_back(chain.turns[i], chain.bias_rad_s);
+      problem_.AddResidualBlock(&cost, nullptr, q(i), q(i + 1), bias);
+    }
+    for (const ChainSun& sun : chain.sun) {
+      SunCost& cost = sun_.emplace_back(sun.of, chain.noise.sun_rad);
+      problem_.AddResidualBlock(&cost, sun_loss, q(sun.node), misalignment);
+    }
+    for (const ChainStar& star : chain.stars) {
+      StarCost& cost = star_.emplace_back(star.of, chain.noise.star_rad);
+      problem_.AddResidualBlock(&cost, nullptr, q(star.node));
+    }
+    problem_.AddResidualBlock(&bias_prior_, nullptr, bias);
+    problem_.AddResidualBlock(&misalignment_prior_, nullptr, misalignment);
+    if (!chain.noise.misalignment_rad) {
+      problem_.SetParameterBlockConstant(misalignment);
+    }
+  }
+
+  ceres::Problem& problem() { return problem_; }
+
+ private:
+  static ceres::Problem::Options keeping() {
+    ceres::Problem::Options options;
+    options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.disable_all_safety_checks = true;
+    return options;
+  }
+
+  ceres::HuberLoss far_{kFarLoss_sigmas};
+  NearLoss near_;
+  ceres::EigenQuaternionManifold manifold_;
+  ceres::Problem problem_;
+  std::deque<GyroCost> gyro_;
+  std::deque<SunCost> sun_;
+  std::deque<StarCost> star_;
+  PriorCost bias_prior_;
+  PriorCost misalignment_prior_;
+};
+
+}  // namespace
+
+double weight_of(double squares) {
+  const double left = std::clamp((kNoWeight - squares) / (kNoWeight - kFullWeight), 0.0, 1.0);
+  return left * left;
+}
+
+Expected<ChainFit> fit(const Chain& chain, ChainState start, SunLoss loss) {
+  ChainFit found{.state = std::move(start), .iterations = 0};
+  ChainProblem problem{chain, found.state, loss};
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.num_threads = 1;
+  options.max_num_iterations = kMostIterations;
+  options.initial_trust_region_radius = kTrustRegion;
+  options.function_tolerance = kFunctionTolerance;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem.problem(), &summary);
+  if (summary.termination_type != ceres::CONVERGENCE) {
+    return Unexpected{{ErrorCode::Unobservable,
+                       fmt::format("no attitude explains the samples: {}", summary.message)}};
+  }
+  found.iterations = static_cast<int>(summary.iterations.size());
+  return found;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,162 @@
+#include "pipelines/reconstruction/chain_solution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "pipelines/reconstruction/chain_covariance.h"
+#include "pipelines/reconstruction/chain_fit.h"
+
+namespace spindrift {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// Of the start: so many vectors and fixes at most, spread over the span; the first span to both
+// sides of the star fix, in which no bias turns the body far, and by what it grows.
+constexpr std::size_t kCoarseSun = 300;
+constexpr std::size_t kCoarseStars = 100;
+constexpr double kFirstSpan_s = 300.0;
+constexpr double kSpanGrowth = 4.0;
+/// Of the length of two normal variables, the median.
+constexpr double kMedianLength = 1.17741;
+
+/// Those within the span, every so many-th.
+template <class Sample>
+std::vector<Sample> thinned(std::span<const Sample> samples, double first_s, double last_s,
+                            std::size_t most) {
+  std::vector<Sample> within;
+  std::copy_if(samples.begin(), samples.end(), std::back_inserter(within),
+               [=](const Sample& s) { return s.t_s >= first_s && s.t_s <= last_s; });
+  const std::size_t stride = within.size() / most + 1;
+  std::vector<Sample> some;
+  for (std::size_t i = 0; i < within.size(); i += stride) {
+    some.push_back(within[i]);
+  }
+  return some;
+}
+
+/// From one star fix on, over spans that grow until they hold everything: a bias that the first
+/// minutes show does not turn the body far in the next.
+Expected<SolvedChain> coarse_solution(const Observations& all,
+                                      std::span<const StarObservation> stars,
+                                      const ChainNoise& noise) {
+  const StarObservation& first = stars.front();
+  Vector3d bias_rad_s = Vector3d::Zero();
+  int iterations = 0;
+  for (double span_s = kFirstSpan_s;; span_s *= kSpanGrowth) {
+    const double from_s = std::max(0.0, first.t_s - span_s);
+    const double to_s = std::min(all.end_s, first.t_s + span_s);
+    const std::span<const SunObservation> sun{all.sun};
+    SolvedChain solved{
+        .chain = chain_of(all.rates, {from_s, to_s}, thinned(sun, from_s, to_s, kCoarseSun),
+                          thinned(stars, from_s, to_s, kCoarseStars), bias_rad_s, noise),
+        .state = {},
+        .iterations = 0};
+    auto fitted =
+        fit(solved.chain, started_at(solved.chain, solved.chain.stars.front()), SunLoss::Far);
+    if (!fitted) {
+      return Unexpected{fitted.error()};
+    }
+    iterations += fitted->iterations;
+    bias_rad_s = fitted->state.bias_rad_s;
+    if (from_s == 0.0 && to_s == all.end_s) {
+      solved.state = std::move(fitted->state);
+      solved.iterations = iterations;
+      return solved;
+    }
+  }
+}
+
+/// How many times the stated noise is in the sun vectors, by the median; at least 1.
+double louder_sun(const SolvedChain& solved) {
+  std::vector<double> lengths;
+  for (const ChainSun& sun : solved.chain.sun) {
+    lengths.push_back((predicted_sun(solved.state, sun) - sun.of.measured_body).norm());
+  }
+  if (lengths.empty()) {
+    return 1.0;
+  }
+  const auto middle = lengths.begin() + std::ssize(lengths) / 2;
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  const double louder = *middle / kMedianLength / solved.chain.noise.sun_rad;
+  return louder > kLouder ? louder : 1.0;
+}
+
+/// Attitudes where the coarse solution has them, turned on by the gyro between.
+ChainState started_from(const SolvedChain& coarse, const Chain& chain) {
+  ChainState state{.q_icrf_body = {},
+                   .bias_rad_s = coarse.state.bias_rad_s,
+                   .misalignment_rad = coarse.state.misalignment_rad};
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < chain.times_s.size(); ++i) {
+    if (known < coarse.chain.times_s.size() && coarse.chain.times_s[known] == chain.times_s[i]) {
+      state.q_icrf_body.push_back(coarse.state.q_icrf_body[known++]);
+    } else {
+      state.q_icrf_body.push_back(
+          (state.q_icrf_body.back() * chain.turns[i - 1].turn).normalized());
+    }
+  }
+  return state;
+}
+
+std::vector<double> node_times(const ReconstructionRequest& request, const Observations& all) {
+  std::vector<double> times_s{all.end_s};
+  for (const EventTime& event : all.events) {
+    if (event.event != SeparationEvent::Separation) {
+      times_s.push_back(all.seconds_of(event.t));
+    }
+  }
+  for (const TimedRate& sample : all.rates.samples()) {
+    if (request.node_at_every_gyro_sample && sample.t_s <= all.end_s) {
+      times_s.push_back(sample.t_s);
+    }
+  }
+  return times_s;
+}
+
+}  // namespace
+
+Expected<ChainSolution> solution_of(const ReconstructionRequest& request, const Observations& all) {
+  const GyroSensor& gyro = *request.sensors.gyro;
+  ChainNoise noise{
+      .sun_rad = request.sensors.sun_sensor ? request.sensors.sun_sensor->noise_rad : 1.0,
+      .star_rad = request.sensors.star_tracker->noise_rad,
+      .bias_rad_s = gyro.bias_sigma_rad_s,
+      .misalignment_rad = request.sun_misalignment_sigma_rad};
+  const StarConsensus first = consensus_of(
+      all.rates, all.stars,
+      {.star_rad = noise.star_rad,
+       .bias_rad_s = Vector3d::Zero(),
+       .bias_covariance_rad2_s2 = std::pow(noise.bias_rad_s, 2) * Matrix3d::Identity()});
+  const auto coarse = coarse_solution(all, first.accepted, noise);
+  if (!coarse) {
+    return Unexpected{coarse.error()};
+  }
+  StarConsensus stars =
+      consensus_of(all.rates, first.accepted,
+                   {.star_rad = noise.star_rad,
+                    .bias_rad_s = coarse->state.bias_rad_s,
+                    .bias_covariance_rad2_s2 =
+                        covariance_of(coarse->chain, coarse->state).shared.topLeftCorner<3, 3>()});
+  stars.gated += first.gated;
+  stars.contradict = stars.contradict || first.contradict;
+  const double louder = louder_sun(*coarse);
+  noise.sun_rad *= louder;
+  SolvedChain fine{.chain = chain_of(all.rates, node_times(request, all), all.sun, stars.accepted,
+                                     coarse->state.bias_rad_s, noise),
+                   .state = {},
+                   .iterations = 0};
+  auto fitted = fit(fine.chain, started_from(*coarse, fine.chain), SunLoss::Near);
+  if (!fitted) {
+    return Unexpected{fitted.error()};
+  }
+  fine.state = std::move(fitted->state);
+  fine.iterations = coarse->iterations + fitted->iterations;
+  return ChainSolution{.solved = std::move(fine), .stars = std::move(stars), .louder_sun = louder};
+}
+
+}  // namespace spindrift

@@ -1,0 +1,98 @@
+#include "pipelines/reconstruction/history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "pipelines/reconstruction/torque_free_arc.h"
+
+namespace spindrift {
+namespace {
+
+using Eigen::Matrix3d;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr double kMostArcPoints = 60.0;
+
+/// From T1 to T2, without T2, at least a second apart. Empty where T1 is T2.
+std::vector<ReconstructedAttitude> arc_to_separation(const ReconstructionRequest& request,
+                                                     const Observations& all,
+                                                     const ReconstructedAttitude& control_on,
+                                                     const Matrix3d& rotation_bias_covariance) {
+  const double arc_s = seconds_between(all.events.front().t, all.origin);
+  const double points = std::clamp(std::floor(arc_s), 1.0, kMostArcPoints);
+  const std::optional<Inertia>& inertia = request.sensors.inertia;
+  const auto kg_m2 = inertia ? std::optional{inertia->kg_m2} : std::nullopt;
+  Matrix6d at_start;  // The rate is the measured one less the bias.
+  at_start << control_on.covariance_rad2, -rotation_bias_covariance,
+      -rotation_bias_covariance.transpose(), control_on.rate_covariance_rad2_s2;
+  // Torques that nobody models, and the nutation of a body whose inertia nobody knows.
+  Eigen::Vector3d acceleration_rad_s2 = Eigen::Vector3d::Constant(request.disturbance_rad_s2);
+  if (!inertia) {
+    acceleration_rad_s2 += unknown_acceleration_rad_s2(control_on.rate_body_rad_s);
+  }
+  ArcState at = start_of_arc({control_on.q_icrf_body, control_on.rate_body_rad_s});
+  std::vector<ReconstructedAttitude> attitudes;
+  for (double i = 1.0; arc_s > 0.0 && i <= points; ++i) {
+    at = torque_free_arc(at, kg_m2, -arc_s / points);
+    const Matrix6d known =
+        covariance_of(at.slopes, {.start = at_start,
+                                  .inertia_fraction = inertia ? inertia->sigma_fraction : 0.0,
+                                  .acceleration_rad_s2 = acceleration_rad_s2});
+    attitudes.push_back({.t = shifted(all.origin, -arc_s * i / points),
+                         .q_icrf_body = at.body.q_icrf_body,
+                         .rate_body_rad_s = at.body.rate_body_rad_s,
+                         .covariance_rad2 = known.topLeftCorner<3, 3>(),
+                         .rate_covariance_rad2_s2 = known.bottomRightCorner<3, 3>()});
+  }
+  std::reverse(attitudes.begin(), attitudes.end());
+  return attitudes;
+}
+
+std::vector<ReconstructedAttitude> attitudes_of(const Observations& all,
+                                                const NodeEstimates& nodes) {
+  std::vector<ReconstructedAttitude> attitudes;
+  const Matrix3d rate_covariance_rad2_s2 =
+      nodes.bias_covariance_rad2_s2 + std::pow(nodes.gyro_noise_rad_s, 2) * Matrix3d::Identity();
+  for (std::size_t i = 0; i < nodes.times_s.size(); ++i) {
+    attitudes.push_back({.t = shifted(all.origin, nodes.times_s[i]),
+                         .q_icrf_body = nodes.q_icrf_body[i],
+                         .rate_body_rad_s = all.rates.rate_at(nodes.times_s[i]) - nodes.bias_rad_s,
+                         .covariance_rad2 = nodes.covariances_rad2[i],
+                         .rate_covariance_rad2_s2 = rate_covariance_rad2_s2});
+  }
+  attitudes.front().rate_covariance_rad2_s2.diagonal().array() +=
+      all.rates.start_variance_rad2_s2();
+  return attitudes;
+}
+
+}  // namespace
+
+History history_of(const ReconstructionRequest& request, const Observations& all,
+                   const NodeEstimates& nodes) {
+  const std::vector<ReconstructedAttitude> measured = attitudes_of(all, nodes);
+  History history{
+      .attitudes = arc_to_separation(request, all, measured.front(), nodes.start_bias_covariance),
+      .events = {0}};
+  const std::size_t arc = history.attitudes.size();
+  history.attitudes.insert(history.attitudes.end(), measured.begin(), measured.end());
+  for (auto event = all.events.begin() + 1; event != all.events.end(); ++event) {
+    const auto node =
+        std::lower_bound(nodes.times_s.begin(), nodes.times_s.end(), all.seconds_of(event->t));
+    history.events.push_back(arc +
+                             static_cast<std::size_t>(std::distance(nodes.times_s.begin(), node)));
+  }
+  return history;
+}
+
+std::vector<ReconstructedEvent> events_of(const Observations& all, const History& history) {
+  std::vector<ReconstructedEvent> events;
+  for (std::size_t i = 0; i < all.events.size(); ++i) {
+    events.push_back({.event = all.events[i].event,
+                      .found = all.events[i].found,
+                      .attitude = history.attitudes[history.events[i]]});
+  }
+  return events;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,37 @@
+/// @file
+/// From what is known at nodes behind T2 to the history from T1 on, and the events in it.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "pipelines/reconstruction/observations.h"
+#include "pipelines/reconstruction/reconstruction.h"
+#include "pipelines/reconstruction/request.h"
+
+namespace spindrift {
+
+/// In order of time, the first at T2, one at every event.
+struct NodeEstimates {
+  std::vector<double> times_s;
+  std::vector<Eigen::Quaterniond> q_icrf_body;
+  std::vector<Eigen::Matrix3d> covariances_rad2;
+  Eigen::Vector3d bias_rad_s;
+  Eigen::Matrix3d bias_covariance_rad2_s2;
+  Eigen::Matrix3d start_bias_covariance;  ///< Between the rotation at T2 and the bias.
+  double gyro_noise_rad_s;
+};
+
+struct History {
+  std::vector<ReconstructedAttitude> attitudes;
+  std::vector<std::size_t> events;  ///< Where each of the observations' events is in it.
+};
+
+History history_of(const ReconstructionRequest& request, const Observations& all,
+                   const NodeEstimates& nodes);
+
+std::vector<ReconstructedEvent> events_of(const Observations& all, const History& history);
+
+}  // namespace spindrift

@@ -1,0 +1,257 @@
+#include "pipelines/reconstruction/observations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "pipelines/ephemeris/shadow.h"
+#include "pipelines/ephemeris/sun.h"
+#include "pipelines/reconstruction/gyro_screening.h"
+#include "pipelines/reconstruction/request_check.h"
+#include "pipelines/time/time_span.h"
+#include "pipelines/time/utc.h"
+
+namespace spindrift {
+namespace {
+
+using enum SeparationEvent;
+
+// So many usual steps may lie between the gyro samples and T2, T4 or a star fix: the next sample
+// was on its way.
+constexpr double kHeldSteps = 2.0;
+// Torque-free longer than this nobody believes.
+constexpr double kLongestArc_s = 24.0 * kHour_s;
+
+Unexpected refused(ErrorCode code, std::string message) {
+  return Unexpected{{code, std::move(message)}};
+}
+
+/// In order of time, each instant once, what came first. Counts what it leaves out.
+template <class Sample>
+std::vector<Sample> ordered(std::vector<Sample> samples, std::int64_t& repeated) {
+  std::stable_sort(samples.begin(), samples.end(),
+                   [](const Sample& a, const Sample& b) { return a.t < b.t; });
+  const auto end = std::unique(samples.begin(), samples.end(),
+                               [](const Sample& a, const Sample& b) { return a.t == b.t; });
+  repeated += std::distance(end, samples.end());
+  samples.erase(end, samples.end());
+  return samples;
+}
+
+struct Samples {
+  std::vector<GyroSample> gyro;
+  std::vector<SunDirection> sun;
+  std::vector<StarFix> stars;
+  double held_s;  ///< As kHeldSteps.
+};
+
+template <class Sample>
+std::optional<TaiTime> first_behind(const std::vector<Sample>& samples, TaiTime t) {
+  const auto found = std::find_if(samples.begin(), samples.end(),
+                                  [t](const Sample& sample) { return sample.t >= t; });
+  return found == samples.end() ? std::nullopt : std::optional{found->t};
+}
+
+Error nothing_anchored(TaiTime t) {
+  return {ErrorCode::Unobservable,
+          fmt::format("no star fix lies behind {}: nothing can be anchored", format_utc(t))};
+}
+
+Expected<std::vector<EventTime>> event_times(const SeparationTimes& times, const Samples& samples) {
+  std::vector<EventTime> events{{Separation, times.separation, false}};
+  const TaiTime control_on = times.control_on.value_or(
+      first_behind(samples.gyro, times.separation).value_or(samples.gyro.front().t));
+  events.push_back({ControlOn, control_on, !times.control_on});
+  TaiTime latest = control_on;
+  if (const auto acquisition =
+          times.acquisition ? times.acquisition : first_behind(samples.sun, control_on)) {
+    events.push_back({Acquisition, *acquisition, !times.acquisition});
+    latest = *acquisition;
+  }
+  const auto star =
+      times.first_star_fix ? times.first_star_fix : first_behind(samples.stars, latest);
+  if (!star) {
+    return Unexpected{nothing_anchored(latest)};
+  }
+  events.push_back({FirstStarFix, *star, !times.first_star_fix});
+  return events;
+}
+
+std::optional<Error> out_of_order(const std::vector<EventTime>& events) {
+  for (std::size_t i = 1; i < events.size(); ++i) {
+    const EventTime& before = events[i - 1];
+    const EventTime& behind = events[i];
+    if (behind.t < before.t) {
+      return Error{ErrorCode::InvalidInput,
+                   fmt::format("{} is {}, before {} at {}: T1 <= T2 <= T3 <= T4 is allowed",
+                               name_of(behind.event), format_utc(behind.t), name_of(before.event),
+                               format_utc(before.t))};
+    }
+  }
+  const double arc_s = elapsed_s(events[0].t, events[1].t);
+  if (arc_s > kLongestArc_s) {
+    return Error{ErrorCode::InvalidInput,
+                 fmt::format("T1 is {}, {:.0f} s before T2: at most {:.0f} s are allowed",
+                             format_utc(events[0].t), arc_s, kLongestArc_s)};
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> outside(const std::vector<EventTime>& events, const Samples& samples) {
+  const TaiTime first = later_by_s(samples.gyro.front().t, -samples.held_s);
+  const TaiTime last = later_by_s(samples.gyro.back().t, samples.held_s);
+  for (const EventTime& event : events) {
+    if (event.event != Separation && (event.t < first || event.t > last)) {
+      return Error{ErrorCode::InvalidInput,
+                   fmt::format("{} is {}: the gyro samples allow {} to {}", name_of(event.event),
+                               format_utc(event.t), format_utc(first), format_utc(last))};
+    }
+  }
+  return std::nullopt;
+}
+
+bool is_within(const Observations& all, TaiTime t) {
+  return t >= all.origin && all.seconds_of(t) <= all.end_s;
+}
+
+void add_stars(const StarTracker& tracker, const std::vector<StarFix>& fixes, TaiTime last,
+               Observations& all) {
+  for (const StarFix& fix : fixes) {
+    if (fix.t >= all.origin && fix.t <= last) {
+      const Eigen::Quaterniond q =
+          fix.q_icrf_sensor.normalized() * tracker.q_body_sensor.normalized().conjugate();
+      all.stars.push_back({.t_s = all.seconds_of(fix.t), .q_icrf_body = q});
+      all.end_s = std::max(all.end_s, all.stars.back().t_s);
+    }
+  }
+}
+
+void add_sun(const std::vector<SunDirection>& vectors, const std::optional<Orbit>& orbit,
+             Observations& all) {
+  ApparentSun sun;
+  for (const SunDirection& vector : vectors) {
+    if (!is_within(all, vector.t)) {
+      continue;
+    }
+    OrbitState spacecraft{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    const auto state = orbit ? std::optional{orbit->at(vector.t)} : std::nullopt;
+    if (state && *state) {
+      spacecraft = **state;
+    } else if (state) {
+      ++all.shadow_unknown;
+    }
+    const Eigen::Vector3d sun_icrf = sun.direction_icrf(vector.t, spacecraft);
+    if (state && *state && is_in_shadow(spacecraft.position_icrf_km, sun_icrf)) {
+      ++all.in_shadow;
+      continue;
+    }
+    all.sun.push_back({.t_s = all.seconds_of(vector.t),
+                       .measured_body = vector.sun_body.normalized(),
+                       .sun_icrf = sun_icrf});
+  }
+}
+
+std::vector<TimedRate> timed(std::span<const GyroSample> samples, TaiTime origin) {
+  std::vector<TimedRate> rates;
+  for (const GyroSample& sample : samples) {
+    rates.push_back(
+        {.t_s = seconds_between(origin, sample.t), .rate_body_rad_s = sample.rate_body_rad_s});
+  }
+  return rates;
+}
+
+/// From T2 to the end, and a little behind it.
+std::vector<GyroSample> needed(const Samples& samples, const Observations& all) {
+  std::vector<GyroSample> within;
+  std::copy_if(samples.gyro.begin(), samples.gyro.end(), std::back_inserter(within),
+               [&](const GyroSample& sample) {
+                 return sample.t >= all.origin &&
+                        all.seconds_of(sample.t) <= all.end_s + samples.held_s;
+               });
+  return within;
+}
+
+Expected<RateTrack> rates_of(const Samples& samples, const GyroSensor& sensor, Observations& all) {
+  const ScreenedGyro gyro = screened(needed(samples, all), sensor);
+  if (gyro.usable.size() < 2) {
+    return refused(ErrorCode::Unobservable,
+                   fmt::format("{} gyro samples behind T2 can be used, {} are saturated and {} "
+                               "frozen: at least 2 are needed",
+                               gyro.usable.size(), gyro.saturated, gyro.frozen));
+  }
+  all.saturated = gyro.saturated;
+  all.frozen = gyro.frozen;
+  all.gyro_noise = gyro.noise;
+  const double louder = gyro.noise.value_or(1.0);
+  all.gyro_noise_rad_s = sensor.noise_rad_s * (louder > kLouder ? louder : 1.0);
+  all.gyro_samples = std::ssize(gyro.usable);
+  return RateTrack{timed(gyro.usable, all.origin), 0.0, all.end_s, all.gyro_noise_rad_s};
+}
+
+Expected<Samples> samples_of(const ReconstructionRequest& request, std::int64_t& repeated) {
+  Samples samples{.gyro = ordered(request.gyro, repeated),
+                  .sun = request.sensors.sun_sensor ? ordered(request.sun_directions, repeated)
+                                                    : std::vector<SunDirection>{},
+                  .stars = ordered(request.star_fixes, repeated),
+                  .held_s = 0.0};
+  if (samples.gyro.size() < 2) {
+    return refused(ErrorCode::Unobservable,
+                   fmt::format("{} gyro samples: at least 2 are needed", samples.gyro.size()));
+  }
+  if (samples.stars.empty()) {
+    return refused(ErrorCode::Unobservable, "no star fix: nothing can be anchored");
+  }
+  samples.held_s = kHeldSteps * usual_step_s(timed(samples.gyro, samples.gyro.front().t));
+  return samples;
+}
+
+}  // namespace
+
+SensorResiduals gyro_residuals(const Observations& all) {
+  return {
+      .count = all.gyro_samples, .outliers = all.saturated + all.frozen, .noise = all.gyro_noise};
+}
+
+Expected<Observations> observations_of(const ReconstructionRequest& request) {
+  if (auto error = refusal_of(request)) {
+    return Unexpected{*std::move(error)};
+  }
+  std::int64_t repeated = 0;
+  const auto samples = samples_of(request, repeated);
+  if (!samples) {
+    return Unexpected{samples.error()};
+  }
+  auto events = event_times(request.times, *samples);
+  if (!events) {
+    return Unexpected{events.error()};
+  }
+  auto error = out_of_order(*events);
+  if (!error) {
+    error = outside(*events, *samples);
+  }
+  if (error) {
+    return Unexpected{*std::move(error)};
+  }
+  const TaiTime origin = (*events)[1].t;
+  Observations all{
+      .origin = origin, .events = *std::move(events), .rates = {}, .repeated = repeated};
+  all.end_s = all.seconds_of(all.events.back().t);
+  const TaiTime last = later_by_s(samples->gyro.back().t, samples->held_s);
+  add_stars(*request.sensors.star_tracker, samples->stars, last, all);
+  if (all.stars.empty()) {
+    return Unexpected{nothing_anchored(origin)};
+  }
+  add_sun(samples->sun, request.orbit, all);
+  auto rates = rates_of(*samples, *request.sensors.gyro, all);
+  if (!rates) {
+    return Unexpected{rates.error()};
+  }
+  all.rates = *std::move(rates);
+  return all;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,63 @@
+/// @file
+/// A request checked and put in order: everything on seconds since T2 and in body axes.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/reconstruction/rate_track.h"
+#include "pipelines/reconstruction/reconstruction.h"
+#include "pipelines/reconstruction/request.h"
+
+namespace spindrift {
+
+struct SunObservation {
+  double t_s;
+  Eigen::Vector3d measured_body;
+  Eigen::Vector3d sun_icrf;
+};
+
+struct StarObservation {
+  double t_s;
+  Eigen::Quaterniond q_icrf_body;
+};
+
+struct EventTime {
+  SeparationEvent event;
+  TaiTime t;
+  bool found;
+};
+
+struct Observations {
+  TaiTime origin;                 ///< T2
+  std::vector<EventTime> events;  ///< In order; no T3 where no sun vector shows it.
+  RateTrack rates;                ///< From T2 to the end.
+  std::vector<SunObservation> sun = {};
+  std::vector<StarObservation> stars = {};
+  double end_s = 0.0;             ///< Of what is solved for: T4, or the last star fix behind it.
+  double gyro_noise_rad_s = 0.0;  ///< That of the samples, where it is more than stated.
+  std::optional<double> gyro_noise = std::nullopt;  ///< Over the stated one.
+  std::int64_t gyro_samples = 0;
+  std::int64_t saturated = 0;
+  std::int64_t frozen = 0;
+  std::int64_t repeated = 0;        ///< Samples of any sensor with the time of the one before.
+  std::int64_t in_shadow = 0;       ///< Sun vectors while the Earth hid the Sun, left out.
+  std::int64_t shadow_unknown = 0;  ///< Sun vectors that the orbit does not cover.
+
+  double seconds_of(TaiTime t) const { return seconds_between(origin, t); }
+};
+
+SensorResiduals gyro_residuals(const Observations& all);
+
+/// Noise that is more than stated by so much is taken as the samples show it.
+inline constexpr double kLouder = 1.25;
+
+/// @return As reconstruct().
+Expected<Observations> observations_of(const ReconstructionRequest& request);
+
+}  // namespace spindrift

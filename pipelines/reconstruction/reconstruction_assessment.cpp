@@ -1,0 +1,107 @@
+#include "pipelines/reconstruction/reconstruction_assessment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "pipelines/frames/angle.h"
+
+namespace spindrift {
+namespace {
+
+using enum ReasonCode;
+
+constexpr double kManySunOutliers = 0.15;
+constexpr double kLongGap_s = 10.0;  ///< The body may turn and stop in it, which no sigma foresees.
+constexpr double kFarOffBias_sigmas = 4.0;
+constexpr double kOpenAttitude_rad = 10.0 * kRadPerDeg;
+
+class Doubts {
+ public:
+  /// Says so where there are any.
+  void count(ReasonCode code, std::int64_t count, bool is_doubt) {
+    if (count > 0) {
+      add({code, {{"count", count}}}, is_doubt);
+    }
+  }
+  void add(Reason reason, bool is_doubt) {
+    assessment.reasons.push_back(std::move(reason));
+    if (is_doubt) {
+      assessment.quality = Quality::Doubtful;
+    }
+  }
+
+  Assessment assessment;
+};
+
+void add_sun(const Observations& all, const Reconstruction& result, Doubts& doubts) {
+  const SensorResiduals& sun = result.sun;
+  doubts.count(SunVectors, sun.count, false);
+  const auto vectors = static_cast<double>(sun.count + sun.outliers);
+  doubts.count(SunOutliers, sun.outliers,
+               static_cast<double>(sun.outliers) > kManySunOutliers * vectors);
+  doubts.count(SunVectorsShadowed, all.in_shadow, false);
+  doubts.count(ShadowUnknown, all.shadow_unknown, false);
+}
+
+void add_gyro(const Observations& all, Doubts& doubts) {
+  if (all.rates.gaps() > 0) {
+    const double longest_s = all.rates.longest_gap_s();
+    doubts.add({GyroGaps, {{"count", all.rates.gaps()}, {"longest_s", longest_s}}},
+               longest_s > kLongGap_s);
+  }
+  doubts.count(GyroSaturated, all.saturated, true);
+  doubts.count(GyroFrozen, all.frozen, true);
+  doubts.count(SamplesRepeated, all.repeated, false);
+}
+
+void add_noise(const char* sensor, const SensorResiduals& residuals, Doubts& doubts) {
+  if (residuals.noise && *residuals.noise > kLouder) {
+    doubts.add({SensorNoise, {{"sensor", sensor}, {"factor", *residuals.noise}}}, true);
+  }
+}
+
+void add_bias(const GyroSensor& gyro, const Reconstruction& result, Doubts& doubts) {
+  for (const OpenBiasDirection& open : result.open_bias) {
+    std::vector<NamedValue> values{{"sigma_deg_s", degrees(open.sigma_rad_s)}};
+    if (open.off_sun_rad) {
+      values.push_back({"off_sun_deg", degrees(*open.off_sun_rad)});
+    }
+    doubts.add({open.off_sun_rad ? GyroBiasOpenBySun : GyroBiasOpen, std::move(values)}, false);
+  }
+  if (result.bias &&
+      result.bias->rad_s.cwiseAbs().maxCoeff() > kFarOffBias_sigmas * gyro.bias_sigma_rad_s) {
+    doubts.add({GyroBiasFarOff, {{"prior_sigmas", kFarOffBias_sigmas}}}, true);
+  }
+}
+
+}  // namespace
+
+Assessment assess(const ReconstructionRequest& request, const Observations& all,
+                  const Reconstruction& result, const StarConsensus& stars) {
+  const bool unchecked = result.sun.count == 0 && result.star.count == 1;
+  Doubts doubts{.assessment = {unchecked ? Quality::Converging : Quality::Ok}};
+  doubts.count(StarFixes, result.star.count, false);
+  doubts.count(StarFixesGated, stars.gated, false);
+  if (stars.contradict) {
+    doubts.add({StarFixesContradict}, true);
+  }
+  add_sun(all, result, doubts);
+  add_gyro(all, doubts);
+  add_noise("gyro", result.gyro, doubts);
+  add_noise("sun", result.sun, doubts);
+  add_noise("star", result.star, doubts);
+  add_bias(*request.sensors.gyro, result, doubts);
+  const ReconstructedAttitude& separation = result.events.front().attitude;
+  if (!request.sensors.inertia && separation.t < all.origin) {
+    doubts.add({ConstantRate}, false);
+  }
+  const double open_rad = separation.sigma_rad();
+  if (!(open_rad < kOpenAttitude_rad)) {
+    doubts.add({AttitudeOpen, {{"deg", degrees(open_rad)}}}, true);
+  }
+  return std::move(doubts.assessment);
+}
+
+}  // namespace spindrift

@@ -1,0 +1,302 @@
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
+#include <ceres/sized_cost_function.h>
+#include <ceres/solver.h>
+#include <ceres/types.h>
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "pipelines/frames/rotation_vector.h"
+#include "pipelines/reconstruction/history.h"
+#include "pipelines/reconstruction/methods.h"
+#include "pipelines/reconstruction/observations.h"
+#include "pipelines/reconstruction/reconstruction_assessment.h"
+#include "pipelines/reconstruction/rotation_slopes.h"
+#include "pipelines/reconstruction/star_consensus.h"
+#include "pipelines/statistics/distributions.h"
+
+namespace spindrift {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// The paper's, of the cost from one iteration to the next.
+constexpr double kTolerance = 1e-6;
+/// The other tests must not end a step before it is solved: a slow body turns by less than that.
+constexpr double kNoTolerance = 1e-14;
+constexpr double kFalseGate = 1e-6;
+
+/// The kinematic equation of one step. The paper writes it in Euler angles, with the rate at the
+/// later instant: singular at phi = 90 deg, and off by half of what the rate changes. Here it is
+/// the turn of the step. Parameter: the earlier attitude.
+class StepCost final : public ceres::SizedCostFunction<3, 4> {
+ public:
+  StepCost(const Quaterniond& later, const Quaterniond& turn) : later_{later}, turn_{turn} {}
+
+  bool Evaluate(double const* const* at, double* residual, double** jacobians) const override {
+    const Quaterniond earlier = quaternion_at(at[0]);
+    const Quaterniond turned = earlier.conjugate() * later_;
+    const Vector3d off_rad = rotation_vector_of(turn_.conjugate() * turned);
+    Eigen::Map<Vector3d>{residual} = off_rad;
+    if (jacobians != nullptr) {
+      write_slopes(-inverse_right_jacobian(off_rad) * turned.toRotationMatrix().transpose(),
+                   earlier, jacobians[0]);
+    }
+    return true;
+  }
+
+ private:
+  Quaterniond later_;
+  Quaterniond turn_;
+};
+
+/// A S_icrf = s_measured. Parameter: the attitude, whose rotation about the Sun it leaves open.
+class SunCorrection final : public ceres::SizedCostFunction<3, 4> {
+ public:
+  explicit SunCorrection(const SunObservation& sun) : sun_{&sun} {}
+
+  bool Evaluate(double const* const* at, double* residual, double** jacobians) const override {
+    const Quaterniond q = quaternion_at(at[0]);
+    const Vector3d predicted = q.conjugate() * sun_->sun_icrf;
+    Eigen::Map<Vector3d>{residual} = predicted - sun_->measured_body;
+    if (jacobians != nullptr) {
+      write_slopes(cross_matrix(predicted), q, jacobians[0]);
+    }
+    return true;
+  }
+
+ private:
+  const SunObservation* sun_;
+};
+
+struct Solver {
+  ceres::Solver::Options options;
+  ceres::EigenQuaternionManifold manifold;
+  int iterations = 0;
+
+  explicit Solver(ceres::TrustRegionStrategyType strategy) {
+    options.trust_region_strategy_type = strategy;
+    options.linear_solver_type = ceres::DENSE_QR;
+    options.num_threads = 1;
+    // No axis weighs more than another: a correction must not turn about the Sun.
+    options.jacobi_scaling = false;
+    options.min_lm_diagonal = 1.0;
+    options.max_lm_diagonal = 1.0;
+    options.function_tolerance = kTolerance;
+    options.gradient_tolerance = kNoTolerance;
+    options.parameter_tolerance = kNoTolerance;
+    options.logging_type = ceres::SILENT;
+  }
+
+  /// Moves `q` from where it is.
+  bool solve(ceres::CostFunction& cost, Quaterniond& q) {
+    ceres::Problem::Options keeping;
+    keeping.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    keeping.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ceres::Problem problem{keeping};
+    problem.AddParameterBlock(q.coeffs().data(), 4, &manifold);
+    problem.AddResidualBlock(&cost, nullptr, q.coeffs().data());
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    iterations += static_cast<int>(summary.iterations.size());
+    return summary.IsSolutionUsable();
+  }
+};
+
+/// An attitude on the way back, with the covariance of its error and that of the bias, which is
+/// never estimated.
+class Backwards {
+ public:
+  Backwards(const StarObservation& star, const ThreeAxisConfig& sensors) : q_{star.q_icrf_body} {
+    covariance_.setZero();
+    covariance_.diagonal().head<3>().setConstant(std::pow(sensors.star_tracker->noise_rad, 2));
+    covariance_.diagonal().tail<3>().setConstant(std::pow(sensors.gyro->bias_sigma_rad_s, 2));
+  }
+
+  bool step(const Turn& turn) {
+    const Quaterniond later = q_;
+    StepCost cost{later, turn.turn};
+    const bool solved = dogleg_.solve(cost, q_);
+    const Matrix3d turned = turn.turn.toRotationMatrix();
+    Matrix6d back = Matrix6d::Identity();
+    back.topLeftCorner<3, 3>() = turned;
+    back.topRightCorner<3, 3>() = -turned * turn.per_bias_s;
+    covariance_ = back * covariance_ * back.transpose();
+    covariance_.topLeftCorner<3, 3>() += turned * turn.covariance_rad2 * turned.transpose();
+    return solved;
+  }
+
+  /// Forwards, from the star fix to a later instant.
+  void turn_on(const Turn& turn) {
+    q_ = (q_ * turn.turn).normalized();
+    const Matrix3d back = turn.turn.toRotationMatrix().transpose();
+    Matrix6d on = Matrix6d::Identity();
+    on.topLeftCorner<3, 3>() = back;
+    on.topRightCorner<3, 3>() = turn.per_bias_s;
+    covariance_ = on * covariance_ * on.transpose();
+    covariance_.topLeftCorner<3, 3>() += turn.covariance_rad2;
+  }
+
+  /// Whether the vector is where it can be by what is known.
+  bool accepts(const SunObservation& sun, double noise_rad) const {
+    static const double kLimit = chi_square_beyond(kFalseGate, 2.0);
+    const Vector3d predicted = q_.conjugate() * sun.sun_icrf;
+    const Matrix3d slopes = cross_matrix(predicted);
+    const Matrix3d covariance = slopes * covariance_.topLeftCorner<3, 3>() * slopes.transpose() +
+                                noise_rad * noise_rad * Matrix3d::Identity();
+    const Vector3d off = sun.measured_body - predicted;
+    return off.dot(covariance.llt().solve(off)) < kLimit;
+  }
+
+  bool correct(const SunObservation& sun, double noise_rad) {
+    SunCorrection cost{sun};
+    const bool solved = levenberg_marquardt_.solve(cost, q_);
+    const Matrix3d along = sun.measured_body * sun.measured_body.transpose();
+    Matrix6d kept = Matrix6d::Identity();
+    kept.topLeftCorner<3, 3>() = along;
+    covariance_ = kept * covariance_ * kept.transpose();
+    covariance_.topLeftCorner<3, 3>() += noise_rad * noise_rad * (Matrix3d::Identity() - along);
+    return solved;
+  }
+
+  const Quaterniond& q() const { return q_; }
+  const Matrix6d& covariance() const { return covariance_; }
+  int iterations() const { return dogleg_.iterations + levenberg_marquardt_.iterations; }
+
+ private:
+  Quaterniond q_;
+  Matrix6d covariance_;
+  Solver dogleg_{ceres::DOGLEG};
+  Solver levenberg_marquardt_{ceres::LEVENBERG_MARQUARDT};
+};
+
+/// Every gyro sample, sun vector and event up to T4.
+std::vector<double> step_times(const Observations& all, double last_s) {
+  std::vector<double> times_s;
+  for (const EventTime& event : all.events) {
+    times_s.push_back(all.seconds_of(event.t));
+  }
+  for (const TimedRate& sample : all.rates.samples()) {
+    times_s.push_back(sample.t_s);
+  }
+  for (const SunObservation& sun : all.sun) {
+    times_s.push_back(sun.t_s);
+  }
+  std::erase_if(times_s, [=](double t_s) { return t_s < 0.0 || t_s > last_s; });
+  std::sort(times_s.begin(), times_s.end());
+  times_s.erase(std::unique(times_s.begin(), times_s.end()), times_s.end());
+  return times_s;
+}
+
+/// The accepted fix next to T4.
+const StarObservation& anchor(const std::vector<StarObservation>& stars, double last_s) {
+  return *std::min_element(stars.begin(), stars.end(), [=](const auto& a, const auto& b) {
+    return std::abs(a.t_s - last_s) < std::abs(b.t_s - last_s);
+  });
+}
+
+/// From the fix to T4, where nobody says that it was at T4.
+void turn_to(Backwards& at, const RateTrack& rates, double from_s, double to_s) {
+  if (from_s > to_s) {
+    at.step(rates.turns(std::vector{to_s, from_s}, Vector3d::Zero()).front());
+  } else if (from_s < to_s) {
+    at.turn_on(rates.turns(std::vector{from_s, to_s}, Vector3d::Zero()).front());
+  }
+}
+
+Error not_solved(const Observations& all, double t_s) {
+  return {ErrorCode::Unobservable,
+          fmt::format("no attitude solves the kinematic equation {:.3f} s behind T2, at {} ns TAI",
+                      t_s, tai_ns(shifted(all.origin, t_s)))};
+}
+
+struct Pass {
+  NodeEstimates nodes;
+  SensorResiduals sun;
+  int iterations;
+};
+
+Expected<Pass> backwards(const ReconstructionRequest& request, const Observations& all,
+                         const StarObservation& star) {
+  const double last_s = all.seconds_of(all.events.back().t);
+  const std::vector<double> times_s = step_times(all, last_s);
+  const std::vector<Turn> turns = all.rates.turns(times_s, Vector3d::Zero());
+  Backwards at{star, request.sensors};
+  turn_to(at, all.rates, star.t_s, last_s);
+  const double bias_sigma_rad_s = request.sensors.gyro->bias_sigma_rad_s;
+  Pass pass{.nodes = {.times_s = times_s,
+                      .q_icrf_body = {at.q()},
+                      .covariances_rad2 = {at.covariance().topLeftCorner<3, 3>()},
+                      .bias_rad_s = Vector3d::Zero(),
+                      .bias_covariance_rad2_s2 =
+                          bias_sigma_rad_s * bias_sigma_rad_s * Matrix3d::Identity(),
+                      .start_bias_covariance = Matrix3d::Zero(),
+                      .gyro_noise_rad_s = all.gyro_noise_rad_s},
+            .sun = {},
+            .iterations = 0};
+  auto sun = std::find_if(all.sun.rbegin(), all.sun.rend(),
+                          [=](const SunObservation& one) { return one.t_s < last_s; });
+  for (std::size_t i = turns.size(); i-- > 0;) {
+    if (!at.step(turns[i])) {
+      return Unexpected{not_solved(all, times_s[i])};
+    }
+    for (; sun != all.sun.rend() && sun->t_s == times_s[i]; ++sun) {
+      const double noise_rad = request.sensors.sun_sensor->noise_rad;
+      const bool accepted = at.accepts(*sun, noise_rad);
+      (accepted ? pass.sun.count : pass.sun.outliers) += 1;
+      if (accepted && !at.correct(*sun, noise_rad)) {
+        return Unexpected{not_solved(all, times_s[i])};
+      }
+    }
+    pass.nodes.q_icrf_body.push_back(at.q());
+    pass.nodes.covariances_rad2.push_back(at.covariance().topLeftCorner<3, 3>());
+  }
+  std::reverse(pass.nodes.q_icrf_body.begin(), pass.nodes.q_icrf_body.end());
+  std::reverse(pass.nodes.covariances_rad2.begin(), pass.nodes.covariances_rad2.end());
+  pass.nodes.start_bias_covariance = at.covariance().topRightCorner<3, 3>();
+  pass.iterations = at.iterations();
+  return pass;
+}
+
+}  // namespace
+
+Expected<Reconstruction> reconstruct_sequential(const ReconstructionRequest& request,
+                                                const Observations& all) {
+  const GyroSensor& gyro = *request.sensors.gyro;
+  const StarConsensus stars =
+      consensus_of(all.rates, all.stars,
+                   {.star_rad = request.sensors.star_tracker->noise_rad,
+                    .bias_rad_s = Vector3d::Zero(),
+                    .bias_covariance_rad2_s2 =
+                        gyro.bias_sigma_rad_s * gyro.bias_sigma_rad_s * Matrix3d::Identity()});
+  const double last_s = all.seconds_of(all.events.back().t);
+  const auto pass = backwards(request, all, anchor(stars.accepted, last_s));
+  if (!pass) {
+    return Unexpected{pass.error()};
+  }
+  History history = history_of(request, all, pass->nodes);
+  Reconstruction result{.method = ReconstructionMethod::Sequential,
+                        .events = events_of(all, history),
+                        .history = std::move(history.attitudes),
+                        .bias = std::nullopt,
+                        .misalignment = std::nullopt,
+                        .open_bias = {},
+                        .gyro = gyro_residuals(all),
+                        .sun = pass->sun,
+                        .star = {.count = 1, .outliers = stars.gated},
+                        .assessment = {},
+                        .iterations = pass->iterations};
+  result.assessment = assess(request, all, result, stars);
+  return result;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,66 @@
+#include "pipelines/reconstruction/gyro_screening.h"
+
+#include <gtest/gtest.h>
+
+namespace spindrift::gyro_screening_test {
+
+using Eigen::Vector3d;
+
+constexpr GyroSensor kGyro{.noise_rad_s = 3.5e-5, .bias_sigma_rad_s = 1e-4, .range_rad_s = 0.1};
+
+std::vector<GyroSample> noisy(int count, double grid_rad_s = 0.0) {
+  std::mt19937_64 generator{3};
+  std::normal_distribution<double> normal;
+  std::vector<GyroSample> samples;
+  for (int i = 0; i < count; ++i) {
+    Vector3d rate{0.01, -0.02, 0.001 * i / count};
+    for (double& axis : rate) {
+      axis += kGyro.noise_rad_s * normal(generator);
+      axis = grid_rad_s > 0.0 ? grid_rad_s * std::round(axis / grid_rad_s) : axis;
+    }
+    samples.push_back({shifted(tai_from_ns(0), 0.25 * i), rate});
+  }
+  return samples;
+}
+
+TEST(GyroScreening, KeepsWhatIsGoodAndSeesItsNoise) {
+  const ScreenedGyro screened_gyro = screened(noisy(2000), kGyro);
+  EXPECT_EQ(screened_gyro.usable.size(), 2000U);
+  EXPECT_EQ(screened_gyro.saturated, 0);
+  EXPECT_EQ(screened_gyro.frozen, 0);
+  EXPECT_NEAR(screened_gyro.noise.value(), 1.0, 0.06);
+}
+
+TEST(GyroScreening, LeavesOutWhatRepeatsButForItsFirst) {
+  std::vector<GyroSample> samples = noisy(400);
+  for (std::size_t i = 101; i < 120; ++i) {
+    samples[i].rate_body_rad_s = samples[100].rate_body_rad_s;
+  }
+  const ScreenedGyro screened_gyro = screened(samples, kGyro);
+  EXPECT_EQ(screened_gyro.frozen, 19);
+  EXPECT_EQ(screened_gyro.usable.size(), 381U);
+}
+
+TEST(GyroScreening, LeavesOutWhatRepeatsAboutOneAxis) {
+  std::vector<GyroSample> samples = noisy(400, 0.1 * kGyro.noise_rad_s);
+  for (std::size_t i = 101; i < 120; ++i) {
+    samples[i].rate_body_rad_s.y() = samples[100].rate_body_rad_s.y();
+  }
+  EXPECT_EQ(screened(samples, kGyro).frozen, 19);
+}
+
+/// A grid three times the noise repeats most samples by chance.
+TEST(GyroScreening, KeepsWhatRepeatsOnACoarseGrid) {
+  EXPECT_EQ(screened(noisy(2000, 3.0 * kGyro.noise_rad_s), kGyro).frozen, 0);
+}
+
+TEST(GyroScreening, LeavesOutWhatIsAtTheEndOfTheRange) {
+  std::vector<GyroSample> samples = noisy(100);
+  samples[40].rate_body_rad_s.y() = -0.1;
+  samples[41].rate_body_rad_s.z() = 0.13;
+  const ScreenedGyro screened_gyro = screened(samples, kGyro);
+  EXPECT_EQ(screened_gyro.saturated, 2);
+  EXPECT_EQ(screened_gyro.usable.size(), 98U);
+}
+
+}  // namespace spindrift::gyro_screening_test

@@ -1,0 +1,92 @@
+#include "pipelines/reconstruction/launcher_check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "pipelines/ephemeris/orbit_frame.h"
+#include "pipelines/frames/angle.h"
+#include "pipelines/frames/rotation_vector.h"
+
+namespace spindrift::launcher_check_test {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using ::testing::HasSubstr;
+
+const TaiTime kSeparation = tai_from_ns(1'772'337'637'000'000'000);
+const std::optional<Orbit> kOrbit{Orbit{KeplerOrbit::make({.epoch = kSeparation,
+                                                           .semi_major_axis_km = 7000.0,
+                                                           .eccentricity = 0.001,
+                                                           .inclination_rad = 1.7,
+                                                           .raan_rad = 0.5,
+                                                           .argument_of_perigee_rad = 1.0,
+                                                           .mean_anomaly_rad = 2.0})
+                                            .value()}};
+
+Euler312 euler312_of_deg(double phi, double theta, double psi) {
+  return {phi * kRadPerDeg, theta * kRadPerDeg, psi * kRadPerDeg};
+}
+
+// Seed 000: the launcher's figure, and that of the reconstruction.
+const Euler312 kTold = euler312_of_deg(0.229, 0.2869, 179.72);
+const Euler312 kFound = euler312_of_deg(-0.5155, 1.3194, 176.0337);
+
+Quaterniond in_icrf(const Euler312& angles) {
+  return orbit_frame(kOrbit->at(kSeparation).value()).value() * quaternion_of(angles);
+}
+
+ReconstructedAttitude found(const Quaterniond& q_icrf_body, double sigma_deg) {
+  return {.t = kSeparation,
+          .q_icrf_body = q_icrf_body,
+          .rate_body_rad_s = Vector3d::Zero(),
+          .covariance_rad2 = std::pow(sigma_deg * kRadPerDeg, 2) * Matrix3d::Identity(),
+          .rate_covariance_rad2_s2 = Matrix3d::Identity()};
+}
+
+TEST(LauncherCheck, GivesTheDifferenceOfThePaper) {
+  const auto check =
+      launcher_check({InOrbitFrame{kTold}, 0.5 * kRadPerDeg}, found(in_icrf(kFound), 1.2), kOrbit);
+  ASSERT_TRUE(check) << check.error().message;
+  EXPECT_NEAR(degrees(check->difference.angle_rad), 3.9, 0.05);
+  // 0.5 and 1.2 deg are 1.3 deg together.
+  const double sigmas = degrees(check->difference.angle_rad) / 1.3;
+  EXPECT_NEAR(check->difference.chi_square, sigmas * sigmas, 1e-9);
+  EXPECT_NEAR(check->chance, 0.029, 0.001);
+  EXPECT_LT(angle_between_rad(check->q_icrf_body, in_icrf(kTold)), 1e-12);
+}
+
+TEST(LauncherCheck, SaysThatTheSameIsTheSame) {
+  const auto check =
+      launcher_check({InOrbitFrame{kTold}, 0.01}, found(in_icrf(kTold), 0.5), kOrbit).value();
+  EXPECT_NEAR(check.difference.angle_rad, 0.0, 1e-12);
+  EXPECT_NEAR(check.chance, 1.0, 1e-9);
+}
+
+/// The launch inertial frame rests among the stars: half an hour of flight changes nothing.
+TEST(LauncherCheck, GoesTheChainOfALaunchWithoutAnOrbit) {
+  const Launch launch{{5.2 * kRadPerDeg, -52.8 * kRadPerDeg}, 1.6, shifted(kSeparation, -1800.0)};
+  const Quaterniond q_launch_body = launch_frame(launch).conjugate() * in_icrf(kFound);
+  const LauncherAttitude told{InLaunchFrame{euler312_of(q_launch_body).angles, launch}, 0.01};
+  const auto check = launcher_check(told, found(in_icrf(kFound), 0.5), std::nullopt);
+  ASSERT_TRUE(check) << check.error().message;
+  EXPECT_LT(angle_between_rad(check->q_icrf_body, in_icrf(kFound)), 1e-12);
+  EXPECT_NEAR(check->chance, 1.0, 1e-9);
+}
+
+TEST(LauncherCheck, SaysWhatItLacks) {
+  const auto attitude = found(in_icrf(kFound), 0.5);
+  const auto no_orbit = launcher_check({InOrbitFrame{kTold}, 0.01}, attitude, std::nullopt);
+  ASSERT_FALSE(no_orbit);
+  EXPECT_EQ(no_orbit.error().code, ErrorCode::Unobservable);
+  EXPECT_THAT(no_orbit.error().message, HasSubstr("no orbit is known"));
+  for (const double sigma_rad : {0.0, -0.01, std::numeric_limits<double>::quiet_NaN()}) {
+    const auto no_sigma = launcher_check({InOrbitFrame{kTold}, sigma_rad}, attitude, kOrbit);
+    ASSERT_FALSE(no_sigma);
+    EXPECT_EQ(no_sigma.error().code, ErrorCode::InvalidConfiguration);
+  }
+}
+
+}  // namespace spindrift::launcher_check_test

@@ -1,0 +1,323 @@
+#include "pipelines/reconstruction/reconstruct.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipelines/frames/angle.h"
+#include "pipelines/frames/rotation_vector.h"
+#include "tests/support/recorded_separation.h"
+#include "tests/support/separation_flight.h"
+
+namespace spindrift::reconstruct_test {
+
+using enum SeparationEvent;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using testing::FlightPlan;
+using testing::recorded_separation;
+using testing::RecordedSeparation;
+using testing::separation_flight;
+using testing::SeparationFlight;
+
+Reconstruction batch(const ReconstructionRequest& request) {
+  auto found = reconstruct(request, ReconstructionMethod::Batch);
+  EXPECT_TRUE(found) << found.error().message;
+  return std::move(found).value();
+}
+
+const ReconstructedEvent& at(const Reconstruction& found, SeparationEvent event) {
+  return *find(found, event);
+}
+
+double sigma_rad(const ReconstructedEvent& event) { return event.attitude.sigma_rad(); }
+
+/// Sigmas, of three degrees of freedom.
+double normalised(const Vector3d& error_rad, const ReconstructedEvent& event) {
+  return std::sqrt(error_rad.dot(event.attitude.covariance_rad2.llt().solve(error_rad)));
+}
+
+Vector3d error_rad(const RecordedSeparation& pass, const Reconstruction& found,
+                   SeparationEvent event, const char* name) {
+  return rotation_vector_of(at(found, event).attitude.q_icrf_body.conjugate() *
+                            pass.truth.at(name).q_icrf_body);
+}
+
+TEST(ReconstructBatch, FindsTheRecordedSeparationWithinItsSigma) {
+  const RecordedSeparation pass = recorded_separation("separation");
+  const Reconstruction found = batch(pass.request());
+  for (const auto& [event, name] : {std::pair{Separation, "T1"}, std::pair{ControlOn, "T2"},
+                                    std::pair{Acquisition, "T3"}, std::pair{FirstStarFix, "T4"}}) {
+    const Vector3d error = error_rad(pass, found, event, name);
+    EXPECT_LT(degrees(error.norm()), 0.8) << name;
+    EXPECT_LT(normalised(error, at(found, event)), 3.0) << name;
+    EXPECT_LT(degrees(sigma_rad(at(found, event))), 1.5) << name;
+    EXPECT_FALSE(at(found, event).found);
+    RecordProperty(std::string{name} + "_error_deg", std::to_string(degrees(error.norm())));
+  }
+  EXPECT_EQ(found.assessment.quality, Quality::Ok);
+  EXPECT_EQ(found.sun.count, 223);
+  EXPECT_NEAR(found.sun.noise.value(), 1.0, 0.15);
+  EXPECT_NEAR(found.gyro.noise.value(), 1.0, 0.15);
+}
+
+TEST(ReconstructBatch, FindsTheTimesThatNobodyNamed) {
+  RecordedSeparation pass = recorded_separation("separation");
+  const SeparationTimes named = pass.times;
+  pass.times = {.separation = named.separation};
+  const Reconstruction found = batch(pass.request());
+  EXPECT_EQ(at(found, ControlOn).attitude.t, named.control_on);
+  EXPECT_EQ(at(found, Acquisition).attitude.t, named.acquisition);
+  EXPECT_EQ(at(found, FirstStarFix).attitude.t, named.first_star_fix);
+  EXPECT_TRUE(at(found, ControlOn).found);
+  EXPECT_FALSE(at(found, Separation).found);
+}
+
+TEST(ReconstructBatch, TakesTimesThatAreEqual) {
+  SeparationFlight flight = separation_flight({}, 2);
+  flight.times.separation = flight.times.first_star_fix.value();
+  flight.times.control_on = flight.times.acquisition = flight.times.first_star_fix;
+  flight.gyro.push_back(flight.gyro.back());
+  flight.gyro.back().t = shifted(flight.gyro.back().t, 0.25);
+  flight.gyro.back().rate_body_rad_s.x() += 1e-5;
+  for (const auto method : {ReconstructionMethod::Batch, ReconstructionMethod::Sequential}) {
+    const auto found = reconstruct(flight.request(), method);
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_EQ(found->events.size(), 4U);
+    EXPECT_EQ(found->history.size(), 1U);
+    EXPECT_LT(normalised(flight.error_rad(3, at(*found, Separation).attitude.q_icrf_body),
+                         at(*found, Separation)),
+              4.0);
+  }
+}
+
+// Real flights. Their rates have less noise than stated, and no bias.
+TEST(ReconstructBatch, FindsJunoAndDawn) {
+  for (const auto& [name, limit_deg] : {std::pair{"juno", 0.01}, std::pair{"dawn-2015", 0.05}}) {
+    const RecordedSeparation pass = recorded_separation(name);
+    const Reconstruction found = batch(pass.request());
+    const Vector3d error = error_rad(pass, found, Separation, "T1");
+    EXPECT_LT(degrees(error.norm()), limit_deg) << name;
+    EXPECT_LT(normalised(error, at(found, Separation)), 3.0) << name;
+    EXPECT_LT(degrees(sigma_rad(at(found, Separation))), 1.0) << name;
+    EXPECT_EQ(found.assessment.quality == Quality::Doubtful, false) << name;
+    RecordProperty(std::string{name} + "_error_deg", std::to_string(degrees(error.norm())));
+    RecordProperty(std::string{name} + "_sigma_deg",
+                   std::to_string(degrees(sigma_rad(at(found, Separation)))));
+  }
+}
+
+TEST(ReconstructSequential, FindsTheFlights) {
+  for (const auto& [name, limit_deg] :
+       {std::pair{"separation", 4.0}, std::pair{"juno", 0.01}, std::pair{"dawn-2015", 0.05}}) {
+    const RecordedSeparation pass = recorded_separation(name);
+    const auto found = reconstruct(pass.request(), ReconstructionMethod::Sequential);
+    ASSERT_TRUE(found) << found.error().message;
+    const Vector3d error = error_rad(pass, *found, Separation, "T1");
+    EXPECT_LT(degrees(error.norm()), limit_deg) << name;
+    EXPECT_LT(normalised(error, at(*found, Separation)), 3.0) << name;
+    EXPECT_FALSE(found->bias);
+  }
+}
+
+/// One vector cannot tell a turn about itself; what it told wrongly would add up over hundreds.
+TEST(ReconstructSequential, TurnsNothingAboutTheSun) {
+  const SeparationFlight flight =
+      separation_flight({.gyro_noise_deg_s = 1e-5, .bias_sigma_deg_s = 1e-5}, 3);
+  const Reconstruction found =
+      reconstruct(flight.request(), ReconstructionMethod::Sequential).value();
+  const ReconstructedEvent& acquisition = at(found, Acquisition);
+  const Vector3d error_rad = flight.error_rad(2, acquisition.attitude.q_icrf_body);
+  EXPECT_LT(degrees(std::abs(error_rad.dot(flight.sun.front().sun_body))), 0.1);
+  EXPECT_LT(normalised(error_rad, acquisition), 3.5);
+}
+
+TEST(ReconstructBatch, ConvergesInFewIterationsHoweverManyNodes) {
+  ReconstructionRequest request =
+      separation_flight({.first_star_fix_s = 660.0, .end_s = 660.0}, 4).request();
+  const int few = batch(request).iterations;
+  request.node_at_every_gyro_sample = true;
+  EXPECT_LE(batch(request).iterations, few + 1);
+  EXPECT_LT(few, 20);
+}
+
+TEST(ReconstructBatch, ANodeAtEverySampleChangesNoEvent) {
+  const RecordedSeparation pass = recorded_separation("separation");
+  ReconstructionRequest request = pass.request();
+  const Reconstruction few = batch(request);
+  request.node_at_every_gyro_sample = true;
+  const Reconstruction many = batch(request);
+  EXPECT_GT(many.history.size(), few.history.size() + 600);
+  for (const SeparationEvent event : {Separation, ControlOn, Acquisition, FirstStarFix}) {
+    const double off_rad = angle_between_rad(at(few, event).attitude.q_icrf_body,
+                                             at(many, event).attitude.q_icrf_body);
+    EXPECT_LT(off_rad, 1e-3 * sigma_rad(at(few, event)));
+    EXPECT_NEAR(sigma_rad(at(many, event)), sigma_rad(at(few, event)),
+                1e-3 * sigma_rad(at(few, event)));
+  }
+}
+
+TEST(ReconstructBatch, SurvivesSunOutliers) {
+  SeparationFlight flight = separation_flight({}, 5);
+  const Reconstruction clean = batch(flight.request());
+  for (std::size_t i = 0; i < flight.sun.size(); i += 12) {
+    flight.sun[i].sun_body = quaternion_by({0.0, 0.4, -0.9}) * flight.sun[i].sun_body;
+  }
+  const Reconstruction dirty = batch(flight.request());
+  EXPECT_EQ(dirty.sun.outliers, 19);
+  const double moved_rad = angle_between_rad(at(clean, Separation).attitude.q_icrf_body,
+                                             at(dirty, Separation).attitude.q_icrf_body);
+  EXPECT_LT(moved_rad, 0.5 * sigma_rad(at(clean, Separation)));
+  EXPECT_TRUE(has(dirty.assessment, ReasonCode::SunOutliers));
+}
+
+TEST(ReconstructBatch, BridgesGapsWithAWiderSigma) {
+  SeparationFlight flight = separation_flight({}, 6);
+  const Reconstruction whole = batch(flight.request());
+  flight.gyro.erase(flight.gyro.begin() + 20, flight.gyro.begin() + 60);
+  const Reconstruction gap = batch(flight.request());
+  EXPECT_TRUE(has(gap.assessment, ReasonCode::GyroGaps));
+  EXPECT_GT(sigma_rad(at(gap, ControlOn)), sigma_rad(at(whole, ControlOn)));
+  const Vector3d error = flight.error_rad(0, at(gap, Separation).attitude.q_icrf_body);
+  EXPECT_LT(normalised(error, at(gap, Separation)), 3.5);
+}
+
+TEST(ReconstructBatch, HoldsTheFirstRateBackToControlOnWithAWiderSigma) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    SeparationFlight flight = separation_flight({}, seed);
+    const double whole_rad = sigma_rad(at(batch(flight.request()), Separation));
+    flight.gyro.erase(flight.gyro.begin(), flight.gyro.begin() + 2);
+    const Reconstruction held = batch(flight.request());
+    EXPECT_GT(sigma_rad(at(held, Separation)), whole_rad);
+    EXPECT_LT(normalised(flight.error_rad(0, at(held, Separation).attitude.q_icrf_body),
+                         at(held, Separation)),
+              3.0);
+  }
+}
+
+TEST(ReconstructBatch, LeavesOutFrozenAndSaturatedSamples) {
+  SeparationFlight flight = separation_flight({}, 7);
+  for (std::size_t i = 401; i < 420; ++i) {
+    flight.gyro[i].rate_body_rad_s = flight.gyro[400].rate_body_rad_s;
+  }
+  flight.sensors.gyro->range_rad_s = 0.1;
+  flight.gyro[500].rate_body_rad_s.x() = 0.1;
+  const Reconstruction found = batch(flight.request());
+  EXPECT_EQ(found.gyro.outliers, 20);
+  EXPECT_TRUE(has(found.assessment, ReasonCode::GyroFrozen));
+  EXPECT_TRUE(has(found.assessment, ReasonCode::GyroSaturated));
+  EXPECT_EQ(found.assessment.quality, Quality::Doubtful);
+  EXPECT_LT(normalised(flight.error_rad(0, at(found, Separation).attitude.q_icrf_body),
+                       at(found, Separation)),
+            3.5);
+}
+
+TEST(ReconstructBatch, UsesAllStarFixesButThoseFarOff) {
+  SeparationFlight flight = separation_flight({.star_fix_step_s = 5.0, .end_s = 400.0}, 8);
+  ASSERT_EQ(flight.stars.size(), 21U);
+  const Reconstruction clean = batch(flight.request());
+  SeparationFlight first_only = flight;
+  first_only.stars.resize(1);
+  EXPECT_LT(sigma_rad(at(clean, Separation)),
+            sigma_rad(at(batch(first_only.request()), Separation)));
+  flight.stars[0].q_icrf_sensor = flight.stars[0].q_icrf_sensor * quaternion_by({0.5, 0.0, 0.0});
+  const Reconstruction dirty = batch(flight.request());
+  EXPECT_EQ(dirty.star.outliers, 1);
+  EXPECT_TRUE(has(dirty.assessment, ReasonCode::StarFixesGated));
+  EXPECT_LT(normalised(flight.error_rad(3, at(dirty, FirstStarFix).attitude.q_icrf_body),
+                       at(dirty, FirstStarFix)),
+            3.5);
+}
+
+TEST(ReconstructBatch, OrderRepetitionAndSignOfSamplesChangeNothing) {
+  SeparationFlight flight = separation_flight({.star_fix_step_s = 10.0, .end_s = 350.0}, 9);
+  const Reconstruction expected = batch(flight.request());
+  std::reverse(flight.gyro.begin(), flight.gyro.end());
+  flight.gyro.insert(flight.gyro.begin() + 7, flight.gyro[7]);
+  std::reverse(flight.sun.begin(), flight.sun.end());
+  flight.stars[2].q_icrf_sensor.coeffs() *= -1.0;
+  const Reconstruction found = batch(flight.request());
+  EXPECT_TRUE(has(found.assessment, ReasonCode::SamplesRepeated));
+  EXPECT_LT(angle_between_rad(at(found, Separation).attitude.q_icrf_body,
+                              at(expected, Separation).attitude.q_icrf_body),
+            1e-9);
+}
+
+TEST(ReconstructBatch, EstimatesAMisalignmentOfTheSunSensorWhenAsked) {
+  const Vector3d misalignment{0.01, -0.015, 0.0};
+  SeparationFlight flight =
+      separation_flight({.star_fix_step_s = 1.0, .end_s = 500.0, .sun_noise_deg = 0.1}, 10);
+  for (SunDirection& sun : flight.sun) {
+    sun.sun_body = quaternion_by(misalignment) * sun.sun_body;
+  }
+  ReconstructionRequest request = flight.request();
+  request.sun_misalignment_sigma_rad = 0.02;
+  const Reconstruction found = batch(request);
+  const Vector3d off = found.misalignment->vector_rad - misalignment;
+  EXPECT_LT(std::sqrt(off.dot(found.misalignment->covariance_rad2.llt().solve(off))), 3.5);
+  EXPECT_LT(off.head<2>().norm(), 0.002);
+}
+
+TEST(ReconstructBatch, NamesTheBiasThatIsOpen) {
+  SeparationFlight flight = separation_flight({}, 11);
+  // Once the Sun is acquired it stands still in the body.
+  flight.sun.erase(flight.sun.begin(), flight.sun.begin() + 120);
+  const Reconstruction found = batch(flight.request());
+  ASSERT_FALSE(found.open_bias.empty());
+  EXPECT_TRUE(has(found.assessment, ReasonCode::GyroBiasOpenBySun));
+  EXPECT_LT(degrees(found.open_bias.front().off_sun_rad.value()), 20.0);
+}
+
+TEST(ReconstructBatch, SaysThatNothingChecksOneStarFixAlone) {
+  SeparationFlight flight = separation_flight({}, 12);
+  flight.sun.clear();
+  flight.times.acquisition.reset();
+  const Reconstruction found = batch(flight.request());
+  EXPECT_EQ(found.assessment.quality, Quality::Converging);
+  EXPECT_EQ(find(found, Acquisition), nullptr);
+}
+
+TEST(ReconstructBatch, SaysThatTheRateIsConstantWhereTheInertiaIsUnknown) {
+  SeparationFlight flight = separation_flight({}, 13);
+  flight.sensors.inertia.reset();
+  const Reconstruction found = batch(flight.request());
+  EXPECT_TRUE(has(found.assessment, ReasonCode::ConstantRate));
+  EXPECT_LT(normalised(flight.error_rad(0, at(found, Separation).attitude.q_icrf_body),
+                       at(found, Separation)),
+            3.0);
+}
+
+TEST(ReconstructBatch, InertiaAndDisturbanceWidenOnlyTheArc) {
+  SeparationFlight flight = separation_flight({}, 14);
+  const Reconstruction known = batch(flight.request());
+  flight.sensors.inertia->sigma_fraction = 0.2;
+  ReconstructionRequest request = flight.request();
+  request.disturbance_rad_s2 = 1e-5;
+  const Reconstruction unknown = batch(request);
+  EXPECT_GT(sigma_rad(at(unknown, Separation)), 1.5 * sigma_rad(at(known, Separation)));
+  EXPECT_EQ(sigma_rad(at(unknown, ControlOn)), sigma_rad(at(known, ControlOn)));
+}
+
+TEST(ReconstructBatch, LeavesOutSunVectorsInTheShadow) {
+  SeparationFlight flight = separation_flight({}, 15);
+  std::int64_t shadowed = 0;
+  for (int i = 0; i < 6; ++i) {
+    KeplerElements elements{.epoch = flight.times.separation,
+                            .semi_major_axis_km = 7000.0,
+                            .eccentricity = 0.0,
+                            .inclination_rad = 0.4,
+                            .raan_rad = 0.0,
+                            .argument_of_perigee_rad = 0.0,
+                            .mean_anomaly_rad = i * 60.0 * kRadPerDeg};
+    const Orbit around{KeplerOrbit::make(elements).value()};
+    ReconstructionRequest request = flight.request();
+    request.orbit = around;
+    const Reconstruction found = batch(request);
+    shadowed += static_cast<std::int64_t>(flight.sun.size()) - found.sun.count;
+    EXPECT_EQ(found.sun.count < static_cast<std::int64_t>(flight.sun.size()),
+              has(found.assessment, ReasonCode::SunVectorsShadowed));
+  }
+  EXPECT_GT(shadowed, 200);
+  EXPECT_LT(shadowed, 800);
+}
+
+}  // namespace spindrift::reconstruct_test
