@@ -9,6 +9,7 @@
 #include <string_view>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "services/archive/bind.h"
 #include "services/archive/connection.h"
@@ -19,24 +20,27 @@ namespace {
 std::int64_t as_signed(std::uint64_t value) { return static_cast<std::int64_t>(value); }
 
 /// What is stored already stays as it is, but for its place in the order of the run that takes it
-/// now: the last parameter.
+/// now (?4). What was left out, as its source's time is wrong, makes way for a sample that came
+/// (?5).
 template <class Value>
 std::string insert_statement() {
-  std::string columns = "spacecraft_id, t_tai_ns";
-  std::string values = "?1, ?2";
-  int parameter = 2;
-  const auto add = [&](std::string_view column) {
-    columns += fmt::format(", {}", column);
+  std::vector<std::string_view> names{"source", "session", "seq"};
+  std::apply([&](const auto&... column) { (names.emplace_back(column.name), ...); },
+             Telemetry<Value>::kColumns);
+  std::string columns;
+  std::string values;
+  std::string updates;
+  int parameter = 5;
+  for (const std::string_view name : names) {
+    columns += fmt::format(", {}", name);
     values += fmt::format(", ?{}", ++parameter);
-  };
-  std::apply([&](const auto&... column) { (add(column.name), ...); }, Telemetry<Value>::kColumns);
-  for (const std::string_view column : {"source", "session", "seq", "arrival"}) {
-    add(column);
+    updates += fmt::format(", {0} = iif(arrival < 0 AND ?5, excluded.{0}, {0})", name);
   }
   return fmt::format(
-      "INSERT INTO {} ({}) VALUES ({}) ON CONFLICT DO UPDATE SET arrival = excluded.arrival"
-      " WHERE arrival < (SELECT first_arrival FROM run WHERE run_id = ?{})",
-      Telemetry<Value>::kTable, columns, values, parameter + 1);
+      "INSERT INTO {} (spacecraft_id, t_tai_ns, arrival{}) VALUES (?1, ?2, ?3{})"
+      " ON CONFLICT DO UPDATE SET arrival = excluded.arrival{}"
+      " WHERE arrival < (SELECT first_arrival FROM run WHERE run_id = ?4)",
+      Telemetry<Value>::kTable, columns, values, updates);
 }
 
 std::vector<SQLite::Statement> insert_statements(SQLite::Database& database) {
@@ -102,7 +106,7 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
   }
   batch.samples.for_each([&](const auto& of_kind) {
     for (const auto& sample : of_kind) {
-      insert(batch.run_id, sample);
+      insert(batch.run_id, sample, Came::Now);
     }
   });
   batch.moved.for_each([&]<class Value>(const std::vector<Arrived<Value>>& of_kind) {
@@ -110,7 +114,8 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
       insert(
           batch.run_id,
           TelemetrySample<Value>{
-              .spacecraft = batch.spacecraft_id, .origin = {}, .value = value, .arrival = arrival});
+              .spacecraft = batch.spacecraft_id, .origin = {}, .value = value, .arrival = arrival},
+          Came::Before);
     }
   });
   for (const std::int64_t arrival : batch.silences) {
@@ -152,12 +157,14 @@ void BatchWriter::insert(const ArchiveBatch& batch, const RunStart& start) {
 }
 
 template <class Value>
-void BatchWriter::insert(const std::string& run_id, const TelemetrySample<Value>& sample) {
+void BatchWriter::insert(const std::string& run_id, const TelemetrySample<Value>& sample,
+                         Came came) {
   std::apply(
       [&](const auto&... column) {
         execute(samples_[kTelemetryKind<Value>], sample.spacecraft, tai_ns(sample.value.t),
-                column.of(sample.value)..., sample.origin.source, as_signed(sample.origin.session),
-                as_signed(sample.origin.seq), sample.arrival, run_id);
+                sample.arrival, run_id, std::int64_t{came == Came::Now}, sample.origin.source,
+                as_signed(sample.origin.session), as_signed(sample.origin.seq),
+                column.of(sample.value)...);
       },
       Telemetry<Value>::kColumns);
 }

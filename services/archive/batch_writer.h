@@ -31,8 +31,10 @@ class BatchWriter {
  private:
   void insert(const ArchiveBatch& batch);
   void insert(const ArchiveBatch& batch, const RunStart& start);
+  /// A sample: now, or before, to be left out then.
+  enum class Came { Now, Before };
   template <class Value>
-  void insert(const std::string& run_id, const TelemetrySample<Value>& sample);
+  void insert(const std::string& run_id, const TelemetrySample<Value>& sample, Came came);
   void insert(const std::string& run_id, const RejectedInput& rejected);
   void insert(const std::string& run_id, const SourceCount& count);
   void insert_latest_counts(std::span<const ArchiveBatch> batches);

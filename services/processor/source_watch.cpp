@@ -8,14 +8,40 @@ namespace spindrift {
 
 SourceWatch::Verdict SourceWatch::judge(const Origin& origin, TaiTime t, const Moment& moment) {
   Source& source = source_of(origin, moment);
-  const auto others = time_of_others(source, moment.now);
-  if (!is_in_time(source, others, t)) {
+  const auto others = reach_of_others(source, moment.now);
+  const Place place = place_of(source, others, t, moment.now);
+  if (place != Place::Level) {
     note_apart(source, t, true, moment);
     tell(*last_, t, others, moment);
+  } else {
+    note_level(source, t, moment);
+  }
+  if (place == Place::Apart) {
     return Verdict::Apart;
   }
+  return count_of(source.held) > 0 ? Verdict::Healed : Verdict::InTime;
+}
+
+SourceWatch::Place SourceWatch::place_of(const Source& source, std::optional<Reach> others,
+                                         TaiTime t, Instant now) const {
+  // Where a pause says nothing, who pauses would hold the others back.
+  auto pass = reach_of_pass(now);
+  if (others && (pace_.is_of_the_clock || !pass)) {
+    pass = others;
+  }
+  if (!pass || (!others && source.carries && t > pass->from)) {
+    return Place::Level;
+  }
+  if (t > later_by(pass->to, pace_.ahead) || later_by(t, kApart) < pass->from) {
+    return Place::Apart;
+  }
+  return others && later_by(t, pace_.ahead) < pass->from ? Place::Late : Place::Level;
+}
+
+void SourceWatch::note_level(Source& source, TaiTime t, const Moment& moment) {
   source.time.see(t);
   pass_.see(t);
+  pass_heard_ = moment.now;
   ++carried_;
   source.carries = true;
   source.apart_since.reset();
@@ -26,12 +52,6 @@ SourceWatch::Verdict SourceWatch::judge(const Origin& origin, TaiTime t, const M
     source.told = false;
     news_.push_back({.source = last_->first, .t = t, .pass = t, .healed = true});
   }
-  return count_of(source.held) > 0 ? Verdict::Healed : Verdict::InTime;
-}
-
-bool SourceWatch::is_in_time(const Source& source, std::optional<TaiTime> others, TaiTime t) const {
-  const auto pass = pass_.time() ? pass_.time() : others;
-  return !pass || !are_apart(*pass, t) || (!others && source.carries && t > *pass);
 }
 
 /// @param counts Whether it may be the last word.
@@ -48,15 +68,15 @@ void SourceWatch::note_apart(Source& source, TaiTime t, bool counts, const Momen
 }
 
 /// Of those that nobody contradicts, `successor` decides first.
-void SourceWatch::tell(Entry& entry, TaiTime t, std::optional<TaiTime> others,
-                       const Moment& moment) {
+void SourceWatch::tell(Entry& entry, TaiTime t, std::optional<Reach> others, const Moment& moment) {
   Source& source = entry.second;
-  const auto pass = pass_.time() ? pass_.time() : others;
-  if (source.told || !others || (t < *pass && moment.now - *source.apart_since < kSilence)) {
+  const bool may_catch_up =
+      others && t < others->from && moment.now - *source.apart_since < pace_.silence;
+  if (source.told || !others || may_catch_up) {
     return;
   }
   source.told = true;
-  news_.push_back({.source = entry.first, .t = t, .pass = *pass, .healed = false});
+  news_.push_back({.source = entry.first, .t = t, .pass = others->from, .healed = false});
 }
 
 void SourceWatch::hear(const Origin& origin, const Moment& moment) {
@@ -85,30 +105,29 @@ bool SourceWatch::can_follow(const Source& source, const Moment& moment) const {
   if (!source.apart_since || !source.time.goes_on() || !pass_.time()) {
     return false;
   }
-  const TaiTime t = source.time.recent();
-  const bool lasts = t > *pass_.time() || moment.now - *source.apart_since >= kSilence;
-  const auto others = time_of_others(source, moment.now);
-  if (!others) {
-    return lasts && has_last_word(source);
+  const Reach it = reach(source.time.recent(), source.heard, moment.now);
+  const bool may_catch_up = it.from <= *pass_.time() &&
+                            moment.now - *source.apart_since < pace_.silence &&
+                            vote_of_host(it, moment) <= 0;
+  if (may_catch_up) {
+    return false;
   }
-  const bool has_host = moment.host && !are_apart(t, *moment.host, kHostApart) &&
-                        are_apart(*pass_.time(), *moment.host, kHostApart);
-  return has_host || (lasts && supporters(t, moment.now) > carriers(moment.now));
+  return reach_of_others(source, moment.now) ? lead_over_pass(it, moment) > 0
+                                             : has_last_word(source);
 }
 
 std::optional<SourceId> SourceWatch::successor(const Moment& moment) const {
   const Entry* best = nullptr;
-  std::pair<bool, std::size_t> most;
+  std::ptrdiff_t most = 0;
   for (const Entry& entry : sources_) {
     if (!can_follow(entry.second, moment)) {
       continue;
     }
-    const TaiTime t = entry.second.time.recent();
-    const std::pair speaks_for_it{moment.host && !are_apart(t, *moment.host, kHostApart),
-                                  supporters(t, moment.now)};
-    if (best == nullptr || speaks_for_it > most) {
+    const std::ptrdiff_t lead =
+        lead_over_pass(reach(entry.second.time.recent(), entry.second.heard, moment.now), moment);
+    if (best == nullptr || lead > most) {
       best = &entry;
-      most = speaks_for_it;
+      most = lead;
     }
   }
   return best == nullptr ? std::nullopt : std::optional{best->first};
@@ -129,27 +148,31 @@ std::optional<SourceWatch::Instant> SourceWatch::next_decision() const {
       silent = std::max(silent.value_or(source.heard), source.heard);
     }
     if (has_last_word(source)) {
-      const bool behind = pass_.time() && source.time.recent() < *pass_.time();
-      const Instant from = behind ? *source.apart_since : source.heard - kSilence;
+      const bool behind = pass_.time() && source.time.recent() <= *pass_.time();
+      const Instant from = behind ? *source.apart_since : source.heard - pace_.silence;
       caught_up = std::min(caught_up.value_or(from), from);
     }
   }
   if (!caught_up || !pass_.time()) {
     return std::nullopt;
   }
-  return std::max(silent.value_or(*caught_up), *caught_up) + kSilence;
+  return std::max(silent.value_or(*caught_up), *caught_up) + pace_.silence;
 }
 
 TelemetryValues SourceWatch::follow(const SourceId& successor) {
   Source& source = sources_.at(successor);
+  const Reach it = reach(source.time.recent(), source.heard, source.heard);
   for (auto& [id, other] : sources_) {
-    other.carries = other.carries && !are_apart(other.time.recent(), source.time.recent());
+    other.carries =
+        other.carries &&
+        agree(reach(other.time.recent(), other.heard, std::max(other.heard, source.heard)), it);
   }
   source.carries = true;
   source.apart_since.reset();
   source.told = false;
   carrier_ = &sources_.find(successor)->first;
   pass_ = source.time;
+  pass_heard_ = source.heard;
   ++carried_;
   held_ -= count_of(source.held);
   return std::exchange(source.held, TelemetryValues{});
@@ -179,9 +202,11 @@ SourceWatch::Source& SourceWatch::source_of(const Origin& origin, const Moment& 
       last_->first.name != origin.source) {
     const SourceId id{origin.source, origin.session};
     if (!sources_.contains(id) && sources_.size() == kMostSources) {
-      const auto oldest = std::min_element(
-          sources_.begin(), sources_.end(),
-          [](const Entry& a, const Entry& b) { return a.second.heard < b.second.heard; });
+      const auto oldest =
+          std::min_element(sources_.begin(), sources_.end(), [](const Entry& a, const Entry& b) {
+            return std::pair{a.second.carries, a.second.heard} <
+                   std::pair{b.second.carries, b.second.heard};
+          });
       carrier_ = carrier_ == &oldest->first ? nullptr : carrier_;
       held_ -= count_of(oldest->second.held);
       sources_.erase(oldest);
@@ -204,36 +229,71 @@ void SourceWatch::make_room() {
   most->second.held = {};
 }
 
-std::optional<TaiTime> SourceWatch::time_of_others(const Source& source, Instant now) const {
-  std::optional<TaiTime> latest;
+SourceWatch::Reach SourceWatch::reach(TaiTime t, Instant heard, Instant now) const {
+  return {.from = t, .to = pace_.is_of_the_clock ? later_by(t, now - heard) : t};
+}
+
+std::optional<SourceWatch::Reach> SourceWatch::reach_of_pass(Instant now) const {
+  return pass_.time() ? std::optional{reach(*pass_.time(), pass_heard_, now)} : std::nullopt;
+}
+
+/// Of those that carry the pass, as far as any has come.
+std::optional<SourceWatch::Reach> SourceWatch::reach_of_others(const Source& source,
+                                                               Instant now) const {
+  std::optional<Reach> all;
   for (const auto& [id, other] : sources_) {
-    if (&other != &source && other.carries && other.time.time() && now - other.heard < kSilence) {
-      latest = std::max(latest.value_or(*other.time.time()), *other.time.time());
+    if (&other != &source && other.carries && other.time.time() && is_heard(other, now)) {
+      const Reach one = reach(*other.time.time(), other.heard, now);
+      all =
+          all ? Reach{.from = std::max(all->from, one.from), .to = std::max(all->to, one.to)} : one;
     }
   }
-  return latest;
+  return all;
+}
+
+bool SourceWatch::agree(const Reach& one, const Reach& other) const {
+  return one.from <= later_by(other.to, pace_.ahead) && other.from <= later_by(one.to, pace_.ahead);
+}
+
+bool SourceWatch::is_heard(const Source& source, Instant now) const {
+  return now - source.heard < pace_.silence;
 }
 
 /// By name: one that begins session after session is one.
-std::size_t SourceWatch::supporters(TaiTime t, Instant now) const {
+std::size_t SourceWatch::supporters(const Reach& reach_of_one, Instant now) const {
   std::set<std::string_view> names;
   for (const auto& [id, source] : sources_) {
-    if (source.time.goes_on() && now - source.heard < kSilence &&
-        !are_apart(source.time.recent(), t)) {
+    if (source.time.goes_on() && is_heard(source, now) &&
+        agree(reach(source.time.recent(), source.heard, now), reach_of_one)) {
       names.insert(id.name);
     }
   }
   return names.size();
 }
 
-std::size_t SourceWatch::carriers(Instant now) const {
-  std::set<std::string_view> names;
-  for (const auto& [id, source] : sources_) {
-    if (source.carries && source.time.time() && now - source.heard < kSilence) {
-      names.insert(id.name);
-    }
+/// 1: for what is there; -1: for the pass; 0: for neither, since it is far from both or they are
+/// equally near.
+std::ptrdiff_t SourceWatch::vote_of_host(const Reach& there, const Moment& moment) const {
+  if (!moment.host || !pass_.time()) {
+    return 0;
   }
-  return names.size();
+  const auto distance = [&](const Reach& reach) {
+    return std::max({span_between(*moment.host, reach.from), span_between(reach.to, *moment.host),
+                     std::chrono::nanoseconds{0}});
+  };
+  const auto nearer = [&](const Reach& one, const Reach& other) {
+    return distance(one) <= kHostApart && distance(one) + pace_.ahead < distance(other);
+  };
+  const Reach pass = *reach_of_pass(moment.now);
+  return nearer(there, pass) ? 1 : nearer(pass, there) ? -1 : 0;
+}
+
+/// How many votes more than the pass.
+std::ptrdiff_t SourceWatch::lead_over_pass(const Reach& there, const Moment& moment) const {
+  const auto of = [&](const Reach& reach) {
+    return static_cast<std::ptrdiff_t>(supporters(reach, moment.now));
+  };
+  return of(there) - of(*reach_of_pass(moment.now)) + vote_of_host(there, moment);
 }
 
 }  // namespace spindrift

@@ -31,26 +31,40 @@ struct Moment {
   std::optional<TaiTime> host = {};  ///< Where samples are of now, what the host takes for now.
 };
 
-/// A sample that is more than kApart from what the pass has reached is apart: it does not count,
-/// and is held until it is known who is right. Only the jumps ahead of a source that carries the
-/// pass alone are left to PassWatch and the pipelines.
+/// How the time of telemetry goes.
+struct Pace {
+  bool is_of_the_clock;              ///< As on the wall: while a source pauses, its time goes on.
+  std::chrono::nanoseconds silence;  ///< After so long on the wall a source is silent.
+  std::chrono::nanoseconds ahead;    ///< Further ahead of the others one is apart.
+};
+/// A source that is ahead makes the samples of all others late. Links differ by a few seconds; UTC
+/// and the time of GPS taken for TAI are 37 and 19 s off.
+inline constexpr Pace kLivePace{true, std::chrono::minutes{1}, std::chrono::seconds{5}};
+/// A replay is as fast as it likes.
+inline constexpr Pace kReplayPace{false, std::chrono::seconds{5}, kApart};
+
+/// A sample ahead of the other sources, or more than kApart behind them, is apart: it does not
+/// count, and is held until it is known who is right. One that is less behind is late, which the
+/// pipelines see to, and has no say. Only the jumps ahead of a source that carries the pass alone
+/// are left to PassWatch and the pipelines.
 ///
-/// A source that is apart carries the pass on when it gave enough and, since, the others nothing
-/// for kSilence; when it agrees with the host's clock and the others do not; or when more sources
-/// agree with it. One behind, which may be sending its last minutes again, has kSilence to catch
-/// up.
+/// A source that is apart or late carries the pass on when it gave enough and the others are
+/// silent, or when it has more votes than the pass: those of the sources that agree, and that of
+/// the host's clock, which goes to the nearer. One behind, which may be sending its last minutes
+/// again, has as long as a silence to catch up, if not the host is for it.
 ///
 /// Memory is bounded: beyond kMostSources the one not heard for longest is forgotten, and beyond
 /// kMostHeld samples those of the source that has most.
 class SourceWatch {
  public:
-  static constexpr std::chrono::seconds kSilence{5};
   static constexpr std::chrono::minutes kHostApart{10};
   static constexpr std::size_t kMostSources = 64;
   static constexpr std::size_t kMostHeld = 1'000'000;
 
   /// Healed: in time again, and some of the source are held.
   enum class Verdict { InTime, Healed, Apart };
+
+  explicit SourceWatch(const Pace& pace) : pace_{pace} {}
 
   template <class Value>
   Verdict see(const Origin& origin, const Arrived<Value>& arrived, const Moment& moment) {
@@ -99,7 +113,10 @@ class SourceWatch {
 
   /// @name After a restart, in this order
   /// @{
-  void restore(TaiTime in_time) { pass_.see(in_time); }
+  void restore(TaiTime in_time, const Moment& moment) {
+    pass_.see(in_time);
+    pass_heard_ = moment.now;
+  }
   /// It gave some of what is in time.
   void restore_carrier(const Origin& origin, const Moment& moment);
   /// @param last_word Nothing in time came since.
@@ -117,19 +134,27 @@ class SourceWatch {
   struct Source {
     SteadyTime time;
     Instant heard;
-    bool carries = false;                ///< Its last sample was in time.
+    bool carries = false;                ///< Its last sample was level with the others.
     std::optional<Instant> apart_since;  ///< Empty: it is not.
-    std::size_t alone = 0;               ///< Apart, since the last sample of another in time.
-    std::uint64_t carried = 0;           ///< How many were in time then.
+    std::size_t alone = 0;               ///< Apart, since the last level one of another.
+    std::uint64_t carried = 0;           ///< How many were level then.
     bool told = false;
     TelemetryValues held;
   };
   using Entry = std::pair<const SourceId, Source>;
 
+  /// Where a stream is: from where its samples have come to where it may be by now.
+  struct Reach {
+    TaiTime from;
+    TaiTime to;
+  };
+  enum class Place { Level, Late, Apart };
+
   Verdict judge(const Origin& origin, TaiTime t, const Moment& moment);
-  bool is_in_time(const Source& source, std::optional<TaiTime> others, TaiTime t) const;
+  Place place_of(const Source& source, std::optional<Reach> others, TaiTime t, Instant now) const;
+  void note_level(Source& source, TaiTime t, const Moment& moment);
   void note_apart(Source& source, TaiTime t, bool counts, const Moment& moment);
-  void tell(Entry& entry, TaiTime t, std::optional<TaiTime> others, const Moment& moment);
+  void tell(Entry& entry, TaiTime t, std::optional<Reach> others, const Moment& moment);
   template <class Value>
   void hold(const Arrived<Value>& arrived) {
     make_room();
@@ -138,17 +163,24 @@ class SourceWatch {
   }
   void make_room();
   Source& source_of(const Origin& origin, const Moment& moment);
-  std::optional<TaiTime> time_of_others(const Source& source, Instant now) const;
-  std::size_t supporters(TaiTime t, Instant now) const;
-  std::size_t carriers(Instant now) const;
+  Reach reach(TaiTime t, Instant heard, Instant now) const;
+  std::optional<Reach> reach_of_pass(Instant now) const;
+  std::optional<Reach> reach_of_others(const Source& source, Instant now) const;
+  bool agree(const Reach& one, const Reach& other) const;
+  bool is_heard(const Source& source, Instant now) const;
+  std::size_t supporters(const Reach& reach, Instant now) const;
+  std::ptrdiff_t vote_of_host(const Reach& there, const Moment& moment) const;
+  std::ptrdiff_t lead_over_pass(const Reach& there, const Moment& moment) const;
   bool has_last_word(const Source& source) const;
   bool can_follow(const Source& source, const Moment& moment) const;
 
+  Pace pace_;
   std::map<SourceId, Source> sources_;
   Entry* last_ = nullptr;  ///< Whose sample was seen last.
   const SourceId* carrier_ = nullptr;
   SteadyTime pass_;
-  std::uint64_t carried_ = 0;  ///< Samples in time.
+  Instant pass_heard_{};
+  std::uint64_t carried_ = 0;  ///< Samples that were level.
   std::size_t held_ = 0;
   std::vector<News> news_;
 };

@@ -92,7 +92,9 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
       next_arrival_{start_.first_arrival},
       silent_before_{next_arrival_},
       tables_{mission.tables},
-      judges_sources_{source.mode != "process"} {}
+      judges_sources_{source.mode != "process"},
+      pace_{source.mode == "live" ? kLivePace : kReplayPace},
+      sources_{pace_} {}
 
 void SpacecraftRun::arrive_after(std::int64_t first_arrival) {
   next_arrival_ = std::max(next_arrival_, first_arrival + kArrivalsOfARun);
@@ -125,7 +127,7 @@ SpacecraftRun::Taken SpacecraftRun::go_on(const std::vector<StoredPass>& stored,
                                           const Moment& moment) {
   Taken out;
   for (const StoredPass& pass : stored) {
-    go_on(pass, out);
+    go_on(pass, moment, out);
     out.reached.push_back(watch_.reached());
   }
   stored_.emplace(stored.back());
@@ -151,7 +153,7 @@ void SpacecraftRun::restore_sources(const StoredPass& stored, const Moment& mome
   }
 }
 
-void SpacecraftRun::go_on(const StoredPass& stored, Taken& out) {
+void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken& out) {
   if (!out.inputs.empty()) {
     received_before_.emplace(run_id_, received_);
     release_held(out.inputs);
@@ -165,7 +167,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, Taken& out) {
     counts_before_.emplace(count.source, counts_of(count));
   }
   watch_ = {};
-  sources_ = {};
+  sources_ = SourceWatch{pace_};
   // Not finished, whatever becomes of this service; nothing of it is withdrawn yet.
   out.batches.push_back(batch());
   out.batches.back().continuation = Continuation{.t = TaiTime::max()};
@@ -175,7 +177,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, Taken& out) {
       [&](const auto& arrived) {
         next_arrival_ = std::max(next_arrival_, arrived.arrival + 1);
         received_.count(arrived.value);
-        sources_.restore(arrived.value.t);
+        sources_.restore(arrived.value.t, moment);
         place(arrived, out);
       },
       [&](std::int64_t arrival) { hand_on_silence(arrival, out.inputs); });
@@ -244,9 +246,9 @@ void SpacecraftRun::tell_sources(const Moment& moment) {
   }
   const auto pass = sources_.pass_time();
   const auto carrier = sources_.carrier();
-  if (!told_host_ && moment.host && pass && carrier &&
-      are_apart(*pass, *moment.host, SourceWatch::kHostApart)) {
-    told_host_ = true;
+  if (moment.host && pass && carrier && told_host_.size() < SourceWatch::kMostSources &&
+      are_apart(*pass, *moment.host, SourceWatch::kHostApart) &&
+      told_host_.insert(carrier->name).second) {
     spdlog::warn(
         "{}: source {} says {}, and the clock of this host {}: one of them is wrong, or "
         "what it sends is recorded",

@@ -112,7 +112,7 @@ class SpacecraftRun {
   template <class Value>
   void accept(TelemetrySample<Value>&& sample, Taken& out);
   void accept(const TelemetryValues& held, Taken& out);
-  void go_on(const StoredPass& stored, Taken& out);
+  void go_on(const StoredPass& stored, const Moment& moment, Taken& out);
   void restore_sources(const StoredPass& stored, const Moment& moment);
   void decide(const Moment& moment, Taken& out);
   void follow(const SourceId& successor, Taken& out);
@@ -149,7 +149,8 @@ class SpacecraftRun {
   std::set<std::string> tables_;  ///< Of the mission file.
   std::array<bool, kTelemetryKindCount> told_undescribed_{};
   bool judges_sources_;
-  bool told_host_ = false;
+  std::set<std::string> told_host_;  ///< Sources, by name.
+  Pace pace_;
   SourceWatch sources_;
   PassWatch watch_;
   std::optional<StoredSamples> stored_;  ///< After a restart, until the pass has gone on.

@@ -120,6 +120,28 @@ TEST_F(ArchiveRestart, SamplesOfARunThatAnEarlierOneHasStoredAreItsOwnToo) {
   EXPECT_THAT(times_of(*pass), ElementsAre(30, 20, 40));
 }
 
+TEST_F(ArchiveRestart, WhatWasLeftOutMakesWayForASampleOfItsTime) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(begun("run-1", 100)));
+  const auto gyro = [](double x, std::int64_t arrival, const std::string& source) {
+    return TelemetrySample<GyroSample>{
+        .spacecraft = "SPINNER",
+        .origin = {.source = source, .session = 1, .seq = 1},
+        .value = {.t = tai_from_ns(10), .rate_body_rad_s = Eigen::Vector3d{x, 0.0, 0.0}},
+        .arrival = arrival};
+  };
+  for (const auto& sample : {gyro(3.0, -101, "wrong"), gyro(0.1, 102, "right"),
+                             gyro(4.0, -103, "wrong"), gyro(0.2, 104, "again")}) {
+    ArchiveBatch batch = batch_of("run-1");
+    batch.samples.of<GyroSample>() = {sample};
+    ASSERT_TRUE(archive->submit(batch));
+  }
+  ASSERT_TRUE(archive->flush());
+  EXPECT_EQ(
+      text("SELECT group_concat(wx_rad_s || ' ' || source || ' ' || arrival) FROM gyro_sample"),
+      "0.1 right 102");
+}
+
 TEST_F(ArchiveRestart, WhatARunLeftOutComesBackApartUntilARunTakesIt) {
   const auto archive = open();
   ASSERT_TRUE(archive->submit(begun("run-1", 100)));

@@ -19,6 +19,8 @@ constexpr std::size_t kEnough = PassWatch::kEnoughToAccept;
 
 class SourceWatchTest : public ::testing::Test {
  protected:
+  explicit SourceWatchTest(const Pace& pace = kReplayPace) : watch_{pace} {}
+
   Verdict see(const std::string& source, TaiTime t, std::uint64_t session = 1) {
     return watch_.see(
         {.source = source, .session = session, .seq = 0},
@@ -91,12 +93,12 @@ TEST_F(SourceWatchTest, OneThatDisagreesIsApartSampleBySampleUntilItHeals) {
   ASSERT_EQ(news.size(), 2U);
   EXPECT_EQ(news[0].source.name, "other");
   EXPECT_EQ(news[0].t, kStart + 75s);
-  EXPECT_EQ(news[0].pass, kStart + 8s);
+  EXPECT_EQ(news[0].pass, kStart + 7s);
   EXPECT_TRUE(news[1].healed);
   EXPECT_EQ(successor(), "");
 }
 
-TEST_F(SourceWatchTest, OneThatGoesOnFasterThanTheOthersIsInTime) {
+TEST_F(SourceWatchTest, InAReplayOneThatGoesOnFasterThanTheOthersIsInTime) {
   see_some("slow", kStart);
   EXPECT_EQ(see_some("fast", kStart, 600), Verdict::InTime);
   EXPECT_EQ(see("slow", kStart + 8s), Verdict::Apart);
@@ -114,7 +116,7 @@ TEST_F(SourceWatchTest, OneOfTwoThatBeganTogetherIsApart) {
 TEST_F(SourceWatchTest, OneAheadFollowsOnceTheOthersAreSilent) {
   see_some("first", kStart);
   see_some("second", kStart + 30min, kEnough - 1);
-  moment_.now += SourceWatch::kSilence;
+  moment_.now += kReplayPace.silence;
   EXPECT_EQ(successor(), "");
   see("second", kStart + 30min + 7s);
   EXPECT_EQ(successor(), "second");
@@ -139,7 +141,7 @@ TEST_F(SourceWatchTest, OneBehindMayCatchUpBeforeItFollows) {
   moment_.now += 1min;
   see_some("second", kStart);
   EXPECT_EQ(successor(), "");
-  ASSERT_EQ(watch_.next_decision(), moment_.now + SourceWatch::kSilence);
+  ASSERT_EQ(watch_.next_decision(), moment_.now + kReplayPace.silence);
   EXPECT_FALSE(watch_.successor_at_end(kEnough));
   EXPECT_TRUE(watch_.successor_at_end(kEnough - 1));
   moment_.now = *watch_.next_decision();
@@ -199,6 +201,131 @@ TEST_F(SourceWatchTest, HoldsNoMoreThanItMay) {
   see_some("right", kStart);
   see_some("wrong", kStart + 2h, SourceWatch::kMostHeld + kEnough);
   EXPECT_EQ(count_of(watch_.follow({.name = "wrong", .session = 1})), kEnough);
+}
+
+/// Live: time goes as on the wall.
+class LiveSourceWatchTest : public SourceWatchTest {
+ protected:
+  LiveSourceWatchTest() : SourceWatchTest{kLivePace} {}
+
+  TaiTime now() const { return kStart + moment_.now.time_since_epoch(); }
+  void pass_by(std::chrono::nanoseconds time) { moment_.now += time; }
+
+  /// Both send each second, the other `off` the right time.
+  Verdict see_both(std::chrono::nanoseconds off, int seconds, const std::string& right = "right",
+                   const std::string& other = "other") {
+    Verdict of_other = Verdict::InTime;
+    for (int i = 0; i < seconds; ++i) {
+      EXPECT_EQ(see(right, now()), Verdict::InTime);
+      EXPECT_EQ(successor(), "");
+      of_other = see(other, now() + off);
+      EXPECT_EQ(successor(), "");
+      pass_by(1s);
+    }
+    return of_other;
+  }
+};
+
+TEST_F(LiveSourceWatchTest, OneSecondsAheadIsApartAndNamedAtOnce) {
+  for (const auto ahead : {6s, 19s, 37s}) {
+    watch_ = SourceWatch{kLivePace};
+    see_both(0s, 10);
+    EXPECT_EQ(see_both(ahead, 20), Verdict::Apart);
+    const auto news = watch_.take_news();
+    ASSERT_EQ(news.size(), 1U);
+    EXPECT_EQ(news[0].source.name, "other");
+  }
+  EXPECT_EQ(see_both(2s, 20), Verdict::Healed);
+}
+
+TEST_F(LiveSourceWatchTest, OneThatCreepsAheadIsApart) {
+  see_both(0s, 10);
+  for (int i = 0; i < 20; ++i) {
+    see_both(i * 1s, 1);
+  }
+  EXPECT_EQ(watch_.apart().size(), 1U);
+}
+
+TEST_F(LiveSourceWatchTest, OneThatComesTwelveSecondsLateIsNotLeftOutAndHasNoSay) {
+  EXPECT_EQ(see_both(-12s, 30), Verdict::InTime);
+  EXPECT_EQ(watch_.carrier().value().name, "right");
+  EXPECT_TRUE(watch_.take_news().empty());
+  see_both(-12s, 50);
+  EXPECT_EQ(watch_.take_news().size(), 1U) << "which does not catch up, and is named";
+}
+
+TEST_F(LiveSourceWatchTest, ACodedFrameEachTwelveSecondsIsNoSilence) {
+  for (int revolution = 0; revolution < 20; ++revolution) {
+    EXPECT_EQ(see("right", now()), Verdict::InTime);
+    for (int i = 0; i < 12; ++i, pass_by(1s)) {
+      if (revolution >= 8) {
+        EXPECT_EQ(see("other", now() + 30min), Verdict::Apart);
+        EXPECT_EQ(successor(), "");
+      }
+    }
+  }
+}
+
+TEST_F(LiveSourceWatchTest, APauseOfSecondsHandsThePassToNobody) {
+  see_both(5min, 20);
+  for (int i = 0; i < 50; ++i) {
+    see("other", now() + 5min);
+    EXPECT_EQ(successor(), "");
+    pass_by(1s);
+  }
+  EXPECT_EQ(see("right", now()), Verdict::InTime);
+}
+
+TEST_F(LiveSourceWatchTest, AfterAnOutageANewSessionGoesOnAtOnce) {
+  see_both(0s, 20);
+  pass_by(10min);
+  EXPECT_EQ(see("right", now(), 2), Verdict::InTime);
+}
+
+TEST_F(LiveSourceWatchTest, OneThatDisplacedASilentOneGivesThePassBackByTheHost) {
+  see_both(5min, 20);
+  for (int i = 0; i < 70; ++i) {
+    see("other", now() + 5min);
+    pass_by(1s);
+  }
+  ASSERT_EQ(successor(), "other");
+  watch_.follow({.name = "other", .session = 1});
+  for (std::size_t i = 0; i < kEnough; ++i) {
+    see("other", now() + 5min);
+    see("right", now());
+    pass_by(1s);
+  }
+  EXPECT_EQ(successor(), "");
+  moment_.host = now();
+  EXPECT_EQ(successor(), "right");
+}
+
+TEST_F(LiveSourceWatchTest, OfAsManyVotesThePassGoesOn) {
+  moment_.host = now();
+  for (std::size_t i = 0; i < 3 * kEnough; ++i) {
+    moment_.host = now();
+    see("right", now());
+    EXPECT_EQ(successor(), "");
+    see("wrong", now() + 2h);
+    EXPECT_EQ(successor(), "");
+    see("wrong as well", now() + 2h);
+    EXPECT_EQ(successor(), "") << "two votes, as of the source and of the host";
+    pass_by(1s);
+  }
+  see_some("a third", now() + 2h - 8s);
+  EXPECT_NE(successor(), "");
+}
+
+TEST_F(LiveSourceWatchTest, ThreeSourcesOutvoteOneThatTheHostIsFor) {
+  for (std::size_t i = 0; i < 3 * kEnough; ++i) {
+    moment_.host = now() + 2h;
+    for (const std::string right : {"one", "two", "three"}) {
+      see(right, now());
+    }
+    see("wrong", now() + 2h);
+    EXPECT_EQ(successor(), "");
+    pass_by(1s);
+  }
 }
 
 }  // namespace spindrift::source_watch_test
