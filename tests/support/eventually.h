@@ -12,7 +12,7 @@ namespace spindrift {
 template <class Condition>
 bool eventually(const Condition& condition) {
   using namespace std::chrono_literals;
-  const auto deadline = std::chrono::steady_clock::now() + 30s;
+  const auto deadline = std::chrono::steady_clock::now() + 120s;
   while (!condition()) {
     if (std::chrono::steady_clock::now() > deadline) {
       return false;

@@ -2,13 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/spin/batch/batch_estimator.h"
 #include "pipelines/spin/planning/pass_plan.h"
 #include "pipelines/time/time_span.h"
+#include "tests/support/batch_pass.h"
 #include "tests/support/batch_statistics.h"
 #include "tests/support/information_limit.h"
+#include "tests/support/normalised_square.h"
 
 namespace spindrift::spin_batch_test {
 
@@ -50,6 +54,39 @@ TEST(SpinBatch, TheBoundIsThatOfTheInformationLimitAndThatOfThePlan) {
     ASSERT_TRUE(plan) << plan.error().message;
     EXPECT_NEAR(solution->bound_rad / plan->steps.back().sigma_rad.value(), 1.0, 0.01)
         << "pass " << pass;
+  }
+}
+
+struct TrueNoise {
+  double sun_times;
+  double infrared_times;
+};
+
+TEST(SpinBatch, NoiseBeyondWhatIsStatedIsDoubtedAndCovered) {
+  constexpr int kPasses = 20;
+  for (const TrueNoise& noise : {TrueNoise{3.0, 3.0}, TrueNoise{1.0, 5.0}, TrueNoise{4.0, 1.0}}) {
+    const double times = std::max(noise.sun_times, noise.infrared_times);
+    SCOPED_TRACE(times);
+    double squares = 0.0;
+    for (std::uint64_t seed = 1; seed <= kPasses; ++seed) {
+      testing::BatchScene scene{seed};
+      const SpinConfig stated = scene.body.config;
+      scene.body.config.noise.sun_s *= noise.sun_times;
+      scene.body.config.noise.infrared_s *= noise.infrared_times;
+      const auto edges = scene.pass(200.0);
+      scene.body.config = stated;
+      const Eigen::Vector3d start = testing::start_near(scene.body, kRadPerDeg, scene.rng);
+      const auto solution = solve_batch(stated, scene.orbit, edges, {{start}});
+      ASSERT_TRUE(solution) << solution.error().message;
+      EXPECT_EQ(solution->estimate.assessment.quality, Quality::Doubtful);
+      EXPECT_NEAR(solution->noise, times, 0.15 * times);
+      const Eigen::Vector2d error_rad =
+          testing::error_rad(solution->estimate.axis_icrf, scene.body.axis_icrf);
+      squares += testing::normalised_square(error_rad, solution->estimate.covariance_rad2);
+    }
+    // 99 % of chi-square, 40 degrees of freedom.
+    EXPECT_GT(squares, 20.7);
+    EXPECT_LT(squares, 66.8);
   }
 }
 
