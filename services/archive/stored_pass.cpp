@@ -31,12 +31,13 @@ constexpr const char* kFindRuns =
     "   AND revolution IS NOT NULL ORDER BY t_tai_ns DESC LIMIT 1)),"
     " (SELECT ifnull(sum(samples), 0) FROM rejected_input WHERE rejected_input.run_id = "
     "same.run_id)"
-    " FROM (SELECT *, lead(first_arrival) OVER (ORDER BY first_arrival) AS next_arrival"
-    "  FROM run WHERE spacecraft_id = ? AND mode = ? AND software_version = ?"
+    " FROM (SELECT *, lead(run_id) OVER (ORDER BY first_arrival) AS next_same"
+    "  FROM (SELECT *, lead(first_arrival) OVER (ORDER BY first_arrival) AS next_arrival"
+    "   FROM run WHERE spacecraft_id = ?) AS run WHERE mode = ? AND software_version = ?"
     "  AND config_sha256 = ? AND orbit_sha256 IS ?"
     "  AND ? = (SELECT group_concat(telemetry, char(10)) FROM (SELECT telemetry FROM run_telemetry"
     "   WHERE run_telemetry.run_id = run.run_id ORDER BY position))) AS same"
-    " WHERE finished_utc IS NULL OR next_arrival IS NULL ORDER BY first_arrival";
+    " WHERE finished_utc IS NULL OR next_same IS NULL ORDER BY first_arrival";
 
 std::vector<StoredPass> find_runs(const SQLite::Database& database,
                                   const std::string& spacecraft_id, const RunStart& start) {

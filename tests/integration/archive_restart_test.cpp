@@ -120,6 +120,21 @@ TEST_F(ArchiveRestart, SamplesOfARunThatAnEarlierOneHasStoredAreItsOwnToo) {
   EXPECT_THAT(times_of(*pass), ElementsAre(30, 20, 40));
 }
 
+TEST_F(ArchiveRestart, ARunEndsWhereOneOfAnotherModeBegins) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(begun("run-1", 100)));
+  ASSERT_TRUE(archive->submit(arrived("run-1", 100, {pulse_at(10), pulse_at(20)})));
+  ArchiveBatch processed = begun("run-2", 200);
+  processed.start->mode = "live";
+  ASSERT_TRUE(archive->submit(processed));
+  ASSERT_TRUE(archive->submit(arrived("run-2", 200, {pulse_at(30)})));
+  ASSERT_TRUE(archive->flush());
+  const auto pass = stored();
+  ASSERT_TRUE(pass);
+  EXPECT_EQ(pass->run_id, "run-1");
+  EXPECT_THAT(times_of(*pass), ElementsAre(10, 20));
+}
+
 TEST_F(ArchiveRestart, WhatWasLeftOutMakesWayForASampleOfItsTime) {
   const auto archive = open();
   ASSERT_TRUE(archive->submit(begun("run-1", 100)));
