@@ -192,8 +192,8 @@ CREATE TABLE source_count (
   PRIMARY KEY (run_id, source)
 ) STRICT, WITHOUT ROWID;
 
--- Why an edge or a measurement was left out. The last six are the test of the quantity of that name; an
--- edge has that of the first measurement with it, when all of them failed.
+-- Why an edge, a measurement or another sample was left out. The last six are the test of the quantity of
+-- that name; an edge has that of the first measurement with it, when all of them failed.
 CREATE TABLE rejection (
   rejected_by TEXT PRIMARY KEY,
   says        TEXT NOT NULL
@@ -206,7 +206,11 @@ INSERT INTO rejection VALUES
   ('phase', 'not where the edges of its channel lie, or the measurement rests on such an edge'),
   ('geometry', 'the measurement has no meaning: a chord of a whole turn, a slit lag out of range'),
   ('no_sensor', 'the mission file describes no such sensor'),
-  ('no_orbit', 'the orbit does not reach: not testable, not wrong'),
+  ('no_orbit', 'the orbit does not reach: not testable, not wrong; or the orbit state is on no ellipse round the Earth'),
+  ('saturated', 'the gyro turns faster than it can measure'),
+  ('frozen', 'the gyro gives the same numbers again and again'),
+  ('shadow', 'the Earth is before the Sun'),
+  ('innovation', 'too far from where the attitude has it'),
   ('period', 'it failed the test of the spin period'),
   ('sun_angle', 'it failed the test of the sun angle'),
   ('north_chord', 'it failed the test of the north chord'),
@@ -231,6 +235,18 @@ CREATE TABLE pulse_use (
 ) STRICT, WITHOUT ROWID;
 
 CREATE INDEX pulse_use_of_revolution ON pulse_use (run_id, revolution) WHERE revolution IS NOT NULL;
+
+-- Of a three-axis spacecraft only the samples that the run left out. One that came again more than ten
+-- minutes of telemetry later is late, too, if it was not left out before.
+CREATE TABLE rejected_sample (
+  run_id             TEXT NOT NULL REFERENCES run,
+  t_tai_ns           INTEGER NOT NULL,
+  kind               TEXT NOT NULL CHECK (
+    kind = 'orbit_state' OR kind = 'gyro' OR kind = 'star' OR kind = 'sun' OR kind = 'magnetometer'),
+  rejected_by        TEXT NOT NULL REFERENCES rejection,
+  squared_innovation REAL,  -- normalised, of 3 (star) or 2 degrees of freedom; NULL: not by innovation
+  PRIMARY KEY (run_id, t_tai_ns, kind)
+) STRICT, WITHOUT ROWID;
 
 -- Products: of a run, so that a reprocessing never overwrites an earlier one. Measurements and fixes do
 -- not refer to revolution, which their run may store later.
@@ -412,7 +428,8 @@ CREATE TABLE run_fault (
   PRIMARY KEY (run_id, t_tai_ns)
 ) STRICT, WITHOUT ROWID;
 
--- q_icrf_body; rates in body axes, NULL where they are not estimated.
+-- q_icrf_body; rates in body axes, NULL where they are not estimated. Of mekf at most ten a second of
+-- telemetry time, beside those at which it begins, falls silent or is lost.
 CREATE TABLE attitude (
   run_id       TEXT NOT NULL REFERENCES run,
   t_tai_ns     INTEGER NOT NULL,

@@ -62,6 +62,29 @@ SELECT
   *
 FROM run_fault;
 
+CREATE VIEW attitude_utc AS
+SELECT
+  (SELECT strftime('%Y-%m-%dT%H:%M:', t_tai_ns / 1000000000 - tai_minus_utc_s, 'unixepoch')
+     || format('%02d.%03dZ',
+               (t_tai_ns / 1000000000 - tai_minus_utc_s) % 60 + (start_tai_ns > t_tai_ns),
+               t_tai_ns / 1000000 % 1000)
+   FROM leap_second WHERE start_tai_ns <= t_tai_ns + 1000000000
+   ORDER BY start_tai_ns DESC LIMIT 1) AS utc,
+  *
+FROM attitude;
+
+-- Every sample of a three-axis spacecraft that a run left out, the test that did, and in words.
+CREATE VIEW rejected_sample_utc AS
+SELECT
+  (SELECT strftime('%Y-%m-%dT%H:%M:', t_tai_ns / 1000000000 - tai_minus_utc_s, 'unixepoch')
+     || format('%02d.%03dZ',
+               (t_tai_ns / 1000000000 - tai_minus_utc_s) % 60 + (start_tai_ns > t_tai_ns),
+               t_tai_ns / 1000000 % 1000)
+   FROM leap_second WHERE start_tai_ns <= t_tai_ns + 1000000000
+   ORDER BY start_tai_ns DESC LIMIT 1) AS utc,
+  *
+FROM rejected_sample JOIN rejection USING (rejected_by);
+
 CREATE VIEW spin_measurement_utc AS
 SELECT revolution_utc.utc, spin_measurement.*
 FROM spin_measurement LEFT JOIN revolution_utc USING (run_id, revolution);
@@ -74,13 +97,16 @@ FROM pulse_use JOIN rejection USING (rejected_by)
   LEFT JOIN pulse_utc USING (spacecraft_id, t_tai_ns, channel)
 WHERE accepted = 0;
 
--- How many edges, measurements and input rows were left out, by reason.
+-- How many edges, measurements, other samples and input rows were left out, by reason.
 CREATE VIEW rejection_summary AS
 SELECT run_id, 'pulse' AS what, channel AS name, rejected_by, count(*) AS rejected
 FROM pulse_use WHERE accepted = 0 GROUP BY run_id, channel, rejected_by
 UNION ALL
 SELECT run_id, 'measurement', quantity, rejected_by, count(*)
 FROM spin_measurement WHERE accepted = 0 GROUP BY run_id, quantity, rejected_by
+UNION ALL
+SELECT run_id, 'sample', kind, rejected_by, count(*)
+FROM rejected_sample GROUP BY run_id, kind, rejected_by
 UNION ALL
 SELECT run_id, 'input', source, reason, sum(samples)
 FROM rejected_input GROUP BY run_id, source, reason;
@@ -119,21 +145,32 @@ WITH pair AS (
 SELECT *, apart_deg / sigma_deg AS apart_sigmas, apart_deg > 3 * sigma_deg AS disagree
 FROM pair;
 
--- One row a run: the answer to report, that of `batch`, where there is none of `sequential`, else of `mean`;
--- and whether to act on it: one of a run that failed to compute (run_fault) is DOUBTFUL, unless it is LOST.
--- NULL from estimator to sigma_deg: the run has no answer; quality is then that of the run that failed. A spin
--- axis leaves qx to qw NULL.
+-- The answer of a pass of a three-axis spacecraft: the last attitude of each run. Looked for from the end, as
+-- above.
+CREATE VIEW attitude_answer AS
+SELECT spacecraft_id, finished_utc IS NOT NULL AS finished, attitude_utc.*
+FROM run JOIN attitude_utc ON attitude_utc.run_id = run.run_id
+  AND (attitude_utc.t_tai_ns, attitude_utc.source) =
+    (SELECT t_tai_ns, source FROM attitude WHERE attitude.run_id = run.run_id
+     ORDER BY t_tai_ns DESC, source LIMIT 1);
+
+-- One row a run: the answer to report, that of `batch`, where there is none of `sequential`, else of `mean`, or
+-- the last attitude; and whether to act on it: one of a run that failed to compute (run_fault) is DOUBTFUL,
+-- unless it is LOST. NULL from estimator to sigma_deg: the run has no answer; quality is then that of the run
+-- that failed. A spin axis leaves qx to qw NULL, an attitude ra_deg and dec_deg.
 CREATE VIEW pass_verdict AS
 SELECT run.run_id, run.spacecraft_id, run.started_utc, run.finished_utc IS NOT NULL AS finished,
-  estimator,
-  CASE WHEN fault.what IS NULL OR quality = 'LOST' THEN quality ELSE 'DOUBTFUL' END AS quality,
-  ra_deg, dec_deg, NULL AS qx, NULL AS qy, NULL AS qz, NULL AS qw, sigma_deg,
+  ifnull(estimator, source) AS estimator,
+  CASE WHEN fault.what IS NULL OR 'LOST' IN (axis.quality, attitude.quality)
+    THEN ifnull(axis.quality, attitude.quality) ELSE 'DOUBTFUL' END AS quality,
+  ra_deg, dec_deg, qx, qy, qz, qw, ifnull(axis.sigma_deg, attitude.sigma_deg) AS sigma_deg,
   ifnull('computing failed' || ifnull(' at ' || fault.utc, '') || ': ' || fault.what || '; ', '')
-    || ifnull(status, 'no estimate') || ifnull(
+    || coalesce(axis.status, attitude.status, 'no estimate') || ifnull(
     (SELECT group_concat('; ' || one || ' and ' || other || ' disagree', '')
      FROM spin_comparison WHERE spin_comparison.run_id = run.run_id AND disagree), '') AS why
-FROM run LEFT JOIN pass_answer AS answer ON answer.run_id = run.run_id AND estimator =
+FROM run LEFT JOIN pass_answer AS axis ON axis.run_id = run.run_id AND estimator =
   (SELECT estimator FROM pass_answer WHERE pass_answer.run_id = run.run_id
    ORDER BY CASE estimator WHEN 'batch' THEN 1 WHEN 'sequential' THEN 2 ELSE 3 END LIMIT 1)
+LEFT JOIN attitude_answer AS attitude ON attitude.run_id = run.run_id
 LEFT JOIN run_fault_utc AS fault ON fault.run_id = run.run_id AND fault.t_tai_ns =
   (SELECT min(t_tai_ns) FROM run_fault WHERE run_fault.run_id = run.run_id);

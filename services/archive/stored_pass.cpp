@@ -19,7 +19,7 @@ std::optional<TaiTime> time_of(const SQLite::Column& column) {
 }
 
 constexpr const char* kFindRuns =
-    "SELECT run_id, first_arrival, first_tai_ns, next_arrival,"
+    "SELECT run_id, first_arrival, first_tai_ns, next_arrival, ifnull("
     // Each of these tables is filled in order, and one may be behind the others: detail_lane.h.
     " min((SELECT t_tai_ns FROM revolution AS last WHERE last.run_id = same.run_id"
     "   ORDER BY revolution DESC LIMIT 1),"
@@ -29,6 +29,9 @@ constexpr const char* kFindRuns =
     // One that no revolution had a place for may have any time.
     "  (SELECT t_tai_ns FROM pulse_use AS one WHERE one.run_id = same.run_id"
     "   AND revolution IS NOT NULL ORDER BY t_tai_ns DESC LIMIT 1)),"
+    // Stored in one lane with all else that such a pass makes.
+    "  (SELECT t_tai_ns FROM attitude AS last WHERE last.run_id = same.run_id AND source = 'mekf'"
+    "   ORDER BY t_tai_ns DESC LIMIT 1)),"
     " (SELECT ifnull(sum(samples), 0) FROM rejected_input WHERE rejected_input.run_id = "
     "same.run_id)"
     " FROM (SELECT *, lead(run_id) OVER (ORDER BY first_arrival) AS next_same"
@@ -58,7 +61,7 @@ std::vector<StoredPass> find_runs(const SQLite::Database& database,
                     .next_arrival = next_arrival.isNull() ? std::nullopt
                                                           : std::optional{next_arrival.getInt64()},
                     .earliest = time_of(query.getColumn(2)),
-                    .last_revolution = time_of(query.getColumn(4)),
+                    .last_made = time_of(query.getColumn(4)),
                     .rejected_inputs = query.getColumn(5).getInt64(),
                     .source_counts = {}});
   }

@@ -30,8 +30,9 @@ struct StoredPass {
   std::int64_t first_arrival;
   std::optional<std::int64_t> next_arrival;  ///< Of the next run; empty: it is the newest.
   std::optional<TaiTime> earliest;           ///< Of its samples; empty: it has none.
-  /// The last one of which it has stored all began then.
-  std::optional<TaiTime> last_revolution;
+  /// What the pass made of earlier times is stored: the last revolution of which all is began then,
+  /// or the last attitude is of then. Empty: there is none.
+  std::optional<TaiTime> last_made;
   std::int64_t rejected_inputs;
   std::vector<SourceCount> source_counts;
   std::vector<TaiTime> batches = {};        ///< Of its solutions of `batch`, in order.

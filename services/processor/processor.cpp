@@ -18,20 +18,20 @@ namespace {
 /// orderly stop has settled early what was held.
 constexpr std::chrono::minutes kMadeAgain{10};
 
-/// Products from here on are made again; all before are stored, for no table is behind the last
-/// stored revolution and each is filled in order. An orderly stop may have made revolutions of
-/// samples from beyond what the pass has `reached`.
+/// Products from here on are made again; all before are stored, for no table is behind what was
+/// made last and each is filled in order. An orderly stop may have made products of samples from
+/// beyond what the pass has `reached`.
 TaiTime made_again_from(const StoredPass& stored, std::optional<TaiTime> reached) {
-  const auto last = stored.last_revolution ? stored.last_revolution : stored.earliest;
+  const auto last = stored.last_made ? stored.last_made : stored.earliest;
   return last && reached ? std::min(*last, *reached) - kMadeAgain : TaiTime::min();
 }
 
-std::variant<PassRun, ThreeAxisRun> computing_side(const Mission& mission,
+std::variant<SpinRun, ThreeAxisRun> computing_side(const Mission& mission,
                                                    const SpacecraftRun& run) {
   if (mission.spin() == nullptr) {
     return ThreeAxisRun{mission, run.run_id()};
   }
-  return PassRun{mission, run.run_id(),
+  return SpinRun{mission, run.run_id(),
                  run.start().mode == "process" ? BatchPlan::WholePass : BatchPlan::EveryMinute};
 }
 
@@ -135,17 +135,13 @@ void Processor::go_on(std::size_t i, const std::vector<StoredPass>& stored, cons
                       GoneOn& gone_on) {
   SpacecraftRun::Taken taken = runs_[i].go_on(stored, moment);
   const std::string& first = stored.front().run_id;
-  if (auto* const spin = std::get_if<PassRun>(&passes_[i])) {
-    std::map<std::string, MadeBefore> made;
-    for (std::size_t run = 0; run < stored.size(); ++run) {
-      made.emplace(stored[run].run_id,
-                   MadeBefore{.again_from = made_again_from(stored[run], taken.reached.at(run)),
-                              .batches = stored[run].batches});
-    }
-    spin->go_on(first, std::move(made));
-  } else {
-    std::get<ThreeAxisRun>(passes_[i]).go_on(first);
+  AllMadeBefore made;
+  for (std::size_t run = 0; run < stored.size(); ++run) {
+    made.emplace(stored[run].run_id,
+                 MadeBefore{.again_from = made_again_from(stored[run], taken.reached.at(run)),
+                            .batches = stored[run].batches});
   }
+  std::visit([&](auto& pass) { pass.go_on(first, std::move(made)); }, passes_[i]);
   add(std::move(taken), gone_on.routed);
   for (const StoredPass& pass : stored) {
     for (const LeftOut& left_out : pass.left_out) {
@@ -237,7 +233,7 @@ std::vector<ArchiveBatch> Processor::compute(const PassInput& work) {
 }
 
 std::vector<BackgroundTask> Processor::take_background_tasks(const PassInput& work) {
-  auto* const spin = std::get_if<PassRun>(&passes_.at(work.spacecraft));
+  auto* const spin = std::get_if<SpinRun>(&passes_.at(work.spacecraft));
   return spin == nullptr ? std::vector<BackgroundTask>{} : spin->take_background_tasks();
 }
 

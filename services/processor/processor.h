@@ -18,8 +18,8 @@
 #include "pipelines/core/expected.h"
 #include "services/archive/records.h"
 #include "services/mission/mission.h"
-#include "services/processor/pass_run.h"
 #include "services/processor/spacecraft_run.h"
+#include "services/processor/spin_run.h"
 #include "services/processor/three_axis_run.h"
 #include "services/telemetry/sample_batch.h"
 
@@ -104,7 +104,7 @@ class Processor {
 
   std::unordered_map<std::string, std::size_t> index_of_;  ///< Of a spacecraft, in both below.
   std::vector<SpacecraftRun> runs_;
-  std::vector<std::variant<PassRun, ThreeAxisRun>> passes_;  ///< By kind of spacecraft.
+  std::vector<std::variant<SpinRun, ThreeAxisRun>> passes_;  ///< By kind of spacecraft.
   OtherSpacecraft other_spacecraft_;
 };
 

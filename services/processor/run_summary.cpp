@@ -53,6 +53,14 @@ struct Count {
 
 void RunSummary::count(const SpinProduct& product) { std::visit(Count{*this}, product); }
 
+void RunSummary::count(const ThreeAxisProduct& product) {
+  if (const auto* const rejected = std::get_if<RejectedSample>(&product)) {
+    ++samples_rejected.at(index_of(rejected->kind))[name_of(rejected->rejected_by)];
+  } else {
+    attitude = std::get<AttitudeEstimate>(product);
+  }
+}
+
 void RunSummary::count_batch(const std::vector<Product>& products) {
   for (const Product& product : products) {
     if (const auto* const solution = std::get_if<BatchProduct>(&product)) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -12,6 +13,7 @@
 
 #include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/types/products.h"
+#include "pipelines/three_axis/products.h"
 #include "services/archive/disagreement.h"
 #include "services/mission/mission.h"
 #include "services/products/products.h"
@@ -36,11 +38,19 @@ struct RunSummary {
   std::map<std::string_view, std::int64_t> fixes_by_resolution;  ///< AMBIGUOUS among them.
   std::map<SpinEstimator, SpinEstimate> estimates;               ///< The last of each.
   std::optional<BatchSolution> batch;
+  /// @name Of a three-axis spacecraft
+  /// @{
+  SensorHealths sensors = {};
+  /// By kind, and by the test that did it.
+  std::array<std::map<std::string_view, std::int64_t>, kSampleKinds> samples_rejected = {};
+  std::optional<AttitudeEstimate> attitude;  ///< The last.
+  /// @}
   std::vector<Disagreement> disagreements = {};  ///< Likewise from the archive.
   std::vector<RunFault> faults = {};             ///< Likewise.
   bool finished = true;                          ///< Likewise; not where the run was interrupted.
 
   void count(const SpinProduct& product);
+  void count(const ThreeAxisProduct& product);
 
   /// The last solution, if it is among them.
   void count_batch(const std::vector<Product>& products);

@@ -1,6 +1,6 @@
 /// @file
 /// The taking side of one spacecraft's run: samples in, batches of them for the archive and work
-/// for its PassRun out.
+/// for its computing side out.
 
 #pragma once
 
@@ -18,10 +18,10 @@
 #include "services/archive/records.h"
 #include "services/archive/stored_pass.h"
 #include "services/mission/mission.h"
-#include "services/processor/pass_run.h"
 #include "services/processor/pass_watch.h"
 #include "services/processor/source_problems.h"
 #include "services/processor/source_watch.h"
+#include "services/processor/spin_run.h"
 #include "services/processor/stored_samples.h"
 #include "services/telemetry/sample_batch.h"
 

@@ -1,42 +1,69 @@
 #include "services/processor/three_axis_run.h"
 
+#include <iterator>
+#include <utility>
+#include <variant>
+
 #include "services/clock/wall_clock.h"
 
 namespace spindrift {
 
 ThreeAxisRun::ThreeAxisRun(const Mission& mission, const std::string& run_id)
-    : spacecraft_id_{mission.spacecraft_id} {
+    : config_{std::get<ThreeAxisConfig>(mission.config)},
+      orbit_{mission.orbit},
+      computing_{mission.spacecraft_id, run_id, ThreeAxisPass{config_, orbit_}} {
   begin(run_id);
 }
 
 void ThreeAxisRun::begin(const std::string& run_id) {
-  RunSummary fresh;
-  fresh.run_id = run_id;
-  fresh.spacecraft_id = spacecraft_id_;
-  fresh.kind = SpacecraftKind::ThreeAxis;
-  summaries_.push_back(std::move(fresh));
+  computing_.begin(run_id, ThreeAxisPass{config_, orbit_});
+  summary_ = {};
+  summary_.run_id = run_id;
+  summary_.spacecraft_id = computing_.spacecraft_id();
+  summary_.kind = SpacecraftKind::ThreeAxis;
 }
 
-void ThreeAxisRun::go_on(const std::string& run_id) {
-  summaries_.pop_back();
-  begin(run_id);
+void ThreeAxisRun::go_on(const std::string& first, AllMadeBefore made) {
+  computing_.go_on(std::move(made));
+  begin(first);
 }
 
 std::vector<ArchiveBatch> ThreeAxisRun::compute(const PassInput& input) {
-  if (input.run_id == summaries_.back().run_id) {
-    return {};
+  std::vector<ArchiveBatch> batches;
+  if (input.run_id != computing_.run_id()) {
+    batches.push_back(finish());
+    finished_.push_back(summary());
+    begin(input.run_id);
   }
-  std::vector<ArchiveBatch> ended{finish()};
-  begin(input.run_id);
-  return ended;
+  auto computed =
+      computing_.compute(input, [this](const ThreeAxisOutput& output) { note(output); });
+  std::move(computed.begin(), computed.end(), std::back_inserter(batches));
+  return batches;
 }
 
-ArchiveBatch ThreeAxisRun::finish() const {
-  ArchiveBatch last;
-  last.run_id = summaries_.back().run_id;
-  last.spacecraft_id = spacecraft_id_;
+ArchiveBatch ThreeAxisRun::finish() {
+  ArchiveBatch last = computing_.batch();
+  computing_.finish(last.products, [this](const ThreeAxisOutput& output) { note(output); });
   last.finished_utc = utc_now();
   return last;
+}
+
+std::vector<RunSummary> ThreeAxisRun::summaries() const {
+  std::vector<RunSummary> summaries = finished_;
+  summaries.push_back(summary());
+  return summaries;
+}
+
+RunSummary ThreeAxisRun::summary() const {
+  RunSummary summary = summary_;
+  summary.sensors = computing_.pass().sensors();
+  return summary;
+}
+
+void ThreeAxisRun::note(const ThreeAxisOutput& output) {
+  for (const ThreeAxisProduct& product : output.products) {
+    summary_.count(product);
+  }
 }
 
 }  // namespace spindrift

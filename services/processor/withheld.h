@@ -3,13 +3,13 @@
 
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "pipelines/core/notice.h"
-#include "pipelines/spin/pass/spin_pass.h"
 #include "services/products/not_finite.h"
 #include "services/products/products.h"
 
@@ -33,7 +33,17 @@ std::optional<Notice> why_withheld(const std::variant<Kinds...>& product) {
 class Withheld {
  public:
   /// Leaves out products that are withheld, and adds why to the notices.
-  void take_from(SpinOutput& output);
+  template <class Output>
+  void take_from(Output& output) {
+    std::erase_if(output.products, [&](const auto& product) {
+      const auto why = why_withheld(product);
+      if (why && std::find(said_.begin(), said_.end(), *why) == said_.end()) {
+        said_.push_back(*why);
+        output.notices.push_back(*why);
+      }
+      return why.has_value();
+    });
+  }
 
  private:
   std::vector<Notice> said_;

@@ -7,10 +7,11 @@
 #include <utility>
 #include <variant>
 
-#include "pipelines/spin/types/products.h"
+#include "services/products/attitude.h"
 #include "services/products/batch_solution.h"
 #include "services/products/product_kind.h"
 #include "services/products/pulse_use.h"
+#include "services/products/rejected_sample.h"
 #include "services/products/revolution.h"
 #include "services/products/run_fault.h"
 #include "services/products/spin_estimate.h"
@@ -21,7 +22,7 @@ namespace spindrift {
 
 /// The list.
 using Product = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate,
-                             BatchProduct, RunFault>;
+                             BatchProduct, RunFault, RejectedSample, AttitudeEstimate>;
 
 /// Its place in the list.
 template <class Kind>
@@ -37,7 +38,8 @@ constexpr void for_each_product_kind(const See& see) {
 }
 
 /// One of a pipeline's products as one of all.
-inline Product product_of(SpinProduct product) {
+template <class... Kinds>
+Product product_of(std::variant<Kinds...> product) {
   return std::visit([](auto& value) { return Product{std::move(value)}; }, product);
 }
 

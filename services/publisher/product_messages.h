@@ -26,6 +26,12 @@ struct ProductMessage<SpinEstimate> {
   static const dds_topic_descriptor_t* descriptor() { return &spindrift_SpinEstimate_desc; }
 };
 
+template <>
+struct ProductMessage<AttitudeEstimate> {
+  using Type = spindrift_AttitudeEstimate;
+  static const dds_topic_descriptor_t* descriptor() { return &spindrift_AttitudeEstimate_desc; }
+};
+
 template <AnnouncedProduct Product>
 bus::Topic<typename ProductMessage<Product>::Type> product_topic() {
   return {ProductKind<Product>::kTopic, ProductMessage<Product>::descriptor()};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "services/products/attitude.h"
 #include "services/units/degrees.h"
 #include "services/words/assessment_words.h"
 
@@ -104,6 +105,31 @@ Expected<spindrift_SpinEstimate> to_idl(const ResultOrigin& origin, const SpinEs
   put_text(out.status, sentence_of(estimate.assessment));
   return put_origin(out, origin)
       .and_then([&] { return put_name(out.estimator, name_of(estimate.estimator), "estimator"); })
+      .map([&out] { return out; });
+}
+
+Expected<spindrift_AttitudeEstimate> to_idl(const ResultOrigin& origin,
+                                            const AttitudeEstimate& estimate) {
+  const Eigen::Quaterniond& q = estimate.q_icrf_body;
+  const Eigen::Vector3d rate_rad_s =
+      estimate.rate_body_rad_s.value_or(Eigen::Vector3d::Constant(kNotAvailable));
+  spindrift_AttitudeEstimate out{
+      .spacecraft = {},
+      .estimator = {},
+      .t_tai_ns = tai_ns(estimate.t),
+      .qx = q.x(),
+      .qy = q.y(),
+      .qz = q.z(),
+      .qw = q.w(),
+      .rate_body_rad_s = {rate_rad_s.x(), rate_rad_s.y(), rate_rad_s.z()},
+      .sigma_deg = estimate.sigma_rad() * kDegPerRad,
+      .status = {},
+      .quality = static_cast<spindrift_Quality>(estimate.assessment.quality),
+      .run_id = {},
+      .service = {}};
+  put_text(out.status, sentence_of(estimate.assessment));
+  return put_origin(out, origin)
+      .and_then([&] { return put_name(out.estimator, kAttitudeSource, "estimator"); })
       .map([&out] { return out; });
 }
 

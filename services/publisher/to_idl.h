@@ -17,6 +17,7 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/spin/types/products.h"
+#include "pipelines/three_axis/products.h"
 #include "services/bus/telemetry_messages.h"
 #include "services/publisher/health.h"
 #include "services/telemetry/telemetry_sample.h"
@@ -63,6 +64,10 @@ Expected<bus::MessageOf<Value>> to_idl(const TelemetrySample<Value>& sample) {
 Expected<spindrift_SpinFix> to_idl(const ResultOrigin& origin, const SpinFix& fix);
 
 Expected<spindrift_SpinEstimate> to_idl(const ResultOrigin& origin, const SpinEstimate& estimate);
+
+/// Rates that are not estimated are NaN.
+Expected<spindrift_AttitudeEstimate> to_idl(const ResultOrigin& origin,
+                                            const AttitudeEstimate& estimate);
 
 /// Points into the Health that it was made of, and into itself: it is moved and not copied.
 struct HealthSample {

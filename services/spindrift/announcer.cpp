@@ -23,6 +23,11 @@ std::vector<Product> news(const std::vector<Product>& products, const StoredResu
   return news;
 }
 
+bool is_estimate(const Product& product) {
+  return std::holds_alternative<SpinEstimate>(product) ||
+         std::holds_alternative<AttitudeEstimate>(product);
+}
+
 }  // namespace
 
 Announcer::Announcer(const ResultPublisher& publisher, ThreadFailures& failures)
@@ -54,30 +59,36 @@ void Announcer::committed(std::span<const ArchiveBatch> batches) {
 
 void Announcer::run() {
   for (auto results = waiting_.take_all(); !results.empty(); results = waiting_.take_all()) {
-    std::map<std::string, SpinEstimate> latest;
+    std::map<std::string, const Product*> latest;
     for (const Announcement& result : results) {
       const auto published = publisher_.publish(result.spacecraft, result.run_id, result.product);
       if (!published) {
         spdlog::error("not published: {}", published.error().message);
       }
-      if (const auto* estimate = std::get_if<SpinEstimate>(&result.product)) {
-        latest.insert_or_assign(result.spacecraft, *estimate);
+      if (is_estimate(result.product)) {
+        latest.insert_or_assign(result.spacecraft, &result.product);
       }
     }
     for (const auto& [spacecraft, estimate] : latest) {
-      say(spacecraft, estimate);
+      say(spacecraft, *estimate);
     }
   }
 }
 
-void Announcer::say(const std::string& spacecraft, const SpinEstimate& estimate) {
+void Announcer::say(const std::string& spacecraft, const Product& estimate) {
   const auto now = std::chrono::steady_clock::now();
   const auto said = said_.find(spacecraft);
   if (said != said_.end() && now - said->second < kBetweenEstimatesInLog) {
     return;
   }
   said_.insert_or_assign(spacecraft, now);
-  spdlog::info("{}: {}", spacecraft, to_text(estimate));
+  std::visit(
+      [&](const auto& is) {
+        if constexpr (requires { to_text(is); }) {
+          spdlog::info("{}: {}", spacecraft, to_text(is));
+        }
+      },
+      estimate);
 }
 
 }  // namespace spindrift

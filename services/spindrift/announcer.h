@@ -10,7 +10,6 @@
 #include <string>
 #include <thread>
 
-#include "pipelines/spin/types/products.h"
 #include "services/archive/records.h"
 #include "services/archive/stored_results.h"
 #include "services/publisher/announcements.h"
@@ -38,7 +37,7 @@ class Announcer {
 
  private:
   void run();
-  void say(const std::string& spacecraft, const SpinEstimate& estimate);
+  void say(const std::string& spacecraft, const Product& estimate);
 
   const ResultPublisher& publisher_;
   Announcements waiting_;

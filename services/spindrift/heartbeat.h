@@ -14,7 +14,7 @@
 #include "services/archive/archive.h"
 #include "services/ingest/gap_watch.h"
 #include "services/ingest/telemetry_subscriber.h"
-#include "services/processor/pass_run.h"
+#include "services/processor/pass_input.h"
 #include "services/processor/source_problems.h"
 #include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"

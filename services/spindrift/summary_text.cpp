@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "pipelines/frames/euler312.h"
 #include "pipelines/time/utc.h"
 #include "services/archive/disagreement.h"
 #include "services/archive/last_run.h"
@@ -98,6 +99,81 @@ std::string axis_text(const RunSummary& summary) {
   return text + origins;
 }
 
+/// Of ICRF to body.
+struct EulerDeg {
+  double phi;
+  double theta;
+  double psi;
+  bool near_singular;
+};
+
+EulerDeg euler_deg(const AttitudeEstimate& attitude) {
+  const Euler312Reading reading = euler312_of(attitude.q_icrf_body);
+  return {.phi = reading.angles.phi_rad * kDegPerRad,
+          .theta = reading.angles.theta_rad * kDegPerRad,
+          .psi = reading.angles.psi_rad * kDegPerRad,
+          .near_singular = reading.near_singular};
+}
+
+double sigma_deg(const AttitudeEstimate& attitude) { return attitude.sigma_rad() * kDegPerRad; }
+
+std::string sensors_text(const RunSummary& summary) {
+  std::string text;
+  for (std::size_t kind = 0; kind < kSampleKinds; ++kind) {
+    const SensorHealth& sensor = summary.sensors.at(kind);
+    if (sensor.last_seen) {
+      text += fmt::format("  {:<13}{} accepted\n", name_of(static_cast<SampleKind>(kind)),
+                          sensor.accepted);
+      for (const auto& [test, count] : summary.samples_rejected.at(kind)) {
+        text += fmt::format("               {} rejected: {}\n", count, test);
+      }
+    }
+  }
+  return text;
+}
+
+std::string attitude_text(const RunSummary& summary) {
+  if (!summary.attitude) {
+    return "  attitude     not determined\n";
+  }
+  const AttitudeEstimate& attitude = *summary.attitude;
+  const Eigen::Quaterniond& q = attitude.q_icrf_body;
+  const auto [phi, theta, psi, near_singular] = euler_deg(attitude);
+  const int angle = decimals_for(sigma_deg(attitude), 4);
+  const int unit = decimals_for(attitude.sigma_rad(), 6);
+  std::string text =
+      fmt::format("  attitude     ICRF to body, sigma {:.{}f} deg\n", sigma_deg(attitude), angle);
+  text +=
+      fmt::format("               quaternion   x {:+.{}f}  y {:+.{}f}  z {:+.{}f}  w {:+.{}f}\n",
+                  q.x(), unit, q.y(), unit, q.z(), unit, q.w(), unit);
+  text += fmt::format("               Euler 3-1-2  phi {:.{}f}  theta {:.{}f}  psi {:.{}f} deg{}\n",
+                      phi, angle, theta, angle, psi, angle,
+                      near_singular ? ", near the singularity" : "");
+  if (attitude.rate_body_rad_s) {
+    const Eigen::Vector3d rate_deg_s = *attitude.rate_body_rad_s * kDegPerRad;
+    text += fmt::format("               body rate    x {:+.5f}  y {:+.5f}  z {:+.5f} deg/s\n",
+                        rate_deg_s.x(), rate_deg_s.y(), rate_deg_s.z());
+  }
+  return text + fmt::format("  {:<13}{}  {}\n", kAttitudeSource, format_utc(attitude.t),
+                            sentence_of(attitude.assessment));
+}
+
+nlohmann::json sensors_json(const RunSummary& summary) {
+  nlohmann::json sensors = nlohmann::json::object();
+  for (std::size_t kind = 0; kind < kSampleKinds; ++kind) {
+    const SensorHealth& sensor = summary.sensors.at(kind);
+    if (sensor.last_seen) {
+      sensors[std::string{name_of(static_cast<SampleKind>(kind))}] = {
+          {"accepted", sensor.accepted},
+          {"rejected", to_json(summary.samples_rejected.at(kind))},
+          {"rejected_in_a_row", sensor.rejected_in_a_row},
+          {"last_seen_tai_ns", tai_ns(*sensor.last_seen)},
+          {"last_seen_utc", format_utc(*sensor.last_seen)}};
+    }
+  }
+  return sensors;
+}
+
 std::string disagreements_text(const RunSummary& summary) {
   std::string text;
   for (const Disagreement& disagreement : summary.disagreements) {
@@ -128,14 +204,25 @@ nlohmann::json to_json(const Disagreement& disagreement) {
           {"apart_sigmas", disagreement.apart_sigmas}};
 }
 
-}  // namespace
-
-nlohmann::json to_json(const SpinEstimate& estimate) {
+template <class Estimate>
+nlohmann::json estimate_json(const Estimate& estimate) {
   nlohmann::json object = json_of(estimate);
   object["reasons"] = nlohmann::json::parse(to_json_text(estimate.assessment.reasons));
   object["utc"] = format_utc(estimate.t);
   return object;
 }
+
+nlohmann::json to_json(const AttitudeEstimate& attitude) {
+  nlohmann::json object = estimate_json(attitude);
+  const auto [phi, theta, psi, near_singular] = euler_deg(attitude);
+  object["euler312_icrf_deg"] = {phi, theta, psi};
+  object["near_singular"] = near_singular;
+  return object;
+}
+
+}  // namespace
+
+nlohmann::json to_json(const SpinEstimate& estimate) { return estimate_json(estimate); }
 
 std::string to_text(const RunSummary& summary) {
   std::string text = fmt::format("{}  run {}{}\n", summary.spacecraft_id, summary.run_id,
@@ -149,7 +236,7 @@ std::string to_text(const RunSummary& summary) {
       text += fmt::format("{} {}, ", count, plural);
     }
     text += fmt::format("{} bad rows or samples\n", summary.input_rejected);
-    return text + "  attitude     three-axis: samples are stored, no attitude is computed yet\n";
+    return text + sensors_text(summary) + attitude_text(summary) + faults_text(summary);
   }
   text += fmt::format(
       "  received     {} edges, {} of them stored, {} coded frames, {} bad rows or samples\n",
@@ -184,6 +271,8 @@ nlohmann::json to_json(const RunSummary& summary) {
                       {"mean", nullptr},
                       {"sequential", nullptr},
                       {"batch", nullptr},
+                      {"sensors", sensors_json(summary)},
+                      {"attitude", nullptr},
                       {"faults", nlohmann::json::array()},
                       {"disagreements", nlohmann::json::array()}};
   for (const auto& [plural, count] : summary.samples_received) {
@@ -191,6 +280,9 @@ nlohmann::json to_json(const RunSummary& summary) {
   }
   for (const auto& [estimator, estimate] : summary.estimates) {
     json[std::string{name_of(estimator)}] = to_json(estimate);
+  }
+  if (summary.attitude) {
+    json["attitude"] = to_json(*summary.attitude);
   }
   if (summary.batch) {
     json["batch"].update(to_json(*summary.batch));
@@ -211,6 +303,15 @@ std::string to_text(const SpinEstimate& estimate) {
                      shown.ra_deg, decimals, shown.dec_deg, decimals, shown.sigma_deg, decimals,
                      shown.rpm, decimals_for(shown.sigma_rpm, 6), name_of(estimate.estimator),
                      sentence_of(estimate.assessment));
+}
+
+std::string to_text(const AttitudeEstimate& attitude) {
+  const auto [phi, theta, psi, near_singular] = euler_deg(attitude);
+  const int decimals = decimals_for(sigma_deg(attitude), 4);
+  return fmt::format(
+      "attitude ICRF to body, Euler 3-1-2 {:.{}f} {:.{}f} {:.{}f} deg, sigma {:.{}f} deg, {}: {}",
+      phi, decimals, theta, decimals, psi, decimals, sigma_deg(attitude), decimals, kAttitudeSource,
+      sentence_of(attitude.assessment));
 }
 
 Expected<std::string> report(const Processor& processor, const std::filesystem::path& db,

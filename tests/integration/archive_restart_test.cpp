@@ -286,7 +286,7 @@ TEST_F(ArchiveRestart, LastRevolutionIsTheOneThatNoTableIsBehind) {
     batch.products = std::move(products);
     EXPECT_TRUE(archive->submit(std::move(batch)));
     EXPECT_TRUE(archive->flush());
-    return stored()->last_revolution;
+    return stored()->last_made;
   };
   ASSERT_TRUE(archive->submit(start_of("run-1")));
   EXPECT_EQ(after({revolution_at(1), revolution_at(2), revolution_at(3)}), std::nullopt);

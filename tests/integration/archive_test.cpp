@@ -5,6 +5,7 @@
 
 #include <future>
 #include <map>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -119,11 +120,14 @@ TEST_F(ArchiveTest, EdgesOfARevolutionAreFoundByAnIndex) {
               HasSubstr("(run_id=? AND revolution=?)"));
 }
 
-TEST_F(ArchiveTest, TheVocabularyOfRejectionsIsThatOfThePipeline) {
+TEST_F(ArchiveTest, TheVocabularyOfRejectionsIsThatOfThePipelines) {
   const auto archive = open();
-  std::vector<std::string> names;
+  std::set<std::string> names;  // Some are of both.
   for (int i = 0; i <= static_cast<int>(Rejection::MixedAzimuth); ++i) {
-    names.emplace_back(name_of(static_cast<Rejection>(i)));
+    names.emplace(name_of(static_cast<Rejection>(i)));
+  }
+  for (int i = 0; i <= static_cast<int>(SampleRejection::Innovation); ++i) {
+    names.emplace(name_of(static_cast<SampleRejection>(i)));
   }
   SQLite::Database database = reader();
   EXPECT_THAT(column(database, "SELECT rejected_by FROM rejection"),

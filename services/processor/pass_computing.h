@@ -1,0 +1,172 @@
+/// @file
+/// What the computing sides of all kinds of spacecraft have in common.
+
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "pipelines/core/notice.h"
+#include "services/archive/records.h"
+#include "services/processor/pass_input.h"
+#include "services/processor/what_is_thrown.h"
+#include "services/processor/withheld.h"
+
+namespace spindrift {
+
+/// What is stored of a run that goes on.
+struct MadeBefore {
+  /// What was made from then on, which the run may not have got to, is stored again.
+  TaiTime again_from;
+  std::vector<TaiTime> batches;  ///< When solutions of `batch` are; in order.
+};
+
+/// Of the runs that go on, by run.
+using AllMadeBefore = std::map<std::string, MadeBefore>;
+
+/// Says it in the log.
+RunFault fault_of(const std::string& spacecraft_id, const std::string& run_id, TaiTime t,
+                  std::string what);
+void say(const std::string& spacecraft_id, const std::vector<Notice>& notices);
+
+/// Samples into the pass of a run, what it makes of them into batches for the archive. What throws
+/// meanwhile becomes a RunFault, and nothing more is computed of the run.
+/// @tparam Pass Has `push` for the values that it knows, `fall_silent` and `finish`, each with an
+///              output of `products` and `notices`.
+template <class Pass>
+class PassComputing {
+ public:
+  using Output = decltype(std::declval<Pass&>().finish());
+
+  PassComputing(std::string spacecraft_id, const std::string& run_id, Pass pass)
+      : spacecraft_id_{std::move(spacecraft_id)}, run_id_{run_id}, pass_{std::move(pass)} {}
+
+  /// The runs of `made` are stored, and their samples come again.
+  void go_on(AllMadeBefore made) { made_before_ = std::move(made); }
+
+  void begin(const std::string& run_id, Pass pass) {
+    run_id_ = run_id;
+    pass_ = std::move(pass);
+    const MadeBefore* const made = made_before();
+    again_from_ = made == nullptr ? std::nullopt : std::optional{made->again_from};
+    reached_ = {};
+    failed_ = false;
+  }
+
+  const std::string& spacecraft_id() const { return spacecraft_id_; }
+  const std::string& run_id() const { return run_id_; }
+  const Pass& pass() const { return pass_; }
+  bool failed() const { return failed_; }
+  /// Of this run; null: nothing.
+  const MadeBefore* made_before() const {
+    const auto made = made_before_.find(run_id_);
+    return made == made_before_.end() ? nullptr : &made->second;
+  }
+
+  /// Empty, for the archive.
+  ArchiveBatch batch() const {
+    ArchiveBatch batch;
+    batch.run_id = run_id_;
+    batch.spacecraft_id = spacecraft_id_;
+    return batch;
+  }
+
+  /// @param note Is shown every output, stored or not.
+  template <class Note>
+  std::vector<ArchiveBatch> compute(const PassInput& input, const Note& note) {
+    Computed computed;
+    computed.fill(batch());
+    // What was made of the samples before one that fails is kept, however many came with it.
+    compute_or_fail(computed.front().products, [&] { compute(input, note, computed); });
+    std::vector<ArchiveBatch> batches;
+    for (ArchiveBatch& batch : computed) {
+      if (!batch.products.empty() || batch.continuation) {
+        batches.push_back(std::move(batch));
+      }
+    }
+    return batches;
+  }
+
+  /// What was still held: the pass has ended.
+  template <class Note>
+  void finish(std::vector<Product>& products, const Note& note) {
+    compute_or_fail(products, [&] {
+      Output output = pass_.finish();
+      see(output, note);
+      for (auto& product : output.products) {
+        products.push_back(product_of(std::move(product)));
+      }
+    });
+  }
+
+ private:
+  /// First the results, then what may be stored later (detail_lane.h), each kind by itself.
+  using Computed = std::array<ArchiveBatch, 1 + std::variant_size_v<Product>>;
+
+  template <class Note>
+  void compute(const PassInput& input, const Note& note, Computed& computed) {
+    const auto take = [&]<class Value>(const Arrived<Value>& arrived) {
+      // Of the other kinds of telemetry it knows nothing.
+      if constexpr (requires { pass_.push(arrived.value); }) {
+        reached_ = arrived.value.t;
+        Output output = pass_.push(arrived.value);
+        see(output, note);
+        keep(std::move(output), arrived.value.t, computed);
+      }
+    };
+    in_order_of_arrival(input.values, input.silences, take, [&](std::int64_t /*place*/) {
+      Output output = pass_.fall_silent();
+      see(output, note);
+      keep(std::move(output), std::nullopt, computed);
+    });
+  }
+
+  template <class Note>
+  void see(Output& output, const Note& note) {
+    withheld_.take_from(output);
+    say(spacecraft_id_, output.notices);
+    note(std::as_const(output));
+  }
+
+  /// @param t Of the sample that made it; none: a silence did.
+  void keep(Output output, std::optional<TaiTime> t, Computed& computed) {
+    if (again_from_ && t && *t >= *again_from_) {
+      computed.front().continuation = Continuation{.t = *std::exchange(again_from_, {})};
+    }
+    if (again_from_) {
+      return;
+    }
+    for (auto& made : output.products) {
+      Product product = product_of(std::move(made));
+      const std::size_t place = is_detail(product) ? 1 + product.index() : 0;
+      computed.at(place).products.push_back(std::move(product));
+    }
+  }
+
+  template <class Compute>
+  void compute_or_fail(std::vector<Product>& products, const Compute& compute) {
+    if (failed_) {
+      return;
+    }
+    if (auto what = what_is_thrown(compute)) {
+      failed_ = true;
+      products.emplace_back(fault_of(spacecraft_id_, run_id_, reached_, *std::move(what)));
+    }
+  }
+
+  std::string spacecraft_id_;
+  std::string run_id_;
+  Pass pass_;
+  AllMadeBefore made_before_;
+  std::optional<TaiTime> again_from_;  ///< Until the pass is there again: what it makes is stored.
+  TaiTime reached_ = {};               ///< The sample that was computed last.
+  bool failed_ = false;
+  Withheld withheld_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,183 @@
+#include "services/processor/spin_run.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <memory>
+#include <utility>
+#include <variant>
+
+#include "pipelines/spin/batch/batch_estimator.h"
+#include "pipelines/time/utc.h"
+#include "services/clock/wall_clock.h"
+#include "services/processor/what_is_thrown.h"
+#include "services/words/notice_words.h"
+
+namespace spindrift {
+namespace {
+
+constexpr std::chrono::minutes kBetweenBatches{1};
+
+Expected<BatchSolution> solve_edges(const SpinConfig& config, const Orbit& orbit, PassEdges edges) {
+  const auto starts = edges.starts(config.prior);
+  return spindrift::solve_batch(config, orbit, std::move(edges).edges(), starts);
+}
+
+/// Its estimate, and what else it says.
+/// @return Unobservable when any of it is withheld.
+Expected<std::vector<Product>> products_of(const BatchSolution& solution) {
+  std::vector<Product> products{solution.estimate, std::make_shared<const BatchSolution>(solution)};
+  for (const Product& product : products) {
+    if (const auto why = why_withheld(product)) {
+      return Unexpected{{ErrorCode::Unobservable, sentence_of(*why)}};
+    }
+  }
+  return products;
+}
+
+}  // namespace
+
+SpinRun::SpinRun(const Mission& mission, const std::string& run_id, BatchPlan plan)
+    : config_{*mission.spin()},
+      orbit_{*mission.orbit},
+      computing_{mission.spacecraft_id, run_id, SpinPass{config_, orbit_}},
+      plan_{plan} {
+  begin(run_id);
+}
+
+void SpinRun::begin(const std::string& run_id) {
+  computing_.begin(run_id, SpinPass{config_, orbit_});
+  summary_ = {};
+  summary_.run_id = run_id;
+  summary_.spacecraft_id = computing_.spacecraft_id();
+  edges_ = {};
+  next_batch_.reset();
+  last_batch_.reset();
+}
+
+void SpinRun::go_on(const std::string& first, AllMadeBefore made) {
+  computing_.go_on(std::move(made));
+  begin(first);
+}
+
+std::vector<ArchiveBatch> SpinRun::compute(const PassInput& input) {
+  std::vector<ArchiveBatch> batches;
+  if (input.run_id != computing_.run_id()) {
+    end_run(batches);
+    begin(input.run_id);
+  }
+  auto computed = computing_.compute(input, [this](const SpinOutput& output) { note(output); });
+  std::move(computed.begin(), computed.end(), std::back_inserter(batches));
+  return batches;
+}
+
+/// By the time of telemetry, so that the same telemetry gives the same solutions.
+void SpinRun::note_time(TaiTime t) {
+  if (plan_ == BatchPlan::WholePass || (next_batch_ && t < *next_batch_)) {
+    return;
+  }
+  if (next_batch_) {
+    edges_.keep_last(kLastRevolutions);
+    const auto last = edges_.last();
+    // Its last edge names a solution: one a minute, and one only.
+    if (last && last != last_batch_ && !is_stored(*last)) {
+      due_.push_back(
+          {.batch = computing_.batch(), .solve = [this, edges = edges_] { return solve(edges); }});
+    }
+    last_batch_ = last;
+  }
+  next_batch_ = t + kBetweenBatches;
+}
+
+/// And is not withdrawn.
+bool SpinRun::is_stored(TaiTime batch) const {
+  const MadeBefore* const made = computing_.made_before();
+  return made != nullptr && batch < made->again_from &&
+         std::binary_search(made->batches.begin(), made->batches.end(), batch);
+}
+
+std::vector<BackgroundTask> SpinRun::take_background_tasks() { return std::exchange(due_, {}); }
+
+Expected<std::vector<Product>> SpinRun::solve(const PassEdges& edges) const {
+  Expected<std::vector<Product>> products;
+  const auto what = what_is_thrown(
+      [&] { products = solve_edges(config_, orbit_, edges).and_then(&products_of); });
+  if (!what) {
+    return products;
+  }
+  const TaiTime t = edges.last().value_or(TaiTime{});
+  spdlog::error("{}: batch solution failed at {}: {}: its run is DOUBTFUL",
+                computing_.spacecraft_id(), format_utc(t), *what);
+  return std::vector<Product>{RunFault{.t = t, .what = *what}};
+}
+
+/// What was still held. Then the last batch solution is due, whatever became due before.
+void SpinRun::settle(std::vector<Product>& products) {
+  const std::size_t due = due_.size();
+  computing_.finish(products, [this](const SpinOutput& output) { note(output); });
+  due_.erase(due_.begin() + static_cast<std::ptrdiff_t>(due), due_.end());
+  if (plan_ == BatchPlan::EveryMinute) {
+    edges_.keep_last(kLastRevolutions);
+  }
+  if (edges_.forgot_some()) {
+    spdlog::warn("{}: more edges than the batch solution can hold: it rests on the last {}",
+                 computing_.spacecraft_id(), PassEdges::kMost);
+  }
+}
+
+ArchiveBatch SpinRun::finish() {
+  ArchiveBatch last = computing_.batch();
+  settle(last.products);
+  if (!computing_.failed()) {
+    if (auto products = solve(std::exchange(edges_, {}))) {
+      summary_.count_batch(*products);
+      std::move(products->begin(), products->end(), std::back_inserter(last.products));
+    } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {
+      spdlog::warn("{}: no batch solution: {}", computing_.spacecraft_id(),
+                   products.error().message);
+    }
+  }
+  last.finished_utc = utc_now();
+  return last;
+}
+
+/// Where solutions of the run may be waiting to be solved it is finished behind them, so that a run
+/// that is finished lacks none.
+void SpinRun::end_run(std::vector<ArchiveBatch>& batches) {
+  if (plan_ == BatchPlan::WholePass) {
+    batches.push_back(finish());
+    finished_.push_back(std::move(summary_));
+    return;
+  }
+  ArchiveBatch held = computing_.batch();
+  settle(held.products);
+  BackgroundTask last{
+      .batch = computing_.batch(),
+      .solve = [this, failed = computing_.failed(), edges = std::exchange(edges_, {})] {
+        return failed ? std::vector<Product>{} : solve(edges);
+      }};
+  last.batch.finished_utc = utc_now();
+  last.summary = &finished_.emplace_back(std::move(summary_));
+  batches.push_back(std::move(held));
+  due_.push_back(std::move(last));
+}
+
+std::vector<RunSummary> SpinRun::summaries() const {
+  std::vector<RunSummary> summaries{finished_.begin(), finished_.end()};
+  summaries.push_back(summary_);
+  return summaries;
+}
+
+void SpinRun::note(const SpinOutput& output) {
+  for (const SpinProduct& product : output.products) {
+    summary_.count(product);
+    edges_.note(product);
+    if (const auto* estimate = std::get_if<SpinEstimate>(&product)) {
+      note_time(estimate->t);
+    }
+  }
+}
+
+}  // namespace spindrift

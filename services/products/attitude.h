@@ -1,0 +1,92 @@
+/// @file
+/// The attitude of a three-axis spacecraft, as a kind of product.
+///
+/// The pass gives at most ten a second of telemetry time (AttitudeEstimator), beside those at which
+/// it begins, falls silent or is lost: that is the only place that thins them. Each of them is
+/// archived and announced.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <tuple>
+
+#include "pipelines/three_axis/products.h"
+#include "services/products/named.h"
+#include "services/products/product_kind.h"
+#include "services/units/degrees.h"
+#include "services/words/assessment_words.h"
+#include "services/words/reasons_json.h"
+
+namespace spindrift {
+
+/// As it is called in the archive, on the bus and by people.
+inline constexpr std::string_view kAttitudeSource = "mekf";
+
+struct AttitudeTable {
+  static constexpr std::string_view kName = "attitude";
+  static constexpr std::array<std::string_view, 2> kKey{"t_tai_ns", "source"};
+
+  template <int kAxis>
+  static std::optional<double> rate_rad_s(const AttitudeEstimate& estimate) {
+    const auto& rate_rad_s = estimate.rate_body_rad_s;
+    return rate_rad_s ? std::optional{(*rate_rad_s)[kAxis]} : std::nullopt;
+  }
+  static constexpr std::tuple kColumns{
+      ProductColumn{"t_tai_ns", [](const AttitudeEstimate& one) { return tai_ns(one.t); }},
+      ProductColumn{"source", [](const AttitudeEstimate& /*one*/) { return kAttitudeSource; }},
+      ProductColumn{"qx", [](const AttitudeEstimate& one) { return one.q_icrf_body.x(); }},
+      ProductColumn{"qy", [](const AttitudeEstimate& one) { return one.q_icrf_body.y(); }},
+      ProductColumn{"qz", [](const AttitudeEstimate& one) { return one.q_icrf_body.z(); }},
+      ProductColumn{"qw", [](const AttitudeEstimate& one) { return one.q_icrf_body.w(); }},
+      ProductColumn{"rate_x_rad_s", &rate_rad_s<0>},
+      ProductColumn{"rate_y_rad_s", &rate_rad_s<1>},
+      ProductColumn{"rate_z_rad_s", &rate_rad_s<2>},
+      ProductColumn{"sigma_deg",
+                    [](const AttitudeEstimate& one) { return one.sigma_rad() * kDegPerRad; }},
+      ProductColumn{"quality",
+                    [](const AttitudeEstimate& one) { return name_of(one.assessment.quality); }},
+      ProductColumn{
+          "reasons",
+          [](const AttitudeEstimate& one) { return to_json_text(one.assessment.reasons); }},
+      ProductColumn{"status",
+                    [](const AttitudeEstimate& one) { return sentence_of(one.assessment); }}};
+};
+
+template <>
+struct ProductKind<AttitudeEstimate> {
+  static constexpr ProductWeight kWeight = ProductWeight::Result;
+  using Tables = std::tuple<AttitudeTable>;
+
+  static constexpr const char* kTopic = "spindrift/attitude";
+  static constexpr bool is_announced(const AttitudeEstimate& /*estimate*/) { return true; }
+  static constexpr std::string_view instance(const AttitudeEstimate& /*estimate*/) {
+    return kAttitudeSource;
+  }
+  static std::int64_t number(const AttitudeEstimate& estimate) { return tai_ns(estimate.t); }
+  static constexpr bool is_settled(const AttitudeEstimate& /*estimate*/) { return true; }
+
+  /// With a covariance that is the same about all axes.
+  template <class Row>
+  static AttitudeEstimate from_row(const Row& row) {
+    const double sigma_rad = row.real("sigma_deg") * kRadPerDeg;
+    AttitudeEstimate estimate{
+        .t = tai_from_ns(row.integer("t_tai_ns")),
+        .q_icrf_body = {row.real("qw"), row.real("qx"), row.real("qy"), row.real("qz")},
+        .rate_body_rad_s = std::nullopt,
+        .covariance_rad2 = sigma_rad * sigma_rad / 3.0 * Eigen::Matrix3d::Identity(),
+        .assessment = {.quality = named(row.text("quality"), Quality::Lost),
+                       .reasons = reasons_of(row.text("reasons"))}};
+    if (row.has("rate_x_rad_s")) {
+      estimate.rate_body_rad_s = Eigen::Vector3d{row.real("rate_x_rad_s"), row.real("rate_y_rad_s"),
+                                                 row.real("rate_z_rad_s")};
+    }
+    return estimate;
+  }
+};
+
+}  // namespace spindrift
