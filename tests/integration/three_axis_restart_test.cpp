@@ -1,0 +1,176 @@
+// A service of a three-axis spacecraft that is killed in the midst of a pass.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "services/mission/mission.h"
+#include "services/processor/processor.h"
+#include "services/telemetry_files/telemetry_files.h"
+#include "services/telemetry_files/telemetry_stream.h"
+#include "tests/integration/archive_fixture.h"
+#include "tests/support/archive_rows.h"
+#include "tests/support/three_axis_files.h"
+
+namespace spindrift::three_axis_restart_test {
+
+/// More than twice what is made again after a restart.
+constexpr testing::ThreeAxisScene kLongPass{
+    .duration_s = 1300.0, .gyro_s = 1.0, .star_s = 10.0, .sun_s = 5.0};
+constexpr std::size_t kSamplesABatch = 13;
+constexpr std::size_t kSilence = 90;  ///< Before that batch.
+
+using AnySample = TelemetryKinds::Of<std::variant, TelemetrySample>;
+
+/// In the order of their time, but that every 31st comes nine later: late, or within the window.
+std::vector<AnySample> disordered_samples(const std::filesystem::path& pass) {
+  const std::vector<std::filesystem::path> paths{pass};
+  auto stream = TelemetryStream::open(scan_telemetry(paths).value(), "SAT").value();
+  std::vector<AnySample> all;
+  for (auto batch = stream.next().value(); !is_empty(batch); batch = stream.next().value()) {
+    in_order_of_arrival(batch.samples, [&](auto& sample) { all.emplace_back(std::move(sample)); });
+  }
+  for (std::size_t i = 20; i + 9 < all.size(); i += 31) {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(i);
+    std::rotate(first, first + 1, first + 9);
+  }
+  return all;
+}
+
+std::vector<SampleBatch> in_batches(const std::vector<AnySample>& samples) {
+  std::vector<SampleBatch> batches;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i % kSamplesABatch == 0) {
+      batches.emplace_back();
+    }
+    std::visit(
+        [&]<class Value>(TelemetrySample<Value> sample) {
+          sample.arrival = static_cast<std::int64_t>(i);
+          batches.back().samples.of<Value>().push_back(std::move(sample));
+        },
+        samples[i]);
+  }
+  return batches;
+}
+
+using Batches = std::vector<ArchiveBatch>;
+
+/// What goes to the archive: of samples, and of what was made of them.
+struct Submitted {
+  Batches samples;
+  Batches products;
+};
+
+class ThreeAxisRestart : public testing::ArchiveFixture {
+ protected:
+  void SetUp() override {
+    pass_ = directory() / "pass";
+    std::filesystem::create_directory(pass_);
+    testing::write_three_axis_pass(pass_, kLongPass);
+    sent_ = in_batches(disordered_samples(pass_));
+  }
+
+  Processor new_processor() const {
+    return Processor::make({load_mission(pass_ / "mission.toml").value()},
+                           {.mode = "live", .telemetry = {"DDS domain 0, partition live"}})
+        .value();
+  }
+
+  static void work(Processor& processor, Routed routed, Submitted& out) {
+    std::move(routed.samples.begin(), routed.samples.end(), std::back_inserter(out.samples));
+    for (const PassInput& input : routed.work) {
+      Batches made = processor.compute(input);
+      std::move(made.begin(), made.end(), std::back_inserter(out.products));
+    }
+  }
+
+  /// What is sent from a batch on, up to another.
+  void receive(Processor& processor, std::size_t from, std::size_t to, Submitted& out) const {
+    for (std::size_t i = from; i < to; ++i) {
+      if (i == kSilence) {
+        work(processor, processor.fall_silent({"SAT"}), out);
+      }
+      work(processor, processor.route(sent_[i]), out);
+    }
+  }
+
+  static void store(const std::filesystem::path& db, Batches samples, Batches products) {
+    const auto archive = Archive::open(db, {}).value();
+    for (Batches* batches : {&samples, &products}) {
+      for (ArchiveBatch& batch : *batches) {
+        ASSERT_TRUE(archive->submit(std::move(batch)));
+      }
+    }
+    ASSERT_TRUE(archive->close());
+  }
+
+  /// The whole of what is left.
+  void go_on(const std::filesystem::path& db, std::size_t from) const {
+    Processor processor = new_processor();
+    Submitted rest;
+    work(processor, processor.go_on(db).value().routed, rest);
+    receive(processor, from, sent_.size(), rest);
+    Batches last = processor.finish();
+    std::move(last.begin(), last.end(), std::back_inserter(rest.products));
+    store(db, rest.samples, rest.products);
+  }
+
+  std::filesystem::path pass_;
+  std::vector<SampleBatch> sent_;
+};
+
+TEST_F(ThreeAxisRestart, KilledAtAnyPointGivesWhatNoRestartWouldHave) {
+  const auto whole_db = directory() / "whole.db";
+  Processor unstopped = new_processor();
+  Submitted whole;
+  whole.samples = unstopped.begin();
+  receive(unstopped, 0, sent_.size(), whole);
+  Batches last = unstopped.finish();
+  std::move(last.begin(), last.end(), std::back_inserter(whole.products));
+  store(whole_db, whole.samples, whole.products);
+  const std::vector<std::string> rows = all_rows(whole_db);
+  ASSERT_GT(number_of(whole_db, "SELECT count(*) FROM attitude"), 1000);
+  ASSERT_EQ(rows_of(whole_db, "SELECT DISTINCT rejected_by FROM rejected_sample ORDER BY 1"),
+            (std::vector<std::string>{"innovation|", "late|", "saturated|"}));
+
+  for (const std::size_t killed :
+       {std::size_t{1}, std::size_t{50}, kSilence, kSilence + 1, sent_.size() - 5, sent_.size()}) {
+    for (const std::size_t behind : {0U, 60U}) {
+      SCOPED_TRACE(fmt::format("after {} batches, {} of products behind", killed, behind));
+      Processor processor = new_processor();
+      Submitted first;
+      first.samples = processor.begin();
+      receive(processor, 0, killed, first);
+      first.products.resize(first.products.size() - std::min(first.products.size(), behind));
+      const auto db = directory() / fmt::format("killed-{}-{}.db", killed, behind);
+      store(db, first.samples, first.products);
+      go_on(db, killed);
+      ASSERT_EQ(all_rows(db), rows);
+    }
+  }
+}
+
+TEST_F(ThreeAxisRestart, MakesOnlyTheLastTenMinutesAgain) {
+  const auto db = directory() / "stopped.db";
+  Processor processor = new_processor();
+  Submitted first;
+  first.samples = processor.begin();
+  receive(processor, 0, sent_.size(), first);
+  store(db, first.samples, first.products);
+  const std::int64_t last = number_of(db, "SELECT max(t_tai_ns) FROM attitude");
+
+  Processor restarted = new_processor();
+  Submitted again;
+  work(restarted, restarted.go_on(db).value().routed, again);
+  ASSERT_FALSE(again.products.empty());
+  ASSERT_TRUE(again.products.front().continuation);
+  EXPECT_EQ(tai_ns(again.products.front().continuation->t), last - 600'000'000'000);
+}
+
+}  // namespace spindrift::three_axis_restart_test

@@ -1,0 +1,132 @@
+#include "services/processor/pass_computing.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "pipelines/three_axis/three_axis_pass.h"
+
+namespace spindrift::pass_computing_test {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+/// Gives one product a sample, of its time, one more at each silence and in the end, and throws
+/// where it is told to.
+class FakePass {
+ public:
+  explicit FakePass(std::optional<TaiTime> throws_at = {}) : throws_at_{throws_at} {}
+
+  ThreeAxisOutput push(const GyroSample& sample) {
+    if (sample.t == throws_at_) {
+      throw std::runtime_error{"no table has a place for it"};
+    }
+    t_ = sample.t;
+    const double value = sample.rate_body_rad_s.x();
+    return {.products = {RejectedSample{.t = sample.t,
+                                        .kind = SampleKind::Gyro,
+                                        .rejected_by = SampleRejection::Innovation,
+                                        .squared_innovation = value}},
+            .notices = {}};
+  }
+  ThreeAxisOutput fall_silent() { return again(SampleRejection::Frozen); }
+  ThreeAxisOutput finish() { return again(SampleRejection::Saturated); }
+
+ private:
+  ThreeAxisOutput again(SampleRejection why) const {
+    return {.products = {RejectedSample{.t = t_, .kind = SampleKind::Gyro, .rejected_by = why}},
+            .notices = {}};
+  }
+
+  std::optional<TaiTime> throws_at_;
+  TaiTime t_ = {};
+};
+
+PassInput input_at(const std::vector<std::int64_t>& times,
+                   std::vector<std::int64_t> silences = {}) {
+  PassInput input{.spacecraft = 0, .run_id = "run", .silences = std::move(silences)};
+  for (const std::int64_t t : times) {
+    const auto place = static_cast<std::int64_t>(sample_count(input));
+    input.values.of<GyroSample>().push_back({.arrival = place, .value = {.t = tai_from_ns(t)}});
+  }
+  return input;
+}
+
+constexpr auto kNote = [](const ThreeAxisOutput& /*output*/) {};
+
+std::vector<std::int64_t> times_of(const std::vector<Product>& products) {
+  std::vector<std::int64_t> times;
+  for (const Product& product : products) {
+    times.push_back(tai_ns(std::get<RejectedSample>(product).t));
+  }
+  return times;
+}
+
+TEST(PassComputing, SilencesHaveTheirPlaceAmongTheSamples) {
+  PassComputing<FakePass> computing{"SAT", "run", FakePass{}};
+  const auto batches = computing.compute(input_at({1, 2, 3}, {2, 3}), kNote);
+  ASSERT_THAT(batches, SizeIs(1));
+  EXPECT_THAT(times_of(batches[0].products), ElementsAre(1, 2, 2, 3, 3));
+  EXPECT_EQ(batches[0].run_id, "run");
+  EXPECT_EQ(batches[0].spacecraft_id, "SAT");
+}
+
+TEST(PassComputing, KnowsNothingOfTheOtherKinds) {
+  PassComputing<FakePass> computing{"SAT", "run", FakePass{}};
+  PassInput input = input_at({});
+  input.values.of<StarFix>().push_back({.arrival = 0, .value = {.t = tai_from_ns(1)}});
+  EXPECT_THAT(computing.compute(input, kNote), IsEmpty());
+}
+
+TEST(PassComputing, WhatIsThrownBecomesAFaultBehindWhatWasMade) {
+  PassComputing<FakePass> computing{"SAT", "run", FakePass{tai_from_ns(3)}};
+  const auto batches = computing.compute(input_at({1, 2, 3, 4}), kNote);
+  ASSERT_THAT(batches, SizeIs(1));
+  ASSERT_THAT(batches[0].products, SizeIs(3));
+  const auto& fault = std::get<RunFault>(batches[0].products[2]);
+  EXPECT_EQ(fault.t, tai_from_ns(3));
+  EXPECT_EQ(fault.what, "no table has a place for it");
+  EXPECT_TRUE(computing.failed());
+  EXPECT_THAT(computing.compute(input_at({5}), kNote), IsEmpty());
+  std::vector<Product> last;
+  computing.finish(last, kNote);
+  EXPECT_THAT(last, IsEmpty());
+
+  computing.begin("next", FakePass{});
+  EXPECT_THAT(computing.compute(input_at({6}), kNote), SizeIs(1));
+}
+
+TEST(PassComputing, StoresNothingAgainBeforeTheResumePoint) {
+  PassComputing<FakePass> computing{"SAT", "run", FakePass{}};
+  computing.go_on({{"run", {.again_from = tai_from_ns(3), .batches = {}}}});
+  computing.begin("run", FakePass{});
+  std::size_t noted = 0;
+  const auto note = [&](const ThreeAxisOutput& output) { noted += output.products.size(); };
+  EXPECT_THAT(computing.compute(input_at({1, 2}, {2}), note), IsEmpty());
+  const auto batches = computing.compute(input_at({3, 4}), note);
+  ASSERT_THAT(batches, SizeIs(1));
+  EXPECT_EQ(batches[0].continuation.value().t, tai_from_ns(3));
+  EXPECT_THAT(times_of(batches[0].products), ElementsAre(3, 4));
+  EXPECT_EQ(noted, 5U);
+  EXPECT_FALSE(computing.compute(input_at({5}), note)[0].continuation);
+}
+
+TEST(PassComputing, WithholdsAProductThatIsNotFinite) {
+  PassComputing<FakePass> computing{"SAT", "run", FakePass{}};
+  PassInput input = input_at({1, 2});
+  input.values.of<GyroSample>()[0].value.rate_body_rad_s.x() =
+      std::numeric_limits<double>::quiet_NaN();
+  std::vector<Notice> notices;
+  const auto batches = computing.compute(input, [&](const ThreeAxisOutput& output) {
+    notices.insert(notices.end(), output.notices.begin(), output.notices.end());
+  });
+  ASSERT_THAT(batches, SizeIs(1));
+  EXPECT_THAT(times_of(batches[0].products), ElementsAre(2));
+  ASSERT_THAT(notices, SizeIs(1));
+  EXPECT_EQ(notices[0].code, NoticeCode::NotFinite);
+}
+
+}  // namespace spindrift::pass_computing_test
