@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "services/bus/entity.h"
 
@@ -29,6 +30,8 @@ class Loan {
   const void* operator[](std::size_t i) const {
     return infos_[i].valid_data ? samples_[i] : nullptr;
   }
+  /// When it was written, nanoseconds by the writer's clock.
+  std::int64_t written_ns(std::size_t i) const { return infos_[i].source_timestamp; }
 
  private:
   dds_entity_t reader_;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -71,14 +72,19 @@ class Reader {
         .map([](UntypedReader&& reader) { return Reader{std::move(reader)}; });
   }
 
-  /// Calls `handler(const Sample&)` for each of up to 256 samples; the sample is gone afterwards.
-  /// The end of a source is no sample. @return how many were taken: 0 when there were none.
+  /// Calls `handler(const Sample&)`, or with when it was written as well, nanoseconds by the clock
+  /// of the writer, for each of up to 256 samples; the sample is gone afterwards. The end of a
+  /// source is no sample. @return how many were taken: 0 when there were none.
   template <class Handler>
   Expected<std::size_t> take(Handler&& handler) const {
     const Loan loan{reader_.entity()};
     for (std::size_t i = 0; i < loan.count().value_or(0); ++i) {
       if (const void* sample = loan[i]; sample != nullptr) {
-        handler(*static_cast<const Sample*>(sample));
+        if constexpr (std::is_invocable_v<Handler, const Sample&, std::int64_t>) {
+          handler(*static_cast<const Sample*>(sample), loan.written_ns(i));
+        } else {
+          handler(*static_cast<const Sample*>(sample));
+        }
       }
     }
     return loan.count();

@@ -14,8 +14,13 @@ Arrivals::Arrivals(std::set<std::string, std::less<>> spacecraft, const LastOrig
   }
 }
 
-std::map<std::string, SequenceCounts> Arrivals::take_changed() {
+std::map<std::string, SequenceCounts> Arrivals::count(const TelemetrySamples& samples) {
   const std::lock_guard lock{mutex_};
+  samples.for_each([this]<class Value>(const SamplesOfKind<Value>& of_kind) {
+    for (const TelemetrySample<Value>& sample : of_kind) {
+      tracker_.record(sample.origin, sample.spacecraft, kTelemetryKind<Value>);
+    }
+  });
   return tracker_.take_changed();
 }
 

@@ -30,15 +30,20 @@ class Arrivals {
 
   bool is_ours(std::string_view spacecraft) const { return ours_.contains(spacecraft); }
 
-  /// A sample of ours: its value, or why there is none, into `batch`.
+  /// A sample of ours: its value, or why there is none, into `batch`. It is counted with `count`.
   template <class Value>
-  void take(const bus::MessageOf<Value>& message, SampleBatch& batch) {
-    auto sample = from_idl<Value>(message);
-    const std::lock_guard lock{mutex_};
-    if (note(message, sample, batch)) {
-      batch.samples.template of<Value>().push_back(std::move(*sample));
+  void take(const bus::MessageOf<Value>& message, std::int64_t written_ns, SampleBatch& batch) {
+    if (auto sample = from_idl<Value>(message)) {
+      sample->arrival = written_ns;
+      batch.samples.template of<Value>().push_back(*std::move(sample));
+    } else {
+      const std::lock_guard lock{mutex_};
+      note<Value>(message, sample, batch);
     }
   }
+
+  /// @return of the sources of which samples were counted since this was last asked, all counts.
+  std::map<std::string, SequenceCounts> count(const TelemetrySamples& samples);
 
   /// A sample of another spacecraft: `take_rest` gives what is to be known of it.
   template <class Value>
@@ -49,9 +54,6 @@ class Arrivals {
       ++entry_of(rest_.others, sample->spacecraft).second;
     }
   }
-
-  /// Of the sources of which samples came since this was last asked.
-  std::map<std::string, SequenceCounts> take_changed();
 
   /// What belongs to no batch of samples. @param now See RejectionLimit.
   SampleBatch take_rest(TaiTime now);

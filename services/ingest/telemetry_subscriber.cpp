@@ -1,5 +1,6 @@
 #include "services/ingest/telemetry_subscriber.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -11,11 +12,11 @@ namespace spindrift {
 namespace {
 
 // So many does Reader::take give at a time while there are more.
-constexpr std::int32_t kTakenAtOnce = 256;
+constexpr std::size_t kTakenAtOnce = 256;
 // Samples of other spacecraft do not wake the taking thread: so often it hands over their counts.
 constexpr std::chrono::seconds kBeat{1};
 // What a stop takes at most: a full reader, and as much again from what Cyclone has in hand.
-constexpr std::int32_t kBatchesLeft = 2 * bus::kTelemetryReaderSamples / kTakenAtOnce;
+constexpr std::int32_t kBatchesLeft = 2 * bus::kTelemetryReaderSamples / std::int32_t{kTakenAtOnce};
 // For its threads to deliver what they have in hand.
 constexpr std::chrono::milliseconds kInHand{20};
 
@@ -165,7 +166,7 @@ void TelemetrySubscriber::run() {
 
 Expected<void> TelemetrySubscriber::take_until_stopped() {
   while (true) {
-    const auto more = waitset_.wait(kBeat);
+    const auto more = waitset_.wait(until_next_look());
     if (!more) {
       return Unexpected{more.error()};
     }
@@ -198,36 +199,62 @@ Expected<void> TelemetrySubscriber::take_what_is_left() {
     }
     waited = !*handed;
   }
+  if (auto handed = hand_over(order_.rest()); !handed) {
+    return handed;
+  }
   return hand_over_rest(TaiTime::max());
+}
+
+std::chrono::nanoseconds TelemetrySubscriber::until_next_look() const {
+  if (!order_.holds_some()) {
+    return kBeat;
+  }
+  const auto until = order_.wait_until();
+  return until ? std::max<std::chrono::nanoseconds>(*until - std::chrono::steady_clock::now(), {})
+               : std::chrono::nanoseconds{0};
 }
 
 // False: there was nothing to take.
 Expected<bool> TelemetrySubscriber::hand_over_batches() {
-  Expected<bool> some = false;
-  TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
-    if (some) {
-      const bool before = *some;
-      some = hand_over_batch<Value>().map([before](bool now) { return before || now; });
-    }
-  });
-  return some;
+  auto taken = take_from_all();
+  if (!taken) {
+    return Unexpected{std::move(taken.error())};
+  }
+  const bool some = !is_empty(*taken);
+  SampleBatch complete = order_.pass_on(std::move(*taken), std::chrono::steady_clock::now());
+  return hand_over(std::move(complete)).map([some] { return some; });
 }
 
+Expected<SampleBatch> TelemetrySubscriber::take_from_all() {
+  SampleBatch taken;
+  Expected<void> done;
+  TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
+    done = done.and_then([&] { return take_from<Value>(taken); });
+  });
+  return done.map([&] { return std::move(taken); });
+}
+
+// All that its reader can hold: what comes meanwhile is for the next time.
 template <class Value>
-Expected<bool> TelemetrySubscriber::hand_over_batch() {
-  SampleBatch batch;
-  const auto taken = std::get<kTelemetryKind<Value>>(*readers_).take(
-      [&](const bus::MessageOf<Value>& message) { arrivals_->take<Value>(message, batch); });
-  if (!taken) {
-    return Unexpected{taken.error()};
+Expected<void> TelemetrySubscriber::take_from(SampleBatch& batch) {
+  std::size_t all = 0;
+  Expected<std::size_t> taken = kTakenAtOnce;
+  while (taken && *taken == kTakenAtOnce && all < bus::kTelemetryReaderSamples) {
+    taken = std::get<kTelemetryKind<Value>>(*readers_).take(
+        [&](const bus::MessageOf<Value>& message, std::int64_t written_ns) {
+          arrivals_->take<Value>(message, written_ns, batch);
+        });
+    all += taken.value_or(0);
   }
-  if (!is_empty(batch)) {
-    batch.counts = arrivals_->take_changed();
-    if (auto pushed = push(std::move(batch)); !pushed) {
-      return Unexpected{std::move(pushed.error())};
-    }
+  return taken.map([](std::size_t) {});
+}
+
+Expected<void> TelemetrySubscriber::hand_over(SampleBatch batch) {
+  if (is_empty(batch)) {
+    return {};
   }
-  return *taken > 0;
+  batch.counts = arrivals_->count(batch.samples);
+  return push(std::move(batch));
 }
 
 Expected<void> TelemetrySubscriber::hand_over_rest(TaiTime now) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -19,6 +20,7 @@
 #include "services/bus/telemetry_messages.h"
 #include "services/bus/wait_set.h"
 #include "services/ingest/arrivals.h"
+#include "services/ingest/writing_order.h"
 #include "services/queue/bounded_queue.h"
 #include "services/telemetry/last_origins.h"
 #include "services/telemetry/sample_batch.h"
@@ -70,9 +72,12 @@ class TelemetrySubscriber {
   void run();
   Expected<void> take_until_stopped();
   Expected<void> take_what_is_left();
-  Expected<bool> hand_over_batches();
+  Expected<SampleBatch> take_from_all();
   template <class Value>
-  Expected<bool> hand_over_batch();
+  Expected<void> take_from(SampleBatch& batch);
+  Expected<bool> hand_over_batches();
+  Expected<void> hand_over(SampleBatch batch);
+  std::chrono::nanoseconds until_next_look() const;
   Expected<void> hand_over_rest(TaiTime now);
   Expected<void> push(SampleBatch batch);
   void discard_what_is_left();
@@ -85,6 +90,7 @@ class TelemetrySubscriber {
   Expected<bus::ReaderStatus> last_reader_status_;  ///< Once they are gone.
   bus::WaitSet waitset_;
   BoundedQueue<SampleBatch>& queue_;
+  WritingOrder order_;
 
   mutable std::mutex mutex_;  // Guards the three below.
   bool taking_ = true;

@@ -24,6 +24,14 @@ constexpr std::chrono::seconds kWaitForArrival{60};
 // Who is told to stop does not wait long for a subscriber that hangs.
 constexpr std::chrono::seconds kWaitForArrivalWhenStopped{2};
 constexpr std::chrono::milliseconds kSlice{100};
+// Of telemetry time: who receives several topics waits for a second for what precedes a sample.
+constexpr std::chrono::milliseconds kLongestPacked{500};
+
+bool has_several(const TelemetryPublishers& publishers) {
+  int kinds = 0;
+  publishers.for_each([&](const auto& publisher) { kinds += publisher ? 1 : 0; });
+  return kinds > 1;
+}
 
 /// `attempt(kSlice)` until it succeeds, for `patience` at most.
 /// @return the last error of `attempt`.
@@ -164,14 +172,20 @@ PublishedCounts TelemetryOutput::counts() const {
   return counts;
 }
 
-/// What is due together goes out packed; nothing that is out waits for what is not due.
+/// What is due together goes out packed; nothing that is out waits for what is not due, and of
+/// several topics none falls behind the others until its packet is full.
 void TelemetryOutput::wait_until_due(TaiTime t) {
-  if (const auto due = pacing_.due(t)) {
+  const auto due = pacing_.due(t);
+  if (due || (has_several(publishers_) && t - flushed_.value_or(t) >= kLongestPacked)) {
     publishers_.for_each([](const auto& publisher) {
       if (publisher) {
         publisher->flush();
       }
     });
+    flushed_ = t;
+  }
+  flushed_ = flushed_.value_or(t);
+  if (due) {
     pacing_.wait_until(*due, stop_);
   }
 }

@@ -72,6 +72,7 @@ class TelemetryOutput {
   Pacing pacing_;
   std::stop_token stop_;
   std::optional<TaiTime> reached_;
+  std::optional<TaiTime> flushed_;
 };
 
 struct Sending {

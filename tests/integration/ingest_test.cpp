@@ -300,7 +300,7 @@ TEST(TelemetrySubscriber, QueuesWhatAPublisherSends) {
 }
 
 TEST(TelemetrySubscriber, LosesNothingToASlowConsumer) {
-  constexpr std::size_t kCount = 20'000;
+  constexpr std::size_t kCount = 80'000;
   const auto config = bus_of_its_own();
   Station station{config, 2, Consumer::IsHeld};
   ForeignWriter writer{config, "telemetry", kCount};

@@ -1,0 +1,105 @@
+#include "services/ingest/writing_order.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace spindrift::writing_order_test {
+
+using namespace std::chrono_literals;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+/// What a look at all topics has found: gyro samples and star fixes, by when they were written.
+SampleBatch look(const std::vector<std::int64_t>& gyro, const std::vector<std::int64_t>& star,
+                 const std::string& source = "station") {
+  SampleBatch taken;
+  const auto add = [&]<class Value>(Kind<Value> /*kind*/, std::int64_t written) {
+    taken.samples.of<Value>().push_back(
+        {.spacecraft = "SAT", .origin = {.source = source}, .value = {}, .arrival = written});
+  };
+  for (const std::int64_t written : gyro) {
+    add(Kind<GyroSample>{}, written);
+  }
+  for (const std::int64_t written : star) {
+    add(Kind<StarFix>{}, written);
+  }
+  return taken;
+}
+
+/// In the order in which they are worked on.
+std::vector<std::int64_t> written(const SampleBatch& batch) {
+  std::vector<std::int64_t> order;
+  in_order_of_arrival(batch.samples, [&](const auto& sample) { order.push_back(sample.arrival); });
+  return order;
+}
+
+class WritingOrderTest : public ::testing::Test {
+ protected:
+  /// Its session is not new any more.
+  void SetUp() override {
+    pass_on(look({1}, {}));
+    now_ += WritingOrder::kLastMinutes;
+    EXPECT_THAT(pass_on({}), ElementsAre(1));
+  }
+  std::vector<std::int64_t> pass_on(SampleBatch taken) {
+    return written(order_.pass_on(std::move(taken), now_));
+  }
+
+  WritingOrder order_;
+  WritingOrder::Instant now_{1h};
+};
+
+TEST_F(WritingOrderTest, ASampleWaitsForOneLookAtAllTopics) {
+  EXPECT_THAT(pass_on(look({2}, {})), IsEmpty());
+  EXPECT_TRUE(order_.holds_some());
+  EXPECT_FALSE(order_.wait_until());
+  EXPECT_THAT(pass_on({}), ElementsAre(2));
+  EXPECT_FALSE(order_.holds_some());
+}
+
+TEST_F(WritingOrderTest, WhatWasWrittenBeforeOnAnotherTopicComesBefore) {
+  EXPECT_THAT(pass_on(look({4, 6, 8}, {})), IsEmpty());
+  // Star fixes that were on their way, and what has been written since.
+  EXPECT_THAT(pass_on(look({9}, {5, 7, 10})), ElementsAre(4, 5, 6, 7, 8));
+  EXPECT_THAT(pass_on(look({}, {})), ElementsAre(9, 10));
+}
+
+TEST_F(WritingOrderTest, OneTopicStaysInTheOrderInWhichItWasTaken) {
+  SampleBatch taken = look({3, 5, 2, 4}, {});
+  EXPECT_THAT(pass_on(std::move(taken)), IsEmpty());
+  const SampleBatch passed = order_.pass_on({}, now_);
+  std::vector<std::int64_t> order;
+  for (const auto& sample : passed.samples.of<GyroSample>()) {
+    order.push_back(sample.arrival);
+  }
+  EXPECT_THAT(order, ElementsAre(3, 5, 2, 4));
+}
+
+TEST_F(WritingOrderTest, TheLastMinutesOfANewSessionComeTopicByTopic) {
+  EXPECT_THAT(pass_on(look({10, 20, 30, 40}, {}, "front-end")), IsEmpty());
+  ASSERT_EQ(order_.wait_until(), now_ + WritingOrder::kLastMinutes);
+  now_ += 50ms;
+  EXPECT_THAT(pass_on({}), IsEmpty());
+  EXPECT_THAT(pass_on(look({}, {15, 35}, "front-end")), IsEmpty());
+  now_ += 200ms;
+  EXPECT_THAT(pass_on({}), ElementsAre(10, 15, 20, 30, 35, 40));
+  EXPECT_THAT(pass_on(look({50}, {}, "front-end")), IsEmpty());
+  EXPECT_FALSE(order_.wait_until());
+}
+
+TEST_F(WritingOrderTest, TooManyDoNotWait) {
+  std::vector<std::int64_t> many(WritingOrder::kMost);
+  EXPECT_THAT(pass_on(look(many, {}, "front-end")), IsEmpty());
+  EXPECT_EQ(pass_on({}).size(), many.size());
+}
+
+TEST_F(WritingOrderTest, GivesTheRestAtTheEnd) {
+  EXPECT_THAT(pass_on(look({30}, {20}, "front-end")), IsEmpty());
+  EXPECT_THAT(written(order_.rest()), ElementsAre(20, 30));
+  EXPECT_FALSE(order_.holds_some());
+}
+
+}  // namespace spindrift::writing_order_test
