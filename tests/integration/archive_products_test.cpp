@@ -13,6 +13,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/time/utc.h"
 #include "services/archive/archive.h"
+#include "services/archive/stored_results.h"
 #include "tests/integration/archive_fixture.h"
 
 namespace spindrift::archive_products_test {
@@ -87,6 +88,76 @@ TEST_F(ArchiveProducts, VerdictOfAPassIsThatOfBatchElseOfSequentialElseOfMean) {
                      "SELECT format('%s %.3g %s', ifnull(estimator, '-'), ifnull(dec_deg, 0), why)"
                      " FROM pass_verdict ORDER BY run_id"),
               ElementsAre("- 0 no estimate", "mean 30 OK", "sequential 30 OK", "batch 30 OK"));
+}
+
+AttitudeEstimate attitude_at(std::int64_t t_tai_ns, Quality quality) {
+  return {
+      .t = tai_from_ns(t_tai_ns),
+      .q_icrf_body = Eigen::Quaterniond{0.5, -0.5, 0.1, 0.7},
+      .rate_body_rad_s = Eigen::Vector3d{0.25, -0.5, 1.0},
+      .covariance_rad2 = Eigen::Vector3d{4.0, 16.0, 16.0}.asDiagonal() * (kRadPerDeg * kRadPerDeg),
+      .assessment = {quality, {{ReasonCode::SensorGated, {{"sensor", std::string{"sun"}}}}}}};
+}
+
+TEST_F(ArchiveProducts, AttitudeIsStoredAndComesBackAsItWasButForAnEvenCovariance) {
+  ArchiveBatch batch = start_of("run-1");
+  AttitudeEstimate without_rate = attitude_at(8, Quality::Ok);
+  without_rate.rate_body_rad_s.reset();
+  batch.products = {attitude_at(7, Quality::Doubtful), without_rate};
+  store(batch);
+
+  EXPECT_EQ(text("SELECT format('%d %s %g %g %g %g', t_tai_ns, source, qx, qy, qz, qw)"
+                 " || format(' %g %g %g %.9g %s %s', rate_x_rad_s, rate_y_rad_s, rate_z_rad_s,"
+                 " sigma_deg, quality, status) FROM attitude WHERE t_tai_ns = 7"),
+            "7 mekf -0.5 0.1 0.7 0.5 0.25 -0.5 1 6 DOUBTFUL DOUBTFUL, many sun samples gated");
+  const std::vector<Product> in_force = find_stored_results(path(), "run-1").value().in_force();
+  ASSERT_EQ(in_force.size(), 1U);
+  const auto& last = std::get<AttitudeEstimate>(in_force[0]);
+  EXPECT_EQ(last.t, without_rate.t);
+  EXPECT_EQ(last.q_icrf_body.coeffs(), without_rate.q_icrf_body.coeffs());
+  EXPECT_FALSE(last.rate_body_rad_s);
+  EXPECT_NEAR(last.sigma_rad(), without_rate.sigma_rad(), 1e-15);
+  EXPECT_EQ(last.assessment, without_rate.assessment);
+}
+
+TEST_F(ArchiveProducts, VerdictOfAThreeAxisPassIsItsLastAttitude) {
+  ArchiveBatch batch = start_of("run-1");
+  batch.products = {attitude_at(7, Quality::Ok), attitude_at(8, Quality::Lost),
+                    attitude_at(9, Quality::Ok)};
+  store(batch);
+  const std::string verdict =
+      "SELECT format('%s %s %d %g %g', estimator, quality, ra_deg IS NULL, qw, sigma_deg)"
+      " FROM pass_verdict";
+  EXPECT_EQ(text(verdict), "mekf OK 1 0.5 6");
+
+  batch = testing::batch_of("run-1");
+  batch.products = {RunFault{.t = tai_from_ns(10), .what = "no such sensor"}};
+  store(batch);
+  EXPECT_EQ(text(verdict), "mekf DOUBTFUL 1 0.5 6");
+}
+
+TEST_F(ArchiveProducts, ARejectedSampleKeepsItsFirstReasonWhenItComesAgain) {
+  ArchiveBatch batch = start_of("run-1");
+  RejectedSample fix{.t = tai_from_ns(7),
+                     .kind = SampleKind::Star,
+                     .rejected_by = SampleRejection::Innovation,
+                     .squared_innovation = 40.5};
+  batch.products = {fix};
+  fix.rejected_by = SampleRejection::Late;
+  fix.squared_innovation.reset();
+  batch.products.emplace_back(fix);
+  fix.kind = SampleKind::Sun;
+  batch.products.emplace_back(fix);
+  store(batch);
+
+  EXPECT_EQ(text("SELECT group_concat(format('%d %s %s %g', t_tai_ns, kind, rejected_by,"
+                 " ifnull(squared_innovation, 0)), '; ') FROM rejected_sample"),
+            "7 star innovation 40.5; 7 sun late 0");
+  EXPECT_EQ(text("SELECT group_concat(what || ' ' || name || ' ' || rejected_by || ' ' || rejected,"
+                 " '; ') FROM rejection_summary"),
+            "sample star innovation 1; sample sun late 1");
+  EXPECT_EQ(text("SELECT says FROM rejected_sample_utc WHERE kind = 'star'"),
+            "too far from where the attitude has it");
 }
 
 TEST_F(ArchiveProducts, VerdictOfARunThatFailedToComputeIsDoubtfulUnlessItIsLost) {

@@ -299,6 +299,28 @@ TEST(TelemetrySubscriber, QueuesWhatAPublisherSends) {
   EXPECT_EQ(arrived.samples.of<Pulse>()[0].value, pulse);
 }
 
+TEST(TelemetrySubscriber, TakesWhatWasSentBeforeItCameInTheOrderOfItsWriting) {
+  const auto config = bus_of_its_own();
+  const auto front_end = Participant::create(config).value();
+  auto gyro = TelemetryPublisher<GyroSample>::create(front_end, "station", 7).value();
+  auto star = TelemetryPublisher<StarFix>::create(front_end, "station", 7).value();
+  for (int second = 0; second < 600; ++second) {
+    const TaiTime t = tai_from_ns(kTestTime_tai_ns) + std::chrono::seconds{second};
+    ASSERT_TRUE(second % 10 > 0 ? gyro.publish("SPINNER", GyroSample{.t = t}, {})
+                                : star.publish("SPINNER", StarFix{.t = t}, {}));
+  }
+  BoundedQueue<SampleBatch> queue{64};
+  const auto participant = Participant::create(config).value();
+  const auto subscriber = TelemetrySubscriber::start(participant, queue, {"SPINNER"}).value();
+  std::vector<TaiTime> times;
+  while (times.size() < 600) {
+    const auto batch = queue.take();
+    in_order_of_arrival(batch->samples,
+                        [&](const auto& sample) { times.push_back(sample.value.t); });
+  }
+  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+}
+
 TEST(TelemetrySubscriber, LosesNothingToASlowConsumer) {
   constexpr std::size_t kCount = 80'000;
   const auto config = bus_of_its_own();

@@ -97,6 +97,38 @@ TEST(ResultPublisher, PublishesAFixInDegrees) {
   EXPECT_STREQ(taken[0].service, kService);
 }
 
+TEST(ResultPublisher, PublishesAnAttitudeAndNaNForARateThatIsNone) {
+  const auto participant = Participant::create(bus_of_its_own()).value();
+  const auto publisher = ResultPublisher::create(participant, kService).value();
+  AttitudeEstimate attitude{
+      .t = tai_from_ns(kTestTime_tai_ns),
+      .q_icrf_body = Eigen::Quaterniond{0.5, -0.5, 0.1, 0.7},
+      .rate_body_rad_s = Eigen::Vector3d{0.25, -0.5, 1.0},
+      .covariance_rad2 = Eigen::Vector3d{4.0, 16.0, 16.0}.asDiagonal() * (kRad_deg * kRad_deg),
+      .assessment = {Quality::Doubtful,
+                     {{ReasonCode::SensorGated, {{"sensor", std::string{"sun"}}}}}}};
+  const auto reader = results_reader(participant, product_topic<AttitudeEstimate>());
+  ASSERT_TRUE(publisher.publish("SAT", "run-1", attitude));
+  const auto taken = take_samples(reader, 1);
+  ASSERT_EQ(taken.size(), 1U);
+  EXPECT_STREQ(taken[0].spacecraft, "SAT");
+  EXPECT_STREQ(taken[0].estimator, "mekf");
+  EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
+  EXPECT_EQ(taken[0].qx, -0.5);
+  EXPECT_EQ(taken[0].qy, 0.1);
+  EXPECT_EQ(taken[0].qz, 0.7);
+  EXPECT_EQ(taken[0].qw, 0.5);
+  EXPECT_THAT(taken[0].rate_body_rad_s, ElementsAre(0.25, -0.5, 1.0));
+  EXPECT_NEAR(taken[0].sigma_deg, 6.0, kRounding);
+  EXPECT_EQ(taken[0].quality, spindrift_QUALITY_DOUBTFUL);
+  EXPECT_STREQ(taken[0].status, "DOUBTFUL, many sun samples gated");
+  EXPECT_STREQ(taken[0].run_id, "run-1");
+
+  attitude.rate_body_rad_s.reset();
+  ASSERT_TRUE(publisher.publish("SAT", "run-1", attitude));
+  EXPECT_TRUE(std::isnan(take_samples(reader, 1).at(0).rate_body_rad_s[2]));
+}
+
 TEST(ResultPublisher, PublishesAnEstimateInDegreesAndRpm) {
   const auto participant = Participant::create(bus_of_its_own()).value();
   const auto publisher = ResultPublisher::create(participant, kService).value();

@@ -1,20 +1,26 @@
-// A three-axis spacecraft through the program: its samples are stored, its runs are made.
+// A three-axis spacecraft through the program: its samples, its attitude, its runs.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "services/bus/qos.h"
+#include "services/bus/reader.h"
+#include "services/publisher/product_messages.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
 #include "tests/support/processed_pass.h"
 #include "tests/support/program.h"
+#include "tests/support/service.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
+#include "tests/support/three_axis_files.h"
 
 namespace spindrift::three_axis_test {
 
@@ -49,6 +55,105 @@ TEST(ThreeAxis, ProcessStoresEverySampleAsItWasReceived) {
                 "LEOSAT|1772337937000000000|star.csv|2|-0.487081521215|0.16712265087|"});
   EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM run WHERE finished_utc IS NOT NULL"), 1);
   EXPECT_EQ(number_of(outcome.db, "SELECT first_tai_ns FROM run"), 1772337697000000000);
+}
+
+TEST(ThreeAxis, TheAttitudeOfAPassIsThatOfItsStarFix) {
+  const TemporaryFolder folder;
+  const Outcome outcome = process(folder, kSeparation);
+  ASSERT_EQ(outcome.status, 0) << outcome.log;
+  const nlohmann::json& attitude = outcome.run["attitude"];
+  EXPECT_EQ(attitude["quality"], "CONVERGING");
+  EXPECT_EQ(attitude["utc"], "2026-03-01T04:05:00.000Z");
+  EXPECT_NEAR(attitude["sigma_deg"], std::sqrt(3.0) * 20.0 / 3600.0, 1e-9);
+  EXPECT_EQ(outcome.run["sensors"]["sun"]["accepted"], 223);
+  EXPECT_EQ(outcome.run["sensors"]["sun"]["rejected"], nlohmann::json::object());
+  EXPECT_EQ(
+      rows_of(outcome.db, "SELECT estimator, quality, ra_deg IS NULL, qw, why FROM pass_verdict"),
+      (std::vector<std::string>{
+          fmt::format("mekf|CONVERGING|1|{:a}|CONVERGING|", attitude["qw"].get<double>())}));
+}
+
+/// What an archive holds of a pass, but its runs.
+std::vector<std::string> pass_rows(const std::filesystem::path& db) {
+  std::vector<std::string> rows;
+  for (const char* query :
+       {"SELECT t_tai_ns, source, qx, qy, qz, qw, rate_x_rad_s, rate_y_rad_s, rate_z_rad_s,"
+        " sigma_deg, quality, reasons, status FROM attitude ORDER BY 1",
+        "SELECT t_tai_ns, kind, rejected_by, squared_innovation FROM rejected_sample ORDER BY 1, 2",
+        "SELECT spacecraft_id, finished, estimator, quality, qx, sigma_deg, why FROM pass_verdict",
+        kAllSamples}) {
+    for (std::string& row : rows_of(db, query)) {
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
+/// Of the CSV files of a pass the rows of one half of its time.
+void write_half(const std::filesystem::path& pass, std::int64_t middle_tai_ns, bool first,
+                const std::filesystem::path& to) {
+  for (const char* name : {"gyro.csv", "star.csv", "sun.csv", "orbit_state.csv"}) {
+    std::ifstream whole{pass / name};
+    std::ofstream half{to / name};
+    std::string row;
+    std::getline(whole, row);
+    half << row << '\n';
+    while (std::getline(whole, row)) {
+      if ((std::stoll(row) < middle_tai_ns) == first) {
+        half << row << '\n';
+      }
+    }
+  }
+}
+
+/// The last attitude that a late joiner is given.
+std::int64_t last_on(const bus::BusConfig& bus) {
+  const auto participant = bus::Participant::create(bus).value();
+  const auto reader = bus::Reader<spindrift_AttitudeEstimate>::create(
+                          participant, product_topic<AttitudeEstimate>(), bus::results_qos())
+                          .value();
+  const auto taken = take_samples(reader, 1);
+  return taken.empty() ? 0 : taken.front().t_tai_ns;
+}
+
+TEST(ThreeAxis, ServeGivesWhatProcessGivesAlsoWhenItIsKilledInThePass) {
+  const TemporaryFolder pass;
+  testing::write_three_axis_pass(pass.path());
+  const TemporaryFolder folder;
+  const Outcome outcome = process(folder, pass.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.log;
+  const std::vector<std::string> expected = pass_rows(outcome.db);
+  const std::int64_t last = number_of(outcome.db, "SELECT max(t_tai_ns) FROM attitude");
+  ASSERT_EQ(number_of(outcome.db, "SELECT count(*) FROM rejected_sample"), 2);
+  ASSERT_EQ(outcome.run["attitude"]["quality"], "OK");
+
+  Service service{pass.path().string(), "replay"};
+  const std::int64_t middle = last - 30'000'000'000;
+  for (const bool first : {true, false}) {
+    ASSERT_TRUE(service.ready()) << service.program().log();
+    const TemporaryFolder half;
+    write_half(pass.path(), middle, first, half.path());
+    Program replay{{"replay", "--mission", service.mission(), "--telemetry", half.path().string(),
+                    "--speed", "0", "--domain", std::to_string(service.bus().domain), "--partition",
+                    service.bus().partition}};
+    ASSERT_EQ(replay.exit_status(), 0) << replay.log();
+    const std::int64_t reached = first ? middle - 2'000'000'000 : last;
+    ASSERT_TRUE(eventually(
+        [&] { return number_of(service.db(), "SELECT max(t_tai_ns) FROM attitude") >= reached; }));
+    if (first) {
+      service.program().signal(SIGKILL);
+      service.program().exit_status();
+      service.start();
+    }
+  }
+  EXPECT_TRUE(eventually([&] { return last_on(service.bus()) == last; }));
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  EXPECT_THAT(service.program().log(), HasSubstr("continuing run"));
+  EXPECT_THAT(service.program().log(), HasSubstr("attitude ICRF to body, Euler 3-1-2"));
+  EXPECT_EQ(pass_rows(service.db()), expected);
+  const auto summary = nlohmann::json::parse(service.program().out())["runs"][0];
+  EXPECT_EQ(summary["attitude"], outcome.run["attitude"]);
+  EXPECT_EQ(summary["sensors"], outcome.run["sensors"]);
 }
 
 TEST(ThreeAxis, SamplesOfASecondRunAreStoredOnce) {
