@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "pipelines/core/expected.h"
@@ -28,17 +29,30 @@ T or_exit(Expected<T> value) {
   }
 }
 
-/// The pulses of a file in order of time.
-inline std::vector<Pulse> read_pulses(const std::string& path) {
+using AnySample = TelemetryKinds::Of<std::variant, TelemetrySample>;
+
+/// Those of a file or folder in order of time; of several spacecraft those of the one of this name.
+inline std::vector<AnySample> read_samples(const std::string& path, const std::string& spacecraft) {
   const std::vector<std::filesystem::path> paths{path};
   const std::vector<TelemetryFile> files = or_exit(scan_telemetry(paths));
-  TelemetryStream stream = or_exit(TelemetryStream::open(files, "LOAD"));
-  std::vector<Pulse> pulses;
-  for (SampleBatch batch = or_exit(stream.next()); !batch.samples.of<Pulse>().empty();
+  TelemetryStream stream = or_exit(TelemetryStream::open(files, spacecraft));
+  std::vector<AnySample> samples;
+  for (SampleBatch batch = or_exit(stream.next()); !is_empty(batch);
        batch = or_exit(stream.next())) {
-    for (const TelemetrySample<Pulse>& sample : batch.samples.of<Pulse>()) {
-      pulses.push_back(sample.value);
-    }
+    in_order_of_arrival(batch.samples, [&](const auto& sample) {
+      if (sample.spacecraft == spacecraft) {
+        samples.emplace_back(sample);
+      }
+    });
+  }
+  return samples;
+}
+
+/// The pulses of a file in order of time.
+inline std::vector<Pulse> read_pulses(const std::string& path) {
+  std::vector<Pulse> pulses;
+  for (const AnySample& sample : read_samples(path, "LOAD")) {
+    pulses.push_back(std::get<TelemetrySample<Pulse>>(sample).value);
   }
   return pulses;
 }

@@ -1,0 +1,235 @@
+/// @file
+/// How long it takes from the write of the sample that brings a result out to the result, committed
+/// and published, at a running `spindrift serve`: a fix of a spinner, an attitude of a three-axis
+/// spacecraft.
+///
+///     result_latency MISSION.toml TELEMETRY SPACECRAFT SPEED [DOMAIN]
+///
+/// The same pass goes out as SPACECRAFT spacecraft named LOAD-0, LOAD-1, ..., one after the other,
+/// SPEED times faster than it was. Which sample brings out which result, the pipeline itself tells
+/// beforehand. Prints results, those that were seen; median, 99th percentile and longest in
+/// microseconds; and the median over seconds of the 99th percentile in each, as ddsperf has it.
+
+#include <fmt/format.h>
+#include <spindrift.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <map>
+#include <span>
+#include <string>
+#include <thread>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "pipelines/spin/pass/spin_pass.h"
+#include "pipelines/three_axis/three_axis_pass.h"
+#include "services/bus/participant.h"
+#include "services/bus/reader.h"
+#include "services/bus/wait_set.h"
+#include "services/mission/mission.h"
+#include "services/publisher/product_messages.h"
+#include "services/publisher/telemetry_publisher.h"
+#include "tests/bench/load_support.h"
+
+namespace spindrift {
+namespace {
+
+using std::chrono::steady_clock;
+
+using bench::AnySample;
+using bench::or_exit;
+
+/// Time of a result, and the sample that brings it out.
+template <class Result, class Pass>
+std::map<TaiTime, std::size_t> bringing_out(Pass pass, const std::vector<AnySample>& samples) {
+  std::map<TaiTime, std::size_t> bringing;
+  const auto push = [&](std::size_t i, const auto& value) {
+    if constexpr (requires { pass.push(value); }) {
+      for (const auto& product : pass.push(value).products) {
+        if (const auto* result = std::get_if<Result>(&product)) {
+          bringing.emplace(result->t, i);
+        }
+      }
+    }
+  };
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    std::visit([&](const auto& sample) { push(i, sample.value); }, samples[i]);
+  }
+  return bringing;
+}
+
+struct Seen {
+  std::size_t spacecraft;
+  TaiTime t;
+  steady_clock::time_point at;
+};
+
+/// Of at least one value.
+double at_share(std::vector<double>& values, double share) {
+  std::sort(values.begin(), values.end());
+  const auto place = static_cast<std::size_t>(share * static_cast<double>(values.size()));
+  return values[std::min(place, values.size() - 1)];
+}
+
+/// Notes every result as it arrives, until stopped.
+template <class Message>
+void listen(const bus::Reader<Message>& reader, const bus::WaitSet& waitset,
+            std::vector<Seen>& seen) {
+  while (or_exit(waitset.wait())) {
+    or_exit(reader.take([&](const Message& result) {
+      const std::string name{result.spacecraft};
+      seen.push_back({.spacecraft = std::stoul(name.substr(name.find('-') + 1)),
+                      .t = tai_from_ns(result.t_tai_ns),
+                      .at = steady_clock::now()});
+    }));
+  }
+}
+
+struct Event {
+  double due_s;
+  std::size_t spacecraft;
+  std::size_t sample;
+};
+
+TaiTime time_of(const AnySample& sample) {
+  return std::visit([](const auto& is) { return is.value.t; }, sample);
+}
+
+/// The passes begin one after the other, all within ten seconds, since each settles its first ten
+/// revolutions at once. At any time the load has all phases, and as in a pass what is sent together
+/// was measured together.
+std::chrono::nanoseconds delay(std::size_t spacecraft) {
+  // No part of a turn.
+  constexpr std::chrono::nanoseconds kApart{100'700'000};
+  return spacecraft * kApart;
+}
+
+std::vector<Event> events(const std::vector<AnySample>& samples, std::size_t spacecraft,
+                          double speed) {
+  std::vector<Event> all;
+  for (std::size_t s = 0; s < spacecraft; ++s) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const TaiTime t = time_of(samples[i]) + delay(s);
+      all.push_back({.due_s = seconds_between(time_of(samples.front()), t) / speed,
+                     .spacecraft = s,
+                     .sample = i});
+    }
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Event& a, const Event& b) { return a.due_s < b.due_s; });
+  return all;
+}
+
+/// The publishers of all kinds.
+template <class Value>
+using PublisherOf = std::optional<TelemetryPublisher<Value>>;
+using Publishers = ByKind<PublisherOf>;
+
+Publishers publishers_for(const bus::Participant& participant,
+                          const std::vector<AnySample>& samples) {
+  Publishers publishers;
+  for (const AnySample& sample : samples) {
+    std::visit(
+        [&]<class Value>(const TelemetrySample<Value>& /*sample*/) {
+          if (!publishers.of<Value>()) {
+            publishers.of<Value>() =
+                or_exit(TelemetryPublisher<Value>::create(participant, "load", 1));
+            or_exit(publishers.of<Value>()->wait_for_subscriber(std::chrono::seconds{30}));
+          }
+        },
+        sample);
+  }
+  return publishers;
+}
+
+template <class Result, class Pass>
+void run(const Pass& pass, const std::vector<AnySample>& samples, std::size_t spacecraft,
+         double speed, std::uint32_t domain) {
+  const std::map<TaiTime, std::size_t> bringing = bringing_out<Result>(pass, samples);
+
+  const auto participant = or_exit(bus::Participant::create({.domain = domain}));
+  const auto reader = or_exit(bus::Reader<typename ProductMessage<Result>::Type>::create(
+      participant, product_topic<Result>(), bus::results_qos()));
+  auto waitset = or_exit(bus::WaitSet::create(participant));
+  or_exit(waitset.attach(reader.data()));
+  std::vector<Seen> seen;
+  seen.reserve(bringing.size() * spacecraft);
+  std::thread listener{[&] { listen(reader, waitset, seen); }};
+
+  auto publishers = publishers_for(participant, samples);
+  std::vector<std::string> names;
+  for (std::size_t s = 0; s < spacecraft; ++s) {
+    names.push_back(fmt::format("LOAD-{}", s));
+  }
+  std::vector<std::vector<steady_clock::time_point>> written(
+      spacecraft, std::vector<steady_clock::time_point>(samples.size()));
+  const auto start = steady_clock::now();
+  for (const Event& event : events(samples, spacecraft, speed)) {
+    std::this_thread::sleep_until(start + std::chrono::duration_cast<steady_clock::duration>(
+                                              std::chrono::duration<double>{event.due_s}));
+    written[event.spacecraft][event.sample] = steady_clock::now();
+    std::visit(
+        [&]<class Value>(TelemetrySample<Value> sample) {
+          sample.value.t += delay(event.spacecraft);
+          or_exit(publishers.of<Value>()->publish(names[event.spacecraft], sample.value,
+                                                  std::stop_token{}));
+        },
+        samples[event.sample]);
+  }
+  std::this_thread::sleep_for(std::chrono::seconds{2});
+  waitset.stop();
+  listener.join();
+
+  std::vector<double> taken_us;
+  std::map<std::chrono::seconds, std::vector<double>> of_second_us;
+  for (const Seen& result : seen) {
+    const TaiTime t = result.t - delay(result.spacecraft);
+    if (const auto sample = bringing.find(t); sample != bringing.end()) {
+      const auto from = written[result.spacecraft][sample->second];
+      taken_us.push_back(std::chrono::duration<double, std::micro>(result.at - from).count());
+      of_second_us[std::chrono::floor<std::chrono::seconds>(from - start)].push_back(
+          taken_us.back());
+    }
+  }
+  if (taken_us.empty()) {
+    fmt::print(stderr, "result_latency: no result was seen\n");
+    std::exit(1);
+  }
+  std::vector<double> p99_of_seconds_us;
+  for (auto& [second, us] : of_second_us) {
+    p99_of_seconds_us.push_back(at_share(us, 0.99));
+  }
+  fmt::print("{} {} {:.0f} {:.0f} {:.0f} {:.0f}\n", bringing.size() * spacecraft, taken_us.size(),
+             at_share(taken_us, 0.5), at_share(taken_us, 0.99), at_share(taken_us, 1.0),
+             at_share(p99_of_seconds_us, 0.5));
+}
+
+void run(const std::string& mission_file, const std::string& telemetry, std::size_t spacecraft,
+         double speed, std::uint32_t domain) {
+  const Mission mission = or_exit(load_mission(mission_file));
+  const std::vector<AnySample> samples = bench::read_samples(telemetry, mission.spacecraft_id);
+  if (const SpinConfig* const spin = mission.spin()) {
+    run<SpinFix>(SpinPass{*spin, *mission.orbit}, samples, spacecraft, speed, domain);
+  } else {
+    run<AttitudeEstimate>(ThreeAxisPass{std::get<ThreeAxisConfig>(mission.config), mission.orbit},
+                          samples, spacecraft, speed, domain);
+  }
+}
+
+}  // namespace
+}  // namespace spindrift
+
+int main(int argc, char** argv) {
+  const std::span<char*> arguments{argv, static_cast<std::size_t>(argc)};
+  if (arguments.size() < 5) {
+    fmt::print(stderr, "usage: result_latency MISSION.toml TELEMETRY SPACECRAFT SPEED [DOMAIN]\n");
+    return 2;
+  }
+  spindrift::run(arguments[1], arguments[2], std::stoul(arguments[3]), std::stod(arguments[4]),
+                 arguments.size() > 5 ? static_cast<std::uint32_t>(std::stoul(arguments[5])) : 0);
+  return 0;
+}
