@@ -11,7 +11,7 @@
 ///
 /// Its quality is
 ///     CONVERGING nothing speaks against it, but no ten fixes, or as much of directions about every
-///                axis, have checked it since it began
+///                axis, have checked it since it began; without a gyro it begins at each fix
 ///     OK         all is well
 ///     DOUBTFUL   a sensor's samples are rejected while another's agree, or scatter beyond their
 ///                noise, and the covariance is raised by that; or the gyro is out
