@@ -69,6 +69,8 @@ class AttitudeEstimator {
 
   /// A sample that something else than its innovation rules out.
   void leave_out(const RejectedSample& rejected, Products& out);
+  /// One of a kind that is of use to something else.
+  void note_accepted(SampleKind kind, TaiTime t);
 
   const SensorHealths& sensors() const { return sensors_; }
   /// Empty: it has not begun, or is lost.
@@ -86,7 +88,6 @@ class AttitudeEstimator {
   void take_in_direction(const SeenDirection& seen, Products& out);
   template <class Observed>
   bool work_in(TaiTime t, SampleKind kind, const Observed& observed, Products& out);
-  void note_accepted(SampleKind kind, TaiTime t);
 
   /// Between two gyro samples.
   struct Interval {

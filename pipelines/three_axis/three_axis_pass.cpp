@@ -83,6 +83,7 @@ void ThreeAxisPass::compute(const TimedOrbitState& state, ThreeAxisOutput& out) 
     leave_out({state.t, state}, SampleRejection::NoOrbit, out);
   } else if (!orbit_is_of_mission_) {
     orbit_ = Orbit{*orbit};
+    estimator_.note_accepted(SampleKind::OrbitState, state.t);
   }
 }
 

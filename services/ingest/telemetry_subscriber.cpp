@@ -132,6 +132,7 @@ void TelemetrySubscriber::discard_what_is_left() {
     }
   };
   const std::lock_guard lock{mutex_};
+  discarded_ += count_of(order_.rest().samples);
   std::apply([&](const auto&... all) { (discard(all), ...); }, *readers_);
 }
 
@@ -263,7 +264,10 @@ Expected<void> TelemetrySubscriber::hand_over_rest(TaiTime now) {
 }
 
 Expected<void> TelemetrySubscriber::push(SampleBatch batch) {
+  const std::size_t samples = count_of(batch.samples);
   if (!queue_.push(std::move(batch))) {
+    const std::lock_guard lock{mutex_};
+    discarded_ += samples;
     return Unexpected{
         Error{ErrorCode::Unavailable, "the queue of samples was closed while they arrive"}};
   }

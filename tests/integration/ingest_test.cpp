@@ -445,6 +445,7 @@ TEST(TelemetrySubscriber, SaysSoWhenItsQueueIsClosedTooEarly) {
   ASSERT_TRUE(pulse_writer(participant).write(idl_pulse(0)));
   ASSERT_TRUE(eventually([&] { return !subscriber->status().value().taking; }));
   EXPECT_THAT(subscriber->status().value().failure, HasSubstr("closed while they arrive"));
+  EXPECT_EQ(subscriber->status().value().discarded, 1U);
 }
 
 TEST(TelemetrySubscriber, CountsSamplesOfOtherSpacecraftAndDoesNotHandThemOver) {

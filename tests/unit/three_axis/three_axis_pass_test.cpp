@@ -166,6 +166,7 @@ TEST_F(ThreeAxisPassTest, InTheEarthsShadowASunVectorIsLeftOut) {
   gyro(2.0, 6.0);
   add(pass_.finish());
   EXPECT_THAT(reasons(), ::testing::ElementsAre(SampleRejection::Shadow));
+  EXPECT_EQ(pass_.sensors().at(index_of(SampleKind::OrbitState)).accepted, 1);
 }
 
 TEST_F(ThreeAxisPassTest, InSunlightItIsTakenInAndBehindAMissionsOrbitStatesDoNotCount) {
@@ -177,6 +178,7 @@ TEST_F(ThreeAxisPassTest, InSunlightItIsTakenInAndBehindAMissionsOrbitStatesDoNo
   add(pass.finish());
   EXPECT_THAT(rejected(), IsEmpty());
   EXPECT_EQ(pass.sensors().at(index_of(SampleKind::Sun)).accepted, 1);
+  EXPECT_FALSE(pass.sensors().at(index_of(SampleKind::OrbitState)).last_seen);
 }
 
 TEST_F(ThreeAxisPassTest, AStateOnNoOrbitIsLeftOut) {
