@@ -28,13 +28,17 @@ constexpr std::size_t kSilence = 90;  ///< Before that batch.
 
 using AnySample = TelemetryKinds::Of<std::variant, TelemetrySample>;
 
-/// In the order of their time, but that every 31st comes nine later: late, or within the window.
+/// Of one front-end, in the order of their time, but that every 31st comes nine later: late, or
+/// within the window.
 std::vector<AnySample> disordered_samples(const std::filesystem::path& pass) {
   const std::vector<std::filesystem::path> paths{pass};
   auto stream = TelemetryStream::open(scan_telemetry(paths).value(), "SAT").value();
   std::vector<AnySample> all;
   for (auto batch = stream.next().value(); !is_empty(batch); batch = stream.next().value()) {
-    in_order_of_arrival(batch.samples, [&](auto& sample) { all.emplace_back(std::move(sample)); });
+    in_order_of_arrival(batch.samples, [&](auto& sample) {
+      sample.origin.source = "front-end";
+      all.emplace_back(std::move(sample));
+    });
   }
   for (std::size_t i = 20; i + 9 < all.size(); i += 31) {
     const auto first = all.begin() + static_cast<std::ptrdiff_t>(i);
