@@ -40,6 +40,8 @@ std::vector<std::string> sorted(std::vector<std::string> rows) {
 /// passes, faster than the clock on the wall.
 class ServeSources : public ::testing::Test {
  protected:
+  explicit ServeSources(const std::string& partition = "replay") : service_{"nominal", partition} {}
+
   struct Whole {
     std::vector<Pulse> pulses;
     std::vector<std::string> products;
@@ -104,7 +106,7 @@ class ServeSources : public ::testing::Test {
     EXPECT_EQ(number("SELECT count(DISTINCT run_id) FROM spin_estimate"), 1) << log_;
   }
 
-  Service service_{"nominal", "replay"};
+  Service service_;
   std::string log_;
 };
 
@@ -144,7 +146,11 @@ struct AlienWithin {
   std::chrono::minutes ahead;
 };
 
-class ServeAlienWithin : public ServeSources, public ::testing::WithParamInterface<AlienWithin> {};
+/// Live, where a pause is no silence, however slow the machine is.
+class ServeAlienWithin : public ServeSources, public ::testing::WithParamInterface<AlienWithin> {
+ protected:
+  ServeAlienWithin() : ServeSources{""} {}
+};
 
 TEST_P(ServeAlienWithin, IsLeftOutAndNamed) {
   const auto& [count, ahead] = GetParam();
