@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "pipelines/spin/batch/batch_solution.h"
 #include "services/products/product_kind.h"
 #include "services/units/degrees.h"
+#include "services/words/bias_words.h"
 
 namespace spindrift {
 
@@ -49,7 +49,7 @@ struct SpinBatchTable {
                     }}};
 };
 
-/// An element of a list of the solution. @tparam Value A number, or a text for people.
+/// An element of a list of the solution.
 template <class Value>
 struct NumberedRow {
   std::int64_t t_tai_ns;
@@ -73,21 +73,23 @@ struct NumberedTable {
     }
     return rows;
   }
-  static constexpr auto columns(std::string_view name) {
+  /// @param stored What is stored of a value.
+  template <class Stored>
+  static constexpr auto columns(std::string_view name, Stored stored) {
     return std::tuple{ProductColumn{"t_tai_ns", [](const Row& row) { return row.t_tai_ns; }},
                       ProductColumn{"position", [](const Row& row) { return row.position; }},
-                      ProductColumn{name, [](const Row& row) { return row.value; }}};
+                      ProductColumn{name, [stored](const Row& row) { return stored(row.value); }}};
   }
 };
 
 struct SpinBatchSingularValueTable : NumberedTable<double, &BatchSolution::singular_values> {
   static constexpr std::string_view kName = "spin_batch_singular_value";
-  static constexpr std::tuple kColumns = columns("value");
+  static constexpr std::tuple kColumns = columns("value", [](double value) { return value; });
 };
 
-struct SpinBatchUndeterminedTable : NumberedTable<std::string, &BatchSolution::undetermined> {
+struct SpinBatchUndeterminedTable : NumberedTable<BiasSet, &BatchSolution::undetermined> {
   static constexpr std::string_view kName = "spin_batch_undetermined";
-  static constexpr std::tuple kColumns = columns("direction");
+  static constexpr std::tuple kColumns = columns("direction", &undetermined_sentence);
 };
 
 struct SpinBiasTable {

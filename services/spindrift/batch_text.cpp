@@ -7,6 +7,7 @@
 #include "pipelines/time/utc.h"
 #include "services/units/decimals.h"
 #include "services/units/degrees.h"
+#include "services/words/bias_words.h"
 
 namespace spindrift {
 namespace {
@@ -119,8 +120,8 @@ std::string to_text(const BatchSolution& solution) {
                 : fmt::format("  {:<13}{:<18}not observable\n", heading, prior_of(bias.bias).name);
     heading = "";
   }
-  for (const std::string& direction : solution.undetermined) {
-    text += fmt::format("               {}\n", direction);
+  for (const BiasSet& direction : solution.undetermined) {
+    text += fmt::format("               {}\n", undetermined_sentence(direction));
   }
   return text;
 }
@@ -135,6 +136,10 @@ nlohmann::json to_json(const BatchSolution& solution) {
                                                      {"observable", bias.observable},
                                                      {"estimated", bias.estimated}};
   }
+  nlohmann::json undetermined = nlohmann::json::array();
+  for (const BiasSet& direction : solution.undetermined) {
+    undetermined.push_back(undetermined_sentence(direction));
+  }
   nlohmann::json json{
       {"bound_deg", solution.bound_rad * kDegPerRad},
       {"consider_sigma_deg", solution.consider_sigma_rad * kDegPerRad},
@@ -145,7 +150,7 @@ nlohmann::json to_json(const BatchSolution& solution) {
       {"noise", solution.noise},
       {"iterations", solution.iterations},
       {"singular_values", solution.singular_values},
-      {"undetermined", solution.undetermined},
+      {"undetermined", undetermined},
       {"biases", biases},
       {"nutation", nutation_json(solution)},
       {"coning", to_json(solution.coning)},

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "pipelines/spin/nutation/nutation.h"
@@ -45,8 +44,9 @@ struct BatchSolution {
   /// Of every bias but coning: as estimated; of the others what the edges would say of all biases
   /// together.
   std::vector<BiasEstimate> biases;
-  /// Directions that the edges leave open were all biases of the pass unknown, in words.
-  std::vector<std::string> undetermined;
+  /// Directions that the edges leave open were all biases of the pass unknown: one bias, or those
+  /// that cannot be told apart.
+  std::vector<BiasSet> undetermined;
   std::vector<double> singular_values;  ///< Of the whitened equations, largest first.
   std::optional<TaiTime> changed;       ///< Attitude or rate did, the last time.
   std::int64_t edges;                   ///< That it rests on.

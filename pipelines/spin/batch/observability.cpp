@@ -1,13 +1,8 @@
 #include "pipelines/spin/batch/observability.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <string_view>
-#include <utility>
 
 namespace spindrift {
 namespace {
@@ -26,15 +21,6 @@ Scales scales() {
     all[kMotionUnknowns + i] = prior_of(static_cast<SensorBias>(i)).sigma;
   }
   return all;
-}
-
-std::string in_words(const std::vector<std::string_view>& names) {
-  if (names.size() == 1) {
-    return fmt::format("{} is not determined in this geometry", names.front());
-  }
-  const std::vector<std::string_view> first{names.begin(), names.end() - 1};
-  return fmt::format("{} and {} cannot be told apart in this geometry", fmt::join(first, ", "),
-                     names.back());
 }
 
 }  // namespace
@@ -142,27 +128,23 @@ Eigen::MatrixXd Observability::of_biases() const {
   return eliminated(estimated_, estimated_);
 }
 
-std::vector<std::string> Observability::undetermined() const {
+std::vector<BiasSet> Observability::undetermined() const {
   const auto count = static_cast<Eigen::Index>(estimated_.size());
   if (count == 0) {
     return {};
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{of_biases()};
-  std::vector<std::string> all;
+  std::vector<BiasSet> all;
   for (Eigen::Index i = 0; i < count && solver.eigenvalues()[i] < 1.0; ++i) {
-    std::vector<std::string_view> names;
+    BiasSet direction;
     for (Eigen::Index j = 0; j < count; ++j) {
-      const std::string_view name = prior_of(estimated_[static_cast<std::size_t>(j)]).words;
-      // Coning has two unknowns of one name, one after the other.
-      const bool is_new = names.empty() || names.back() != name;
-      if (is_new && std::abs(solver.eigenvectors()(j, i)) > kTakesPart) {
-        names.push_back(name);
+      if (std::abs(solver.eigenvectors()(j, i)) > kTakesPart) {
+        direction |= unknowns_of(estimated_[static_cast<std::size_t>(j)]);
       }
     }
-    // Directions that are open alike come mixed, and may read the same.
-    std::string direction = in_words(names);
+    // Directions that are open alike come mixed, and may have the same biases.
     if (std::find(all.begin(), all.end(), direction) == all.end()) {
-      all.push_back(std::move(direction));
+      all.push_back(direction);
     }
   }
   return all;

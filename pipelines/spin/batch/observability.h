@@ -4,7 +4,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "pipelines/spin/batch/batch_solution.h"
@@ -49,8 +48,8 @@ class Observability {
   /// @param biases Of the state.
   std::vector<BiasEstimate> biases(const SensorBiases& biases) const;
 
-  /// Every direction of the biases that the edges leave open, as a person would say it.
-  std::vector<std::string> undetermined() const;
+  /// Every direction of the biases that the edges leave open: the biases that take part in it.
+  std::vector<BiasSet> undetermined() const;
 
  private:
   Eigen::Matrix<double, kBatchUnknowns, 1> step(const PassInformation& information,

@@ -16,31 +16,24 @@ constexpr double kMostHeight_km = 30.0;
 // Balancing leaves some tenths of a degree between the sensors' axis and the principal axis.
 constexpr double kConing_rad = 0.5 * kRadPerDeg;
 constexpr double kMostConing_rad = 5.0 * kRadPerDeg;
-constexpr BiasPrior kConing{.name = "coning",
-                            .words = "coning",
-                            .is_angle = true,
-                            .sigma = kConing_rad,
-                            .bound = kMostConing_rad};
+constexpr BiasPrior kConing{
+    .name = "coning", .is_angle = true, .sigma = kConing_rad, .bound = kMostConing_rad};
 
-constexpr BiasPrior angle(std::string_view name, std::string_view words) {
-  return {
-      .name = name, .words = words, .is_angle = true, .sigma = kAngle_rad, .bound = kMostAngle_rad};
+constexpr BiasPrior angle(std::string_view name) {
+  return {.name = name, .is_angle = true, .sigma = kAngle_rad, .bound = kMostAngle_rad};
 }
 
 // By SensorBias.
 constexpr std::array<BiasPrior, kSensorBiases> kPriors{
-    angle("sun_angle", "sun angle"),
-    angle("slit_separation", "separation of the sun slits"),
-    angle("north_chord", "north chord"),
-    angle("south_chord", "south chord"),
-    angle("north_mount_angle", "north mounting angle"),
-    angle("south_mount_angle", "south mounting angle"),
-    angle("dihedral", "azimuth between sun sensor and beams"),
-    BiasPrior{.name = "co2_height",
-              .words = "height of the infrared horizon",
-              .is_angle = false,
-              .sigma = kHeight_km,
-              .bound = kMostHeight_km},
+    angle("sun_angle"),
+    angle("slit_separation"),
+    angle("north_chord"),
+    angle("south_chord"),
+    angle("north_mount_angle"),
+    angle("south_mount_angle"),
+    angle("dihedral"),
+    BiasPrior{
+        .name = "co2_height", .is_angle = false, .sigma = kHeight_km, .bound = kMostHeight_km},
     kConing,
     kConing};
 

@@ -33,11 +33,10 @@ BiasSet unknowns_of(SensorBias bias);
 
 /// The prior of a bias: zero within sigma.
 struct BiasPrior {
-  std::string_view name;   ///< As in mission file and archive.
-  std::string_view words;  ///< As a person would say it.
-  bool is_angle;           ///< rad; else km.
-  double sigma;            ///< One standard deviation about zero.
-  double bound;            ///< What no real sensor exceeds.
+  std::string_view name;  ///< As in mission file and archive.
+  bool is_angle;          ///< rad; else km.
+  double sigma;           ///< One standard deviation about zero.
+  double bound;           ///< What no real sensor exceeds.
 };
 const BiasPrior& prior_of(SensorBias bias);
 
