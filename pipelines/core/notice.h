@@ -4,9 +4,11 @@
 
 #pragma once
 
-#include <string_view>
+#include <optional>
+#include <vector>
 
 #include "pipelines/core/assessment.h"
+#include "pipelines/core/no_fix.h"
 
 namespace spindrift {
 
@@ -20,10 +22,11 @@ enum class NoticeCode {
   EdgesLeftOut,            ///< percent, most
   SilentChannels,          ///< channels
   ChannelsWithoutSensor,   ///< channels
-  OutsideOrbit,            ///< why
-  MuchOutsideOrbit,        ///< revolutions, why
-  NoFix,                   ///< revolution, why
-  NoAxis,                  ///< revolutions, why
+  OutsideOrbit,            ///< t_tai_ns, of the start of the revolution; likewise the following
+  RangeImpossible,         ///< t_tai_ns
+  MuchOutsideOrbit,        ///< revolutions, t_tai_ns, either of the two
+  NoFix,                   ///< revolution, and why
+  NoAxis,                  ///< revolutions, and why the last of them
   DispersionSettles,       ///< t_tai_ns, ra_deg, dec_deg, fixes, scatter_ratio
   LikelihoodSettles,       ///< likewise, log_likelihood_ratio
   RevolutionsContradict,   ///< -
@@ -49,6 +52,12 @@ enum class NoticeCode {
 };
 inline constexpr int kNoticeCodes = static_cast<int>(NoticeCode::AttitudeNeverBegan) + 1;
 
-using Notice = Coded<NoticeCode>;
+struct Notice {
+  NoticeCode code;
+  std::vector<NamedValue> values = {};
+  std::optional<WhyNoFix> why = {};  ///< Of NoFix and NoAxis.
+
+  bool operator==(const Notice&) const = default;
+};
 
 }  // namespace spindrift

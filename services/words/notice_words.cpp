@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "services/words/filled.h"
+#include "services/words/no_fix_words.h"
 
 namespace spindrift {
 namespace {
@@ -34,8 +35,14 @@ constexpr std::array<Pattern<NoticeCode>, kNoticeCodes> kNoticePatterns{{
     {ChannelsWithoutSensor,
      "the mission describes no sensor for {channels}: their edges are left out; a beam needs "
      "[spin.ir.north] or [spin.ir.south]"},
-    {OutsideOrbit, "orbit: {why}; revolutions outside it give no axis"},
-    {MuchOutsideOrbit, "orbit: {revolutions} revolutions outside it gave no axis, the last: {why}"},
+    {OutsideOrbit,
+     "{t_tai_ns}: the orbit of the mission file does not cover the revolution that begins here: "
+     "revolutions outside it give no axis"},
+    {RangeImpossible,
+     "{t_tai_ns}: the orbit of the mission file lies below the infrared horizon or beyond a "
+     "million km: such revolutions give no axis"},
+    {MuchOutsideOrbit,
+     "orbit: {revolutions} revolutions outside it gave no axis, the last at {t_tai_ns}"},
     {NoFix, "revolution {revolution} is the first that gives no fix: {why}"},
     {NoAxis, "no axis: {revolutions} revolutions gave no fix, the last: {why}"},
     {DispersionSettles,
@@ -133,6 +140,9 @@ std::string_view what_is_missing(std::int64_t geometry_case) {
 std::string sentence_of(const Notice& notice) {
   constexpr int kMilliseconds = 3;
   std::vector<NamedValue> values = notice.values;
+  if (notice.why) {
+    values.push_back({"why", sentence_of(*notice.why)});
+  }
   const auto of_case = std::find_if(values.begin(), values.end(), [](const NamedValue& value) {
     return value.name == "geometry_case";
   });

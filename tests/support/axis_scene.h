@@ -9,7 +9,6 @@
 #include <random>
 #include <set>
 
-#include "pipelines/core/expected.h"
 #include "pipelines/spin/types/products.h"
 #include "pipelines/spin/types/sun_earth_directions.h"
 #include "tests/support/lone_fix.h"
@@ -62,7 +61,7 @@ struct AxisScene {
     moving.earth_motion_icrf_s = motion_icrf_s;
     return moving;
   }
-  Expected<SpinFix> fix(const std::set<SpinQuantity>& left_out = {}) const {
+  tl::expected<SpinFix, NoCandidates> fix(const std::set<SpinQuantity>& left_out = {}) const {
     return lone_fix(config, seen(), left_out, sun_earth());
   }
 };

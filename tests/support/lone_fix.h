@@ -6,7 +6,6 @@
 #include <optional>
 #include <set>
 
-#include "pipelines/core/expected.h"
 #include "pipelines/spin/disambiguation/disambiguation.h"
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "pipelines/spin/measurement/measurement.h"
@@ -24,13 +23,14 @@ inline RevolutionMeasurements measured_without(const SpinConfig& config,
   return measured;
 }
 
-inline Expected<SpinFix> lone_fix(const SpinConfig& config, const Revolution& revolution,
-                                  const std::set<SpinQuantity>& left_out,
-                                  const SunEarthDirections& sun_earth) {
+inline tl::expected<SpinFix, NoCandidates> lone_fix(const SpinConfig& config,
+                                                    const Revolution& revolution,
+                                                    const std::set<SpinQuantity>& left_out,
+                                                    const SunEarthDirections& sun_earth) {
   const RevolutionMeasurements measured = measured_without(config, revolution, left_out);
   const auto found = axis_candidates(config, measured, sun_earth);
   if (!found) {
-    return Unexpected{found.error()};
+    return tl::unexpected{found.error()};
   }
   return Disambiguator{config}
       .settle(revolution.number, *revolution.edge(PulseChannel::Sun1), measured, sun_earth, *found,

@@ -247,7 +247,7 @@ co2_altitude_km = 40
   EXPECT_FALSE(std::filesystem::exists(outcome.db));
 }
 
-TEST(ShortOrbit, GivesTheAxisWhereItReachesAndSaysByHowMuchItDoesNot) {
+TEST(ShortOrbit, GivesTheAxisWhereItReachesAndSaysFromWhereOnItDoesNot) {
   const TemporaryFolder folder;
   const auto pass = nominal_copy(folder);
   const std::string oem = text_of(pass / "orbit.oem");
@@ -257,11 +257,11 @@ TEST(ShortOrbit, GivesTheAxisWhereItReachesAndSaysByHowMuchItDoesNot) {
   const auto outcome = process(folder, pass);
   EXPECT_EQ(outcome.status, 0) << outcome.log;
   EXPECT_THAT(outcome.log, ::testing::ContainsRegex(
-                               "orbit: no orbit at 2026-11-20T03:05:00.*Z: 0\\.[0-9]+ s after the "
-                               "ephemeris ends"));
+                               "2026-11-20T03:04:59.*Z: the orbit of the mission file does not "
+                               "cover the revolution"));
   EXPECT_THAT(outcome.log,
-              ::testing::ContainsRegex("revolutions outside it gave no axis, the last: no orbit at "
-                                       "2026-11-20T03:09:5.*Z: 29[0-9]\\.[0-9]+ s after"));
+              ::testing::ContainsRegex("revolutions outside it gave no axis, the last at "
+                                       "2026-11-20T03:09:59.*Z"));
   EXPECT_EQ(outcome.run["revolutions"], 599);  // Of 600 good sun1 edges one lies 3 sigma off.
   EXPECT_NEAR(outcome.run["fixes"].get<double>(), 300.0, 3.0);
   EXPECT_EQ(

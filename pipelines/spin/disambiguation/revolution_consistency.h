@@ -7,7 +7,6 @@
 
 #include <algorithm>
 
-#include "pipelines/core/expected.h"
 #include "pipelines/spin/fix/axis_candidates.h"
 
 namespace spindrift {
@@ -18,7 +17,7 @@ class RevolutionConsistency {
   explicit RevolutionConsistency(double window) : window_{window} {}
 
   /// One revolution, after its measurements were screened.
-  void count(const Expected<AxisCandidates>& found) {
+  void count(const FoundCandidates& found) {
     const bool contradicts = is_inconsistent(found);
     if (found || contradicts) {
       counted_ = std::min(counted_ + 1.0, window_);

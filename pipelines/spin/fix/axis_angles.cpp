@@ -1,7 +1,5 @@
 #include "pipelines/spin/fix/axis_angles.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -75,13 +73,12 @@ std::vector<Uncertain> earth_angles_from_one(const FixInput& input, AxisSolution
     found.near_tangent = true;
   }
   if (!(roots.excess.value() < 0.0)) {
-    found.reason = fmt::format(
-        "chord {:.4f} deg is wider than the Earth's disc of half-angle {:.4f} deg allows at "
-        "mounting angle {:.4f} deg",
-        degrees(chord.chord_rad.value()), degrees(input.lone_disc_rad().value()),
-        degrees(chord.mount_angle_rad));
+    found.reason = {NoFixCode::ChordTooWide,
+                    {{"chord_deg", degrees(chord.chord_rad.value())},
+                     {"disc_deg", degrees(input.lone_disc_rad().value())},
+                     {"mount_angle_deg", degrees(chord.mount_angle_rad)}}};
   } else if (roots.angles_rad.empty()) {
-    found.reason = "no earth angle in (0, 180) deg gives the measured chord";
+    found.reason = {NoFixCode::NoEarthAngle};
   }
   return std::move(roots.angles_rad);
 }
@@ -137,9 +134,7 @@ void solve_one_chord(const FixInput& input, AxisSolutions& found) {
     if (earth_angle_rad > 0.0 && earth_angle_rad < std::numbers::pi) {
       add(earth_angle_rad);
     } else {
-      found.reason =
-          "the measured sun angle, chord and dihedral contradict each other: no earth angle in "
-          "(0, 180) deg fits them";
+      found.reason = {NoFixCode::OneChordContradicts};
     }
     return;
   }
@@ -159,11 +154,10 @@ void meet(const FixInput& input, const Uncertain& earth_angle_rad, AxisSolutions
       cosine.value() < 0.0 ? Uncertain{-cosine - 1.0} : Uncertain{cosine - 1.0};
   note_near_tangent(excess, found);
   if (!(excess.value() < 0.0)) {
-    found.reason = fmt::format(
-        "the cones of {:.4f} deg about the Sun and {:.4f} deg about the Earth do not meet, which "
-        "stand {:.4f} deg apart",
-        degrees(sun_angle_rad.value()), degrees(earth_angle_rad.value()),
-        degrees(input.sun_earth_rad));
+    found.reason = {NoFixCode::ConesApart,
+                    {{"sun_angle_deg", degrees(sun_angle_rad.value())},
+                     {"earth_angle_deg", degrees(earth_angle_rad.value())},
+                     {"sun_earth_deg", degrees(input.sun_earth_rad)}}};
     return;
   }
   const Uncertain dihedral_rad = acos(cosine);
@@ -180,7 +174,7 @@ void find_sun_angles(const FixInput& input, const Uncertain& earth_angle_rad,
   note_near_tangent(roots.excess, found);
   const std::vector<Uncertain> sun_angles_rad = possible_angles(roots);
   if (sun_angles_rad.empty()) {
-    found.reason = "no sun angle in (0, 180) deg fits the measured earth angle and dihedral";
+    found.reason = {NoFixCode::NoSunAngle};
   }
   for (const Uncertain& sun_angle_rad : sun_angles_rad) {
     found.places.push_back({sun_angle_rad, earth_angle_rad, *input.dihedral});
@@ -201,7 +195,7 @@ void unmix(const FixInput& input, const Uncertain& earth_angle_rad, AxisSolution
       earth_angle_rad.derivatives().cwiseAbs() + input.mixed_azimuth->derivatives().cwiseAbs();
   note_near_tangent(miss, found);
   if (slit.lags.empty()) {
-    found.reason = "no sun angle that sun slit 2 can see fits the measured earth angle and azimuth";
+    found.reason = {NoFixCode::NoSunAngleOfSlit2};
   }
   for (const SlitLag& lag : slit.lags) {
     Uncertain lag_rad = certain(lag.lag_rad);

@@ -4,9 +4,10 @@
 
 #pragma once
 
-#include <string>
+#include <optional>
 #include <vector>
 
+#include "pipelines/core/no_fix.h"
 #include "pipelines/spin/fix/fix_input.h"
 #include "pipelines/spin/measurement/uncertain.h"
 
@@ -25,7 +26,7 @@ struct AxisSolutions {
   std::vector<AxisAngles> places;
   bool told_apart = false;  ///< Only rank() knows.
   bool near_tangent = false;
-  std::string reason;  ///< Why there is none.
+  std::optional<WhyNoFix> reason = {};  ///< Why there is none.
 };
 
 /// With what the beams of `input` are said to see.

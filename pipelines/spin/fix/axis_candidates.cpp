@@ -1,11 +1,9 @@
 #include "pipelines/spin/fix/axis_candidates.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <utility>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
@@ -20,8 +18,8 @@
 namespace spindrift {
 namespace {
 
-Unexpected unobservable(std::string message) {
-  return Unexpected{{ErrorCode::Unobservable, std::move(message)}};
+tl::unexpected<NoCandidates> unobservable(WhyNoFix why) {
+  return tl::unexpected{NoCandidates{.why = std::move(why)}};
 }
 
 bool agrees(double contradiction, double noise) {
@@ -87,16 +85,16 @@ AxisCandidate candidate_at(const FixInput& input, const AxisAngles& place) {
           .model_shift_icrf = basis * tangent.rightCols<kModelErrors>()};
 }
 
-std::string cone_in_words(int geometry_case) {
+NoFixCode cone_code(int geometry_case) {
   switch (geometry_case) {
     case 8:
-      return "both chords without a sun pulse: a cone about the Earth only";
+      return NoFixCode::BothChordsAlone;
     case 9:
-      return "a sun angle without a chord: a cone about the Sun only";
+      return NoFixCode::SunAngleAlone;
     case 10:
-      return "a chord alone: one or two cones about the Earth only";
+      return NoFixCode::OneChordAlone;
     default:
-      return "no measurement that an axis could be found from";
+      return NoFixCode::NothingMeasured;
   }
 }
 
@@ -131,41 +129,37 @@ int geometry_case_of(const RevolutionMeasurements& measured) {
   return which == 0 ? 8 : 10;
 }
 
-bool is_inconsistent(const Expected<AxisCandidates>& found) {
+bool is_inconsistent(const FoundCandidates& found) {
   if (!found) {
-    return found.error().code == ErrorCode::InvalidInput;
+    return found.error().contradictory;
   }
   return std::none_of(found->candidates.begin(), found->candidates.end(),
                       [](const AxisCandidate& candidate) { return candidate.consistent; });
 }
 
-Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
-                                         const RevolutionMeasurements& measured,
-                                         const SunEarthDirections& sun_earth) {
+FoundCandidates axis_candidates(const SpinConfig& config, const RevolutionMeasurements& measured,
+                                const SunEarthDirections& sun_earth) {
   AxisCandidates result{.geometry_case = geometry_case_of(measured),
                         .candidates = {},
                         .told_apart = false,
                         .near_tangent = false};
   if (result.geometry_case < 1 || result.geometry_case > 7) {
-    return unobservable(cone_in_words(result.geometry_case));
+    return unobservable({cone_code(result.geometry_case)});
   }
   const FixInput input = fix_input(config, measured, sun_earth, views_of_sphere(sun_earth));
   if (in_line(input.sun_earth_rad)) {
     return unobservable(
-        fmt::format("Sun and Earth stand {:.3f} deg apart: the axis needs between 3 and 177 deg",
-                    input.sun_earth_rad * kDegPerRad));
+        {NoFixCode::SunEarthInLine, {{"sun_earth_deg", degrees(input.sun_earth_rad)}}});
   }
   const AxisSolutions found = solve_on_horizon(input);
   if (found.places.empty()) {
-    return found.near_tangent ? unobservable(found.reason)
-                              : Unexpected{{ErrorCode::InvalidInput, found.reason}};
+    return tl::unexpected{
+        NoCandidates{.why = found.reason.value(), .contradictory = !found.near_tangent}};
   }
   for (const AxisAngles& place : found.places) {
     result.candidates.push_back(candidate_at(input, place));
     if (!determined(result.candidates.back())) {
-      return unobservable(
-          "the solution is lost in the noise of its edges: it exists only within "
-          "one sigma of them, or no measurement fixes one of its directions");
+      return unobservable({NoFixCode::LostInNoise});
     }
   }
   result.told_apart = found.told_apart;

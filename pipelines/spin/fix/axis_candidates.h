@@ -8,9 +8,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <tl/expected.hpp>
 #include <vector>
 
-#include "pipelines/core/expected.h"
+#include "pipelines/core/no_fix.h"
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/model_allowance.h"
@@ -39,6 +40,14 @@ struct AxisCandidates {
   bool near_tangent;
 };
 
+struct NoCandidates {
+  WhyNoFix why;
+  /// Beyond their noise, no axis explains the measurements. Otherwise they only leave it open.
+  bool contradictory = false;
+};
+
+using FoundCandidates = tl::expected<AxisCandidates, NoCandidates>;
+
 /// Which of the ten cases of spin.md the good measurements are; 0: none.
 int geometry_case_of(const RevolutionMeasurements& measured);
 
@@ -46,14 +55,13 @@ int geometry_case_of(const RevolutionMeasurements& measured);
 /// case 1 by both chords; 2, 3 linear where |Delta| is usable, else by two roots; without it the
 /// two axes in which the cones about Sun and Earth meet. Cases 4 to 7 solve theta_s from the angle
 /// between Sun and Earth. Beams whose mounting angles coincide count as one.
-/// @return Unobservable for a cone (cases 8 to 10), Sun and Earth within 3 deg of one line, and
-///         measurements that no axis explains, within their noise; InvalidInput beyond it.
-Expected<AxisCandidates> axis_candidates(const SpinConfig& config,
-                                         const RevolutionMeasurements& measured,
-                                         const SunEarthDirections& sun_earth);
+/// @return None for a cone (cases 8 to 10), Sun and Earth within 3 deg of one line, and
+///         measurements that no axis explains.
+FoundCandidates axis_candidates(const SpinConfig& config, const RevolutionMeasurements& measured,
+                                const SunEarthDirections& sun_earth);
 
 /// The measurements have enough in them for a fix, but no consistent one: sensors, orbit or edges
 /// are not what they are said to be.
-bool is_inconsistent(const Expected<AxisCandidates>& found);
+bool is_inconsistent(const FoundCandidates& found);
 
 }  // namespace spindrift

@@ -70,17 +70,18 @@ void PassNotices::counted_on(const Revolution& revolution) {
   }
 }
 
-void PassNotices::outside_orbit(const Error& error) {
+void PassNotices::outside_orbit(TaiTime t, ErrorCode code) {
   ++outside_orbit_;
-  last_outside_orbit_ = error.message;
-  say_once({NoticeCode::OutsideOrbit, {{"why", error.message}}});
+  last_outside_orbit_ = t;
+  say_once({code == ErrorCode::NoCoverage ? NoticeCode::OutsideOrbit : NoticeCode::RangeImpossible,
+            {at(t)}});
 }
 
-void PassNotices::without_fix(std::int64_t revolution, const Error& error) {
+void PassNotices::without_fix(std::int64_t revolution, const WhyNoFix& why) {
   ++without_fix_;
-  last_without_fix_ = error.message;
+  last_without_fix_ = why;
   if (revolution != cut_short_) {
-    say_once({NoticeCode::NoFix, {{"revolution", revolution}, {"why", error.message}}});
+    say_once({NoticeCode::NoFix, {{"revolution", revolution}}, why});
   }
 }
 
@@ -186,8 +187,7 @@ void PassNotices::pass_ended(std::span<const InterferingChannels> interfering,
           {"last_tai_ns", tai_ns(channels.last)}}});
   }
   if (outside_orbit_ > 1) {
-    say({NoticeCode::MuchOutsideOrbit,
-         {{"revolutions", outside_orbit_}, {"why", last_outside_orbit_}}});
+    say({NoticeCode::MuchOutsideOrbit, {{"revolutions", outside_orbit_}, at(last_outside_orbit_)}});
   }
   say_what_the_axis_lacks(sequential);
 }
@@ -254,7 +254,7 @@ void PassNotices::say_what_the_axis_lacks(const SequentialEstimator& sequential)
   }
   // One alone has been told of, unless it was cut short.
   if (last_case_ == 0 && without_fix_ > (said_.contains(NoticeCode::NoFix) ? 1 : 0)) {
-    say({NoticeCode::NoAxis, {{"revolutions", without_fix_}, {"why", last_without_fix_}}});
+    say({NoticeCode::NoAxis, {{"revolutions", without_fix_}}, last_without_fix_});
   }
   say_why_no_mean();
   if (quality_ == Quality::Ambiguous) {

@@ -40,10 +40,11 @@ class PassNotices {
   void edge_out_of_time();
   void associated(const Association& association);
   void counted_on(const Revolution& revolution);
-  void outside_orbit(const Error& error);
+  /// @param code Of SunEarthEphemeris::sun_earth.
+  void outside_orbit(TaiTime t, ErrorCode code);
   /// The end of the pass cuts the revolution, which may give no fix for that alone.
   void cut_short(std::int64_t revolution) { cut_short_ = revolution; }
-  void without_fix(std::int64_t revolution, const Error& error);
+  void without_fix(std::int64_t revolution, const WhyNoFix& why);
   /// @param fix Of the revolution itself.
   /// @param prior On its candidates, or on the last that it was asked about.
   void has_fix(const SpinFix& fix, std::optional<PriorVerdict> prior);
@@ -96,11 +97,11 @@ class PassNotices {
   std::int64_t near_tangent_ = 0;  ///< Fixes.
   std::int64_t ambiguous_ = 0;     ///< Of the others; likewise the following.
   std::int64_t otherwise_not_accepted_ = 0;
-  std::optional<std::int64_t> cut_short_;  ///< Revolution.
-  std::int64_t without_fix_ = 0;           ///< Revolutions.
-  std::string last_without_fix_;           ///< Why the last of them has none.
-  std::int64_t outside_orbit_ = 0;         ///< Revolutions.
-  std::string last_outside_orbit_;         ///< Why the last of them has none.
+  std::optional<std::int64_t> cut_short_;     ///< Revolution.
+  std::int64_t without_fix_ = 0;              ///< Revolutions.
+  std::optional<WhyNoFix> last_without_fix_;  ///< Why the last of them has none.
+  std::int64_t outside_orbit_ = 0;            ///< Revolutions.
+  TaiTime last_outside_orbit_{};              ///< Of them.
 };
 
 }  // namespace spindrift

@@ -190,7 +190,7 @@ void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
   if (const auto sun_earth = sun_earth_.sun_earth(candidate.measured, revolution.t_start)) {
     candidate.sun_earth = *sun_earth;
   } else {
-    notices_.outside_orbit(sun_earth.error());
+    notices_.outside_orbit(revolution.t_start, sun_earth.error().code);
   }
   if (!started_) {
     first_.push_back(std::move(candidate));
@@ -294,7 +294,7 @@ std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate) {
   consistency_.count(found);
   if (!found) {
     // The measurements stand; this revolution alone gives no axis.
-    notices_.without_fix(revolution.number, found.error());
+    notices_.without_fix(revolution.number, found.error().why);
     return {};
   }
   auto fixes = disambiguator_.settle(revolution.number, revolution.t_start, candidate.measured,

@@ -140,9 +140,11 @@ TEST(AxisCandidates, AChordWiderThanTheDiscIsRefusedWithItsMeasure) {
   revolution.edges.at(index_of(PulseChannel::NorthOut)) = shifted(in, 0.9 / scene.rate_rad_s);
   const auto fix = testing::lone_fix(scene.config, revolution, {}, scene.sun_earth());
   ASSERT_FALSE(fix);
-  EXPECT_EQ(fix.error().code, ErrorCode::InvalidInput);
-  EXPECT_NE(fix.error().message.find("chord 51.5662 deg"), std::string::npos)
-      << fix.error().message;
+  EXPECT_TRUE(fix.error().contradictory);
+  EXPECT_EQ(fix.error().why.code, NoFixCode::ChordTooWide);
+  const NamedValue& chord = fix.error().why.values.front();
+  EXPECT_EQ(chord.name, "chord_deg");
+  EXPECT_NEAR(std::get<double>(chord.value), 51.5662, 1e-4);
 }
 
 TEST(AxisCandidates, ASolutionThatTheNoiseDestroysIsRefused) {
@@ -153,7 +155,7 @@ TEST(AxisCandidates, ASolutionThatTheNoiseDestroysIsRefused) {
   scene.config.noise.infrared_s = 5e-2;
   const auto fix = scene.fix();
   ASSERT_FALSE(fix);
-  EXPECT_EQ(fix.error().code, ErrorCode::Unobservable);
+  EXPECT_FALSE(fix.error().contradictory);
 }
 
 }  // namespace spindrift::axis_candidates_determinant_test

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "pipelines/time/utc.h"
 #include "services/words/notice_words.h"
 #include "tests/support/spinning_body.h"
 
@@ -22,8 +23,6 @@ using ::testing::StartsWith;
 using enum PulseChannel;
 
 const SpinConfig kConfig = testing::usual_config();
-const Error kBefore{ErrorCode::NoCoverage, "before its first state"};
-const Error kAfter{ErrorCode::NoCoverage, "after its last state"};
 
 Association of_one_revolution() {
   return {.closed = {Revolution{.number = 0, .edges = {}, .period_candidate = {}, .period = {}}},
@@ -127,11 +126,19 @@ TEST(PassNotices, EachThingIsSaidOnce) {
 
 TEST(PassNotices, TheFirstOutsideTheOrbitIsNamedAndTheEndSaysHowMany) {
   PassNotices notices{kConfig};
-  notices.outside_orbit(kBefore);
-  notices.outside_orbit(kAfter);
-  EXPECT_THAT(taken(notices), ElementsAre(HasSubstr("before its first state")));
+  const TaiTime first = parse_utc("2026-11-20T03:00:00Z").value();
+  notices.outside_orbit(first, ErrorCode::NoCoverage);
+  notices.outside_orbit(shifted(first, 5.0), ErrorCode::NoCoverage);
+  EXPECT_THAT(taken(notices), ElementsAre(HasSubstr("2026-11-20T03:00:00.000Z: the orbit of the "
+                                                    "mission file does not cover the revolution")));
   EXPECT_THAT(at_the_end(notices), ElementsAre(HasSubstr("2 revolutions outside it gave no axis, "
-                                                         "the last: after its last state")));
+                                                         "the last at 2026-11-20T03:00:05.000Z")));
+}
+
+TEST(PassNotices, AnOrbitWithinTheEarthIsNotOneThatEnds) {
+  PassNotices notices{kConfig};
+  notices.outside_orbit(parse_utc("2026-11-20T03:00:00Z").value(), ErrorCode::Unobservable);
+  EXPECT_THAT(taken(notices), ElementsAre(HasSubstr("below the infrared horizon")));
 }
 
 TEST(PassNotices, TheEndNamesTheChannelsThatWereNeverHeard) {
@@ -233,10 +240,13 @@ TEST(PassNotices, ADispersionThatSettlesIsToldWithItsRatio) {
 
 TEST(PassNotices, FixesWithoutAnEstimateAreSaidToBeTooUncertain) {
   PassNotices notices{kConfig};
-  notices.without_fix(0, {ErrorCode::Unobservable, "no chord"});
+  notices.without_fix(0, {NoFixCode::NothingMeasured});
   notices.has_fix(fix_of(1, Resolution::Geometry), {});
   notices.mean_began();
-  EXPECT_THAT(taken(notices), ElementsAre("revolution 0 is the first that gives no fix: no chord"));
+  EXPECT_THAT(
+      taken(notices),
+      ElementsAre("revolution 0 is the first that gives no fix: no measurement that an axis could "
+                  "be found from"));
   EXPECT_THAT(at_the_end(notices), ElementsAre(HasSubstr("'sequential' never began")));
 }
 
@@ -246,16 +256,16 @@ TEST(PassNotices, TheRevolutionThatTheEndCutsShortIsNotTheFirstWithoutAFix) {
   notices.mean_began();
   notices.estimated(estimate_of({Quality::Ambiguous}));
   notices.cut_short(9);
-  notices.without_fix(9, {ErrorCode::Unobservable, "no chord"});
+  notices.without_fix(9, {NoFixCode::NothingMeasured});
   EXPECT_THAT(taken(notices), IsEmpty());
 }
 
 TEST(PassNotices, AnOnlyRevolutionThatIsCutShortIsWhyThereIsNoAxis) {
   PassNotices notices{kConfig};
   notices.cut_short(0);
-  notices.without_fix(0, {ErrorCode::Unobservable, "no chord"});
-  EXPECT_THAT(at_the_end(notices),
-              ElementsAre("no axis: 1 revolutions gave no fix, the last: no chord"));
+  notices.without_fix(0, {NoFixCode::NothingMeasured});
+  EXPECT_THAT(at_the_end(notices), ElementsAre("no axis: 1 revolutions gave no fix, the last: no "
+                                               "measurement that an axis could be found from"));
 }
 
 TEST(PassNotices, APriorThatIsFarFromTheAxisIsNamedOnceThoughNothingHadToBeChosen) {

@@ -13,7 +13,10 @@ AxisCandidates found(bool consistent) {
   return {.geometry_case = 1, .candidates = {candidate}, .told_apart = true, .near_tangent = false};
 }
 
-Expected<AxisCandidates> none(ErrorCode code) { return Unexpected{{code, "none"}}; }
+FoundCandidates none(bool contradictory) {
+  return tl::unexpected{
+      NoCandidates{.why = {NoFixCode::ConesApart}, .contradictory = contradictory}};
+}
 
 TEST(RevolutionConsistency, IsDeservedUntilMostContradictThemselves) {
   RevolutionConsistency trust{100.0};
@@ -29,10 +32,10 @@ TEST(RevolutionConsistency, CountsWhatNoAxisExplainsAndNotWhatCannotGiveOne) {
   RevolutionConsistency trust{100.0};
   trust.count(found(true));
   for (int i = 0; i < 10; ++i) {
-    trust.count(none(ErrorCode::Unobservable));
+    trust.count(none(false));
   }
   EXPECT_TRUE(trust.most_consistent());
-  trust.count(none(ErrorCode::InvalidInput));
+  trust.count(none(true));
   EXPECT_FALSE(trust.most_consistent());
 }
 
