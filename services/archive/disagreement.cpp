@@ -2,17 +2,10 @@
 
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>
-#include <fmt/format.h>
 
 #include "services/archive/connection.h"
 
 namespace spindrift {
-
-std::string in_words(const Disagreement& disagreement) {
-  return fmt::format(
-      "{} and {} disagree: their axes are {:.3f} deg apart, {:.1f} times the larger sigma",
-      disagreement.one, disagreement.other, disagreement.apart_deg, disagreement.apart_sigmas);
-}
 
 Expected<std::vector<Disagreement>> find_disagreements(const std::filesystem::path& archive,
                                                        const std::string& run_id) {

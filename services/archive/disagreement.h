@@ -9,18 +9,9 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "services/words/disagreement_words.h"
 
 namespace spindrift {
-
-struct Disagreement {
-  std::string one;  ///< Estimators, as in spin_estimate.
-  std::string other;
-  double apart_deg;
-  double apart_sigmas;  ///< The larger of the two, for they share their edges.
-};
-
-/// "mean and batch disagree: their axes are 0.31 deg apart, 4.2 times the larger sigma".
-std::string in_words(const Disagreement& disagreement);
 
 /// Of the last estimates that are stored.
 /// @return As find_stored_passes.

@@ -10,6 +10,7 @@
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/time/utc.h"
 #include "services/geometry/condition_words.h"
+#include "services/units/decimals.h"
 #include "services/units/degrees.h"
 
 namespace spindrift {
@@ -92,7 +93,7 @@ std::string edges_text(const PassGeometry& geometry) {
 }
 
 std::string sigma_text(const std::optional<double>& sigma_rad) {
-  return sigma_rad ? fmt::format("{:.4f}", *sigma_rad * kDegPerRad) : "-";
+  return sigma_rad ? to_its_digits(*sigma_rad * kDegPerRad, 4) : "-";
 }
 
 double minutes(const PlannedPass& pass, TaiTime t) {

@@ -18,7 +18,7 @@ void warn_of_disagreements(const std::filesystem::path& db, std::span<const Arch
       continue;
     }
     for (const Disagreement& disagreement : *found) {
-      spdlog::warn("{}: {}", batch.spacecraft_id, in_words(disagreement));
+      spdlog::warn("{}: {}", batch.spacecraft_id, sentence_of(disagreement));
     }
   }
 }

@@ -177,7 +177,7 @@ nlohmann::json sensors_json(const RunSummary& summary) {
 std::string disagreements_text(const RunSummary& summary) {
   std::string text;
   for (const Disagreement& disagreement : summary.disagreements) {
-    text += fmt::format("  comparison   {}\n", in_words(disagreement));
+    text += fmt::format("  comparison   {}\n", sentence_of(disagreement));
   }
   return text;
 }

@@ -1,7 +1,11 @@
 #include "services/words/assessment_words.h"
 
 #include <array>
+#include <optional>
+#include <variant>
+#include <vector>
 
+#include "services/units/decimals.h"
 #include "services/words/filled.h"
 
 namespace spindrift {
@@ -37,12 +41,12 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
     {Changed, "since {since_tai_ns}, where attitude or rate changed"},
     {MostBeforeChange, "{edges} edges before that are left out: most of the pass"},
     {NoAxisBeforeChange, "no one axis fits the edges before that"},
-    {Nutation, "nutation {deg:.3f} deg, period {period_s:.3f} s"},
+    {Nutation, "nutation {deg:.3g} deg, period {period_s:.3f} s"},
     {OtherNutationPeriod, "or period {period_s:.3f} s"},
-    {Coning, "coning {deg:.3f} +/- {sigma_deg:.3f} deg"},
+    {Coning, "coning {deg:.{decimals}f} +/- {sigma_deg:.{decimals}f} deg"},
     {ConingOrMisplaced, "or a misplaced sensor (coning in [spin.batch] decides)"},
-    {NoConing, "no coning above {detectable_deg:.3f} deg"},
-    {Bias, "{bias} {value:+.3f} +/- {sigma:.3f} {unit}"},
+    {NoConing, "no coning above {detectable_deg:.2g} deg"},
+    {Bias, "{bias} {value:+.{decimals}f} +/- {sigma:.{decimals}f} {unit}"},
     {BiasFarOff, "more than {prior_sigmas:.0f} times its prior"},
     {BiasOpen, "{bias} not determined"},
     {BiasAtBound, "{bias} runs to its bound"},
@@ -70,12 +74,28 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
 }};
 static_assert(are_by_code(kReasonPatterns));
 
+/// What `decimals` of a pattern are: those that the sigma of the reason leaves.
+std::optional<NamedValue> decimals_of(const Reason& reason) {
+  constexpr int kLeast = 3;
+  for (const auto& [name, value] : reason.values) {
+    const auto* const number = std::get_if<double>(&value);
+    if (number != nullptr && name.starts_with("sigma")) {
+      return NamedValue{"decimals", std::int64_t{decimals_for(*number, kLeast)}};
+    }
+  }
+  return std::nullopt;
+}
+
 std::string words_of(const Reason& reason) {
   constexpr int kWholeSeconds = 0;
-  const Reason one_fix{Fixes, {{"count", std::int64_t{1}}}};
-  return reason == one_fix
-             ? "1 fix"
-             : filled(pattern_of(kReasonPatterns, reason.code), reason.values, kWholeSeconds);
+  if (reason == Reason{Fixes, {{"count", std::int64_t{1}}}}) {
+    return "1 fix";
+  }
+  std::vector<NamedValue> values = reason.values;
+  if (auto decimals = decimals_of(reason)) {
+    values.push_back(*std::move(decimals));
+  }
+  return filled(pattern_of(kReasonPatterns, reason.code), values, kWholeSeconds);
 }
 
 }  // namespace

@@ -35,6 +35,19 @@ TEST(AssessmentWords, ShowTimesAsUtcAndBiasesWithTheirUnits) {
       "CONVERGING, since 2026-11-20T03:00:00Z, north_chord +0.100 +/- 0.020 deg");
 }
 
+TEST(AssessmentWords, ShowValuesToTheDigitsOfTheirSigma) {
+  EXPECT_EQ(
+      sentence_of(
+          {Quality::Ok,
+           {{Bias,
+             {{"bias", "north_chord"}, {"value", -0.00031}, {"sigma", 4.2e-5}, {"unit", "deg"}}},
+            {Coning, {{"deg", 0.00123}, {"sigma_deg", 2.1e-4}}},
+            {Nutation, {{"deg", 0.00042}, {"period_s", 2.5}}},
+            {NoConing, {{"detectable_deg", 0.00037}}}}}),
+      "OK, north_chord -0.000310 +/- 0.000042 deg, coning 0.00123 +/- 0.00021 deg, nutation "
+      "0.00042 deg, period 2.500 s, no coning above 0.00037 deg");
+}
+
 TEST(AssessmentWords, StandWithoutAValueThatADamagedArchiveLost) {
   EXPECT_EQ(sentence_of({Quality::Ok, {Reason{ModelOff, {}}}}), "OK, model off by {deg:.2g} deg");
 }
