@@ -3,11 +3,14 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string_view>
 #include <type_traits>
+#include <variant>
 
+#include "pipelines/core/assessment.h"
 #include "services/products/product_kind.h"
 
 namespace spindrift {
@@ -15,6 +18,13 @@ namespace spindrift {
 inline bool is_finite(double value) { return std::isfinite(value); }
 inline bool is_finite(const std::optional<double>& value) {
   return !value || std::isfinite(*value);
+}
+
+inline bool is_finite(const Reason& reason) {
+  return std::all_of(reason.values.begin(), reason.values.end(), [](const NamedValue& value) {
+    const auto* const number = std::get_if<double>(&value.value);
+    return number == nullptr || std::isfinite(*number);
+  });
 }
 
 /// Where a product is not finite.
@@ -36,6 +46,14 @@ std::optional<NotFinite> not_finite(const Kind& product) {
       }
     }
   };
+  // Of these the column has a text.
+  if constexpr (requires { product.assessment; }) {
+    const auto& reasons = product.assessment.reasons;
+    if (!std::all_of(reasons.begin(), reasons.end(),
+                     [](const Reason& reason) { return is_finite(reason); })) {
+      found = NotFinite{.table = MainTable<Kind>::kName, .column = "reasons"};
+    }
+  }
   for_each_table<Kind>([&]<class Table>() {
     for_each_row<Table>(product, [&](const auto& row) {
       with_columns<Table>([&](const auto&... column) { (look(Table::kName, column, row), ...); });

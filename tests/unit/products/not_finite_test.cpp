@@ -76,6 +76,15 @@ TEST(NotFinite, NamesTableAndColumn) {
             "spin_measurement.sigma");
 }
 
+TEST(NotFinite, LooksAtTheValuesOfReasons) {
+  SpinEstimate estimate = an_estimate();
+  estimate.assessment.reasons = {{ReasonCode::Noise, {{"factor", 1.5}}}};
+  EXPECT_EQ(place_in(estimate), "");
+  // As JSON it would be null.
+  estimate.assessment.reasons.push_back({ReasonCode::ModelOff, {{"deg", kNone}}});
+  EXPECT_EQ(place_in(estimate), "spin_estimate.reasons");
+}
+
 TEST(NotFinite, LooksAtEveryTableAndRowOfAProduct) {
   BatchSolution solution = a_solution();
   solution.biases.push_back(BiasEstimate{DihedralBias, 0.01, kEndless, true, true});
