@@ -146,8 +146,8 @@ void BatchWriter::insert_latest_counts(std::span<const ArchiveBatch> batches) {
 }
 
 void BatchWriter::insert(const ArchiveBatch& batch, const RunStart& start) {
-  execute(spacecraft_, batch.spacecraft_id, start.spacecraft_kind);
-  execute(run_, batch.run_id, batch.spacecraft_id, start.mode, start.software_version,
+  execute(spacecraft_, batch.spacecraft_id, name_of(start.spacecraft_kind));
+  execute(run_, batch.run_id, batch.spacecraft_id, name_of(start.mode), start.software_version,
           start.config_toml, start.config_sha256, start.orbit_sha256, start.started_utc,
           start.first_arrival);
   std::int64_t position = 0;

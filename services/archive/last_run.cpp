@@ -22,8 +22,7 @@ std::vector<std::string> telemetry_of(const SQLite::Database& database, const st
 }  // namespace
 
 Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& archive,
-                                               const std::string& spacecraft_id,
-                                               const std::string& mode) {
+                                               const std::string& spacecraft_id, RunMode mode) {
   return read_archive(archive, [&](SQLite::Database& database) -> std::optional<LastRun> {
     SQLite::Statement query{
         database,
@@ -31,7 +30,7 @@ Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& arch
         " WHERE spacecraft_id = ? AND mode = ? ORDER BY first_arrival DESC, started_utc DESC"
         " LIMIT 1"};
     query.bind(1, spacecraft_id);
-    query.bind(2, mode);
+    query.bind(2, std::string{name_of(mode)});
     if (!query.executeStep()) {
       return std::nullopt;
     }

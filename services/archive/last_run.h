@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "services/archive/records.h"
 
 namespace spindrift {
 
@@ -24,8 +25,7 @@ struct LastRun {
 /// @param mode Of the runs to look at.
 /// @return none when there is none; errors as find_stored_passes.
 Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& archive,
-                                               const std::string& spacecraft_id,
-                                               const std::string& mode);
+                                               const std::string& spacecraft_id, RunMode mode);
 
 /// Where the newest run of the spacecraft begins, whatever its mode: counts up from run to run.
 /// @return none when there is none; errors as find_stored_passes.

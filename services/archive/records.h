@@ -3,22 +3,34 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "services/mission/spacecraft_kind.h"
 #include "services/products/products.h"
 #include "services/telemetry/by_kind.h"
 #include "services/telemetry/rejected_input.h"
 
 namespace spindrift {
 
+/// How the samples of a run come.
+enum class RunMode { Live, Process, Replay };
+
+/// As in the archive.
+constexpr std::string_view name_of(RunMode mode) {
+  constexpr std::array<std::string_view, 3> kNames = {"live", "process", "replay"};
+  return kNames.at(static_cast<std::size_t>(mode));
+}
+
 /// Where a run came from: enough to do it again.
 struct RunStart {
-  std::string spacecraft_kind;  ///< spin or three_axis
-  std::string mode;             ///< live, process or replay
+  SpacecraftKind spacecraft_kind;
+  RunMode mode;
   std::string software_version;
   std::string config_toml;
   std::string config_sha256;

@@ -46,7 +46,7 @@ std::vector<StoredPass> find_runs(const SQLite::Database& database,
                                   const std::string& spacecraft_id, const RunStart& start) {
   SQLite::Statement query{database, kFindRuns};
   query.bind(1, spacecraft_id);
-  query.bind(2, start.mode);
+  query.bind(2, std::string{name_of(start.mode)});
   query.bind(3, start.software_version);
   query.bind(4, start.config_sha256);
   if (start.orbit_sha256) {

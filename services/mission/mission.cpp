@@ -88,11 +88,6 @@ Expected<Mission> load(const std::filesystem::path& path, std::optional<Spacecra
 
 }  // namespace
 
-std::string_view name_of(SpacecraftKind kind) {
-  static constexpr std::array<std::string_view, 2> kNames = {"spin", "three_axis"};
-  return kNames.at(static_cast<std::size_t>(kind));
-}
-
 Expected<Mission> load_mission(const std::filesystem::path& path) {
   return load(path, std::nullopt);
 }

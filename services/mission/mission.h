@@ -15,13 +15,9 @@
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/three_axis/config.h"
+#include "services/mission/spacecraft_kind.h"
 
 namespace spindrift {
-
-enum class SpacecraftKind { Spin, ThreeAxis };
-
-/// As in the mission file: "spin", "three_axis".
-std::string_view name_of(SpacecraftKind kind);
 
 struct Mission {
   std::string spacecraft_id;

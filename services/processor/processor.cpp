@@ -31,8 +31,9 @@ std::variant<SpinRun, ThreeAxisRun> computing_side(const Mission& mission,
   if (mission.spin() == nullptr) {
     return ThreeAxisRun{mission, run.run_id()};
   }
-  return SpinRun{mission, run.run_id(),
-                 run.start().mode == "process" ? BatchPlan::WholePass : BatchPlan::EveryMinute};
+  return SpinRun{
+      mission, run.run_id(),
+      run.start().mode == RunMode::Process ? BatchPlan::WholePass : BatchPlan::EveryMinute};
 }
 
 /// A run holds what one configuration made.
@@ -269,7 +270,9 @@ void Processor::count_other(const std::string& spacecraft, std::int64_t samples)
   count += samples;
 }
 
-bool Processor::is_live() const { return !runs_.empty() && runs_.front().start().mode == "live"; }
+bool Processor::is_live() const {
+  return !runs_.empty() && runs_.front().start().mode == RunMode::Live;
+}
 
 std::vector<std::string> Processor::spacecraft() const {
   std::vector<std::string> ids;

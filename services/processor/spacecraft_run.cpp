@@ -77,7 +77,7 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
                              std::size_t index)
     : spacecraft_id_{mission.spacecraft_id},
       index_{index},
-      start_{.spacecraft_kind = std::string{name_of(mission.kind())},
+      start_{.spacecraft_kind = mission.kind(),
              .mode = source.mode,
              .software_version = kSoftwareVersion,
              .config_toml = mission.toml_text,
@@ -92,8 +92,8 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
       next_arrival_{start_.first_arrival},
       silent_before_{next_arrival_},
       tables_{mission.tables},
-      judges_sources_{source.mode != "process"},
-      pace_{source.mode == "live" ? kLivePace : kReplayPace},
+      judges_sources_{source.mode != RunMode::Process},
+      pace_{source.mode == RunMode::Live ? kLivePace : kReplayPace},
       sources_{pace_} {}
 
 void SpacecraftRun::arrive_after(std::int64_t first_arrival) {

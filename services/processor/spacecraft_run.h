@@ -29,7 +29,7 @@ namespace spindrift {
 
 /// Where the samples of a run come from, kept with it.
 struct TelemetrySource {
-  std::string mode;                    ///< live, process or replay.
+  RunMode mode;
   std::vector<std::string> telemetry;  ///< File paths, or DDS domain and partition.
 };
 

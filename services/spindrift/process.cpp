@@ -96,8 +96,8 @@ Expected<bool> process(const ProcessOptions& options) {
     return Unexpected{mission.error()};
   }
   warn_of_orbit(options.mission, *mission);
-  auto processor =
-      Processor::make({*mission}, {.mode = "process", .telemetry = texts_of(options.telemetry)});
+  auto processor = Processor::make(
+      {*mission}, {.mode = RunMode::Process, .telemetry = texts_of(options.telemetry)});
   if (!processor) {
     return Unexpected{processor.error()};
   }

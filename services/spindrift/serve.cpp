@@ -270,7 +270,7 @@ Expected<Processor> make_processor(const ServeOptions& options) {
     return Unexpected{missions.error()};
   }
   return Processor::make(*missions,
-                         {.mode = options.partition == "replay" ? "replay" : "live",
+                         {.mode = options.partition == "replay" ? RunMode::Replay : RunMode::Live,
                           .telemetry = {fmt::format("DDS domain {}, partition {}", options.domain,
                                                     options.partition)}});
 }

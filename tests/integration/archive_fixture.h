@@ -21,8 +21,8 @@
 
 namespace spindrift::testing {
 
-inline const RunStart kRunStart{.spacecraft_kind = "spin",
-                                .mode = "process",
+inline const RunStart kRunStart{.spacecraft_kind = SpacecraftKind::Spin,
+                                .mode = RunMode::Process,
                                 .software_version = "0.1.0",
                                 .config_toml = "[spacecraft]\nid = \"SPINNER\"\n",
                                 .config_sha256 = "00ff",

@@ -125,7 +125,7 @@ TEST_F(ArchiveRestart, ARunEndsWhereOneOfAnotherModeBegins) {
   ASSERT_TRUE(archive->submit(begun("run-1", 100)));
   ASSERT_TRUE(archive->submit(arrived("run-1", 100, {pulse_at(10), pulse_at(20)})));
   ArchiveBatch processed = begun("run-2", 200);
-  processed.start->mode = "live";
+  processed.start->mode = RunMode::Live;
   ASSERT_TRUE(archive->submit(processed));
   ASSERT_TRUE(archive->submit(arrived("run-2", 200, {pulse_at(30)})));
   ASSERT_TRUE(archive->flush());
@@ -225,13 +225,15 @@ TEST_F(ArchiveRestart, OnlyARunThatWasMadeTheSameWayIsContinued) {
   ASSERT_TRUE(archive->flush());
   ASSERT_TRUE(stored());
   EXPECT_FALSE(stored()->earliest);
-  for (std::string RunStart::*part :
-       {&RunStart::mode, &RunStart::software_version, &RunStart::config_sha256}) {
+  for (std::string RunStart::*part : {&RunStart::software_version, &RunStart::config_sha256}) {
     RunStart other = kRunStart;
     other.*part += "x";
     EXPECT_FALSE(stored(other));
   }
   RunStart other = kRunStart;
+  other.mode = RunMode::Live;
+  EXPECT_FALSE(stored(other));
+  other = kRunStart;
   other.orbit_sha256.reset();
   EXPECT_FALSE(stored(other));
   other = kRunStart;

@@ -50,7 +50,7 @@ std::vector<TelemetrySample<Pulse>> two_passes() {
 
 Processor new_processor(const std::filesystem::path& pass = kPass) {
   return Processor::make({load_mission(pass / "mission.toml").value()},
-                         {.mode = "live", .telemetry = {"DDS domain 0, partition live"}})
+                         {.mode = RunMode::Live, .telemetry = {"DDS domain 0, partition live"}})
       .value();
 }
 

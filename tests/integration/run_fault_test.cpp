@@ -55,7 +55,7 @@ struct RunFaults : testing::ArchiveFixture {
     missions[0].spacecraft_id = "FAILS";
     missions[1].spacecraft_id = "SOUND";
     return Processor::make(missions,
-                           {.mode = "live", .telemetry = {"DDS domain 0, partition live"}})
+                           {.mode = RunMode::Live, .telemetry = {"DDS domain 0, partition live"}})
         .value();
   }
 

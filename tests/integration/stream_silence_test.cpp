@@ -28,7 +28,7 @@ constexpr std::size_t kAll = 180;
 
 Processor new_processor() {
   return Processor::make({load_mission(kPass / "mission.toml").value()},
-                         {.mode = "live", .telemetry = {"DDS domain 0, partition live"}})
+                         {.mode = RunMode::Live, .telemetry = {"DDS domain 0, partition live"}})
       .value();
 }
 

@@ -82,7 +82,7 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
 
   Processor new_processor() const {
     return Processor::make({load_mission(pass_ / "mission.toml").value()},
-                           {.mode = "live", .telemetry = {"DDS domain 0, partition live"}})
+                           {.mode = RunMode::Live, .telemetry = {"DDS domain 0, partition live"}})
         .value();
   }
 

@@ -49,7 +49,8 @@ struct WithheldProducts : testing::ArchiveFixture {
     missions[0].spacecraft_id = "ODD";
     missions[0].config = odd;
     missions[1].spacecraft_id = "SOUND";
-    return Processor::make(missions, {.mode = "live", .telemetry = {"DDS domain 0"}}).value();
+    return Processor::make(missions, {.mode = RunMode::Live, .telemetry = {"DDS domain 0"}})
+        .value();
   }
 
   /// Stores the edges of both and what is made of them; then once more, of what is stored.
