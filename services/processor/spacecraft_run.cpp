@@ -302,8 +302,16 @@ void SpacecraftRun::tell_undescribed(const TelemetrySamples& samples) {
   TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
     constexpr std::string_view kSensor = Telemetry<Value>::kSensor;
     bool& told = told_undescribed_[kTelemetryKind<Value>];
-    if (!told && !kSensor.empty() && !samples.of<Value>().empty() &&
-        !tables_.contains(std::string{kSensor})) {
+    if (told || samples.of<Value>().empty()) {
+      return;
+    }
+    if (kSensor.empty()) {
+      if (start_.spacecraft_kind == SpacecraftKind::Spin) {
+        told = true;
+        spdlog::info("{}: {} arrive: they are stored; the orbit is the mission file's",
+                     spacecraft_id_, Telemetry<Value>::kPlural);
+      }
+    } else if (!tables_.contains(std::string{kSensor})) {
       told = true;
       spdlog::warn(
           "{}: {} arrive, and the mission file has no [{}]: they are stored, and nothing is "

@@ -96,6 +96,23 @@ TEST(Process, StoresEdgesOfASpacecraftThatIsNoSpinnerAndSaysThatNothingIsCompute
   EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM spin_estimate"), 0);
 }
 
+TEST(Process, StoresOrbitStatesOfASpinnerAndSaysOnceThatTheOrbitIsTheMissionFiles) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("orbit_state.csv",
+                    "t_tai_ns,x_km,y_km,z_km,vx_km_s,vy_km_s,vz_km_s\n"
+                    "1795143638000000000,7000,0,0,0,7.5,0\n"
+                    "1795143698000000000,6990,450,0,-0.5,7.48,0\n");
+  Program program{pass.arguments_here()};
+  EXPECT_EQ(program.exit_status(), 0);
+  const std::string words =
+      "SPINNER: orbit states arrive: they are stored; the orbit is the "
+      "mission file's";
+  const std::size_t first = program.log().find(words);
+  ASSERT_NE(first, std::string::npos) << program.log();
+  EXPECT_EQ(program.log().find(words, first + 1), std::string::npos);
+  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM orbit_state_sample"), 2);
+}
+
 TEST(Process, RefusesAnOrbitThatCannotBeRead) {
   expect_refused("orbit.oem", "CCSDS_OEM_VERS = 2.0\nthis is no orbit\n", {"orbit.oem", "line 2"});
   expect_refused("orbit.oem", "", {"orbit.oem", "must begin with CCSDS_OEM_VERS"});
