@@ -58,7 +58,9 @@ std::optional<TaiTime> first_behind(const std::vector<Sample>& samples, TaiTime 
 
 Error nothing_anchored(TaiTime t) {
   return {ErrorCode::Unobservable,
-          fmt::format("no star fix lies behind {}: nothing can be anchored", format_utc(t))};
+          fmt::format("no star fix lies behind {}: nothing can be anchored; samples up to one that "
+                      "does are needed",
+                      format_utc(t))};
 }
 
 Expected<std::vector<EventTime>> event_times(const SeparationTimes& times, const Samples& samples) {
@@ -203,7 +205,8 @@ Expected<Samples> samples_of(const ReconstructionRequest& request, std::int64_t&
                    fmt::format("{} gyro samples: at least 2 are needed", samples.gyro.size()));
   }
   if (samples.stars.empty()) {
-    return refused(ErrorCode::Unobservable, "no star fix: nothing can be anchored");
+    return refused(ErrorCode::Unobservable,
+                   "no star fix: nothing can be anchored; samples up to the first one are needed");
   }
   samples.held_s = kHeldSteps * usual_step_s(timed(samples.gyro, samples.gyro.front().t));
   return samples;

@@ -19,6 +19,10 @@
 namespace spindrift {
 
 enum class ReconstructionMethod { Batch, Sequential };
+/// "batch", "sequential".
+constexpr std::string_view name_of(ReconstructionMethod method) {
+  return method == ReconstructionMethod::Batch ? "batch" : "sequential";
+}
 
 /// T1 to T4.
 enum class SeparationEvent { Separation, ControlOn, Acquisition, FirstStarFix };
