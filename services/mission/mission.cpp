@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "services/input_file/input_file.h"
 #include "services/input_file/sha256.h"
 #include "services/mission/mission_orbit.h"
 #include "services/mission/mission_schema.h"
@@ -44,12 +45,13 @@ Expected<void> allow(TomlDocument& document, std::optional<SpacecraftKind> only)
 }
 
 /// @param only The kind that is allowed; empty: any.
-Expected<Mission> load(const std::filesystem::path& path, std::optional<SpacecraftKind> only) {
+Expected<Mission> parse(const std::filesystem::path& path, std::string text,
+                        std::optional<SpacecraftKind> only) {
   const auto schema = mission_schema();
   if (!schema) {
     return Unexpected{schema.error()};
   }
-  auto document = read_document(path, *schema);
+  auto document = parse_document(path, std::move(text), *schema);
   if (!document) {
     return Unexpected{std::move(document.error())};
   }
@@ -62,6 +64,10 @@ Expected<Mission> load(const std::filesystem::path& path, std::optional<Spacecra
   if (!orbit) {
     add_problem(*document, orbit_key(values), std::move(orbit.error().message));
   }
+  if (auto sound = soundness(*document); !sound) {
+    return Unexpected{std::move(sound.error())};
+  }
+  auto separation = separation_plan(*document);
   if (auto sound = soundness(*document); !sound) {
     return Unexpected{std::move(sound.error())};
   }
@@ -78,6 +84,7 @@ Expected<Mission> load(const std::filesystem::path& path, std::optional<Spacecra
                  .config = is_spinner(values)
                                ? std::variant<SpinConfig, ThreeAxisConfig>{spin_config(values)}
                                : three_axis_config(values),
+                 .separation = std::move(separation),
                  .orbit = std::move(orbit->orbit),
                  .toml_text = std::move(document->text),
                  .sha256 = std::move(*sha256),
@@ -86,10 +93,19 @@ Expected<Mission> load(const std::filesystem::path& path, std::optional<Spacecra
                  .orbit_doubts = std::move(doubts)};
 }
 
+Expected<Mission> load(const std::filesystem::path& path, std::optional<SpacecraftKind> only) {
+  return read_text_file(path).and_then(
+      [&](std::string&& text) { return parse(path, std::move(text), only); });
+}
+
 }  // namespace
 
 Expected<Mission> load_mission(const std::filesystem::path& path) {
   return load(path, std::nullopt);
+}
+
+Expected<Mission> mission_of(const std::filesystem::path& path, std::string text) {
+  return parse(path, std::move(text), std::nullopt);
 }
 
 Expected<Mission> load_spinner(const std::filesystem::path& path) {

@@ -15,6 +15,7 @@
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/three_axis/config.h"
+#include "services/mission/mission_reconstruction.h"
 #include "services/mission/spacecraft_kind.h"
 
 namespace spindrift {
@@ -22,6 +23,7 @@ namespace spindrift {
 struct Mission {
   std::string spacecraft_id;
   std::variant<SpinConfig, ThreeAxisConfig> config;  ///< In the order of SpacecraftKind.
+  std::optional<SeparationPlan> separation;          ///< [reconstruction], where there is one.
   std::optional<Orbit> orbit;                        ///< Always there for a spinner.
   std::string toml_text;                             ///< The file as read.
   std::string sha256;                                ///< Of toml_text, hexadecimal.
@@ -39,6 +41,10 @@ struct Mission {
 /// @return InvalidConfiguration with every problem, one a line:
 ///         "FILE:LINE: KEY = VALUE: what is allowed"; the line where one is to blame.
 Expected<Mission> load_mission(const std::filesystem::path& path);
+
+/// Likewise of a text that was read before.
+/// @param path Named in problems; an orbit file is relative to it.
+Expected<Mission> mission_of(const std::filesystem::path& path, std::string text);
 
 /// That of a spinner. @return InvalidConfiguration for any other, too.
 Expected<Mission> load_spinner(const std::filesystem::path& path);

@@ -32,17 +32,19 @@ Expected<toml::table> parse(const std::filesystem::path& path, const std::string
 }  // namespace
 
 Expected<TomlDocument> read_document(const std::filesystem::path& path, const TableRule& schema) {
-  auto text = read_text_file(path);
-  if (!text) {
-    return Unexpected{std::move(text.error())};
-  }
-  auto table = parse(path, *text);
+  return read_text_file(path).and_then(
+      [&](std::string&& text) { return parse_document(path, std::move(text), schema); });
+}
+
+Expected<TomlDocument> parse_document(const std::filesystem::path& path, std::string text,
+                                      const TableRule& schema) {
+  auto table = parse(path, text);
   if (!table) {
     return Unexpected{std::move(table.error())};
   }
   auto [values, problems] = check_document(schema, *table);
   return TomlDocument{.path = path,
-                      .text = std::move(*text),
+                      .text = std::move(text),
                       .table = std::move(*table),
                       .values = std::move(values),
                       .problems = std::move(problems)};

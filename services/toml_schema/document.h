@@ -29,6 +29,10 @@ struct TomlDocument {
 ///         stands in `problems`.
 Expected<TomlDocument> read_document(const std::filesystem::path& path, const TableRule& schema);
 
+/// Likewise of a text that was read before. @param path Named in problems.
+Expected<TomlDocument> parse_document(const std::filesystem::path& path, std::string text,
+                                      const TableRule& schema);
+
 /// Adds what the schema cannot say. @param key To blame: its line is named where it has one.
 void add_problem(TomlDocument& document, std::string_view key, std::string text);
 

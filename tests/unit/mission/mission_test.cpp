@@ -370,7 +370,7 @@ TEST(Mission, HoldsEveryKeyToItsRange) {
       {"reconstruction.t1_tai_ns", {"0"}, {"-1", "0.0", "'2026-11-20'", "2026-11-20"}},
       {"reconstruction.t4_tai_ns", {"4102444800000000000"}, {"4102444800000000001"}},
       {"reconstruction.launcher.euler312_deg", {"[-360, 0, 360]"}, {"[0, 0]", "[0, 0, 361]"}},
-      {"reconstruction.launcher.sigma_deg", {"0.001", "180"}, {"0", "181"}},
+      {"reconstruction.launcher.sigma_deg", {"0.001", "180"}, {"0", "181", "inf", "nan"}},
       {"spin.target.ra_deg", {"-360", "360"}, {"361", "-361"}},
       {"spin.target.dec_deg", {"-90", "90"}, {"-90.1", "90.1"}},
       {"spin.target.rpm", {"0.1", "1000"}, {"0", "1001"}},
@@ -474,6 +474,26 @@ TEST(Mission, HasItsEventsInOrder) {
                              "1772337637000000000")),
               ElementsAre(HasSubstr("reconstruction.t4_tai_ns = 1772337637000000000: must not be "
                                     "below t3_tai_ns = 1772337637000000001")));
+}
+
+TEST(Mission, HasTheLaunchersChainWholeOrIsRefused) {
+  const std::string start =
+      "[spacecraft]\nid = \"A\"\nkind = \"three_axis\"\n[reconstruction]\nt1_tai_ns = 7\n"
+      "[reconstruction.launcher]\neuler312_launch_deg = [1, 2, 3]\nsigma_deg = 0.5\n";
+  EXPECT_THAT(problems_of(start + "site_lat_deg = 5\nsite_lon_deg = -52\nepoch_tai_ns = 4\n"),
+              ElementsAre("mission.toml:6: reconstruction.launcher.launch_azimuth_deg: missing: "
+                          "euler312_launch_deg needs it"));
+  const auto mission = load(start +
+                            "site_lat_deg = 5\nsite_lon_deg = -52\nepoch_tai_ns = 4\n"
+                            "launch_azimuth_deg = 90\n");
+  ASSERT_TRUE(mission) << mission.error().message;
+  ASSERT_TRUE(mission->separation);
+  EXPECT_EQ(mission->separation->times.separation, tai_from_ns(7));
+  EXPECT_FALSE(mission->separation->times.control_on);
+  ASSERT_TRUE(mission->separation->launcher);
+  const auto& told = std::get<InLaunchFrame>(mission->separation->launcher->told);
+  EXPECT_DOUBLE_EQ(told.launch.azimuth_rad, 90.0 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(told.angles.theta_rad, 2.0 * kRadPerDeg);
 }
 
 TEST(Mission, WithUnknownNamesIsRefused) {
