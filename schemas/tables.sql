@@ -452,12 +452,42 @@ CREATE TABLE attitude (
   PRIMARY KEY (run_id, t_tai_ns, source)
 ) STRICT, WITHOUT ROWID;
 
--- q_icrf_body; Euler 3-1-2: 1 phi, 2 theta, 3 psi. NULL: the mission has no orbit.
+-- The attitude from separation to the star fixes, reconstructed: its events and its history stand in the two
+-- tables around. t_tai_ns: of the end of the history. Bias of the gyro: NULL but for batch. launcher_...: how far the
+-- launcher's attitude at T1 is from it, chi-square of 3 degrees of freedom, the chance that errors alone keep
+-- them as far apart; NULL: it told none, or no orbit frame is known.
+CREATE TABLE reconstruction (
+  run_id              TEXT NOT NULL REFERENCES run,
+  method              TEXT NOT NULL CHECK (method IN ('batch', 'sequential')),
+  t_tai_ns            INTEGER NOT NULL,
+  quality             TEXT NOT NULL CHECK (
+    quality = 'OK' OR quality = 'CONVERGING' OR quality = 'AMBIGUOUS' OR quality = 'DOUBTFUL'
+    OR quality = 'LOST'),
+  reasons             TEXT NOT NULL,  -- as in spin_estimate
+  status              TEXT NOT NULL,
+  gyro_samples        INTEGER NOT NULL,
+  sun_vectors         INTEGER NOT NULL,
+  star_fixes          INTEGER NOT NULL,
+  bias_x_rad_s        REAL,
+  bias_y_rad_s        REAL,
+  bias_z_rad_s        REAL,
+  bias_sigma_x_rad_s  REAL,
+  bias_sigma_y_rad_s  REAL,
+  bias_sigma_z_rad_s  REAL,
+  launcher_angle_deg  REAL,
+  launcher_chi_square REAL,
+  launcher_chance     REAL,
+  PRIMARY KEY (run_id, method)
+) STRICT, WITHOUT ROWID;
+
+-- q_icrf_body; Euler 3-1-2: 1 phi, 2 theta, 3 psi. found: 1, in the samples, as nobody named its time. NULL: the
+-- mission has no orbit that covers the event; the Cramer-Rao bound but for batch.
 CREATE TABLE reconstruction_event (
   run_id               TEXT NOT NULL REFERENCES run,
   method               TEXT NOT NULL CHECK (method IN ('batch', 'sequential')),
   event                TEXT NOT NULL CHECK (event IN ('T1', 'T2', 'T3', 'T4')),
   t_tai_ns             INTEGER NOT NULL,
+  found                INTEGER NOT NULL CHECK (found IN (0, 1)),
   qx                   REAL NOT NULL,
   qy                   REAL NOT NULL,
   qz                   REAL NOT NULL,
@@ -469,6 +499,7 @@ CREATE TABLE reconstruction_event (
   euler312_orbit_deg_2 REAL,
   euler312_orbit_deg_3 REAL,
   sigma_deg            REAL NOT NULL CHECK (sigma_deg >= 0),
+  bound_deg            REAL,
   PRIMARY KEY (run_id, method, event)
 ) STRICT, WITHOUT ROWID;
 

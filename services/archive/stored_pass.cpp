@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "services/archive/connection.h"
+#include "services/archive/stored_rows.h"
 
 namespace spindrift {
 namespace {
@@ -114,40 +114,10 @@ void bind_extent(SQLite::Statement& query, const std::string& spacecraft_id,
   }
 }
 
-/// @name A column into a member; the schema allows no other values
-/// @{
-void read(const SQLite::Column& column, double& member) { member = column.getDouble(); }
-void read(const SQLite::Column& column, std::optional<double>& member) {
-  member = column.isNull() ? std::nullopt : std::optional{column.getDouble()};
-}
-void read(const SQLite::Column& column, PulseChannel& member) {
-  member = pulse_channel_from(column.getText()).value();
-}
-/// @}
-
-/// For `read_arrived`.
-template <class Value>
-std::string columns() {
-  std::string columns = "arrival, t_tai_ns";
-  std::apply([&](const auto&... column) { (((columns += ", ") += column.name), ...); },
-             Telemetry<Value>::kColumns);
-  return columns;
-}
-
-template <class Value>
-Arrived<Value> read_arrived(SQLite::Statement& row) {
-  Arrived<Value> arrived{.arrival = row.getColumn(0).getInt64(), .value = {}};
-  arrived.value.t = tai_from_ns(row.getColumn(1).getInt64());
-  for_each_column(arrived.value, [&, column = 1](std::string_view /*name*/, auto& member) mutable {
-    read(row.getColumn(++column), member);
-  });
-  return arrived;
-}
-
 template <class Value>
 void read_values(const SQLite::Database& database, const std::string& spacecraft_id,
                  StoredPass& pass) {
-  SQLite::Statement query{database, fmt::format("SELECT {} FROM {}{}", columns<Value>(),
+  SQLite::Statement query{database, fmt::format("SELECT {} FROM {}{}", arrived_columns<Value>(),
                                                 Telemetry<Value>::kTable, kExtent)};
   bind_extent(query, spacecraft_id, pass);
   auto& values = pass.values.of<Value>();
@@ -175,7 +145,7 @@ void read_left_out(const SQLite::Database& database, const std::string& spacecra
   SQLite::Statement query{
       database, fmt::format("SELECT {}, source, session, seq FROM {} WHERE spacecraft_id = ?"
                             " AND arrival < 0 AND arrival <= ? ORDER BY arrival LIMIT ?",
-                            columns<Value>(), Telemetry<Value>::kTable)};
+                            arrived_columns<Value>(), Telemetry<Value>::kTable)};
   query.bind(1, spacecraft_id);
   query.bind(2, -pass.first_arrival);
   query.bind(3, StoredPass::kMostLeftOut);

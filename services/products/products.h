@@ -11,6 +11,7 @@
 #include "services/products/batch_solution.h"
 #include "services/products/product_kind.h"
 #include "services/products/pulse_use.h"
+#include "services/products/reconstruction.h"
 #include "services/products/rejected_sample.h"
 #include "services/products/revolution.h"
 #include "services/products/run_fault.h"
@@ -21,8 +22,9 @@
 namespace spindrift {
 
 /// The list.
-using Product = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate,
-                             BatchProduct, RunFault, RejectedSample, AttitudeEstimate>;
+using Product =
+    std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate, BatchProduct,
+                 RunFault, RejectedSample, AttitudeEstimate, ReconstructionProduct>;
 
 /// Its place in the list.
 template <class Kind>

@@ -1,0 +1,70 @@
+#include "services/archive/stored_separation.h"
+
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Statement.h>
+#include <fmt/format.h>
+
+#include "pipelines/core/shown.h"
+#include "services/archive/connection.h"
+#include "services/archive/stored_rows.h"
+
+namespace spindrift {
+namespace {
+
+template <class Value>
+std::vector<Value> read_from(const SQLite::Database& database, const std::string& spacecraft_id,
+                             TaiTime from) {
+  SQLite::Statement query{database,
+                          fmt::format("SELECT {} FROM {} WHERE spacecraft_id = ? AND t_tai_ns >= ?"
+                                      " AND arrival >= 0 ORDER BY t_tai_ns",
+                                      arrived_columns<Value>(), Telemetry<Value>::kTable)};
+  query.bind(1, spacecraft_id);
+  query.bind(2, tai_ns(from));
+  std::vector<Value> values;
+  while (query.executeStep()) {
+    values.push_back(read_arrived<Value>(query).value);
+  }
+  return values;
+}
+
+std::optional<StoredMission> newest_mission(const SQLite::Database& database) {
+  SQLite::Statement query{
+      database,
+      "SELECT run_id, config_toml, orbit_sha256 FROM run JOIN spacecraft USING (spacecraft_id)"
+      " WHERE kind = 'three_axis' ORDER BY started_utc DESC, first_arrival DESC LIMIT 1"};
+  if (!query.executeStep()) {
+    return std::nullopt;
+  }
+  const SQLite::Column orbit = query.getColumn(2);
+  return StoredMission{
+      .run_id = query.getColumn(0).getString(),
+      .config_toml = query.getColumn(1).getString(),
+      .orbit_sha256 = orbit.isNull() ? std::nullopt : std::optional{orbit.getString()}};
+}
+
+}  // namespace
+
+Expected<StoredMission> find_stored_mission(const std::filesystem::path& archive) {
+  return read_archive(archive, newest_mission)
+      .and_then([&](const std::optional<StoredMission>& newest) -> Expected<StoredMission> {
+        if (!newest) {
+          return Unexpected{{ErrorCode::InvalidConfiguration,
+                             fmt::format("{}: no run of a three-axis spacecraft is stored there: "
+                                         "give --mission and --telemetry",
+                                         shown(archive.string()))}};
+        }
+        return *newest;
+      });
+}
+
+Expected<SeparationSamples> find_separation_samples(const std::filesystem::path& archive,
+                                                    const std::string& spacecraft_id,
+                                                    TaiTime from) {
+  return read_archive(archive, [&](SQLite::Database& database) {
+    return SeparationSamples{.gyro = read_from<GyroSample>(database, spacecraft_id, from),
+                             .sun = read_from<SunDirection>(database, spacecraft_id, from),
+                             .stars = read_from<StarFix>(database, spacecraft_id, from)};
+  });
+}
+
+}  // namespace spindrift

@@ -1,0 +1,195 @@
+/// @file
+/// The attitude at separation and up to the star fixes, reconstructed, as a kind of product.
+
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "pipelines/reconstruction/separation.h"
+#include "services/products/product_kind.h"
+#include "services/units/degrees.h"
+#include "services/words/assessment_words.h"
+#include "services/words/reasons_json.h"
+
+namespace spindrift {
+
+/// Shared, since it is as large as its history is long.
+using ReconstructionProduct = std::shared_ptr<const ReconstructedSeparation>;
+
+inline std::string_view method_of(const ReconstructionProduct& product) {
+  return name_of(product->solution.method);
+}
+
+/// Without a value where nothing was checked.
+template <class Get>
+constexpr auto launcher_column(std::string_view name, Get get) {
+  return ProductColumn{name, [get](const ReconstructionProduct& product) {
+                         const auto& check = product->launcher;
+                         return check && *check ? std::optional{get(**check)} : std::nullopt;
+                       }};
+}
+
+struct ReconstructionTable {
+  static constexpr std::string_view kName = "reconstruction";
+  static constexpr std::array<std::string_view, 1> kKey{"method"};
+
+  using Product = ReconstructionProduct;
+  /// Without a value where no bias was estimated.
+  template <int kAxis>
+  static std::optional<double> bias_rad_s(const Product& product) {
+    const auto& bias = product->solution.bias;
+    return bias ? std::optional{bias->rad_s[kAxis]} : std::nullopt;
+  }
+  template <int kAxis>
+  static std::optional<double> bias_sigma_rad_s(const Product& product) {
+    const auto& bias = product->solution.bias;
+    return bias ? std::optional{std::sqrt(bias->covariance_rad2_s2(kAxis, kAxis))} : std::nullopt;
+  }
+  static constexpr std::tuple kColumns{
+      ProductColumn{"method", &method_of},
+      ProductColumn{"t_tai_ns",
+                    [](const Product& one) { return tai_ns(one->solution.history.back().t); }},
+      ProductColumn{"quality",
+                    [](const Product& one) { return name_of(one->solution.assessment.quality); }},
+      ProductColumn{
+          "reasons",
+          [](const Product& one) { return to_json_text(one->solution.assessment.reasons); }},
+      ProductColumn{"status",
+                    [](const Product& one) { return sentence_of(one->solution.assessment); }},
+      ProductColumn{"gyro_samples", [](const Product& one) { return one->solution.gyro.count; }},
+      ProductColumn{"sun_vectors", [](const Product& one) { return one->solution.sun.count; }},
+      ProductColumn{"star_fixes", [](const Product& one) { return one->solution.star.count; }},
+      ProductColumn{"bias_x_rad_s", &bias_rad_s<0>},
+      ProductColumn{"bias_y_rad_s", &bias_rad_s<1>},
+      ProductColumn{"bias_z_rad_s", &bias_rad_s<2>},
+      ProductColumn{"bias_sigma_x_rad_s", &bias_sigma_rad_s<0>},
+      ProductColumn{"bias_sigma_y_rad_s", &bias_sigma_rad_s<1>},
+      ProductColumn{"bias_sigma_z_rad_s", &bias_sigma_rad_s<2>},
+      launcher_column("launcher_angle_deg",
+                      [](const LauncherCheck& c) { return c.difference.angle_rad * kDegPerRad; }),
+      launcher_column("launcher_chi_square",
+                      [](const LauncherCheck& c) { return c.difference.chi_square; }),
+      launcher_column("launcher_chance", [](const LauncherCheck& c) { return c.chance; })};
+};
+
+struct ReconstructionEventTable {
+  static constexpr std::string_view kName = "reconstruction_event";
+  static constexpr std::array<std::string_view, 2> kKey{"method", "event"};
+
+  struct Row {
+    std::string_view method;
+    ReconstructedEvent event;
+    Euler312 in_icrf;
+    std::optional<Euler312> in_orbit_frame;
+  };
+  static std::string_view group(const ReconstructionProduct& product) { return method_of(product); }
+  static std::vector<Row> rows(const ReconstructionProduct& product) {
+    std::vector<Row> rows;
+    for (const ReconstructedEvent& event : product->solution.events) {
+      rows.push_back({.method = method_of(product),
+                      .event = event,
+                      .in_icrf = euler312_of(event.attitude.q_icrf_body).angles,
+                      .in_orbit_frame = std::nullopt});
+    }
+    for (std::size_t i = 0; i < product->in_orbit_frame.size(); ++i) {
+      if (const auto& reading = product->in_orbit_frame[i]) {
+        rows.at(i).in_orbit_frame = reading->angles;
+      }
+    }
+    return rows;
+  }
+  template <double Euler312::*kAngle>
+  static double icrf_deg(const Row& row) {
+    return row.in_icrf.*kAngle * kDegPerRad;
+  }
+  template <double Euler312::*kAngle>
+  static std::optional<double> orbit_deg(const Row& row) {
+    return row.in_orbit_frame ? std::optional{(*row.in_orbit_frame).*kAngle * kDegPerRad}
+                              : std::nullopt;
+  }
+  static constexpr std::tuple kColumns{
+      ProductColumn{"method", [](const Row& row) { return row.method; }},
+      ProductColumn{"event", [](const Row& row) { return name_of(row.event.event); }},
+      ProductColumn{"t_tai_ns", [](const Row& row) { return tai_ns(row.event.attitude.t); }},
+      ProductColumn{"found", [](const Row& row) { return row.event.found; }},
+      ProductColumn{"qx", [](const Row& row) { return row.event.attitude.q_icrf_body.x(); }},
+      ProductColumn{"qy", [](const Row& row) { return row.event.attitude.q_icrf_body.y(); }},
+      ProductColumn{"qz", [](const Row& row) { return row.event.attitude.q_icrf_body.z(); }},
+      ProductColumn{"qw", [](const Row& row) { return row.event.attitude.q_icrf_body.w(); }},
+      ProductColumn{"euler312_icrf_deg_1", &icrf_deg<&Euler312::phi_rad>},
+      ProductColumn{"euler312_icrf_deg_2", &icrf_deg<&Euler312::theta_rad>},
+      ProductColumn{"euler312_icrf_deg_3", &icrf_deg<&Euler312::psi_rad>},
+      ProductColumn{"euler312_orbit_deg_1", &orbit_deg<&Euler312::phi_rad>},
+      ProductColumn{"euler312_orbit_deg_2", &orbit_deg<&Euler312::theta_rad>},
+      ProductColumn{"euler312_orbit_deg_3", &orbit_deg<&Euler312::psi_rad>},
+      ProductColumn{"sigma_deg",
+                    [](const Row& row) { return row.event.attitude.sigma_rad() * kDegPerRad; }},
+      ProductColumn{"bound_deg", [](const Row& row) {
+                      const auto& bound_rad = row.event.bound_rad;
+                      return bound_rad ? std::optional{*bound_rad * kDegPerRad} : std::nullopt;
+                    }}};
+};
+
+/// Rows of `attitude`, beside those of filters (attitude.h).
+struct ReconstructedAttitudeTable {
+  static constexpr std::string_view kName = "attitude";
+  static constexpr std::array<std::string_view, 2> kKey{"source", "t_tai_ns"};
+
+  struct Row {
+    std::string_view source;
+    ReconstructedAttitude attitude;
+    std::string_view quality;
+    std::string reasons;
+    std::string status;
+  };
+  static std::string_view group(const ReconstructionProduct& product) { return method_of(product); }
+  static std::vector<Row> rows(const ReconstructionProduct& product) {
+    const Assessment& assessment = product->solution.assessment;
+    const std::string reasons = to_json_text(assessment.reasons);
+    const std::string status = sentence_of(assessment);
+    std::vector<Row> rows;
+    for (const ReconstructedAttitude& attitude : product->solution.history) {
+      rows.push_back({.source = method_of(product),
+                      .attitude = attitude,
+                      .quality = name_of(assessment.quality),
+                      .reasons = reasons,
+                      .status = status});
+    }
+    return rows;
+  }
+  static constexpr std::tuple kColumns{
+      ProductColumn{"source", [](const Row& row) { return row.source; }},
+      ProductColumn{"t_tai_ns", [](const Row& row) { return tai_ns(row.attitude.t); }},
+      ProductColumn{"qx", [](const Row& row) { return row.attitude.q_icrf_body.x(); }},
+      ProductColumn{"qy", [](const Row& row) { return row.attitude.q_icrf_body.y(); }},
+      ProductColumn{"qz", [](const Row& row) { return row.attitude.q_icrf_body.z(); }},
+      ProductColumn{"qw", [](const Row& row) { return row.attitude.q_icrf_body.w(); }},
+      ProductColumn{"rate_x_rad_s",
+                    [](const Row& row) { return row.attitude.rate_body_rad_s.x(); }},
+      ProductColumn{"rate_y_rad_s",
+                    [](const Row& row) { return row.attitude.rate_body_rad_s.y(); }},
+      ProductColumn{"rate_z_rad_s",
+                    [](const Row& row) { return row.attitude.rate_body_rad_s.z(); }},
+      ProductColumn{"sigma_deg",
+                    [](const Row& row) { return row.attitude.sigma_rad() * kDegPerRad; }},
+      ProductColumn{"quality", [](const Row& row) { return row.quality; }},
+      ProductColumn{"reasons", [](const Row& row) { return row.reasons; }},
+      ProductColumn{"status", [](const Row& row) { return row.status; }}};
+};
+
+template <>
+struct ProductKind<ReconstructionProduct> {
+  static constexpr ProductWeight kWeight = ProductWeight::Result;
+  using Tables =
+      std::tuple<ReconstructionTable, ReconstructionEventTable, ReconstructedAttitudeTable>;
+};
+
+}  // namespace spindrift
