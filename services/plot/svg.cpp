@@ -38,6 +38,14 @@ std::string attributes(const Stroke& stroke) {
   return text;
 }
 
+std::string listed(std::span<const Point> points) {
+  std::string text;
+  for (const Point& point : points) {
+    text += fmt::format("{:.1f},{:.1f} ", point.x, point.y);
+  }
+  return text;
+}
+
 std::string_view name_of(Anchor anchor) {
   switch (anchor) {
     case Anchor::Start:
@@ -58,11 +66,13 @@ void Svg::line(const Point& from, const Point& to, const Stroke& stroke) {
 }
 
 void Svg::polyline(std::span<const Point> points, const Stroke& stroke) {
-  body_ += "<polyline points=\"";
-  for (const Point& point : points) {
-    body_ += fmt::format("{:.1f},{:.1f} ", point.x, point.y);
-  }
-  body_ += fmt::format("\" fill=\"none\" stroke-linejoin=\"round\" {}/>\n", attributes(stroke));
+  body_ += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke-linejoin=\"round\" {}/>\n",
+                       listed(points), attributes(stroke));
+}
+
+void Svg::area(std::span<const Point> outline, std::string_view fill) {
+  body_ += fmt::format("<polygon points=\"{}\" fill=\"{}\" fill-opacity=\"0.25\"/>\n",
+                       listed(outline), fill);
 }
 
 void Svg::dot(const Point& centre, double radius, std::string_view colour) {

@@ -41,6 +41,8 @@ class Svg {
  public:
   void line(const Point& from, const Point& to, const Stroke& stroke);
   void polyline(std::span<const Point> points, const Stroke& stroke);
+  /// Filled, so that what is below shows through.
+  void area(std::span<const Point> outline, std::string_view fill);
   void dot(const Point& centre, double radius, std::string_view colour);
   void box(const Box& box, std::string_view fill);
   /// @param at Left end (middle, right end) of its base line.

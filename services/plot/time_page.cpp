@@ -62,9 +62,11 @@ void spread(std::vector<double>& heights, double lowest) {
 
 }  // namespace
 
-TimePage::TimePage(std::string title, std::string_view subtitle, std::vector<TaiTime> times)
+TimePage::TimePage(std::string title, std::string_view subtitle, std::vector<TaiTime> times,
+                   std::vector<Mark> marks)
     : title_{std::move(title)},
       times_{std::move(times)},
+      marks_{std::move(marks)},
       x_{Scale::linear(0.0, seconds_between(times_.front(), times_.back()), kLeft, kRight)},
       tick_step_s_{time_step_s(seconds_between(times_.front(), times_.back()) / kMostTimes)},
       ticks_{round_times(times_.front(), times_.back(), tick_step_s_)},
@@ -99,7 +101,9 @@ void TimePage::panel(double height, const ValueAxis& axis, const std::vector<Cur
     const double at = y.pixel_of(limit.value);
     svg_.line({kLeft, at}, {kRight, at}, {.colour = limit.colour, .dashes = "5 4"});
   }
+  draw_marks();
   for (const Curve& curve : curves) {
+    draw_band(curve, y);
     draw_curve(curve, y);
   }
   for (const Limit& limit : limits) {
@@ -111,6 +115,44 @@ void TimePage::panel(double height, const ValueAxis& axis, const std::vector<Cur
       {kLeft, top_}, {kRight, top_}, {kRight, bottom_}, {kLeft, bottom_}, {kLeft, top_}};
   svg_.polyline(outline, {.colour = kFrame});
   top_ = bottom_ + kBetweenPanels;
+}
+
+/// Their names stand at the right of their lines, or below each other where there is no room.
+void TimePage::draw_marks() {
+  double free_from = kLeft;
+  double height = top_ + kLineOfText;
+  for (const Mark& mark : marks_) {
+    const double at = x_of(mark.t);
+    const double width = static_cast<double>(mark.name.size()) * kLetter + 8.0;
+    svg_.line({at, top_}, {at, bottom_}, {.colour = kFaint, .dashes = "2 3"});
+    height = at < free_from ? height + kLineOfText : top_ + kLineOfText;
+    free_from = std::max(free_from, at + width);
+    const bool fits = at + width < kRight;
+    svg_.text({at + (fits ? 4.0 : -4.0), height}, mark.name,
+              {.colour = kInk, .size = 11.0, .anchor = fits ? Anchor::Start : Anchor::End});
+  }
+}
+
+void TimePage::draw_band(const Curve& curve, const Scale& y) {
+  std::vector<Point> above;
+  std::vector<Point> below;
+  const auto finish_piece = [&] {
+    above.insert(above.end(), below.rbegin(), below.rend());
+    if (!above.empty()) {
+      svg_.area(above, curve.colour);
+    }
+    above.clear();
+    below.clear();
+  };
+  for (std::size_t i = 0; i < curve.half_widths.size(); ++i) {
+    if (const auto& value = curve.values.at(i)) {
+      above.push_back({x_of(times_[i]), y.pixel_of(*value + curve.half_widths[i])});
+      below.push_back({x_of(times_[i]), y.pixel_of(*value - curve.half_widths[i])});
+    } else {
+      finish_piece();
+    }
+  }
+  finish_piece();
 }
 
 void TimePage::draw_curve(const Curve& curve, const Scale& y) {

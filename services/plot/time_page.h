@@ -19,6 +19,14 @@ struct Curve {
   std::string_view colour;
   std::vector<std::optional<double>> values;  ///< One for each time of the page; empty: a gap.
   std::string_view dashes = {};               ///< As of Stroke.
+  /// Of a band about the curve, one for each time of the page; empty: there is no band.
+  std::vector<double> half_widths = {};
+};
+
+/// An instant that is shown in all panels.
+struct Mark {
+  TaiTime t;
+  std::string name;
 };
 
 struct Limit {
@@ -50,7 +58,9 @@ struct Bar {
 class TimePage {
  public:
   /// @param times In order, two at least.
-  TimePage(std::string title, std::string_view subtitle, std::vector<TaiTime> times);
+  /// @param marks In order, within the times.
+  TimePage(std::string title, std::string_view subtitle, std::vector<TaiTime> times,
+           std::vector<Mark> marks = {});
 
   void panel(double height, const ValueAxis& axis, const std::vector<Curve>& curves,
              const std::vector<Limit>& limits = {});
@@ -62,6 +72,8 @@ class TimePage {
  private:
   double x_of(TaiTime t) const;
   void frame(std::string_view title, double height);
+  void draw_marks();
+  void draw_band(const Curve& curve, const Scale& y);
   void draw_curve(const Curve& curve, const Scale& y);
   void name_curves(const std::vector<Curve>& curves, const Scale& y);
   void draw_bar(const Bar& bar, double top);
@@ -70,6 +82,7 @@ class TimePage {
 
   std::string title_;
   std::vector<TaiTime> times_;
+  std::vector<Mark> marks_;
   Svg svg_;
   Scale x_;
   double tick_step_s_;

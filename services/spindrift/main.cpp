@@ -20,6 +20,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -35,6 +36,7 @@
 #include "services/spindrift/doctor.h"
 #include "services/spindrift/geometry.h"
 #include "services/spindrift/process.h"
+#include "services/spindrift/reconstruct.h"
 #include "services/spindrift/replay.h"
 #include "services/spindrift/serve.h"
 #include "services/spindrift/simulate.h"
@@ -61,6 +63,7 @@ struct Request {
   spindrift::SimulateOptions simulate;
   spindrift::DoctorOptions doctor;
   spindrift::GeometryOptions geometry;
+  spindrift::ReconstructOptions reconstruct;
   std::function<Expected<void>()> run;
   int status = EXIT_SUCCESS;  ///< Of a run that came to its end.
 };
@@ -236,6 +239,36 @@ void add_geometry(CLI::App& app, Request& request) {
   command.callback([&] { request.run = [&] { return geometry(request.geometry); }; });
 }
 
+void add_reconstruct(CLI::App& app, Request& request) {
+  spindrift::ReconstructOptions& options = request.reconstruct;
+  CLI::App& command = *app.add_subcommand(
+      "reconstruct", "Reconstruct the attitude at separation, backwards from the star fixes");
+  command
+      .add_option("--mission", options.mission,
+                  "Mission file; without, that of the newest run in the archive")
+      ->check(check_path);
+  command
+      .add_option("--telemetry", options.telemetry,
+                  "CSV files, or directories of them; without, the samples in the archive")
+      ->check(check_path);
+  add_archive_option(command, options.db);
+  using Method = spindrift::ReconstructionMethod;
+  static const std::map<std::string, Method> kMethods{{"batch", Method::Batch},
+                                                      {"sequential", Method::Sequential}};
+  command.add_option("--method", options.method, "batch or sequential; without, both")
+      ->transform(CLI::CheckedTransformer(kMethods));
+  command.add_option("--plot", options.plot, "SVG file to write, its name ending in .svg")
+      ->check(check_svg);
+  command.add_flag("--json", options.json, "Print one JSON object");
+  command.callback([&] {
+    request.run = [&] {
+      return reconstruct(request.reconstruct).map([&](bool complete) {
+        request.status = complete ? EXIT_SUCCESS : kFailed;
+      });
+    };
+  });
+}
+
 std::string subcommands_of(const CLI::App& app) {
   std::string names;
   for (const CLI::App* const command : app.get_subcommands({})) {
@@ -283,6 +316,7 @@ int run(int argc, char** argv) {
   add_simulate(app, request);
   add_doctor(app, request);
   add_geometry(app, request);
+  add_reconstruct(app, request);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -1,0 +1,165 @@
+#include "services/separation/separation_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "pipelines/frames/rotation_vector.h"
+#include "services/plot/time_page.h"
+#include "services/units/degrees.h"
+
+namespace spindrift {
+namespace {
+
+using plot::Curve;
+using plot::Mark;
+using plot::TimePage;
+
+// Told apart by colour-blind people too (Okabe and Ito).
+constexpr std::string_view kPhi = "#0072b2";
+constexpr std::string_view kTheta = "#009e73";
+constexpr std::string_view kPsi = "#d55e00";
+constexpr std::string_view kFirst = "#0072b2";
+constexpr std::string_view kSecond = "#e69f00";
+constexpr std::string_view kGrey = "#777777";
+
+using History = std::vector<ReconstructedAttitude>;
+
+Eigen::Vector3d angles_deg(const Eigen::Quaterniond& q_icrf_body) {
+  const auto [phi, theta, psi] = euler312_of(q_icrf_body).angles;
+  return kDegPerRad * Eigen::Vector3d{phi, theta, psi};
+}
+
+/// One standard deviation of phi, theta and psi.
+Eigen::Vector3d angle_sigmas_deg(const ReconstructedAttitude& attitude) {
+  constexpr double kStep_rad = 1e-6;
+  Eigen::Matrix3d slopes;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d step_rad = kStep_rad * Eigen::Vector3d::Unit(axis);
+    const Eigen::Vector3d there = angles_deg(attitude.q_icrf_body * quaternion_by(step_rad));
+    const Eigen::Vector3d back = angles_deg(attitude.q_icrf_body * quaternion_by(-step_rad));
+    slopes.col(axis) = (there - back).unaryExpr([](double deg) {
+      return std::remainder(deg, 360.0) / (2.0 * kStep_rad);
+    });
+  }
+  return (slopes * attitude.covariance_rad2 * slopes.transpose())
+      .diagonal()
+      .cwiseSqrt()
+      .cwiseMin(180.0);
+}
+
+/// An angle of the history with its band; a gap where it goes on at the other end of its range.
+Curve angle_curve(const History& history, int angle, std::string name, std::string_view colour) {
+  Curve curve{.name = std::move(name), .colour = colour, .values = {}, .half_widths = {}};
+  std::optional<double> before_deg;
+  for (const ReconstructedAttitude& attitude : history) {
+    const double deg = angles_deg(attitude.q_icrf_body)[angle];
+    const bool jumps = before_deg && std::abs(deg - *before_deg) > 180.0;
+    curve.values.push_back(jumps ? std::nullopt : std::optional{deg});
+    curve.half_widths.push_back(angle_sigmas_deg(attitude)[angle]);
+    before_deg = deg;
+  }
+  return curve;
+}
+
+/// At the time of each of `history` that of `other` nearest behind it, or its last.
+template <class Value>
+Curve curve_beside(const History& history, const History& other, std::string name,
+                   std::string_view colour, const Value& value) {
+  Curve curve{.name = std::move(name), .colour = colour, .values = {}};
+  auto beside = other.begin();
+  for (const ReconstructedAttitude& attitude : history) {
+    while (beside + 1 != other.end() && beside->t < attitude.t) {
+      ++beside;
+    }
+    const double deg = value(attitude, *beside) * kDegPerRad;
+    curve.values.push_back(deg > 0.0 ? std::optional{deg} : std::nullopt);
+  }
+  return curve;
+}
+
+plot::ValueAxis decades_of(std::string title, const std::vector<Curve>& curves) {
+  double least = 1.0;
+  double most = 0.01;
+  for (const Curve& curve : curves) {
+    for (const auto& deg : curve.values) {
+      least = std::min(least, deg.value_or(least));
+      most = std::max(most, deg.value_or(most));
+    }
+  }
+  const double low = std::max(1e-4, std::pow(10.0, std::floor(std::log10(least))));
+  const double high = std::pow(10.0, std::ceil(std::log10(most)));
+  return {.title = std::move(title),
+          .is_logarithmic = true,
+          .low = low,
+          .high = high,
+          .ticks = plot::decades(low, high)};
+}
+
+void add_errors(TimePage& page, const SeparationReport& report) {
+  const History& first = report.methods.front()->solution.history;
+  std::vector<Curve> curves;
+  for (const ReconstructionProduct& product : report.methods) {
+    curves.push_back(
+        curve_beside(first, product->solution.history,
+                     fmt::format("{}, 1 sigma", name_of(product->solution.method)),
+                     curves.empty() ? kFirst : kSecond,
+                     [](const auto& /*first*/, const auto& one) { return one.sigma_rad(); }));
+  }
+  // How far they are apart where they meet does not set the scale.
+  const plot::ValueAxis axis =
+      decades_of("Uncertainty of the attitude, all three axes together, deg", curves);
+  if (report.methods.size() > 1) {
+    curves.push_back(curve_beside(first, report.methods.back()->solution.history, "apart by", kGrey,
+                                  [](const auto& one, const auto& other) {
+                                    return angle_between_rad(one.q_icrf_body, other.q_icrf_body);
+                                  }));
+    curves.back().dashes = "4 3";
+  }
+  page.panel(200.0, axis, curves);
+}
+
+std::vector<Mark> marks_of(const Reconstruction& solution) {
+  std::vector<Mark> marks;
+  for (const ReconstructedEvent& event : solution.events) {
+    marks.push_back({.t = event.attitude.t, .name = std::string{name_of(event.event)}});
+  }
+  return marks;
+}
+
+}  // namespace
+
+std::string plot_of(const SeparationReport& report) {
+  const Reconstruction& solution = report.methods.front()->solution;
+  const History& history = solution.history;
+  if (history.size() < 2) {
+    return {};
+  }
+  std::vector<TaiTime> times;
+  for (const ReconstructedAttitude& attitude : history) {
+    times.push_back(attitude.t);
+  }
+  TimePage page{fmt::format("{}: attitude from separation to the star fix", report.spacecraft_id),
+                fmt::format("{}: {}; T1 separation, T2 control on, T3 sun acquisition, T4 star fix",
+                            name_of(solution.method), name_of(solution.assessment.quality)),
+                std::move(times), marks_of(solution)};
+  page.panel(300.0,
+             {.title = fmt::format("ICRF to body, Euler 3-1-2, deg; band: 1 sigma of {}",
+                                   name_of(solution.method)),
+              .is_logarithmic = false,
+              .low = -180.0,
+              .high = 180.0,
+              .ticks = {-180.0, -135.0, -90.0, -45.0, 0.0, 45.0, 90.0, 135.0, 180.0}},
+             {angle_curve(history, 0, "phi", kPhi), angle_curve(history, 1, "theta", kTheta),
+              angle_curve(history, 2, "psi", kPsi)});
+  add_errors(page, report);
+  return page.document({});
+}
+
+}  // namespace spindrift
