@@ -159,7 +159,7 @@ Expected<std::string> store(const ReconstructOptions& options, const Mission& mi
   if (telemetry.empty()) {
     telemetry.push_back(options.db.string());
   }
-  auto processor = Processor::make({mission}, {.mode = "process", .telemetry = telemetry});
+  auto processor = Processor::make({mission}, {.mode = RunMode::Process, .telemetry = telemetry});
   if (!processor) {
     return Unexpected{processor.error()};
   }

@@ -21,6 +21,7 @@ Mission mission() {
   return {.spacecraft_id = "SAT",
           .config = usual_three_axis(),
           .orbit = std::nullopt,
+          .separation = std::nullopt,
           .toml_text = {},
           .sha256 = {},
           .orbit_sha256 = std::nullopt,
