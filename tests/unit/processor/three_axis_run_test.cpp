@@ -20,8 +20,8 @@ using testing::usual_three_axis;
 Mission mission() {
   return {.spacecraft_id = "SAT",
           .config = usual_three_axis(),
-          .orbit = std::nullopt,
           .separation = std::nullopt,
+          .orbit = std::nullopt,
           .toml_text = {},
           .sha256 = {},
           .orbit_sha256 = std::nullopt,
