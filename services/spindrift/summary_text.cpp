@@ -13,10 +13,10 @@
 #include "services/archive/stored_pass.h"
 #include "services/products/to_json.h"
 #include "services/spindrift/batch_text.h"
-#include "services/spindrift/json_key.h"
 #include "services/units/decimals.h"
 #include "services/units/degrees.h"
 #include "services/words/assessment_words.h"
+#include "services/words/json_key.h"
 #include "services/words/reasons_json.h"
 
 namespace spindrift {

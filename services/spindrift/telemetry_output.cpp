@@ -10,8 +10,8 @@
 #include <variant>
 
 #include "pipelines/time/utc.h"
-#include "services/spindrift/json_key.h"
 #include "services/spindrift/stop_signal.h"
+#include "services/words/json_key.h"
 
 namespace spindrift {
 namespace {
