@@ -4,16 +4,14 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <fstream>
 #include <random>
-#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/three_axis/three_axis_pass.h"
-#include "tests/support/test_paths.h"
+#include "tests/support/recorded_separation.h"
 #include "tests/support/turning_body.h"
 
 namespace spindrift::attitude_test {
@@ -168,64 +166,24 @@ TEST(Attitude, TurnsWithTheStars) {
 /// Rates that spacecraft have flown, forwards from the attitude that their truth states at T1.
 struct Flight {
   std::string name;
-  Eigen::Quaterniond q_t1;
   double within_deg;
 };
 
-struct Row {
-  TaiTime t;
-  std::vector<double> values;
-};
-
-std::vector<Row> rows_of(const std::filesystem::path& path) {
-  std::ifstream file{path};
-  std::string line;
-  std::getline(file, line);
-  std::vector<Row> rows;
-  while (std::getline(file, line)) {
-    std::istringstream cells{line};
-    std::string cell;
-    std::getline(cells, cell, ',');
-    rows.push_back({.t = tai_from_ns(std::stoll(cell)), .values = {}});
-    while (std::getline(cells, cell, ',')) {
-      rows.back().values.push_back(std::stod(cell));
-    }
-  }
-  return rows;
-}
-
 TEST(Attitude, FollowsRatesThatWereFlownToTheFixAtTheirEnd) {
-  for (const Flight& flight :
-       {Flight{"juno",
-               {0.6863934260545101, 0.13117311201210402, 0.7084861901501681, 0.09851394683348902},
-               0.01},
-        Flight{"dawn-2015",
-               {0.5202626257392597, 0.18781946513981593, -0.15368456537367595, 0.8187989393858477},
-               0.05}}) {
-    const auto folder = source_folder() / "tests/data/three-axis" / flight.name;
-    // mission.toml of the data set.
-    const ThreeAxisConfig config{
-        .gyro = GyroSensor{.noise_rad_s = 0.002 * kRadPerDeg,
-                           .bias_sigma_rad_s = 1e-4 * kRadPerDeg,
-                           .range_rad_s = std::nullopt},
-        .sun_sensor = std::nullopt,
-        .star_tracker = StarTracker{.q_body_sensor = Eigen::Quaterniond::Identity(),
-                                    .noise_rad = 10.0 / 3600.0 * kRadPerDeg},
-        .magnetometer = std::nullopt,
-        .inertia = std::nullopt};
-    AttitudeEstimator estimator{config};
+  for (const Flight& flight : {Flight{"juno", 0.01}, Flight{"dawn-2015", 0.05}}) {
+    const testing::RecordedSeparation flown = testing::recorded_separation(flight.name);
+    AttitudeEstimator estimator{flown.sensors};
     AttitudeEstimator::Products products;
-    const std::vector<Row> rates = rows_of(folder / "gyro.csv");
-    estimator.push(StarFix{rates.front().t, flight.q_t1}, products);
-    for (const auto& [t, w_rad_s] : rates) {
-      estimator.push(GyroSample{t, {w_rad_s[0], w_rad_s[1], w_rad_s[2]}}, products);
+    estimator.push(StarFix{flown.gyro.front().t, flown.truth.at("T1").q_icrf_body}, products);
+    for (const GyroSample& sample : flown.gyro) {
+      estimator.push(sample, products);
     }
-    const auto [t_fix, q] = rows_of(folder / "star.csv").front();
-    ASSERT_EQ(rates.back().t, t_fix);
-    const Eigen::Quaterniond truth{q[3], q[0], q[1], q[2]};
+    const StarFix& truth = flown.stars.front();
+    ASSERT_EQ(flown.gyro.back().t, truth.t);
     const double sigma_deg =
         degrees(std::sqrt(estimator.filter()->attitude_covariance_rad2().trace()));
-    const double error_deg = degrees(error_rad(estimator.filter()->q_icrf_body(), truth).norm());
+    const double error_deg =
+        degrees(error_rad(estimator.filter()->q_icrf_body(), truth.q_icrf_sensor).norm());
     EXPECT_LT(error_deg, flight.within_deg) << flight.name;
     EXPECT_LT(error_deg, 3.0 * sigma_deg) << flight.name;
   }

@@ -101,6 +101,13 @@ class ServeLostArchive : public ::testing::Test {
     return eventually([&] { return fix_count() + 3 >= fixes; });
   }
 
+  void send_the_rest_and_expect_the_whole_pass() {
+    ASSERT_TRUE(front_end().send_until(1.0));
+    EXPECT_TRUE(is_computed()) << log();
+    EXPECT_EQ(service().stop(), 0) << log();
+    expect_the_whole_pass();
+  }
+
   void expect_the_whole_pass() {
     EXPECT_EQ(rows_of(db(), "PRAGMA integrity_check"), std::vector<std::string>{"ok|"});
     EXPECT_EQ(rows_of(db(), "PRAGMA foreign_key_check"), std::vector<std::string>{});
@@ -144,10 +151,7 @@ TEST_P(ServeArchiveWithoutName, IsWrittenThereAgainWithAllThatItHad) {
   EXPECT_TRUE(service().program().says(GetParam().said));
   ASSERT_TRUE(front_end().send_until(0.8));
   EXPECT_TRUE(eventually([&] { return fix_count() > 400; })) << log();
-  ASSERT_TRUE(front_end().send_until(1.0));
-  EXPECT_TRUE(is_computed()) << log();
-  EXPECT_EQ(service().stop(), 0) << log();
-  expect_the_whole_pass();
+  send_the_rest_and_expect_the_whole_pass();
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -225,10 +229,7 @@ TEST_P(ServeReplacedArchive, EndsAsACopyWhenTheServiceIsStopped) {
   fs::rename(copies[0], db());
   service().start();
   ASSERT_TRUE(service().ready()) << log();
-  ASSERT_TRUE(front_end().send_until(1.0));
-  EXPECT_TRUE(is_computed()) << log();
-  EXPECT_EQ(service().stop(), 0) << log();
-  expect_the_whole_pass();
+  send_the_rest_and_expect_the_whole_pass();
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -258,10 +259,7 @@ TEST_F(ServeLostArchive, GoesOnWhenTheRightFileIsPutBack) {
   ASSERT_TRUE(front_end().send_until(0.8));
   fs::rename(aside(db()), db());
   EXPECT_TRUE(health_says("not storing", false));
-  ASSERT_TRUE(front_end().send_until(1.0));
-  EXPECT_TRUE(is_computed()) << log();
-  EXPECT_EQ(service().stop(), 0) << log();
-  expect_the_whole_pass();
+  send_the_rest_and_expect_the_whole_pass();
 }
 
 /// The file is still the same one, and no longer what it was.
@@ -283,10 +281,7 @@ TEST_P(ServeDamagedArchive, StoresNothingMoreAndSaysSoAndTheNextStartHasThePass)
   move_aside(log_of(db()));
   service().start();
   ASSERT_TRUE(service().ready()) << log();
-  ASSERT_TRUE(front_end().send_until(1.0));
-  EXPECT_TRUE(is_computed()) << log();
-  EXPECT_EQ(service().stop(), 0) << log();
-  expect_the_whole_pass();
+  send_the_rest_and_expect_the_whole_pass();
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -305,10 +300,7 @@ TEST_F(ServeLostArchive, IsNotWrittenByTwoThatHaveDifferentNamesForIt) {
   Program second{arguments("nominal", link)};
   EXPECT_EQ(second.exit_status(), 1);
   EXPECT_THAT(second.log(), HasSubstr("is being written under another name"));
-  ASSERT_TRUE(front_end().send_until(1.0));
-  EXPECT_TRUE(is_computed()) << log();
-  EXPECT_EQ(service().stop(), 0) << log();
-  expect_the_whole_pass();
+  send_the_rest_and_expect_the_whole_pass();
 }
 
 }  // namespace spindrift::serve_lost_archive_test
