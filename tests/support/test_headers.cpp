@@ -1,1 +1,0 @@
-// Nothing: its target has the precompiled header that the tests share.
