@@ -54,6 +54,8 @@ std::string_view name_of(ReasonCode code) {
       "no_gyro",
       "sensor_gated",
       "sensor_noise",
+      "withheld",
+      "computing_failed",
       "sun_vectors",
       "sun_outliers",
       "sun_vectors_shadowed",

@@ -91,6 +91,8 @@ enum class ReasonCode {
   NoGyro,               ///< why, since_tai_ns
   SensorGated,          ///< sensor
   SensorNoise,          ///< sensor, factor
+  Withheld,             ///< table, column
+  ComputingFailed,      ///< what
   // Of a reconstruction.
   SunVectors,           ///< count
   SunOutliers,          ///< count

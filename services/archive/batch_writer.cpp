@@ -21,7 +21,7 @@ std::int64_t as_signed(std::uint64_t value) { return static_cast<std::int64_t>(v
 
 /// What is stored already stays as it is, but for its place in the order of the run that takes it
 /// now (?4). What was left out, as its source's time is wrong, makes way for a sample that came
-/// (?5).
+/// (?5), and takes the place of none.
 template <class Value>
 std::string insert_statement() {
   std::vector<std::string_view> names{"source", "session", "seq"};
@@ -39,7 +39,8 @@ std::string insert_statement() {
   return fmt::format(
       "INSERT INTO {} (spacecraft_id, t_tai_ns, arrival{}) VALUES (?1, ?2, ?3{})"
       " ON CONFLICT DO UPDATE SET arrival = excluded.arrival{}"
-      " WHERE arrival < (SELECT first_arrival FROM run WHERE run_id = ?4)",
+      " WHERE arrival < (SELECT first_arrival FROM run WHERE run_id = ?4)"
+      " AND (excluded.arrival >= 0 OR arrival < 0)",
       Telemetry<Value>::kTable, columns, values, updates);
 }
 

@@ -31,7 +31,7 @@ std::optional<StoredMission> newest_mission(const SQLite::Database& database) {
   SQLite::Statement query{
       database,
       "SELECT run_id, config_toml, orbit_sha256 FROM run JOIN spacecraft USING (spacecraft_id)"
-      " WHERE kind = 'three_axis' ORDER BY started_utc DESC, first_arrival DESC LIMIT 1"};
+      " WHERE kind = 'three_axis' ORDER BY run.rowid DESC LIMIT 1"};
   if (!query.executeStep()) {
     return std::nullopt;
   }

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "services/words/json_line.h"
+
 namespace spindrift::doctor {
 namespace {
 
@@ -98,7 +100,7 @@ std::string to_json(std::span<const Check> checks) {
                     {"advice", check.advice}});
   }
   const nlohmann::json report{{"verdict", name_of(worst_of(checks))}, {"checks", std::move(list)}};
-  return report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return json_line(report);
 }
 
 }  // namespace spindrift::doctor

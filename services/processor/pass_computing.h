@@ -11,8 +11,10 @@
 #include <variant>
 #include <vector>
 
+#include "pipelines/core/assessment.h"
 #include "pipelines/core/notice.h"
 #include "services/archive/records.h"
+#include "services/processor/last_answers.h"
 #include "services/processor/pass_input.h"
 #include "services/processor/what_is_thrown.h"
 #include "services/processor/withheld.h"
@@ -42,6 +44,7 @@ template <class Pass>
 class PassComputing {
  public:
   using Output = decltype(std::declval<Pass&>().finish());
+  using PassProduct = typename decltype(Output::products)::value_type;
 
   PassComputing(std::string spacecraft_id, const std::string& run_id, Pass pass)
       : spacecraft_id_{std::move(spacecraft_id)}, run_id_{run_id}, pass_{std::move(pass)} {}
@@ -54,6 +57,7 @@ class PassComputing {
     pass_ = std::move(pass);
     const MadeBefore* const made = made_before();
     again_from_ = made == nullptr ? std::nullopt : std::optional{made->again_from};
+    answers_ = {};
     reached_ = {};
     failed_ = false;
   }
@@ -82,7 +86,7 @@ class PassComputing {
     Computed computed;
     computed.fill(batch());
     // What was made of the samples before one that fails is kept, however many came with it.
-    compute_or_fail(computed.front().products, [&] { compute(input, note, computed); });
+    compute_or_fail(computed.front().products, note, [&] { compute(input, note, computed); });
     std::vector<ArchiveBatch> batches;
     for (ArchiveBatch& batch : computed) {
       if (!batch.products.empty() || batch.continuation) {
@@ -95,12 +99,10 @@ class PassComputing {
   /// What was still held: the pass has ended.
   template <class Note>
   void finish(std::vector<Product>& products, const Note& note) {
-    compute_or_fail(products, [&] {
+    compute_or_fail(products, note, [&] {
       Output output = pass_.finish();
       see(output, note);
-      for (auto& product : output.products) {
-        products.push_back(product_of(std::move(product)));
-      }
+      append(std::move(output), products);
     });
   }
 
@@ -128,7 +130,7 @@ class PassComputing {
 
   template <class Note>
   void see(Output& output, const Note& note) {
-    withheld_.take_from(output);
+    withheld_.take_from(output, answers_);
     say(spacecraft_id_, output.notices);
     note(std::as_const(output));
   }
@@ -148,13 +150,24 @@ class PassComputing {
     }
   }
 
-  template <class Compute>
-  void compute_or_fail(std::vector<Product>& products, const Compute& compute) {
+  static void append(Output output, std::vector<Product>& products) {
+    for (PassProduct& product : output.products) {
+      products.push_back(product_of(std::move(product)));
+    }
+  }
+
+  template <class Note, class Compute>
+  void compute_or_fail(std::vector<Product>& products, const Note& note, const Compute& compute) {
     if (failed_) {
       return;
     }
     if (auto what = what_is_thrown(compute)) {
       failed_ = true;
+      Output doubted{.products = answers_.doubtful_from(
+                         reached_, {ReasonCode::ComputingFailed, {{"what", *what}}}),
+                     .notices = {}};
+      note(std::as_const(doubted));
+      append(std::move(doubted), products);
       products.emplace_back(fault_of(spacecraft_id_, run_id_, reached_, *std::move(what)));
     }
   }
@@ -167,6 +180,7 @@ class PassComputing {
   TaiTime reached_ = {};               ///< The sample that was computed last.
   bool failed_ = false;
   Withheld withheld_;
+  LastAnswers<PassProduct> answers_;
 };
 
 }  // namespace spindrift

@@ -250,13 +250,18 @@ std::vector<ArchiveBatch> Processor::take(SampleBatch samples) {
 std::vector<ArchiveBatch> Processor::finish() {
   std::vector<ArchiveBatch> batches;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
-    SpacecraftRun::Taken rest = runs_[i].finish();
-    append(batches, std::move(rest.batches));
-    for (const PassInput& input : rest.inputs) {
-      append(batches, compute(input));
-    }
-    batches.push_back(std::visit([](auto& pass) { return pass.finish(); }, passes_[i]));
+    append(batches, finish(i));
   }
+  return batches;
+}
+
+std::vector<ArchiveBatch> Processor::finish(std::size_t spacecraft) {
+  SpacecraftRun::Taken rest = runs_.at(spacecraft).finish();
+  std::vector<ArchiveBatch> batches = std::move(rest.batches);
+  for (const PassInput& input : rest.inputs) {
+    append(batches, compute(input));
+  }
+  batches.push_back(std::visit([](auto& pass) { return pass.finish(); }, passes_.at(spacecraft)));
   return batches;
 }
 

@@ -81,6 +81,8 @@ class Processor {
   std::vector<ArchiveBatch> take(SampleBatch samples);
 
   std::vector<ArchiveBatch> finish();
+  /// One of them. @param spacecraft As PassInput::spacecraft.
+  std::vector<ArchiveBatch> finish(std::size_t spacecraft);
 
   bool is_live() const;
 

@@ -19,7 +19,7 @@
 #include "services/archive/stored_pass.h"
 #include "services/mission/mission.h"
 #include "services/processor/pass_watch.h"
-#include "services/processor/source_problems.h"
+#include "services/processor/problems.h"
 #include "services/processor/source_watch.h"
 #include "services/processor/spin_run.h"
 #include "services/processor/stored_samples.h"

@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
+#include "pipelines/core/assessment.h"
 #include "pipelines/core/notice.h"
+#include "services/processor/last_answers.h"
 #include "services/products/not_finite.h"
 #include "services/products/products.h"
 
@@ -32,17 +35,25 @@ std::optional<Notice> why_withheld(const std::variant<Kinds...>& product) {
 /// Remembers what was said, so that each reason is among the notices once.
 class Withheld {
  public:
-  /// Leaves out products that are withheld, and adds why to the notices.
-  template <class Output>
-  void take_from(Output& output) {
-    std::erase_if(output.products, [&](const auto& product) {
+  /// Leaves out products that are withheld, and adds why to the notices. In the place of an answer
+  /// the one before stands once more, DOUBTFUL.
+  template <class Output, class PassProduct>
+  void take_from(Output& output, LastAnswers<PassProduct>& answers) {
+    for (PassProduct& product : std::exchange(output.products, {})) {
       const auto why = why_withheld(product);
-      if (why && std::find(said_.begin(), said_.end(), *why) == said_.end()) {
+      if (!why) {
+        answers.note(product);
+        output.products.push_back(std::move(product));
+        continue;
+      }
+      if (std::find(said_.begin(), said_.end(), *why) == said_.end()) {
         said_.push_back(*why);
         output.notices.push_back(*why);
       }
-      return why.has_value();
-    });
+      if (auto before = answers.instead_of(product, {ReasonCode::Withheld, why->values})) {
+        output.products.push_back(*std::move(before));
+      }
+    }
   }
 
  private:

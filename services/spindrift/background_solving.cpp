@@ -63,8 +63,8 @@ std::optional<Expected<std::vector<Product>>> solve_giving_way(const BackgroundT
 
 bool is_solution_given_up() { return given_up; }
 
-void solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& archive,
-                         const Patience& patience) {
+std::size_t solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& archive,
+                                const Patience& patience) {
   std::map<std::string, std::string> said;
   std::map<std::string, std::size_t> left;
   while (auto task = tasks.take()) {
@@ -93,10 +93,13 @@ void solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& archive,
       tasks.close();  // Those who compute meet the same archive, and say so.
     }
   }
+  std::size_t all_left = 0;
   for (const auto& [spacecraft, count] : left) {
+    all_left += count;
     spdlog::warn("{}: {} batch solution{} not computed yet: the next start of the service will",
                  spacecraft, count, count == 1 ? " is" : "s are");
   }
+  return all_left;
 }
 
 }  // namespace spindrift

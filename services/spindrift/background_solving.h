@@ -15,10 +15,11 @@ namespace spindrift {
 /// That wait: those of a minute of many spacecraft, or of hours in a replay.
 inline constexpr std::size_t kMostBackgroundTasks = 256;
 
-/// Solves until `tasks` is closed and empty. What is left when patience ends it counts and says:
-/// the next start makes what is not stored.
-void solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& archive,
-                         const Patience& patience);
+/// Solves until `tasks` is closed and empty. What is left when patience ends it says: the next
+/// start makes what is not stored.
+/// @return How many are left.
+std::size_t solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& archive,
+                                const Patience& patience);
 
 /// A solution was not awaited when patience ended: its thread goes on, until the process ends by
 /// `_exit`.

@@ -12,6 +12,7 @@
 #include "services/spindrift/batch_text.h"
 #include "services/spindrift/orbit_notice.h"
 #include "services/spindrift/summary_text.h"
+#include "services/words/json_line.h"
 
 namespace spindrift {
 namespace {
@@ -57,7 +58,7 @@ Expected<void> batch(const BatchOptions& options) {
           object.update(to_json(solution));
           object["run_id"] = stored->run_id;
           object["same_mission"] = is_same_mission(*stored, *mission);
-          fmt::print("{}\n", object.dump());
+          fmt::print("{}", json_line(object));
         } else {
           fmt::print("{}  run {}\n{}\n{}", mission->spacecraft_id, stored->run_id,
                      to_text(solution.estimate), to_text(solution));

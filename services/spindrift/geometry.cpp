@@ -23,6 +23,7 @@
 #include "services/scenario/output_file.h"
 #include "services/spindrift/orbit_notice.h"
 #include "services/units/degrees.h"
+#include "services/words/json_line.h"
 
 namespace spindrift {
 namespace {
@@ -178,7 +179,7 @@ Expected<void> geometry(const GeometryOptions& options) {
     nlohmann::json json = to_json(*pass);
     json["plot"] =
         options.plot.empty() ? nlohmann::json(nullptr) : nlohmann::json(options.plot.string());
-    fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}", json_line(json));
   } else {
     fmt::print("{}", to_text(*pass));
     if (!options.plot.empty()) {

@@ -19,6 +19,7 @@ namespace {
 constexpr std::chrono::seconds kPeriod{1};
 // Who looks at the log later must not have to look far back.
 constexpr int kBeatsUntilSaidAgain = 10;
+constexpr std::size_t kMostSaid = 1000;
 
 SequenceCounts total(const TelemetrySubscriberStatus& status) {
   SequenceCounts sum;
@@ -108,9 +109,9 @@ std::vector<std::string> Heartbeat::problems(const TelemetrySubscriberStatus& st
   }
   const auto& writers = status.reader.incompatible_writers;
   found.insert(found.end(), writers.begin(), writers.end());
-  const auto apart =
-      watched_.sources.since(std::chrono::steady_clock::now() - LinkWatch::kStaleAfter);
-  found.insert(found.end(), apart.begin(), apart.end());
+  const auto others =
+      watched_.problems.since(std::chrono::steady_clock::now() - LinkWatch::kStaleAfter);
+  found.insert(found.end(), others.begin(), others.end());
   if (!gaps_.empty()) {
     found.push_back("samples missing: " + to_text(gaps_));
   }
@@ -138,8 +139,10 @@ void Heartbeat::publish_health(const TelemetrySubscriberStatus& status) {
 }
 
 void Heartbeat::say_once(const std::string& problem) {
-  if (said_.insert(problem).second) {
-    spdlog::error("{}", problem);
+  // Writers come with names of their own choice.
+  if (said_.size() < kMostSaid && said_.insert(problem).second) {
+    spdlog::error("{}{}", problem,
+                  said_.size() == kMostSaid ? "; no more of such problems are said" : "");
   }
 }
 

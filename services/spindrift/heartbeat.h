@@ -15,7 +15,7 @@
 #include "services/ingest/gap_watch.h"
 #include "services/ingest/telemetry_subscriber.h"
 #include "services/processor/pass_input.h"
-#include "services/processor/source_problems.h"
+#include "services/processor/problems.h"
 #include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"
 #include "services/spindrift/thread_failures.h"
@@ -32,7 +32,7 @@ class Heartbeat {
     const Archive& archive;
     const ResultPublisher& publisher;
     const LinkWatch& links;
-    const SourceProblems& sources;
+    const Problems& problems;
   };
 
   /// @param failures Outlives it, and is told when taking samples has failed.

@@ -41,6 +41,7 @@
 #include "services/spindrift/serve.h"
 #include "services/spindrift/simulate.h"
 #include "services/standard_error/standard_error.h"
+#include "services/words/json_line.h"
 
 namespace {
 
@@ -298,8 +299,7 @@ void tell_failure(const std::string& message, std::span<char* const> arguments) 
   fmt::print(stderr, "spindrift: {}\n", message);
   const auto is_json = [](const char* argument) { return std::string_view{argument} == "--json"; };
   if (std::any_of(arguments.begin(), arguments.end(), is_json)) {
-    fmt::print("{}\n", nlohmann::json{{"error", message}}.dump(
-                           -1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}", spindrift::json_line({{"error", message}}));
   }
 }
 

@@ -24,6 +24,7 @@
 #include "services/spindrift/outcome.h"
 #include "services/spindrift/submit_all.h"
 #include "services/spindrift/telemetry_input.h"
+#include "services/words/json_line.h"
 
 namespace spindrift {
 namespace {
@@ -198,7 +199,7 @@ Expected<void> print(const ReconstructOptions& options, const SeparationReport& 
     json["db"] = options.db.string();
     json["failures"] = solved.failures;
     json["plot"] = plot.empty() ? nlohmann::json{} : nlohmann::json(options.plot.string());
-    fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}", json_line(json));
     return {};
   }
   fmt::print("{}archive: {}\n", to_text(report), options.db.string());

@@ -11,6 +11,7 @@
 #include "services/progress/progress_bar.h"
 #include "services/spindrift/telemetry_input.h"
 #include "services/spindrift/telemetry_output.h"
+#include "services/words/json_line.h"
 
 namespace spindrift {
 namespace {
@@ -77,7 +78,7 @@ Expected<void> replay(const ReplayOptions& options) {
   if (options.json) {
     nlohmann::json object = sent->json();
     object["input_rejected"] = bad.count;
-    fmt::print("{}\n", object.dump());
+    fmt::print("{}", json_line(object));
   } else {
     fmt::print("{} published, {} bad rows left out\n", sent->text(), bad.count);
   }

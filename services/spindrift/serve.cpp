@@ -11,17 +11,21 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
+#include <variant>
 
+#include "pipelines/time/utc.h"
 #include "services/archive/archive.h"
 #include "services/archive/stored_results.h"
 #include "services/bus/participant.h"
 #include "services/clock/wall_clock.h"
 #include "services/ingest/telemetry_subscriber.h"
 #include "services/mission/mission.h"
+#include "services/processor/problems.h"
 #include "services/processor/processor.h"
 #include "services/processor/silence_watch.h"
 #include "services/publisher/link_watch.h"
@@ -123,14 +127,14 @@ Routed next_routed(BoundedQueue<SampleBatch>& taken, Processor& processor, LinkW
 /// closed and empty, or the archive refuses.
 Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
                      Processor& processor, Archive& archive, Computing& computing, LinkWatch& links,
-                     SourceProblems& problems) {
+                     Problems& problems) {
   for (PassInput& input : again) {
     computing.leave_to_backlog(std::move(input));
   }
   SilenceWatch silences;
   while (!taken.is_drained()) {
     Routed routed = next_routed(taken, processor, links, silences);
-    problems.set(processor.source_problems());
+    problems.set_sources(processor.source_problems());
     auto stored = submit_all(archive, std::move(routed.samples));
     for (auto input = routed.work.begin(); stored && input != routed.work.end(); ++input) {
       stored = computing.take(std::move(*input), taken.size());
@@ -142,16 +146,35 @@ Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& ta
   return {};
 }
 
-/// In the end runs are finished of which all samples are computed. Who can no longer empty a queue
-/// closes it: nobody must wait for room.
+/// Spacecraft by spacecraft, as long as patience lasts.
+Expected<void> finish(Processor& processor, Archive& archive, const Patience& patience) {
+  const std::size_t spacecraft = processor.spacecraft().size();
+  for (std::size_t i = 0; i < spacecraft; ++i) {
+    if (patience.ended) {
+      spdlog::warn(
+          "the runs of {} spacecraft are not finished yet: the next start of the service will",
+          spacecraft - i);
+      return {};
+    }
+    if (auto stored = submit_all(archive, processor.finish(i)); !stored) {
+      return stored;
+    }
+  }
+  return {};
+}
+
+/// In the end runs are finished of which all samples are computed and all solutions made. Who can
+/// no longer empty a queue closes it: nobody must wait for room.
 void route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
                        BoundedQueue<PassInput>& backlog, Processor& processor, Archive& archive,
-                       const Patience& patience, LinkWatch& links, SourceProblems& problems,
+                       const Patience& patience, LinkWatch& links, Problems& problems,
                        ThreadFailures& failures) {
   BoundedQueue<BackgroundTask> tasks{kMostBackgroundTasks};
   Computing computing{processor, archive, backlog, tasks, patience};
+  std::size_t solutions_left = 0;
   std::thread solving{[&] {
-    failures.note(contained("solving", [&] { solve_in_background(tasks, archive, patience); }));
+    failures.note(contained(
+        "solving", [&] { solutions_left = solve_in_background(tasks, archive, patience); }));
     tasks.close();
   }};
   std::thread working_off{[&] {
@@ -166,7 +189,7 @@ void route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& 
   working_off.join();
   tasks.close();
   solving.join();
-  if (!failures.first()) {
+  if (!failures.first() || solutions_left > 0) {
     return;
   }
   if (computing.samples_left() > 0) {
@@ -174,7 +197,7 @@ void route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& 
                  computing.samples_left());
     return;
   }
-  failures.note(contained("finishing", [&] { return submit_all(archive, processor.finish()); }));
+  failures.note(contained("finishing", [&] { return finish(processor, archive, patience); }));
 }
 
 /// A service that is told to stop waits a while for the mathematics, and while writing fails not at
@@ -219,8 +242,8 @@ Expected<void> how_taking_ended(const TelemetrySubscriber& subscriber) {
 /// From "ready" until a signal, or a failure, and everything taken is with the archive.
 Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins,
                    const bus::Participant& participant, const ResultPublisher& publisher,
-                   Processor& processor, Archive& archive, StopSignal& stop_signal,
-                   ThreadFailures& failures) {
+                   Processor& processor, Archive& archive, Problems& problems,
+                   StopSignal& stop_signal, ThreadFailures& failures) {
   BoundedQueue<SampleBatch> queue{kSamplesTaken, [](const SampleBatch& taken) {
                                     return std::max<std::size_t>(size_of(taken), 1);
                                   }};
@@ -234,7 +257,6 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
   }
   TelemetrySubscriber& subscriber = **started;
   LinkWatch links{processor.spacecraft()};
-  SourceProblems problems;
   Patience patience;
   stop_signal.on_stop([&] {
     spdlog::info("stopping");
@@ -253,7 +275,7 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
                                .archive = archive,
                                .publisher = publisher,
                                .links = links,
-                               .sources = problems},
+                               .problems = problems},
                               failures};
     spdlog::info("ready");
     route_and_compute(std::move(again), queue, work, processor, archive, patience, links, problems,
@@ -275,14 +297,28 @@ Expected<Processor> make_processor(const ServeOptions& options) {
                                                     options.partition)}});
 }
 
+void note_faults(std::span<const ArchiveBatch> stored, Problems& problems) {
+  for (const ArchiveBatch& batch : stored) {
+    for (const Product& product : batch.products) {
+      if (const auto* const fault = std::get_if<RunFault>(&product)) {
+        problems.add_fault(fmt::format("{}: computing failed at {}: {}: run {} is DOUBTFUL",
+                                       batch.spacecraft_id, format_utc(fault->t), fault->what,
+                                       batch.run_id));
+      }
+    }
+  }
+}
+
 Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db,
-                                                Announcer& announcer, ThreadFailures& failures) {
+                                                Announcer& announcer, Problems& problems,
+                                                ThreadFailures& failures) {
   return Archive::open(db, {.on_write_failure = OnWriteFailure::Retry,
                             .on_committed =
                                 [&](std::span<const ArchiveBatch> stored) {
                                   failures.note(contained("announcing", [&] {
                                     announcer.committed(stored);
                                     warn_of_disagreements(db, stored);
+                                    note_faults(stored, problems);
                                   }));
                                 },
                             .on_failure =
@@ -340,8 +376,9 @@ Expected<void> serve(const ServeOptions& options) {
     return Unexpected{publisher.error()};
   }
   ThreadFailures failures;
+  Problems problems;
   Announcer announcer{*publisher, failures};
-  const auto opened = open_archive(options.db, announcer, failures);
+  const auto opened = open_archive(options.db, announcer, problems, failures);
   if (!opened) {
     return Unexpected{opened.error()};
   }
@@ -357,7 +394,7 @@ Expected<void> serve(const ServeOptions& options) {
         .and_then([&] { return archive.flush(); })
         .and_then([&] {
           return run(std::move(stored.routed.work), stored.last_origins, *participant, *publisher,
-                     *processor, archive, stop_signal, failures);
+                     *processor, archive, problems, stop_signal, failures);
         });
   });
   if (auto outcome = outcome_of(done, archive.close()); !outcome) {

@@ -12,6 +12,7 @@
 #include "services/scenario/simulated_pass.h"
 #include "services/scenario/simulated_telemetry.h"
 #include "services/spindrift/telemetry_output.h"
+#include "services/words/json_line.h"
 
 namespace spindrift {
 namespace {
@@ -33,7 +34,7 @@ void report(const Scenario& scenario, const SimulatedPass& pass, nlohmann::json 
                     {"revolutions", pass.revolutions},
                     {"edges", pass.received.pulses.size()},
                     {"faults", faults}});
-    fmt::print("{}\n", outcome.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}", json_line(outcome));
     return;
   }
   fmt::print("{}: {} revolutions, {} edges\n", scenario.spacecraft_id, pass.revolutions,

@@ -17,6 +17,7 @@
 #include "services/units/degrees.h"
 #include "services/words/assessment_words.h"
 #include "services/words/json_key.h"
+#include "services/words/json_line.h"
 #include "services/words/reasons_json.h"
 
 namespace spindrift {
@@ -347,7 +348,7 @@ Expected<std::string> report(const Processor& processor, const std::filesystem::
     for (const RunSummary& summary : summaries) {
       object["runs"].push_back(to_json(summary));
     }
-    return object.dump() + "\n";
+    return json_line(object);
   }
   std::string text;
   for (const RunSummary& summary : summaries) {

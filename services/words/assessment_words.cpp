@@ -54,6 +54,8 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
     {NoGyro, "no gyro since {since_tai_ns}: {why}"},
     {SensorGated, "many {sensor} samples gated"},
     {SensorNoise, "{sensor} noise x {factor:.1f}"},
+    {Withheld, "the last answer: {column} of {table} is not finite since"},
+    {ComputingFailed, "the last answer: computing failed: {what}"},
     {SunVectors, "{count} sun vectors"},
     {SunOutliers, "{count} sun outliers"},
     {SunVectorsShadowed, "{count} sun vectors in the Earth's shadow"},

@@ -120,6 +120,12 @@ TEST_F(RunFaults, AreOfOneSpacecraftAndMakeItsAnswerDoubtful) {
   };
   EXPECT_GT(fixes("FAILS"), 20);
   EXPECT_GT(fixes("SOUND"), fixes("FAILS"));
+  // Whoever follows the answers alone sees it, too.
+  EXPECT_EQ(number_of(db("served"),
+                      "SELECT count(*) FROM spin_estimate JOIN run USING (run_id) WHERE"
+                      " spacecraft_id = 'FAILS' AND quality = 'DOUBTFUL'"
+                      " AND reasons LIKE '%computing_failed%'"),
+            2);
   const std::string verdict = rows_of(db("served"),
                                       "SELECT quality, estimator, why FROM pass_verdict"
                                       " WHERE spacecraft_id = 'FAILS'")

@@ -106,14 +106,15 @@ TEST(Withheld, LeavesOutWhatIsNotFiniteAndSaysWhyOnce) {
       .revolution = 2, .t_sun1 = {}, .period_s = std::numeric_limits<double>::infinity()};
   Withheld withheld;
   SpinOutput output{.products = {endless, sound, endless}, .notices = {}};
-  withheld.take_from(output);
+  LastAnswers<SpinProduct> answers;
+  withheld.take_from(output, answers);
   ASSERT_EQ(output.products.size(), 1U);
   const Notice why{.code = NoticeCode::NotFinite,
                    .values = {{"table", "revolution"}, {"column", "period_s"}}};
   EXPECT_EQ(output.notices, std::vector<Notice>{why});
 
   SpinOutput later{.products = {endless}, .notices = {}};
-  withheld.take_from(later);
+  withheld.take_from(later, answers);
   EXPECT_TRUE(later.products.empty());
   EXPECT_TRUE(later.notices.empty());
 }

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
 
@@ -111,6 +112,33 @@ TEST(Process, StoresOrbitStatesOfASpinnerAndSaysOnceThatTheOrbitIsTheMissionFile
   ASSERT_NE(first, std::string::npos) << program.log();
   EXPECT_EQ(program.log().find(words, first + 1), std::string::npos);
   EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM orbit_state_sample"), 2);
+}
+
+TEST(Process, RefusesFilesThatWouldHurtIt) {
+  std::string deep = "a";
+  for (int i = 0; i < 100'000; ++i) {
+    deep += ".a";
+  }
+  expect_refused("mission.toml", deep + " = 1\n",
+                 {"mission.toml:1: tables and arrays must not stand deeper than 16"});
+  const std::string oem = text_of(kPasses / "nominal" / "orbit.oem");
+  const auto with_line = [&](const std::string& key, const std::string& value) {
+    const std::size_t at = oem.find(key + " = ");
+    return oem.substr(0, at) + key + " = " + value + oem.substr(oem.find('\n', at));
+  };
+  expect_refused("orbit.oem", with_line("START_TIME", "1677-01-01T00:00:00"),
+                 {"orbit.oem", "must lie in 1900 to 2189"});
+  expect_refused("orbit.oem", with_line("CENTER_NAME", "MARS\x1b[2J"),
+                 {"CENTER_NAME = MARS\\x1b[2J: must be EARTH"});
+}
+
+TEST(Process, RefusesWhatIsNoFile) {
+  const PassCopy pass{"nominal"};
+  const auto pipe = pass.folder.path() / "pipe.csv";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  Program program{arguments(pass.mission(), pipe, pass.db)};
+  EXPECT_EQ(program.exit_status(), 2);
+  EXPECT_THAT(program.log(), HasSubstr("pipe.csv: cannot be read: not a regular file"));
 }
 
 TEST(Process, RefusesAnOrbitThatCannotBeRead) {

@@ -14,8 +14,8 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-/// Gives one product a sample, of its time, one more at each silence and in the end, and throws
-/// where it is told to.
+/// Gives one product a sample, of its time, an attitude where the rate about z is not zero, one
+/// more product at each silence and in the end, and throws where it is told to.
 class FakePass {
  public:
   explicit FakePass(std::optional<TaiTime> throws_at = {}) : throws_at_{throws_at} {}
@@ -25,12 +25,20 @@ class FakePass {
       throw std::runtime_error{"no table has a place for it"};
     }
     t_ = sample.t;
-    const double value = sample.rate_body_rad_s.x();
-    return {.products = {RejectedSample{.t = sample.t,
-                                        .kind = SampleKind::Gyro,
-                                        .rejected_by = SampleRejection::Innovation,
-                                        .squared_innovation = value}},
-            .notices = {}};
+    ThreeAxisOutput output{
+        .products = {RejectedSample{.t = sample.t,
+                                    .kind = SampleKind::Gyro,
+                                    .rejected_by = SampleRejection::Innovation,
+                                    .squared_innovation = sample.rate_body_rad_s.x()}},
+        .notices = {}};
+    if (sample.rate_body_rad_s.z() != 0.0) {
+      output.products.emplace_back(AttitudeEstimate{.t = sample.t,
+                                                    .q_icrf_body = Eigen::Quaterniond::Identity(),
+                                                    .rate_body_rad_s = sample.rate_body_rad_s,
+                                                    .covariance_rad2 = Eigen::Matrix3d::Identity(),
+                                                    .assessment = {Quality::Ok}});
+    }
+    return output;
   }
   ThreeAxisOutput fall_silent() { return again(SampleRejection::Frozen); }
   ThreeAxisOutput finish() { return again(SampleRejection::Saturated); }
@@ -127,6 +135,53 @@ TEST(PassComputing, WithholdsAProductThatIsNotFinite) {
   EXPECT_THAT(times_of(batches[0].products), ElementsAre(2));
   ASSERT_THAT(notices, SizeIs(1));
   EXPECT_EQ(notices[0].code, NoticeCode::NotFinite);
+}
+
+PassInput with_rates_z(PassInput input, const std::vector<double>& rates_rad_s) {
+  auto& samples = input.values.of<GyroSample>();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].value.rate_body_rad_s.z() = rates_rad_s.at(i);
+  }
+  return input;
+}
+
+std::vector<AttitudeEstimate> answers_in(const std::vector<ArchiveBatch>& batches) {
+  std::vector<AttitudeEstimate> answers;
+  for (const ArchiveBatch& batch : batches) {
+    for (const Product& product : batch.products) {
+      if (const auto* const answer = std::get_if<AttitudeEstimate>(&product)) {
+        answers.push_back(*answer);
+      }
+    }
+  }
+  return answers;
+}
+
+TEST(PassComputing, WhereItFailsTheLastAnswerStandsDoubtful) {
+  PassComputing<FakePass> computing{"SAT", "run", FakePass{tai_from_ns(5)}};
+  const auto answers =
+      answers_in(computing.compute(with_rates_z(input_at({1, 2, 5}), {0.1, 0.2, 0.3}), kNote));
+  ASSERT_THAT(answers, SizeIs(3));
+  EXPECT_EQ(answers[2].t, tai_from_ns(5));
+  EXPECT_EQ(answers[2].rate_body_rad_s, answers[1].rate_body_rad_s);
+  EXPECT_EQ(
+      answers[2].assessment,
+      (Assessment{Quality::Doubtful,
+                  {{ReasonCode::ComputingFailed, {{"what", "no table has a place for it"}}}}}));
+}
+
+TEST(PassComputing, InPlaceOfAWithheldAnswerTheOneBeforeStandsDoubtful) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  PassComputing<FakePass> computing{"SAT", "run", FakePass{}};
+  const auto answers = answers_in(
+      computing.compute(with_rates_z(input_at({1, 2, 3, 4}), {kNone, 0.2, kNone, 0.4}), kNote));
+  ASSERT_THAT(answers, SizeIs(3));
+  EXPECT_EQ(answers[0].assessment.quality, Quality::Ok);
+  EXPECT_EQ(answers[1].t, tai_from_ns(3));
+  EXPECT_EQ(answers[1].rate_body_rad_s, answers[0].rate_body_rad_s);
+  EXPECT_EQ(answers[1].assessment.quality, Quality::Doubtful);
+  EXPECT_TRUE(has(answers[1].assessment, ReasonCode::Withheld));
+  EXPECT_EQ(answers[2].assessment.quality, Quality::Ok);
 }
 
 }  // namespace spindrift::pass_computing_test
