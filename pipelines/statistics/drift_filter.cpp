@@ -29,8 +29,11 @@ double DriftFilter::at(double x) const {
 
 double DriftFilter::x_of(double value) const {
   const double ahead = value - state_[0];
-  const double change = std::sqrt(std::max(0.0, state_[1] * state_[1] + 2.0 * state_[2] * ahead));
-  return x_ + 2.0 * ahead / (state_[1] + change);
+  const double change_squared = state_[1] * state_[1] + 2.0 * state_[2] * ahead;
+  if (change_squared < 0.0) {
+    return x_ - state_[1] / state_[2];
+  }
+  return x_ + 2.0 * ahead / (state_[1] + std::sqrt(change_squared));
 }
 
 Eigen::Matrix3d DriftFilter::covariance_at(double x, const DriftNoise& noise) const {

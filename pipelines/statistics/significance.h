@@ -26,7 +26,5 @@ inline constexpr double kMedianDeviation = 0.6745;
 /// Its inverse: standard deviation over median absolute deviation, or over half the distance of the
 /// quartiles.
 inline constexpr double kSigmaPerMad = 1.482602218505602;
-/// Of `sequential` and of the association.
-inline constexpr double kRoundedSigmaPerMad = 1.4826;
 
 }  // namespace spindrift

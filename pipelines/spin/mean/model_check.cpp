@@ -18,20 +18,12 @@ using SomeErrors = Eigen::VectorXd;
 using SomeErrorsMatrix = Eigen::MatrixXd;
 using Normal = Eigen::Matrix<double, AngleEquations::kUnknowns, AngleEquations::kUnknowns>;
 
-// As sigmas of a normal variable: that right models are called wrong, since a pass asks a thousand
-// times; that the errors are greater than said, one in ten. Their size goes by its digits.
-const double kSignificant = normal_beyond(kFalseAlarm);
-constexpr double kUpperEnd = 1.28;
+/// That the errors are not greater than said.
+constexpr double kCovered = 0.9;
 // A combination of errors that is known no better than this is not seen.
 constexpr double kUnseen_rad = 0.1;
 // The noise is judged by so many angles at most, lest a little more than stated be called wrong.
 constexpr double kNoiseAngles = 300.0;
-
-/// By Wilson and Hilferty.
-double chi_square_quantile(double freedom, double sigmas) {
-  const double variance = 2.0 / (9.0 * freedom);
-  return freedom * std::pow(std::max(0.0, 1.0 - variance + sigmas * std::sqrt(variance)), 3);
-}
 
 /// Some of the errors, the axis eliminated and the others zero, along the axes of their
 /// information.
@@ -53,7 +45,7 @@ class Spectrum {
 
   /// The greatest variance of the errors that is not unlikely.
   double upper_end_rad2() const {
-    const double least = chi_square_quantile(freedom(), -kUpperEnd);
+    const double least = chi_square_beyond(kCovered, freedom());
     double low_rad = 0.0;
     double high_rad = 1.0;
     for (int i = 0; i < kHalvings; ++i) {
@@ -176,7 +168,7 @@ ModelTest test_model_errors(const ErrorInformation& errors, double excess_noise,
   if (spectrum.freedom() == 0.0) {
     return verdict;
   }
-  const double significant = chi_square_quantile(spectrum.freedom(), kSignificant);
+  const double significant = chi_square_beyond(kFalseAlarm, spectrum.freedom());
   const double allowed_rad2 = allowed_rad * allowed_rad;
   if (!(spectrum.chi_square(allowed_rad2) > significant)) {
     return verdict;

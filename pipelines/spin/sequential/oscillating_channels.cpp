@@ -26,7 +26,7 @@ double noise_of(const std::deque<double>& recent) {
   std::sort(sorted.begin(), sorted.end());
   const double lower = sorted[sorted.size() / 4];
   const double upper = sorted[sorted.size() - 1 - sorted.size() / 4];
-  const double sigma = kRoundedSigmaPerMad * 0.5 * (upper - lower);
+  const double sigma = kSigmaPerMad * 0.5 * (upper - lower);
   if (sigma < 1.0 + kSignificant / std::sqrt(static_cast<double>(recent.size()))) {
     return 1.0;
   }

@@ -40,7 +40,6 @@ TEST(Significance, NumbersWithFewerDigitsAreThoseOfTheNormalDistribution) {
   EXPECT_NEAR(kFalseAlarmSquares, chi_square_beyond(kFalseAlarm, 2.0), 1e-3);
   EXPECT_NEAR(kMedianDeviation, normal_beyond(0.25), 2e-5);
   EXPECT_NEAR(kSigmaPerMad, 1.0 / normal_beyond(0.25), 1e-14);
-  EXPECT_NEAR(kRoundedSigmaPerMad, kSigmaPerMad, 5e-5);
 }
 
 TEST(VarianceRatio, TailIsThatOfThePublishedTables) {
