@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "pipelines/spin/telemetry_order/reorder_window.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -17,7 +18,7 @@ class PassWatch {
   /// Longer a silence does not last within a pass.
   static constexpr std::chrono::hours kLongestSilence{1};
   /// So many samples from beyond it are accepted, when none between them carries the pass on.
-  static constexpr std::size_t kEnoughToAccept = 8;
+  static constexpr std::size_t kEnoughToAccept = ReorderWindow::kEnoughToAccept;
 
   /// Within: not later than the pass has come, which says nothing of those from beyond. Onward: the
   /// pass goes on, and what came from beyond was wrong. Undecided: from beyond. NewPass: accepted.

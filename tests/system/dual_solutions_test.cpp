@@ -13,7 +13,6 @@
 namespace spindrift::dual_solutions_test {
 
 using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 double error_deg(double ra_deg, double dec_deg, double true_ra_deg, double true_dec_deg) {
   const auto place = [](double ra, double dec) {
@@ -68,7 +67,7 @@ TEST(DualSolutions, AFalseTwinOfTheTrueAxisLeavesBatchAmbiguous) {
     const auto outcome = process_false_twin(folder, seed, "");
     ASSERT_EQ(outcome.status, 0) << outcome.log;
     EXPECT_EQ(outcome.run["sequential"]["quality"], "AMBIGUOUS");
-    EXPECT_THAT(outcome.run["batch"]["status"].get<std::string>(), StartsWith("AMBIGUOUS, or"));
+    EXPECT_EQ(outcome.run["batch"]["quality"], "AMBIGUOUS");
   }
 }
 
@@ -91,7 +90,7 @@ TEST(DualSolutions, APriorFarFromAllOfThemSettlesNothing) {
   const auto outcome = process_false_twin(
       folder, 1, "[spin.prior]\nra_deg = 100.0\ndec_deg = -55.0\nsigma_deg = 1.0\n");
   ASSERT_EQ(outcome.status, 0) << outcome.log;
-  EXPECT_THAT(outcome.run["batch"]["status"].get<std::string>(), StartsWith("AMBIGUOUS, or"));
+  EXPECT_EQ(outcome.run["batch"]["quality"], "AMBIGUOUS");
 }
 
 }  // namespace spindrift::dual_solutions_test
