@@ -13,6 +13,7 @@
 #include "services/units/decimals.h"
 #include "services/units/degrees.h"
 #include "services/words/assessment_words.h"
+#include "services/words/counted.h"
 
 namespace spindrift {
 namespace {
@@ -25,10 +26,9 @@ std::string_view words_of(SeparationEvent event) {
   return kWords.at(static_cast<std::size_t>(event));
 }
 
-std::string counted(const SensorResiduals& sensor, std::string_view plural) {
-  return sensor.outliers > 0
-             ? fmt::format("{} {} (and {} left out)", sensor.count, plural, sensor.outliers)
-             : fmt::format("{} {}", sensor.count, plural);
+std::string used_of(const SensorResiduals& sensor, std::string_view plural) {
+  return counted(sensor.count, plural) +
+         (sensor.outliers > 0 ? fmt::format(" (and {} left out)", sensor.outliers) : "");
 }
 
 std::string events_text(const Reconstruction& solution) {
@@ -178,8 +178,8 @@ std::string to_text(const SeparationReport& report) {
   const Reconstruction& first = report.methods.front()->solution;
   const int decimals = decimals_of(report);
   std::string text = fmt::format("{}  run {}\n", report.spacecraft_id, report.run_id);
-  text += fmt::format("  rests on     {}, {}, {}\n", counted(first.gyro, "gyro samples"),
-                      counted(first.sun, "sun vectors"), counted(first.star, "star fixes"));
+  text += fmt::format("  rests on     {}, {}, {}\n", used_of(first.gyro, "gyro samples"),
+                      used_of(first.sun, "sun vectors"), used_of(first.star, "star fixes"));
   text += events_text(first) + icrf_text(report, decimals) + quaternion_text(report) +
           orbit_text(report, decimals) + bias_text(first) + launcher_text(report);
   for (const ReconstructionProduct& product : report.methods) {

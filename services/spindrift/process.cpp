@@ -20,6 +20,7 @@
 #include "services/spindrift/submit_all.h"
 #include "services/spindrift/summary_text.h"
 #include "services/spindrift/telemetry_input.h"
+#include "services/words/counted.h"
 
 namespace spindrift {
 namespace {
@@ -70,10 +71,9 @@ void warn_where_no_edge_came(const Processor& processor, std::uint64_t bad_rows)
   }
   for (const RunSummary& summary : processor.summaries()) {
     if (summary.kind == SpacecraftKind::Spin && summary.edges_received == 0) {
-      spdlog::warn(
-          "{}: no edge of it in the telemetry, and no axis: {} bad rows, {} samples of other "
-          "spacecraft",
-          summary.spacecraft_id, bad_rows, others);
+      spdlog::warn("{}: no edge of it in the telemetry, and no axis: {}, {} of other spacecraft",
+                   summary.spacecraft_id, counted(bad_rows, "bad rows"),
+                   counted(others, "samples"));
     }
   }
 }

@@ -11,6 +11,7 @@
 #include "services/progress/progress_bar.h"
 #include "services/spindrift/telemetry_input.h"
 #include "services/spindrift/telemetry_output.h"
+#include "services/words/counted.h"
 #include "services/words/json_line.h"
 
 namespace spindrift {
@@ -80,7 +81,7 @@ Expected<void> replay(const ReplayOptions& options) {
     object["input_rejected"] = bad.count;
     fmt::print("{}", json_line(object));
   } else {
-    fmt::print("{} published, {} bad rows left out\n", sent->text(), bad.count);
+    fmt::print("{} published, {} left out\n", sent->text(), counted(bad.count, "bad rows"));
   }
   return {};
 }

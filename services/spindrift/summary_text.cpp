@@ -16,6 +16,7 @@
 #include "services/units/decimals.h"
 #include "services/units/degrees.h"
 #include "services/words/assessment_words.h"
+#include "services/words/counted.h"
 #include "services/words/json_key.h"
 #include "services/words/json_line.h"
 #include "services/words/reasons_json.h"
@@ -60,6 +61,11 @@ nlohmann::json to_json(const std::map<Key, std::int64_t>& counts) {
     json[fmt::format("{}", key)] = count;
   }
   return json;
+}
+
+std::string rejected_text(const RunSummary& summary) {
+  return counted(summary.input_rejected, "bad rows") +
+         (summary.input_rejected == 1 ? " or sample" : " or samples");
 }
 
 std::string fixes_text(const RunSummary& summary) {
@@ -234,15 +240,14 @@ std::string to_text(const RunSummary& summary) {
   if (summary.kind == SpacecraftKind::ThreeAxis) {
     text += "  received     ";
     for (const auto& [plural, count] : summary.samples_received) {
-      text += fmt::format("{} {}, ", count, plural);
+      text += counted(count, plural) + ", ";
     }
-    text += fmt::format("{} bad rows or samples\n", summary.input_rejected);
+    text += rejected_text(summary) + "\n";
     return text + sensors_text(summary) + attitude_text(summary) + faults_text(summary);
   }
-  text += fmt::format(
-      "  received     {} edges, {} of them stored, {} coded frames, {} bad rows or samples\n",
-      summary.edges_received, summary.edges_stored, summary.coded_frames_received,
-      summary.input_rejected);
+  text += fmt::format("  received     {} edges, {} of them stored, {} coded frames, {}\n",
+                      summary.edges_received, summary.edges_stored, summary.coded_frames_received,
+                      rejected_text(summary));
   text += fmt::format("  edges        {} accepted\n", summary.edges_accepted);
   for (const auto& [test, count] : summary.edges_rejected) {
     text += fmt::format("               {} rejected: {}\n", count, test);

@@ -9,6 +9,7 @@
 
 #include "pipelines/core/shown.h"
 #include "services/telemetry_files/telemetry_rows.h"
+#include "services/words/counted.h"
 
 namespace spindrift {
 namespace {
@@ -61,7 +62,7 @@ void BadRows::add(const RejectedInput& row) {
 }
 
 std::string BadRows::text() const {
-  std::string text = fmt::format("{} bad rows of telemetry", count);
+  std::string text = counted(count, "bad rows") + " of telemetry";
   for (const RejectedInput& row : first) {
     text += fmt::format("\n  {}:{}: {}", row.source, row.line, row.reason);
   }

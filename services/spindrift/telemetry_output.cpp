@@ -11,6 +11,7 @@
 
 #include "pipelines/time/utc.h"
 #include "services/spindrift/stop_signal.h"
+#include "services/words/counted.h"
 #include "services/words/json_key.h"
 
 namespace spindrift {
@@ -149,7 +150,7 @@ std::string PublishedCounts::text() const {
   std::string text;
   for (const auto& [plural, samples] : counts_) {
     const bool is_last = plural == counts_.back().plural;
-    text += fmt::format("{}{} {}", text.empty() ? "" : is_last ? " and " : ", ", samples, plural);
+    text += (text.empty() ? "" : is_last ? " and " : ", ") + counted(samples, plural);
   }
   return text;
 }

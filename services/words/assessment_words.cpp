@@ -13,7 +13,7 @@ namespace {
 
 using enum ReasonCode;
 constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
-    {Fixes, "{count} fixes"},
+    {Fixes, "{count} fix{es}"},
     {FewFixes, "fewer than {needed}"},
     {BeamsNearLimb, "plain average: beams too near the limb"},
     {LeastSquaresOff, "plain average: least squares {deg:.2g} deg off"},
@@ -23,8 +23,8 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
     {AwaitingFix, "awaiting a fix"},
     {ModelOff, "model off by {deg:.2g} deg"},
     {Noise, "noise x {factor:.1f}"},
-    {Revolutions, "{count} revolutions"},
-    {EdgesGated, "{count} edges gated"},
+    {Revolutions, "{count} revolution{s}"},
+    {EdgesGated, "{count} edge{s} gated"},
     {ChannelGated, "most {channel} edges gated"},
     {ManyGated, "many edges gated"},
     {StartUnconfirmed, "not confirmed by fixes yet"},
@@ -36,8 +36,8 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
     {MoreAxes, "or {count} more"},
     {FixesNearTangent, "or none: near-tangent"},
     {NothingSettled, "no fix has settled it"},
-    {Edges, "{count} edges"},
-    {Outliers, "{count} outliers"},
+    {Edges, "{count} edge{s}"},
+    {Outliers, "{count} outlier{s}"},
     {Changed, "since {since_tai_ns}, where attitude or rate changed"},
     {MostBeforeChange, "{edges} edges before that are left out: most of the pass"},
     {NoAxisBeforeChange, "no one axis fits the edges before that"},
@@ -56,17 +56,17 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
     {SensorNoise, "{sensor} noise x {factor:.1f}"},
     {Withheld, "the last answer: {column} of {table} is not finite since"},
     {ComputingFailed, "the last answer: computing failed: {what}"},
-    {SunVectors, "{count} sun vectors"},
-    {SunOutliers, "{count} sun outliers"},
-    {SunVectorsShadowed, "{count} sun vectors in the Earth's shadow"},
-    {ShadowUnknown, "{count} sun vectors outside the orbit"},
-    {StarFixes, "{count} star fixes"},
-    {StarFixesGated, "{count} star fixes gated"},
+    {SunVectors, "{count} sun vector{s}"},
+    {SunOutliers, "{count} sun outlier{s}"},
+    {SunVectorsShadowed, "{count} sun vector{s} in the Earth's shadow"},
+    {ShadowUnknown, "{count} sun vector{s} outside the orbit"},
+    {StarFixes, "{count} star fix{es}"},
+    {StarFixesGated, "{count} star fix{es} gated"},
     {StarFixesContradict, "star fixes contradict each other"},
-    {GyroGaps, "{count} gyro gaps, up to {longest_s:.1f} s"},
-    {GyroSaturated, "{count} gyro samples saturated"},
-    {GyroFrozen, "{count} gyro samples frozen"},
-    {SamplesRepeated, "{count} samples repeated"},
+    {GyroGaps, "{count} gyro gap{s}, up to {longest_s:.1f} s"},
+    {GyroSaturated, "{count} gyro sample{s} saturated"},
+    {GyroFrozen, "{count} gyro sample{s} frozen"},
+    {SamplesRepeated, "{count} sample{s} repeated"},
     {ConstantRate, "constant rate before T2"},
     {GyroBiasOpen, "gyro bias open by {sigma_deg_s:.2g} deg/s"},
     {GyroBiasOpenBySun,
@@ -88,12 +88,21 @@ std::optional<NamedValue> decimals_of(const Reason& reason) {
   return std::nullopt;
 }
 
+/// `s` and `es` of a pattern: what a word for `count` of a thing ends in.
+std::vector<NamedValue> endings_of(const Reason& reason) {
+  for (const auto& [name, value] : reason.values) {
+    const auto* const count = std::get_if<std::int64_t>(&value);
+    if (name == "count" && count != nullptr && *count != 1) {
+      return {{"s", "s"}, {"es", "es"}};
+    }
+  }
+  return {{"s", ""}, {"es", ""}};
+}
+
 std::string words_of(const Reason& reason) {
   constexpr int kWholeSeconds = 0;
-  if (reason == Reason{Fixes, {{"count", std::int64_t{1}}}}) {
-    return "1 fix";
-  }
-  std::vector<NamedValue> values = reason.values;
+  std::vector<NamedValue> values = endings_of(reason);
+  values.insert(values.end(), reason.values.begin(), reason.values.end());
   if (auto decimals = decimals_of(reason)) {
     values.push_back(*std::move(decimals));
   }

@@ -47,7 +47,7 @@ TEST(Process, SaysWhyThereIsNoAxisWhereNoRowIsOfUse) {
   EXPECT_THAT(log_of(edge + "OTHER\n" + edge + "THIRD\n", 0),
               HasSubstr(says + "0 bad rows, 2 samples of other spacecraft\n"));
   EXPECT_THAT(log_of(edge + "\n", 1),
-              HasSubstr(says + "1 bad rows, 0 samples of other spacecraft\n"));
+              HasSubstr(says + "1 bad row, 0 samples of other spacecraft\n"));
 }
 
 TEST(Process, RefusesBadRowsWhenStrict) {

@@ -26,6 +26,22 @@ TEST(AssessmentWords, BeginWithTheQualityAndGiveTheReasonsInOrder) {
       "AMBIGUOUS, or ra 181.50 dec -53.18 deg");
 }
 
+TEST(AssessmentWords, CountOneOfAThing) {
+  const auto one_of = [](ReasonCode code) { return Reason{code, {{"count", std::int64_t{1}}}}; };
+  EXPECT_EQ(sentence_of({Quality::Doubtful,
+                         {one_of(StarFixes),
+                          one_of(SunVectors),
+                          one_of(StarFixesGated),
+                          {GyroGaps, {{"count", std::int64_t{1}}, {"longest_s", 12.0}}},
+                          one_of(GyroSaturated),
+                          one_of(SamplesRepeated),
+                          one_of(Edges)}}),
+            "DOUBTFUL, 1 star fix, 1 sun vector, 1 star fix gated, 1 gyro gap, up to 12.0 s, 1 "
+            "gyro sample saturated, 1 sample repeated, 1 edge");
+  EXPECT_EQ(sentence_of({Quality::Ok, {{StarFixes, {{"count", std::int64_t{2}}}}}}),
+            "OK, 2 star fixes");
+}
+
 TEST(AssessmentWords, ShowTimesAsUtcAndBiasesWithTheirUnits) {
   EXPECT_EQ(
       sentence_of(
