@@ -3,32 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <random>
 #include <utility>
 
-#include "pipelines/frames/angle.h"
+#include "pipelines/ground_model/chance.h"
 
 namespace spindrift {
 namespace {
-
-/// Numbers that are the same with every standard library, which its distributions are not.
-class Chance {
- public:
-  explicit Chance(std::uint64_t seed) : engine_{seed} {}
-
-  /// [0, 1)
-  double uniform() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
-  /// [-1, 1)
-  double either_way() { return 2.0 * uniform() - 1.0; }
-  /// Standard normal, by Box and Muller.
-  double normal() {
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-    return radius * std::cos(kTurn_rad * uniform());
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 struct Arrival {
   double t_s;
@@ -41,12 +21,6 @@ struct Arrivals {
   std::vector<Arrival> silenced;
 };
 
-bool is_silent(const PulseLink& link, double t_s) {
-  return std::any_of(link.silences.begin(), link.silences.end(), [t_s](const Silence& silence) {
-    return t_s >= silence.from_s && t_s < silence.to_s;
-  });
-}
-
 /// Everything that can befall one edge. Draws as often whatever happens.
 void send(const PulseLink& link, const TrueEdge& edge, Chance& chance, ReceivedPass& pass,
           Arrivals& arrivals) {
@@ -57,7 +31,7 @@ void send(const PulseLink& link, const TrueEdge& edge, Chance& chance, ReceivedP
   const double way = chance.either_way();
   const double again_s = (1.0 - chance.uniform()) * link.doubled_max_s;
   const double noise_s = edge_sigma_s(link.noise, edge.channel) * chance.normal();
-  const bool silent = is_silent(link, edge.t_s);
+  const bool silent = is_silent(link.silences, edge.t_s);
   pass.missing += lost || faults.dead || silent ? 1 : 0;
   if (lost || faults.dead) {
     return;
@@ -81,7 +55,7 @@ void add_spurious(const PulseLink& link, double duration_s, std::int64_t revolut
       const bool comes = chance.uniform() < link.channels.at(channel).spurious;
       const double t_s = chance.uniform() * duration_s;
       if (comes && !link.channels.at(channel).dead) {
-        (is_silent(link, t_s) ? arrivals.silenced : arrivals.received)
+        (is_silent(link.silences, t_s) ? arrivals.silenced : arrivals.received)
             .push_back({.t_s = t_s,
                         .channel = static_cast<PulseChannel>(channel),
                         .damage = Damage::Spurious});

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipelines/ground_model/silence.h"
 #include "pipelines/ground_model/spin_edges.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/pulse.h"
@@ -24,12 +25,6 @@ struct ChannelFaults {
   double doubled = 0.0;
   double spurious = 0.0;
   bool dead = false;  ///< Sends nothing, no spurious edges either.
-};
-
-/// Nothing arrives from `from_s` up to `to_s`.
-struct Silence {
-  double from_s;
-  double to_s;
 };
 
 struct PulseLink {

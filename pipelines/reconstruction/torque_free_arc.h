@@ -8,15 +8,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <optional>
 
-namespace spindrift {
+#include "pipelines/frames/body_state.h"
 
-struct BodyState {
-  Eigen::Quaterniond q_icrf_body;
-  Eigen::Vector3d rate_body_rad_s;
-};
+namespace spindrift {
 
 /// Rows: small rotation about body axes, rate. Columns: the same at the start, then parts of the
 /// principal moments of inertia, in rising order, then an even angular acceleration, body axes.

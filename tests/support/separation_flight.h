@@ -1,6 +1,6 @@
 /// @file
-/// A rigid body from separation to the star fixes, and what its sensors say. By rotation matrices
-/// and momentum, stepped twenty times a second: no formula of the code under test.
+/// Separations that the ground model flies, with any attitude and rate at the start: what is
+/// reconstructed from, and the truth. No formula of the reconstruction is in them.
 
 #pragma once
 
@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipelines/ephemeris/orbit.h"
 #include "pipelines/reconstruction/request.h"
 #include "pipelines/three_axis/config.h"
 #include "pipelines/three_axis/samples.h"
@@ -36,6 +37,7 @@ struct SeparationFlight {
   std::vector<SunDirection> sun;
   std::vector<StarFix> stars;
   Eigen::Vector3d bias_rad_s;
+  Orbit orbit;  ///< Along the terminator: the Earth never hides the Sun.
   /// At T1 to T4.
   std::vector<Eigen::Matrix3d> R_icrf_body;
 
@@ -45,6 +47,7 @@ struct SeparationFlight {
             .gyro = gyro,
             .sun_directions = sun,
             .star_fixes = stars,
+            .orbit = orbit,
             .disturbance_rad_s2 = 0.0};
   }
   /// Small rotation about body axes from what was found to the truth.

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "pipelines/ground_model/three_axis_reading.h"
+
 namespace spindrift::testing {
 namespace {
 
@@ -87,26 +89,20 @@ Sensors::Sensors(const TurningBody& body, const ThreeAxisConfig& config, std::mt
 
 GyroSample Sensors::gyro(double t_s) {
   return {.t = at_s(t_s),
-          .rate_body_rad_s =
-              body_.rate_rad_s(t_s) + bias_rad_s_ + normal_vector(rng_, config_.gyro->noise_rad_s)};
+          .rate_body_rad_s = gyro_reading(
+              body_.rate_rad_s(t_s), bias_rad_s_ + normal_vector(rng_, config_.gyro->noise_rad_s),
+              std::nullopt)};
 }
 
 StarFix Sensors::star(double t_s) {
-  const Eigen::Vector3d off_rad = normal_vector(rng_, config_.star_tracker->noise_rad);
-  const Eigen::Quaterniond off{Eigen::AngleAxisd{off_rad.norm(), off_rad.stableNormalized()}};
   return {.t = at_s(t_s),
-          .q_icrf_sensor = body_.q_icrf_body(t_s) * config_.star_tracker->q_body_sensor * off};
+          .q_icrf_sensor = star_reading(body_.q_icrf_body(t_s), config_.star_tracker->q_body_sensor,
+                                        normal_vector(rng_, config_.star_tracker->noise_rad))};
 }
 
 Eigen::Vector3d Sensors::direction(double t_s, const Eigen::Vector3d& ref_icrf, double sigma_rad) {
-  const Eigen::Vector3d true_body =
-      body_.q_icrf_body(t_s).toRotationMatrix().transpose() * ref_icrf;
-  const Eigen::Vector3d first = true_body.unitOrthogonal();
-  const Eigen::Vector3d off_rad = normal_vector(rng_, sigma_rad);
-  return (true_body + std::tan(std::hypot(off_rad.x(), off_rad.y())) *
-                          (off_rad.x() * first + off_rad.y() * true_body.cross(first)) /
-                          std::hypot(off_rad.x(), off_rad.y()))
-      .normalized();
+  return direction_reading(body_.q_icrf_body(t_s).conjugate() * ref_icrf,
+                           normal_vector(rng_, sigma_rad).head<2>());
 }
 
 Eigen::Vector3d error_rad(const Eigen::Quaterniond& estimate, const Eigen::Quaterniond& truth) {

@@ -1,6 +1,7 @@
 /// @file
-/// A body that turns smoothly, and what its sensors measure: independent of the code under test.
-/// The attitude is integrated by steps of five milliseconds.
+/// A body that turns smoothly at rates that somebody gives, and what the sensors of the ground
+/// model read of it: independent of the code under test. The attitude is integrated by steps of
+/// five milliseconds.
 
 #pragma once
 

@@ -1,0 +1,16 @@
+/// @file
+/// How a body stands and turns at an instant.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace spindrift {
+
+struct BodyState {
+  Eigen::Quaterniond q_icrf_body;
+  Eigen::Vector3d rate_body_rad_s;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,78 @@
+/// @file
+/// What gyro, sun sensor and star tracker send down of a body's motion, and what does not arrive.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/orbit.h"
+#include "pipelines/ground_model/body_motion.h"
+#include "pipelines/ground_model/chance.h"
+#include "pipelines/ground_model/silence.h"
+#include "pipelines/three_axis/samples.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// A sample at `from_s` behind the start, and one every step on to the end.
+struct Sampling {
+  double from_s;
+  double step_s;
+};
+
+/// Noise is one standard deviation about each axis.
+struct TrueGyro {
+  Sampling sampling;
+  double noise_rad_s;
+  Eigen::Vector3d bias_rad_s;
+  std::optional<double> range_rad_s;  ///< It stops there; empty: nowhere.
+};
+
+/// Sees the Sun unless the Earth hides it.
+struct TrueSunSensor {
+  Sampling sampling;
+  double noise_rad;
+  double half_cone_rad;  ///< Of its field of view about -Z.
+};
+
+struct TrueStarTracker {
+  Sampling sampling;
+  double noise_rad;
+  Eigen::Quaterniond q_body_sensor;
+};
+
+struct ThreeAxisSensors {
+  TrueGyro gyro;
+  TrueSunSensor sun_sensor;
+  TrueStarTracker star_tracker;
+};
+
+struct ThreeAxisFaults {
+  double lost = 0.0;             ///< Probability that a sample does not arrive.
+  double sun_outlier = 0.0;      ///< Probability that a sun vector is off,
+  double sun_outlier_rad = 0.0;  ///< by so much, any way.
+  std::vector<Silence> silences = {};
+  std::vector<Silence> gyro_gaps = {};
+};
+
+struct ThreeAxisTelemetry {
+  std::vector<GyroSample> gyro;
+  std::vector<SunDirection> sun;
+  std::vector<StarFix> stars;
+  std::vector<TaiTime> sun_outliers;  ///< Of `sun`.
+  std::int64_t missing = 0;           ///< Measured, and did not arrive.
+};
+
+/// Draws as often whatever happens to a sample.
+/// @param orbit To the end of the motion. @return NoCoverage where it does not reach.
+Expected<ThreeAxisTelemetry> three_axis_telemetry(const BodyMotion& motion, TaiTime start,
+                                                  const ThreeAxisSensors& sensors,
+                                                  const ThreeAxisFaults& faults, const Orbit& orbit,
+                                                  Chance& chance);
+
+}  // namespace spindrift

@@ -1,0 +1,89 @@
+#include "pipelines/ground_model/separation_motion.h"
+
+#include <gtest/gtest.h>
+
+#include "pipelines/ephemeris/sun.h"
+#include "pipelines/frames/angle.h"
+#include "pipelines/frames/celestial.h"
+#include "pipelines/frames/rotation_vector.h"
+#include "pipelines/reconstruction/torque_free_arc.h"
+
+namespace spindrift::separation_motion_test {
+
+using Eigen::Vector3d;
+
+constexpr TaiTime kSeparation = tai_from_ns(1'772'337'637'000'000'000);
+
+const Orbit kOrbit{KeplerOrbit::make({.epoch = kSeparation,
+                                      .semi_major_axis_km = 7028.137,
+                                      .eccentricity = 0.001,
+                                      .inclination_rad = 97.9 * kRadPerDeg,
+                                      .raan_rad = 10.0 * kRadPerDeg,
+                                      .argument_of_perigee_rad = 0.0,
+                                      .mean_anomaly_rad = 0.0})
+                       .value()};
+
+/// Of seed 000, which damps from these rates.
+SeparationTruth truth_at(const SeparationPhases& phases) {
+  return {.separation = kSeparation,
+          .at_separation = {.q_icrf_body = quaternion_by({2.0, -1.0, 0.5}),
+                            .rate_body_rad_s = kRadPerDeg * Vector3d{0.618844, -0.33139, 0.065912}},
+          .inertia_kg_m2 = Vector3d{120.0, 100.0, 140.0}.asDiagonal(),
+          .control = {.torque_nm = 0.07,
+                      .dead_band_rad_s = 0.03 * kRadPerDeg,
+                      .slew_rad_s = 0.5 * kRadPerDeg},
+          .phases = phases};
+}
+
+double fastest_deg_s(const BodyState& state) {
+  return degrees(state.rate_body_rad_s.cwiseAbs().maxCoeff());
+}
+
+double sun_off_deg(const BodyMotion& motion, double t_s) {
+  const TaiTime t = shifted(kSeparation, t_s);
+  return degrees(angle_between_rad(motion.at(t_s).q_icrf_body * -Vector3d::UnitZ(),
+                                   ApparentSun{}.direction_icrf(t, kOrbit.at(t).value())));
+}
+
+TEST(SeparationMotion, DriftsWithoutTorqueUntilControlIsOn) {
+  const SeparationTruth truth =
+      truth_at({.control_on_s = 60.0, .acquisition_s = 100.0, .end_s = 60.0});
+  const BodyMotion motion = separation_motion(truth, kOrbit).value();
+  const BodyState expected =
+      torque_free_arc(start_of_arc(truth.at_separation), truth.inertia_kg_m2, 60.0).body;
+  EXPECT_LT(angle_between_rad(motion.last().q_icrf_body, expected.q_icrf_body), 1e-9);
+  EXPECT_LT((motion.last().rate_body_rad_s - expected.rate_body_rad_s).norm(), 1e-11);
+}
+
+TEST(SeparationMotion, RelaysDampTheFlightsRatesIn18Seconds) {
+  const BodyMotion motion =
+      separation_motion(truth_at({.control_on_s = 0.0, .acquisition_s = 40.0, .end_s = 40.0}),
+                        kOrbit)
+          .value();
+  EXPECT_GT(fastest_deg_s(motion.at(17.0)), 0.03);
+  EXPECT_LT(fastest_deg_s(motion.at(18.5)), 0.03);
+  EXPECT_LT(fastest_deg_s(motion.at(40.0)), 0.03);
+}
+
+TEST(SeparationMotion, TurnsToTheSunFromAnywhereAndStays) {
+  for (int i = 0; i < 12; ++i) {
+    SeparationTruth truth = truth_at({.control_on_s = 0.0, .acquisition_s = 18.0, .end_s = 700.0});
+    truth.at_separation.q_icrf_body = quaternion_by(0.5 * i * Vector3d{0.8, -0.3, 0.52});
+    const BodyMotion motion = separation_motion(truth, kOrbit).value();
+    EXPECT_LT(sun_off_deg(motion, 600.0), 0.2) << i;
+    EXPECT_LT(sun_off_deg(motion, 700.0), 0.2) << i;
+    EXPECT_LT(fastest_deg_s(motion.at(700.0)), 0.01) << i;
+  }
+}
+
+TEST(SeparationMotion, TurnsNoFasterThanItMay) {
+  const BodyMotion motion =
+      separation_motion(truth_at({.control_on_s = 0.0, .acquisition_s = 20.0, .end_s = 300.0}),
+                        kOrbit)
+          .value();
+  for (double t_s = 20.0; t_s < 300.0; ++t_s) {
+    EXPECT_LT(degrees(motion.at(t_s).rate_body_rad_s.norm()), 0.52);
+  }
+}
+
+}  // namespace spindrift::separation_motion_test
