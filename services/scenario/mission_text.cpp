@@ -4,6 +4,7 @@
 
 #include <sstream>
 #include <string_view>
+#include <vector>
 
 namespace spindrift {
 namespace {
@@ -12,6 +13,13 @@ namespace {
 std::string value_text(const toml::node& value) {
   if (const auto number = value.value_exact<double>()) {
     return fmt::format("{}", *number);
+  }
+  if (const toml::array* const array = value.as_array()) {
+    std::vector<std::string> elements;
+    for (const toml::node& element : *array) {
+      elements.push_back(value_text(element));
+    }
+    return fmt::format("[{}]", fmt::join(elements, ", "));
   }
   std::ostringstream text;
   value.visit([&](const auto& node) { text << node; });
@@ -41,7 +49,11 @@ std::string mission_text(const toml::table& scenario) {
   std::string text = "# Written by spindrift simulate for the pass beside it.\n";
   append_table(*scenario.get_as<toml::table>("spacecraft"), "spacecraft", text);
   text += "\n[orbit]\noem = \"orbit.oem\"\n";
-  append_table(*scenario.get_as<toml::table>("spin"), "spin", text);
+  for (const char* const sensors : {"spin", "three_axis"}) {
+    if (const toml::table* const table = scenario.get_as<toml::table>(sensors)) {
+      append_table(*table, sensors, text);
+    }
+  }
   return text;
 }
 

@@ -13,8 +13,6 @@
 #include "pipelines/core/shown.h"
 #include "pipelines/ephemeris/oem_writer.h"
 #include "services/scenario/output_file.h"
-#include "services/scenario/simulated_telemetry.h"
-#include "services/scenario/truth_text.h"
 #include "services/telemetry_files/telemetry_layout.h"
 #include "services/telemetry_files/telemetry_row.h"
 
@@ -29,7 +27,7 @@ Expected<std::string> orbit_text(const Scenario& scenario) {
   if (scenario.oem_text) {
     return *scenario.oem_text;
   }
-  const TaiTime start = scenario.truth.start;
+  const TaiTime start = scenario.start;
   return sampled_orbit(scenario.orbit, start - kOrbitMargin,
                        shifted(start, scenario.duration_s) + kOrbitMargin, kOrbitStep)
       .map([&](const std::vector<EphemerisPoint>& points) {
@@ -94,29 +92,27 @@ Expected<std::vector<std::filesystem::path>> write_pass(const std::filesystem::p
                                                         const Scenario& scenario,
                                                         const SimulatedPass& pass) {
   const auto orbit = orbit_text(scenario);
-  const auto truth = truth_text(scenario, pass);
-  if (!orbit || !truth) {
-    return Unexpected{orbit ? truth.error() : orbit.error()};
+  if (!orbit) {
+    return Unexpected{orbit.error()};
   }
-  const std::vector<TelemetryKind> kinds = kinds_of(scenario.telemetry);
   std::vector<std::filesystem::path> paths;
-  for (const TelemetryKind& kind : kinds) {
+  for (const TelemetryKind& kind : pass.kinds) {
     paths.push_back(path_in(folder, kind));
   }
-  const TelemetryValues values = telemetry_of(scenario, pass);
+  const std::string truth = pass.truth.dump(1) + '\n';
   auto written = prepare(folder, paths);
-  for (const TelemetryKind& kind : kinds) {
+  for (const TelemetryKind& kind : pass.kinds) {
     written = written.and_then([&] {
       return std::visit(
           [&]<class Value>(Kind<Value>) {
-            return write_rows(path_in(folder, kind), values.of<Value>());
+            return write_rows(path_in(folder, kind), pass.telemetry.of<Value>());
           },
           kind);
     });
   }
   for (const auto& [name, text] : {std::pair{"orbit.oem", &*orbit},
-                                   {"truth.json", &*truth},
-                                   {"mission.toml", &scenario.mission_toml}}) {
+                                   {"truth.json", &truth},
+                                   {"mission.toml", &pass.mission_toml}}) {
     paths.push_back(folder / name);
     written = written.and_then([&, whole = text] { return write_file(paths.back(), *whole); });
   }

@@ -12,7 +12,7 @@
 
 namespace spindrift {
 
-/// Writes a file of each kind of telemetry (pulses.csv, coded.csv), orbit.oem, mission.toml and
+/// Writes a file of each kind of telemetry (pulses.csv, gyro.csv, ...), orbit.oem, mission.toml and
 /// truth.json into `folder`, which is made where there is none. Files of these names are replaced.
 /// @return What was written. InvalidConfiguration, before anything is written, for a folder that
 ///         holds another *.csv, since a folder given as telemetry means all of them; Unavailable

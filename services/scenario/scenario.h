@@ -7,33 +7,29 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
-#include "pipelines/ground_model/pulse_link.h"
-#include "pipelines/ground_model/spin_edges.h"
+#include "pipelines/time/tai_time.h"
+#include "services/scenario/separation_scenario.h"
+#include "services/scenario/spin_scenario.h"
 
 namespace spindrift {
-
-struct SimulatedTelemetry {
-  bool pulses;
-  bool coded;
-  double coded_resolution_s;
-};
 
 struct Scenario {
   std::string spacecraft_id;
   Orbit orbit;
   std::optional<std::string> oem_text;  ///< Of the orbit's file, where it is from one.
+  TaiTime start;
   double duration_s;
-  SpinTruth truth;
-  PulseLink link;
-  SimulatedTelemetry telemetry;
-  std::string mission_toml;  ///< The mission file that goes with it; its orbit is orbit.oem.
+  std::variant<SpinScenario, SeparationScenario> flight;  ///< In the order of SpacecraftKind.
+  /// The mission file that goes with it, but for what a separation tells; its orbit is orbit.oem.
+  std::string mission_toml;
 };
 
 /// Reads a scenario, and the orbit file that it names, by the rules of schemas/scenario.schema.toml
-/// and schemas/mission.schema.toml.
+/// or schemas/separation.schema.toml, and schemas/mission.schema.toml.
 /// @return InvalidConfiguration with every problem, one a line:
 ///         "FILE:LINE: KEY = VALUE: what is allowed"; the line where one is to blame.
 Expected<Scenario> load_scenario(const std::filesystem::path& path);

@@ -4,23 +4,33 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "pipelines/core/expected.h"
-#include "pipelines/ground_model/pulse_link.h"
 #include "services/scenario/scenario.h"
+#include "services/telemetry/by_kind.h"
 
 namespace spindrift {
 
+struct Counted {
+  std::string_view plural;  ///< "edges"
+  std::int64_t count;
+};
+
 struct SimulatedPass {
-  ReceivedPass received;
-  std::int64_t revolutions;
+  std::vector<TelemetryKind> kinds;  ///< That the scenario asks for.
+  TelemetryValues telemetry;         ///< Of these; their arrival is their place in order of time.
+  std::string mission_toml;
+  nlohmann::ordered_json truth;
+  std::vector<Counted> made;
+  std::vector<Counted> faults;
 };
 
 /// Shows its progress on a terminal.
 /// @return InvalidConfiguration where the scenario's orbit does not allow it.
 Expected<SimulatedPass> simulated_pass(const Scenario& scenario);
-
-/// Received edges with that damage.
-std::int64_t count_of(Damage damage, const SimulatedPass& pass);
 
 }  // namespace spindrift

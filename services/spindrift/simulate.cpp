@@ -10,37 +10,37 @@
 #include "services/scenario/pass_files.h"
 #include "services/scenario/scenario.h"
 #include "services/scenario/simulated_pass.h"
-#include "services/scenario/simulated_telemetry.h"
 #include "services/spindrift/telemetry_output.h"
+#include "services/words/counted.h"
+#include "services/words/json_key.h"
 #include "services/words/json_line.h"
 
 namespace spindrift {
 namespace {
 
-nlohmann::json faults_json(const SimulatedPass& pass) {
-  nlohmann::json faults = {{"missing", pass.received.missing}};
-  for (const Damage damage :
-       {Damage::Spoilt, Damage::Spurious, Damage::Doubled, Damage::Interference}) {
-    faults[std::string{name_of(damage)}] = count_of(damage, pass);
+nlohmann::json counts_json(const std::vector<Counted>& counts) {
+  nlohmann::json object = nlohmann::json::object();
+  for (const auto& [plural, count] : counts) {
+    object[json_key(plural)] = count;
   }
-  return faults;
+  return object;
 }
 
 void report(const Scenario& scenario, const SimulatedPass& pass, nlohmann::json outcome,
             const std::string& outcome_text, bool json) {
-  const nlohmann::json faults = faults_json(pass);
   if (json) {
-    outcome.update({{"spacecraft", scenario.spacecraft_id},
-                    {"revolutions", pass.revolutions},
-                    {"edges", pass.received.pulses.size()},
-                    {"faults", faults}});
+    outcome.update(counts_json(pass.made));
+    outcome.update({{"spacecraft", scenario.spacecraft_id}, {"faults", counts_json(pass.faults)}});
     fmt::print("{}", json_line(outcome));
     return;
   }
-  fmt::print("{}: {} revolutions, {} edges\n", scenario.spacecraft_id, pass.revolutions,
-             pass.received.pulses.size());
-  for (const auto& [name, count] : faults.items()) {
-    fmt::print("  {}: {}\n", name, count.get<std::int64_t>());
+  std::vector<std::string> made;
+  for (const auto& [plural, count] : pass.made) {
+    made.push_back(counted(count, plural));
+  }
+  fmt::print("{}: {}\n", scenario.spacecraft_id, fmt::join(made, ", "));
+  for (const auto& [plural, count] : pass.faults) {
+    fmt::print("  {}: {}\n", plural, count);
   }
   fmt::print("{}", outcome_text);
 }
@@ -75,13 +75,12 @@ Expected<void> publish(const Scenario& scenario, const TelemetryValues& values,
 
 Expected<void> to_bus(const SimulateOptions& options, const Scenario& scenario,
                       const SimulatedPass& pass) {
-  const TelemetryValues values = telemetry_of(scenario, pass);
-  const auto sent =
-      send_telemetry({.bus = {.domain = options.domain, .partition = options.partition},
-                      .source = "simulate",
-                      .speed = options.speed,
-                      .kinds = kinds_of(scenario.telemetry)},
-                     [&](TelemetryOutput& output) { return publish(scenario, values, output); });
+  const auto sent = send_telemetry(
+      {.bus = {.domain = options.domain, .partition = options.partition},
+       .source = "simulate",
+       .speed = options.speed,
+       .kinds = pass.kinds},
+      [&](TelemetryOutput& output) { return publish(scenario, pass.telemetry, output); });
   if (!sent) {
     return Unexpected{sent.error()};
   }

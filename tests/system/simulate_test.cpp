@@ -11,6 +11,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "pipelines/frames/rotation_vector.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
 #include "tests/support/program.h"
@@ -24,6 +25,7 @@ using ::testing::StartsWith;
 const std::filesystem::path kScenarios = scenarios();
 const std::string kNominal = (kScenarios / "gto-nominal.toml").string();
 const std::string kDirty = (kScenarios / "gto-dirty.toml").string();
+const std::string kSeparation = (kScenarios / "separation.toml").string();
 const std::string kLastMean =
     " FROM spin_estimate WHERE estimator = 'mean' ORDER BY t_tai_ns DESC LIMIT 1";
 
@@ -201,6 +203,53 @@ TEST(Simulate, RefusesABadCommandLine) {
     Program program{bad};
     EXPECT_EQ(program.exit_status(), 2);
     EXPECT_THAT(program.log(), HasSubstr("--help"));
+  }
+}
+
+TEST(Simulate, MakesASeparationThatIsReconstructed) {
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "pass";
+  const auto summary = simulated(kSeparation, out);
+  EXPECT_EQ(summary["files"].size(), 6U);
+  EXPECT_EQ(summary["gyro_samples"], lines_of(out / "gyro.csv").size() - 1);
+  EXPECT_EQ(summary["star_fixes"], lines_of(out / "star.csv").size() - 1);
+
+  Program reconstruct{{"reconstruct", "--mission", (out / "mission.toml").string(), "--telemetry",
+                       out.string(), "--db", (folder.path() / "out.db").string(), "--json"}};
+  ASSERT_EQ(reconstruct.exit_status(), 0) << reconstruct.log();
+  const auto batch = nlohmann::json::parse(reconstruct.out())["batch"];
+  EXPECT_TRUE(batch["launcher"]["inside"]);
+  const auto truth = nlohmann::json::parse(text_of(out / "truth.json"));
+  for (const auto& event : batch["events"]) {
+    const auto q = truth[event["event"].get<std::string>()]["q_icrf_body_xyzw"];
+    const double off_rad =
+        angle_between_rad(Eigen::Quaterniond{event["qw"], event["qx"], event["qy"], event["qz"]},
+                          Eigen::Quaterniond{q[3], q[0], q[1], q[2]});
+    EXPECT_LT(degrees(off_rad), 3.0 * event["sigma_deg"].get<double>()) << event["event"];
+  }
+}
+
+TEST(Simulate, PublishesTheSamplesOfASeparation) {
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "pass";
+  const auto summary = simulated(kSeparation, out);
+  const auto bus = bus_of_its_own();
+  const auto db = folder.path() / "served.db";
+  const std::string domain = std::to_string(bus.domain);
+  Program service{{"serve", "--mission", (out / "mission.toml").string(), "--db", db.string(),
+                   "--domain", domain, "--partition", bus.partition}};
+  ASSERT_TRUE(service.says("ready")) << service.log();
+  Program publishing{{"simulate", kSeparation, "--publish", "--speed", "0", "--domain", domain,
+                      "--partition", bus.partition, "--json"}};
+  ASSERT_EQ(publishing.exit_status(), 0) << publishing.log();
+  service.signal(SIGTERM);
+  ASSERT_EQ(service.exit_status(), 0) << service.log();
+  for (const auto& [table, counted] :
+       {std::pair{"gyro_sample", "gyro_samples"}, std::pair{"sun_sample", "sun_vectors"},
+        std::pair{"star_sample", "star_fixes"}}) {
+    EXPECT_EQ(number_of(db, std::string{"SELECT count(*) FROM "} + table),
+              summary[counted].get<std::int64_t>())
+        << table;
   }
 }
 

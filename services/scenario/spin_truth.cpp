@@ -1,8 +1,7 @@
-#include "services/scenario/truth_text.h"
+#include "services/scenario/spin_truth.h"
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/celestial.h"
@@ -11,9 +10,9 @@
 namespace spindrift {
 namespace {
 
-nlohmann::json bad_edges(const SimulatedPass& pass) {
+nlohmann::json bad_edges(const ReceivedPass& pass) {
   nlohmann::json edges = nlohmann::json::array();
-  for (const auto& [pulse, damage] : pass.received.pulses) {
+  for (const auto& [pulse, damage] : pass.pulses) {
     if (damage) {
       edges.push_back({tai_ns(pulse.t), name_of(pulse.channel), name_of(*damage)});
     }
@@ -37,12 +36,18 @@ nlohmann::ordered_json coning(const Coning& coning) {
 
 }  // namespace
 
-Expected<std::string> truth_text(const Scenario& scenario, const SimulatedPass& pass) {
-  const SpinTruth& truth = scenario.truth;
-  const auto state = scenario.orbit.at(truth.start);
+std::int64_t count_of(Damage damage, const ReceivedPass& pass) {
+  return std::count_if(pass.pulses.begin(), pass.pulses.end(),
+                       [damage](const ReceivedPulse& pulse) { return pulse.damage == damage; });
+}
+
+Expected<nlohmann::ordered_json> spin_truth(const SpinTruth& truth, const Orbit& orbit,
+                                            const ReceivedSpin& spin) {
+  const auto state = orbit.at(truth.start);
   if (!state) {
-    return Unexpected{{ErrorCode::InvalidConfiguration, state.error().message}};
+    return Unexpected{state.error()};
   }
+  const ReceivedPass& pass = spin.pass;
   const Eigen::Vector3d& axis = truth.motion.axis_icrf;
   const Eigen::Vector3d& position = state->position_icrf_km;
   const Eigen::Vector3d sun = ApparentSun{}.direction_icrf(truth.start, *state);
@@ -52,8 +57,8 @@ Expected<std::string> truth_text(const Scenario& scenario, const SimulatedPass& 
       {"dec_deg", dec_deg},
       {"rpm", truth.motion.rate_rad_s * kRpmPerRad_s},
       {"wdot", truth.motion.rate_drift_rad_s2},
-      {"revolutions", pass.revolutions},
-      {"missing", pass.received.missing},
+      {"revolutions", spin.revolutions},
+      {"missing", pass.missing},
       {"spoilt", count_of(Damage::Spoilt, pass)},
       {"spurious", count_of(Damage::Spurious, pass)},
       {"doubled", count_of(Damage::Doubled, pass)},
@@ -68,7 +73,7 @@ Expected<std::string> truth_text(const Scenario& scenario, const SimulatedPass& 
   if (truth.motion.coning.tilt_rad > 0.0) {
     json["coning"] = coning(truth.motion.coning);
   }
-  return json.dump(1) + '\n';
+  return json;
 }
 
 }  // namespace spindrift

@@ -1,0 +1,19 @@
+/// @file
+/// The scenario of a separation from the launcher.
+
+#pragma once
+
+#include "pipelines/ground_model/flown_separation.h"
+#include "pipelines/time/tai_time.h"
+#include "services/toml_schema/document.h"
+#include "services/toml_schema/scalar.h"
+
+namespace spindrift {
+
+/// Adds the problems that the schema cannot see.
+void check_separation_scenario(TomlDocument& document);
+
+/// @param values In which no problem was found. @param start Of separation.
+SeparationScenario separation_scenario(const TomlValues& values, TaiTime start);
+
+}  // namespace spindrift

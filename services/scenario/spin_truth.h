@@ -1,0 +1,33 @@
+/// @file
+/// The truth about a simulated pass of a spinner, for those who judge what was made of it.
+
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/orbit.h"
+#include "pipelines/ground_model/pulse_link.h"
+#include "pipelines/ground_model/spin_edges.h"
+
+namespace spindrift {
+
+struct ReceivedSpin {
+  ReceivedPass pass;
+  std::int64_t revolutions;
+};
+
+/// Received edges with that damage.
+std::int64_t count_of(Damage damage, const ReceivedPass& pass);
+
+/// Axis (ra_deg, dec_deg), rpm at the start and its drift wdot (rad/s^2), number of revolutions;
+/// how many edges are missing, spoilt, spurious, doubled or hit by interference; bad_edges as
+/// [t_tai_ns, channel, what is wrong]; sun_angle_deg, earth_angle_deg and rho_deg (of the spherical
+/// Earth) at the start; where there is any, nutation (half_angle_deg, inertia_ratio, period_s at
+/// the start, phase_deg) and coning (tilt_deg, azimuth_deg).
+/// @return NoCoverage where the orbit has no state at the start.
+Expected<nlohmann::ordered_json> spin_truth(const SpinTruth& truth, const Orbit& orbit,
+                                            const ReceivedSpin& spin);
+
+}  // namespace spindrift
