@@ -68,17 +68,41 @@ Curve angle_curve(const History& history, int angle, std::string name, std::stri
   return curve;
 }
 
-/// At the time of each of `history` that of `other` nearest behind it, or its last.
+/// As far as the curves go with their bands.
+plot::ValueAxis angle_axis(std::string title, const std::vector<Curve>& curves) {
+  double low = 180.0;
+  double high = -180.0;
+  for (const Curve& curve : curves) {
+    for (std::size_t i = 0; i < curve.values.size(); ++i) {
+      if (const auto& deg = curve.values[i]) {
+        low = std::min(low, *deg - curve.half_widths[i]);
+        high = std::max(high, *deg + curve.half_widths[i]);
+      }
+    }
+  }
+  constexpr int kMostTicks = 9;
+  // Above there is room for the names of the marks.
+  const double tenth = 0.1 * std::max(1.0, high - low);
+  low = std::max(-180.0, low - 0.5 * tenth);
+  high += tenth;
+  return {.title = std::move(title),
+          .is_logarithmic = false,
+          .low = low,
+          .high = high,
+          .ticks = plot::linear_ticks(low, std::min(180.0, high), kMostTicks)};
+}
+
+/// At the time of each of `history` that of `other` nearest behind it; a gap behind its last.
 template <class Value>
 Curve curve_beside(const History& history, const History& other, std::string name,
                    std::string_view colour, const Value& value) {
   Curve curve{.name = std::move(name), .colour = colour, .values = {}};
   auto beside = other.begin();
   for (const ReconstructedAttitude& attitude : history) {
-    while (beside + 1 != other.end() && beside->t < attitude.t) {
+    while (beside != other.end() && beside->t < attitude.t) {
       ++beside;
     }
-    const double deg = value(attitude, *beside) * kDegPerRad;
+    const double deg = beside != other.end() ? value(attitude, *beside) * kDegPerRad : 0.0;
     curve.values.push_back(deg > 0.0 ? std::optional{deg} : std::nullopt);
   }
   return curve;
@@ -111,12 +135,14 @@ void add_errors(TimePage& page, const SeparationReport& report) {
                      fmt::format("{}, 1 sigma", name_of(product->solution.method)),
                      curves.empty() ? kFirst : kSecond,
                      [](const auto& /*first*/, const auto& one) { return one.sigma_rad(); }));
+    curves.back().dashes = curves.size() > 1 ? "8 4" : "";  // Where they coincide both are seen.
   }
   // How far they are apart where they meet does not set the scale.
   const plot::ValueAxis axis =
       decades_of("Uncertainty of the attitude, all three axes together, deg", curves);
   if (report.methods.size() > 1) {
-    curves.push_back(curve_beside(first, report.methods.back()->solution.history, "apart by", kGrey,
+    curves.push_back(curve_beside(first, report.methods.back()->solution.history,
+                                  "the two apart by", kGrey,
                                   [](const auto& one, const auto& other) {
                                     return angle_between_rad(one.q_icrf_body, other.q_icrf_body);
                                   }));
@@ -149,15 +175,15 @@ std::string plot_of(const SeparationReport& report) {
                 fmt::format("{}: {}; T1 separation, T2 control on, T3 sun acquisition, T4 star fix",
                             name_of(solution.method), name_of(solution.assessment.quality)),
                 std::move(times), marks_of(solution)};
+  const std::vector<Curve> angles = {angle_curve(history, 0, "phi", kPhi),
+                                     angle_curve(history, 1, "theta", kTheta),
+                                     angle_curve(history, 2, "psi", kPsi)};
   page.panel(300.0,
-             {.title = fmt::format("ICRF to body, Euler 3-1-2, deg; band: 1 sigma of {}",
-                                   name_of(solution.method)),
-              .is_logarithmic = false,
-              .low = -180.0,
-              .high = 180.0,
-              .ticks = {-180.0, -135.0, -90.0, -45.0, 0.0, 45.0, 90.0, 135.0, 180.0}},
-             {angle_curve(history, 0, "phi", kPhi), angle_curve(history, 1, "theta", kTheta),
-              angle_curve(history, 2, "psi", kPsi)});
+             angle_axis(fmt::format("ICRF to body, Euler 3-1-2, deg; band, where it is wider than "
+                                    "the line: 1 sigma of {}",
+                                    name_of(solution.method)),
+                        angles),
+             angles);
   add_errors(page, report);
   return page.document({});
 }
