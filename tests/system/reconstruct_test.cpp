@@ -105,6 +105,21 @@ TEST(Reconstruct, TakesTheMissionOfTheNewestRunWhereNoneIsGiven) {
   EXPECT_TRUE(answer.object["sequential"].is_null());
 }
 
+/// 59 minutes, 72 deg of turn, no orbit.
+TEST(Reconstruct, OfTheRatesThatDawnFlewIsWhereItWas) {
+  const TemporaryFolder folder;
+  const auto pass = pass_of("dawn-2015");
+  const Answer answer = from_files(pass, folder.path() / "out.db");
+  ASSERT_EQ(answer.status, 0) << answer.log;
+  for (const char* const method : {"batch", "sequential"}) {
+    const auto& separation = answer.object[method]["events"][0];
+    const double error_deg = off_deg(answer.object[method], pass, 0);
+    EXPECT_LT(error_deg, 0.05) << method;
+    EXPECT_LT(error_deg, 3.0 * separation["sigma_deg"].get<double>()) << method;
+    EXPECT_TRUE(separation["euler312_orbit_deg"].is_null()) << method;
+  }
+}
+
 TEST(Reconstruct, AnOrbitFileThatIsNotBesideTheArchiveIsAskedFor) {
   const TemporaryFolder folder;
   const Outcome processed = process(folder, pass_of("separation"));
