@@ -23,8 +23,6 @@ using enum SeparationEvent;
 // So many usual steps may lie between the gyro samples and T2, T4 or a star fix: the next sample
 // was on its way.
 constexpr double kHeldSteps = 2.0;
-// Torque-free longer than this nobody believes.
-constexpr double kLongestArc_s = 24.0 * kHour_s;
 
 Unexpected refused(ErrorCode code, std::string message) {
   return Unexpected{{code, std::move(message)}};
@@ -46,62 +44,8 @@ struct Samples {
   std::vector<GyroSample> gyro;
   std::vector<SunDirection> sun;
   std::vector<StarFix> stars;
-  double held_s;  ///< As kHeldSteps.
+  double held_s;
 };
-
-template <class Sample>
-std::optional<TaiTime> first_behind(const std::vector<Sample>& samples, TaiTime t) {
-  const auto found = std::find_if(samples.begin(), samples.end(),
-                                  [t](const Sample& sample) { return sample.t >= t; });
-  return found == samples.end() ? std::nullopt : std::optional{found->t};
-}
-
-Error nothing_anchored(TaiTime t) {
-  return {ErrorCode::Unobservable,
-          fmt::format("no star fix lies behind {}: nothing can be anchored; samples up to one that "
-                      "does are needed",
-                      format_utc(t))};
-}
-
-Expected<std::vector<EventTime>> event_times(const SeparationTimes& times, const Samples& samples) {
-  std::vector<EventTime> events{{Separation, times.separation, false}};
-  const TaiTime control_on = times.control_on.value_or(
-      first_behind(samples.gyro, times.separation).value_or(samples.gyro.front().t));
-  events.push_back({ControlOn, control_on, !times.control_on});
-  TaiTime latest = control_on;
-  if (const auto acquisition =
-          times.acquisition ? times.acquisition : first_behind(samples.sun, control_on)) {
-    events.push_back({Acquisition, *acquisition, !times.acquisition});
-    latest = *acquisition;
-  }
-  const auto star =
-      times.first_star_fix ? times.first_star_fix : first_behind(samples.stars, latest);
-  if (!star) {
-    return Unexpected{nothing_anchored(latest)};
-  }
-  events.push_back({FirstStarFix, *star, !times.first_star_fix});
-  return events;
-}
-
-std::optional<Error> out_of_order(const std::vector<EventTime>& events) {
-  for (std::size_t i = 1; i < events.size(); ++i) {
-    const EventTime& before = events[i - 1];
-    const EventTime& behind = events[i];
-    if (behind.t < before.t) {
-      return Error{ErrorCode::InvalidInput,
-                   fmt::format("{} is {}, before {} at {}: T1 <= T2 <= T3 <= T4 is allowed",
-                               name_of(behind.event), format_utc(behind.t), name_of(before.event),
-                               format_utc(before.t))};
-    }
-  }
-  const double arc_s = elapsed_s(events[0].t, events[1].t);
-  if (arc_s > kLongestArc_s) {
-    return Error{ErrorCode::InvalidInput,
-                 fmt::format("T1 is {}, {:.0f} s before T2: at most {:.0f} s are allowed",
-                             format_utc(events[0].t), arc_s, kLongestArc_s)};
-  }
-  return std::nullopt;
-}
 
 std::optional<Error> outside(const std::vector<EventTime>& events, const Samples& samples) {
   const TaiTime first = later_by_s(samples.gyro.front().t, -samples.held_s);
@@ -208,11 +152,15 @@ Expected<Samples> samples_of(const ReconstructionRequest& request, std::int64_t&
     return refused(ErrorCode::Unobservable,
                    "no star fix: nothing can be anchored; samples up to the first one are needed");
   }
-  samples.held_s = kHeldSteps * usual_step_s(timed(samples.gyro, samples.gyro.front().t));
+  samples.held_s = held_s(samples.gyro);
   return samples;
 }
 
 }  // namespace
+
+double held_s(std::span<const GyroSample> gyro) {
+  return gyro.empty() ? 0.0 : kHeldSteps * usual_step_s(timed(gyro, gyro.front().t));
+}
 
 SensorResiduals gyro_residuals(const Observations& all) {
   return {
@@ -228,15 +176,12 @@ Expected<Observations> observations_of(const ReconstructionRequest& request) {
   if (!samples) {
     return Unexpected{samples.error()};
   }
-  auto events = event_times(request.times, *samples);
+  auto events = event_times(request.times,
+                            {.gyro = samples->gyro, .sun = samples->sun, .stars = samples->stars});
   if (!events) {
     return Unexpected{events.error()};
   }
-  auto error = out_of_order(*events);
-  if (!error) {
-    error = outside(*events, *samples);
-  }
-  if (error) {
+  if (auto error = outside(*events, *samples)) {
     return Unexpected{*std::move(error)};
   }
   const TaiTime origin = (*events)[1].t;
@@ -248,7 +193,7 @@ Expected<Observations> observations_of(const ReconstructionRequest& request) {
   if (all.stars.empty()) {
     return Unexpected{nothing_anchored(origin)};
   }
-  add_sun(samples->sun, request.orbit, all);
+  add_sun(samples->sun, orbit_of(request), all);
   auto rates = rates_of(*samples, *request.sensors.gyro, all);
   if (!rates) {
     return Unexpected{rates.error()};

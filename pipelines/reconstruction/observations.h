@@ -7,9 +7,11 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "pipelines/reconstruction/event_times.h"
 #include "pipelines/reconstruction/rate_track.h"
 #include "pipelines/reconstruction/reconstruction.h"
 #include "pipelines/reconstruction/request.h"
@@ -25,12 +27,6 @@ struct SunObservation {
 struct StarObservation {
   double t_s;
   Eigen::Quaterniond q_icrf_body;
-};
-
-struct EventTime {
-  SeparationEvent event;
-  TaiTime t;
-  bool found;
 };
 
 struct Observations {
@@ -56,6 +52,10 @@ SensorResiduals gyro_residuals(const Observations& all);
 
 /// Noise that is more than stated by so much is taken as the samples show it.
 inline constexpr double kLouder = 1.25;
+
+/// So far beyond gyro samples, in order of time, an event or a star fix may lie: the next sample
+/// was on its way.
+double held_s(std::span<const GyroSample> gyro);
 
 /// @return As reconstruct().
 Expected<Observations> observations_of(const ReconstructionRequest& request);

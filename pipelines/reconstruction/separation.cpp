@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "pipelines/ephemeris/orbit_frame.h"
+#include "pipelines/reconstruction/reconstruct.h"
 
 namespace spindrift {
 
@@ -25,6 +26,16 @@ ReconstructedSeparation separation_of(Reconstruction solution, const std::option
         *launcher, find(separation.solution, SeparationEvent::Separation)->attitude, orbit);
   }
   return separation;
+}
+
+Expected<ReconstructedSeparation> reconstruct_separation(
+    const ReconstructionRequest& request, ReconstructionMethod method,
+    const std::optional<LauncherAttitude>& launcher) {
+  return reconstruct(request, method).map([&](Reconstruction&& solution) {
+    auto separation = separation_of(std::move(solution), orbit_of(request), launcher);
+    separation.samples = sample_count(request);
+    return separation;
+  });
 }
 
 }  // namespace spindrift

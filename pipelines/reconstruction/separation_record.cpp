@@ -1,0 +1,73 @@
+#include "pipelines/reconstruction/separation_record.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "pipelines/reconstruction/event_times.h"
+#include "pipelines/reconstruction/observations.h"
+#include "pipelines/time/time_span.h"
+
+namespace spindrift {
+
+/// @return Whether it was not there.
+template <class Sample>
+bool SeparationRecord::insert(std::vector<Sample>& samples, const Sample& sample) const {
+  const TaiTime separation = request_.times.separation;
+  const auto place = std::upper_bound(samples.begin(), samples.end(), sample.t,
+                                      [](TaiTime t, const Sample& other) { return t < other.t; });
+  const bool is_there = place != samples.begin() && std::prev(place)->t == sample.t;
+  if (is_there || sample.t < separation || span_between(separation, sample.t) > kLongest) {
+    return false;
+  }
+  samples.insert(place, sample);
+  return true;
+}
+
+bool SeparationRecord::push(const GyroSample& sample) {
+  return insert(request_.gyro, sample) && is_due(sample.t);
+}
+
+bool SeparationRecord::push(const SunDirection& sun) {
+  if (request_.sensors.sun_sensor) {
+    insert(request_.sun_directions, sun);
+  }
+  return false;
+}
+
+bool SeparationRecord::push(const TimedOrbitState& state) {
+  insert(request_.orbit_states, state);
+  return false;
+}
+
+bool SeparationRecord::push(const StarFix& fix) {
+  if (!insert(request_.star_fixes, fix)) {
+    return false;
+  }
+  const auto events = event_times(
+      request_.times,
+      {.gyro = request_.gyro, .sun = request_.sun_directions, .stars = request_.star_fixes});
+  if (!events) {
+    return false;
+  }
+  const EventTime& before = *std::prev(events->end(), 2);
+  if (before.event == SeparationEvent::Acquisition && !std::exchange(has_acquisition_, true)) {
+    fixes_ = 0;
+    due_at_fixes_ = 1;
+  }
+  if (fix.t < before.t || ++fixes_ < due_at_fixes_) {
+    return false;
+  }
+  due_at_fixes_ = 2 * fixes_;
+  awaited_ = std::max(fix.t, events->back().t);
+  return is_due(later_by_s(request_.gyro.back().t, held_s(request_.gyro)));
+}
+
+bool SeparationRecord::is_due(TaiTime reached) {
+  const bool is_due = awaited_ && reached >= *awaited_;
+  if (is_due) {
+    awaited_.reset();
+  }
+  return is_due;
+}
+
+}  // namespace spindrift

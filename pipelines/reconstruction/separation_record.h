@@ -1,0 +1,50 @@
+/// @file
+/// The samples of a pass that its separation is reconstructed from, as they arrive, and when.
+
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "pipelines/reconstruction/request.h"
+
+namespace spindrift {
+
+/// A solution is due at the first star fix behind T3 and whenever twice as many as at the last have
+/// arrived: all together cost a few times the last. While no T3 is found, those behind T2 count. A
+/// fix ahead of the gyro samples waits for them.
+class SeparationRecord {
+ public:
+  /// Samples from T1 to so long behind it are kept.
+  static constexpr std::chrono::hours kLongest{24};
+
+  /// @param begun Without samples.
+  explicit SeparationRecord(ReconstructionRequest begun) : request_{std::move(begun)} {}
+
+  // Of those of one kind and instant the first counts, as in the archive.
+  // Each: @return whether a solution is due.
+  bool push(const GyroSample& sample);
+  bool push(const SunDirection& sun);
+  bool push(const StarFix& fix);
+  bool push(const TimedOrbitState& state);
+
+  /// All up to now, each kind in order of time.
+  const ReconstructionRequest& request() const { return request_; }
+
+ private:
+  template <class Sample>
+  bool insert(std::vector<Sample>& samples, const Sample& sample) const;
+  /// @param reached Gyro samples are there up to then. @return whether that was waited for.
+  bool is_due(TaiTime reached);
+
+  ReconstructionRequest request_;
+  bool has_acquisition_ = false;  ///< T3 was there at the last star fix.
+  std::int64_t fixes_ = 0;        ///< That have arrived behind it.
+  std::int64_t due_at_fixes_ = 1;
+  std::optional<TaiTime> awaited_;  ///< A solution is due once gyro samples reach it.
+};
+
+}  // namespace spindrift

@@ -1,0 +1,165 @@
+#include "pipelines/reconstruction/separation_record.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <tuple>
+#include <variant>
+#include <vector>
+
+#include "pipelines/reconstruction/reconstruct.h"
+#include "tests/support/separation_flight.h"
+
+namespace spindrift::separation_record_test {
+
+using ::testing::ElementsAre;
+using testing::FlightPlan;
+using ::testing::IsEmpty;
+using testing::separation_flight;
+using testing::SeparationFlight;
+
+using AnySample = std::variant<GyroSample, SunDirection, StarFix>;
+
+TaiTime time_of(const AnySample& sample) {
+  return std::visit([](const auto& is) { return is.t; }, sample);
+}
+
+/// In order of time; of one instant the star fix is last.
+std::vector<AnySample> samples_of(const SeparationFlight& flight) {
+  std::vector<AnySample> samples{flight.gyro.begin(), flight.gyro.end()};
+  samples.insert(samples.end(), flight.sun.begin(), flight.sun.end());
+  samples.insert(samples.end(), flight.stars.begin(), flight.stars.end());
+  std::stable_sort(samples.begin(), samples.end(), [](const AnySample& a, const AnySample& b) {
+    return std::tuple{time_of(a), a.index()} < std::tuple{time_of(b), b.index()};
+  });
+  return samples;
+}
+
+class SeparationRecordTest : public ::testing::Test {
+ protected:
+  void fly(const FlightPlan& plan) {
+    flight_ = separation_flight(plan, 1);
+    times_ = {.separation = flight_.times.separation};
+  }
+  /// Seconds since T1 at which a solution is due.
+  std::vector<double> due_at_s(const std::vector<AnySample>& arrivals) {
+    SeparationRecord record{{.sensors = flight_.sensors,
+                             .times = times_,
+                             .gyro = {},
+                             .sun_directions = {},
+                             .star_fixes = {}}};
+    std::vector<double> due;
+    for (const AnySample& sample : arrivals) {
+      if (std::visit([&](const auto& is) { return record.push(is); }, sample)) {
+        due.push_back(seconds_between(times_.separation, time_of(sample)));
+        due_requests_.push_back(record.request());
+      }
+    }
+    return due;
+  }
+  TaiTime at(double t_s) const { return shifted(times_.separation, t_s); }
+
+  SeparationFlight flight_ = separation_flight({}, 1);
+  SeparationTimes times_{.separation = flight_.times.separation};
+  std::vector<ReconstructionRequest> due_requests_;
+};
+
+TEST_F(SeparationRecordTest, ASolutionIsDueWithTheStarFixAndIsThatOfAllSamples) {
+  EXPECT_THAT(due_at_s(samples_of(flight_)), ElementsAre(300.0));
+  ReconstructionRequest whole = flight_.request();
+  whole.times = times_;
+  whole.disturbance_rad_s2 = due_requests_.front().disturbance_rad_s2;
+  const Reconstruction due =
+      reconstruct(due_requests_.front(), ReconstructionMethod::Batch).value();
+  const Reconstruction expected = reconstruct(whole, ReconstructionMethod::Batch).value();
+  ASSERT_EQ(due.events.size(), 4U);
+  for (std::size_t i = 0; i < due.events.size(); ++i) {
+    EXPECT_EQ(due.events[i].attitude.t, expected.events[i].attitude.t);
+    EXPECT_EQ(due.events[i].attitude.q_icrf_body.coeffs(),
+              expected.events[i].attitude.q_icrf_body.coeffs());
+  }
+}
+
+TEST_F(SeparationRecordTest, MoreAreDueWhenTwiceAsManyStarFixesHaveArrived) {
+  fly({.star_fix_step_s = 10.0, .end_s = 400.0});
+  EXPECT_THAT(due_at_s(samples_of(flight_)), ElementsAre(300.0, 310.0, 330.0, 370.0));
+}
+
+TEST_F(SeparationRecordTest, AFixBeforeT3DoesNotCount) {
+  fly({.first_star_fix_s = 70.0, .star_fix_step_s = 10.0, .end_s = 120.0});
+  times_.acquisition = at(95.0);
+  EXPECT_THAT(due_at_s(samples_of(flight_)), ElementsAre(100.0, 110.0));
+}
+
+TEST_F(SeparationRecordTest, FixesCountAnewOnceASunVectorShowsT3) {
+  fly({.acquisition_s = 95.0, .first_star_fix_s = 70.0, .star_fix_step_s = 10.0, .end_s = 140.0});
+  EXPECT_THAT(due_at_s(samples_of(flight_)), ElementsAre(70.0, 80.0, 100.0, 110.0, 130.0));
+}
+
+TEST_F(SeparationRecordTest, AFixAheadOfTheGyroSamplesWaitsForThem) {
+  std::vector<AnySample> samples = samples_of(flight_);
+  const auto early = samples.end() - 20;
+  std::rotate(early, samples.end() - 1, samples.end());
+  ASSERT_TRUE(std::holds_alternative<StarFix>(*early));
+  EXPECT_THAT(due_at_s(samples), ElementsAre(300.0));
+  EXPECT_EQ(due_requests_.front().gyro.back().t, at(300.0));
+}
+
+TEST_F(SeparationRecordTest, AFixThatTheNextGyroSampleWouldPassDoesNotWait) {
+  std::vector<AnySample> samples = samples_of(flight_);
+  std::erase_if(samples, [&](const AnySample& sample) {
+    return std::holds_alternative<GyroSample>(sample) && time_of(sample) > at(299.6);
+  });
+  EXPECT_THAT(due_at_s(samples), ElementsAre(300.0));
+}
+
+TEST_F(SeparationRecordTest, AFixOfAClockThatIsAheadHoldsUpNone) {
+  std::vector<AnySample> samples = samples_of(flight_);
+  StarFix ahead = flight_.stars.front();
+  ahead.t = at(5000.0);
+  samples.insert(samples.begin() + 100, ahead);
+  EXPECT_THAT(due_at_s(samples), ElementsAre(300.0));
+}
+
+TEST_F(SeparationRecordTest, SamplesCountInTheOrderOfTimeHoweverTheyArrive) {
+  fly({.star_fix_step_s = 50.0, .end_s = 350.0});
+  std::vector<AnySample> samples = samples_of(flight_);
+  due_at_s(samples);
+  const ReconstructionRequest in_order = due_requests_.back();
+  // Each comes twice, and many late.
+  for (std::size_t i = 0; i + 40 < samples.size(); i += 40) {
+    const auto first = samples.begin() + static_cast<std::ptrdiff_t>(i);
+    std::rotate(first, first + 7, first + 30);
+  }
+  samples.insert(samples.begin() + 900, samples.begin() + 100, samples.begin() + 800);
+  due_at_s(samples);
+  const ReconstructionRequest disordered = due_requests_.back();
+  const auto same_times = [](const auto& a, const auto& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const auto& one, const auto& other) { return one.t == other.t; });
+  };
+  EXPECT_TRUE(same_times(disordered.gyro, in_order.gyro));
+  EXPECT_TRUE(same_times(disordered.sun_directions, in_order.sun_directions));
+  EXPECT_TRUE(same_times(disordered.star_fixes, in_order.star_fixes));
+}
+
+TEST_F(SeparationRecordTest, WhatIsBeforeT1OrMoreThanADayBehindItIsNotKept) {
+  SeparationRecord record{{.sensors = flight_.sensors,
+                           .times = times_,
+                           .gyro = {},
+                           .sun_directions = {},
+                           .star_fixes = {}}};
+  for (const double t_s : {-1.0, 0.0, 86400.0, 86401.0}) {
+    record.push(GyroSample{at(t_s), Eigen::Vector3d::Zero()});
+  }
+  ASSERT_EQ(record.request().gyro.size(), 2U);
+  EXPECT_EQ(record.request().gyro.front().t, at(0.0));
+  EXPECT_EQ(record.request().gyro.back().t, at(86400.0));
+}
+
+TEST_F(SeparationRecordTest, WithoutAGyroSampleNothingIsDue) {
+  EXPECT_THAT(due_at_s({flight_.stars.front(), flight_.sun.front()}), IsEmpty());
+}
+
+}  // namespace spindrift::separation_record_test
