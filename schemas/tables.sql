@@ -453,7 +453,8 @@ CREATE TABLE attitude (
 ) STRICT, WITHOUT ROWID;
 
 -- The attitude from separation to the star fixes, reconstructed: its events and its history stand in the two
--- tables around. t_tai_ns: of the end of the history. Bias of the gyro: NULL but for batch. launcher_...: how far the
+-- tables around. The last solution of a run; a service makes the first when the first star fix arrives, and one
+-- of all samples when the run ends. t_tai_ns: of the end of the history. samples: that had come by then. Bias of the gyro: NULL but for batch. launcher_...: how far the
 -- launcher's attitude at T1 is from it, chi-square of 3 degrees of freedom, the chance that errors alone keep
 -- them as far apart; NULL: it told none, or no orbit frame is known.
 CREATE TABLE reconstruction (
@@ -465,6 +466,7 @@ CREATE TABLE reconstruction (
     OR quality = 'LOST'),
   reasons             TEXT NOT NULL,  -- as in spin_estimate
   status              TEXT NOT NULL,
+  samples             INTEGER NOT NULL,
   gyro_samples        INTEGER NOT NULL,
   sun_vectors         INTEGER NOT NULL,
   star_fixes          INTEGER NOT NULL,
@@ -480,7 +482,7 @@ CREATE TABLE reconstruction (
   PRIMARY KEY (run_id, method)
 ) STRICT, WITHOUT ROWID;
 
--- q_icrf_body; Euler 3-1-2: 1 phi, 2 theta, 3 psi. found: 1, in the samples, as nobody named its time. NULL: the
+-- q_icrf_body; rates in body axes; Euler 3-1-2: 1 phi, 2 theta, 3 psi. found: 1, in the samples, as nobody named its time. NULL: the
 -- mission has no orbit that covers the event; the Cramer-Rao bound but for batch.
 CREATE TABLE reconstruction_event (
   run_id               TEXT NOT NULL REFERENCES run,
@@ -492,6 +494,9 @@ CREATE TABLE reconstruction_event (
   qy                   REAL NOT NULL,
   qz                   REAL NOT NULL,
   qw                   REAL NOT NULL,
+  rate_x_rad_s         REAL NOT NULL,
+  rate_y_rad_s         REAL NOT NULL,
+  rate_z_rad_s         REAL NOT NULL,
   euler312_icrf_deg_1  REAL NOT NULL,
   euler312_icrf_deg_2  REAL NOT NULL,
   euler312_icrf_deg_3  REAL NOT NULL,

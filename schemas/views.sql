@@ -145,32 +145,38 @@ WITH pair AS (
 SELECT *, apart_deg / sigma_deg AS apart_sigmas, apart_deg > 3 * sigma_deg AS disagree
 FROM pair;
 
--- The answer of a pass of a three-axis spacecraft: the last attitude of each run. Looked for from the end, as
--- above.
+-- The answer of a pass of a three-axis spacecraft: the last attitude of each run, but for those that were
+-- reconstructed of a separation. Looked for from the end, as above.
 CREATE VIEW attitude_answer AS
 SELECT spacecraft_id, finished_utc IS NOT NULL AS finished, attitude_utc.*
 FROM run JOIN attitude_utc ON attitude_utc.run_id = run.run_id
   AND (attitude_utc.t_tai_ns, attitude_utc.source) =
     (SELECT t_tai_ns, source FROM attitude WHERE attitude.run_id = run.run_id
-     ORDER BY t_tai_ns DESC, source LIMIT 1);
+     AND source NOT IN ('batch', 'sequential') ORDER BY t_tai_ns DESC, source LIMIT 1);
 
 -- One row a run: the answer to report, that of `batch`, where there is none of `sequential`, else of `mean`, or
--- the last attitude; and whether to act on it: one of a run that failed to compute (run_fault) is DOUBTFUL,
+-- the last attitude, or of a run that only reconstructed a separation the attitude at T1; and whether to act on it: one of a run that failed to compute (run_fault) is DOUBTFUL,
 -- unless it is LOST. NULL from estimator to sigma_deg: the run has no answer; quality is then that of the run
 -- that failed. A spin axis leaves qx to qw NULL, an attitude ra_deg and dec_deg.
 CREATE VIEW pass_verdict AS
 SELECT run.run_id, run.spacecraft_id, run.started_utc, run.finished_utc IS NOT NULL AS finished,
-  ifnull(estimator, source) AS estimator,
+  coalesce(estimator, source, separation.method) AS estimator,
   CASE WHEN fault.what IS NULL OR 'LOST' IN (axis.quality, attitude.quality)
-    THEN ifnull(axis.quality, attitude.quality) ELSE 'DOUBTFUL' END AS quality,
-  ra_deg, dec_deg, qx, qy, qz, qw, ifnull(axis.sigma_deg, attitude.sigma_deg) AS sigma_deg,
+    THEN coalesce(axis.quality, attitude.quality, separation.quality) ELSE 'DOUBTFUL' END AS quality,
+  ra_deg, dec_deg, ifnull(attitude.qx, event.qx) AS qx, ifnull(attitude.qy, event.qy) AS qy,
+  ifnull(attitude.qz, event.qz) AS qz, ifnull(attitude.qw, event.qw) AS qw,
+  coalesce(axis.sigma_deg, attitude.sigma_deg, event.sigma_deg) AS sigma_deg,
   ifnull('computing failed' || ifnull(' at ' || fault.utc, '') || ': ' || fault.what || '; ', '')
-    || coalesce(axis.status, attitude.status, 'no estimate') || ifnull(
+    || coalesce(axis.status, attitude.status, separation.status, 'no estimate') || ifnull(
     (SELECT group_concat('; ' || one || ' and ' || other || ' disagree', '')
      FROM spin_comparison WHERE spin_comparison.run_id = run.run_id AND disagree), '') AS why
 FROM run LEFT JOIN pass_answer AS axis ON axis.run_id = run.run_id AND estimator =
   (SELECT estimator FROM pass_answer WHERE pass_answer.run_id = run.run_id
    ORDER BY CASE estimator WHEN 'batch' THEN 1 WHEN 'sequential' THEN 2 ELSE 3 END LIMIT 1)
 LEFT JOIN attitude_answer AS attitude ON attitude.run_id = run.run_id
+LEFT JOIN reconstruction AS separation ON attitude.run_id IS NULL AND separation.run_id = run.run_id
+  AND separation.method = (SELECT min(method) FROM reconstruction WHERE reconstruction.run_id = run.run_id)
+LEFT JOIN reconstruction_event AS event ON event.run_id = separation.run_id
+  AND event.method = separation.method AND event.event = 'T1'
 LEFT JOIN run_fault_utc AS fault ON fault.run_id = run.run_id AND fault.t_tai_ns =
   (SELECT min(t_tai_ns) FROM run_fault WHERE run_fault.run_id = run.run_id);

@@ -17,6 +17,11 @@ std::string_view name_of(SampleRejection rejection) {
   return kNames.at(static_cast<std::size_t>(rejection));
 }
 
+std::string_view name_of(AttitudeSource source) {
+  static constexpr std::array<std::string_view, 3> kNames = {"mekf", "batch", "sequential"};
+  return kNames.at(static_cast<std::size_t>(source));
+}
+
 double AttitudeEstimate::sigma_rad() const { return std::sqrt(covariance_rad2.trace()); }
 
 }  // namespace spindrift

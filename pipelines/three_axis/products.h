@@ -52,12 +52,17 @@ struct SensorHealth {
 };
 using SensorHealths = std::array<SensorHealth, kSampleKinds>;  ///< By kind.
 
+/// What made an attitude: the filter, or a reconstruction of the separation.
+enum class AttitudeSource { Mekf, Batch, Sequential };
+std::string_view name_of(AttitudeSource source);
+
 struct AttitudeEstimate {
   TaiTime t;
   Eigen::Quaterniond q_icrf_body;
   std::optional<Eigen::Vector3d> rate_body_rad_s;  ///< Less the bias; empty: no gyro at `t`.
   Eigen::Matrix3d covariance_rad2;                 ///< Of a small turn, body axes.
   Assessment assessment;
+  AttitudeSource source = AttitudeSource::Mekf;
 
   double sigma_rad() const;  ///< Root of the trace.
 };

@@ -29,6 +29,10 @@ template <class Table>
 constexpr bool kHasMany = requires {
   &Table::rows;
 };
+template <class Kind>
+constexpr bool kStays = requires {
+  ProductKind<Kind>::kStays;
+};
 template <class Table>
 constexpr bool kHasTime = has_column<Table>("t_tai_ns");
 
@@ -137,7 +141,11 @@ struct KindWriters<std::variant<Kind...>> {
 
 template <class Table>
 std::string since() {
-  return fmt::format("FROM {} WHERE run_id = ?1 AND t_tai_ns >= ?2", Table::kName);
+  std::string sql = fmt::format("FROM {} WHERE run_id = ?1 AND t_tai_ns >= ?2", Table::kName);
+  if constexpr (requires { Table::kCondition; }) {
+    sql += fmt::format(" AND {}", Table::kCondition);
+  }
+  return sql;
 }
 
 /// The first revolution that has anything from ?2 on. One without sun1 is known by its edges and
@@ -195,7 +203,7 @@ void ProductWriter::withdraw(const std::string& run_id, TaiTime from) {
     for_each_product_kind([&]<class Kind>() {
       for_each_table<Kind>([&]<class Table>() {
         constexpr bool kStandsAlone = kHasTime<Table> && std::is_same_v<Table, MainTable<Kind>>;
-        if (kStandsAlone != hangs_on_others) {
+        if (!kStays<Kind> && kStandsAlone != hangs_on_others) {
           SQLite::Statement statement{database_, withdrawal<Kind, Table>()};
           execute(statement, run_id, tai_ns(from));
         }

@@ -27,8 +27,8 @@ class ProductWriter {
   /// In place of one with its key.
   void insert(const std::string& run_id, const std::string& spacecraft_id, const Product& product);
 
-  /// Those of a run from a time on. A product without a time has that of its revolution, which
-  /// those tables tell that have both.
+  /// Those of a run from a time on, but those that stay (kStays). A product without a time has that
+  /// of its revolution, which those tables tell that have both.
   void withdraw(const std::string& run_id, TaiTime from);
 
  private:

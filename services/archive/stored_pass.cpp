@@ -100,6 +100,14 @@ void read_batches(const SQLite::Database& database, StoredPass& pass) {
   }
 }
 
+void read_reconstructed(const SQLite::Database& database, StoredPass& pass) {
+  SQLite::Statement query{database, "SELECT method, samples FROM reconstruction WHERE run_id = ?"};
+  query.bind(1, pass.run_id);
+  while (query.executeStep()) {
+    pass.reconstructed.emplace(query.getColumn(0).getString(), query.getColumn(1).getInt64());
+  }
+}
+
 constexpr const char* kExtent =
     " WHERE spacecraft_id = ?1 AND t_tai_ns >= ?2 AND arrival >= ?3"
     " AND (?4 IS NULL OR arrival < ?4)";
@@ -194,6 +202,7 @@ Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path
       read_source_counts(database, pass);
       read_silences(database, pass);
       read_batches(database, pass);
+      read_reconstructed(database, pass);
       if (!pass.next_arrival) {
         TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
           read_left_out<Value>(database, spacecraft_id, pass);

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +24,9 @@ struct LeftOut {
   TelemetryValues values;  ///< Each kind in order of arrival.
 };
 
+/// How many samples the stored reconstruction of the separation by a method rests on.
+using Reconstructed = std::map<std::string, std::int64_t, std::less<>>;
+
 struct StoredPass {
   /// No more of what it left out, the newest, come back.
   static constexpr std::int64_t kMostLeftOut = 1'000'000;
@@ -35,7 +40,8 @@ struct StoredPass {
   std::optional<TaiTime> last_made;
   std::int64_t rejected_inputs;
   std::vector<SourceCount> source_counts;
-  std::vector<TaiTime> batches = {};        ///< Of its solutions of `batch`, in order.
+  std::vector<TaiTime> batches = {};  ///< Of its solutions of `batch`, in order.
+  Reconstructed reconstructed = {};
   LastOrigins last_origins = {};            ///< Of its samples, as they arrived first.
   TelemetryValues values = {};              ///< Each kind in order of arrival.
   std::vector<LeftOut> left_out = {};       ///< Of the newest run: it may become of it yet.

@@ -58,18 +58,39 @@ class StoredRow {
   SQLite::Statement& row_;
 };
 
+/// Calls `see` with each row of `Table` of a run, in the order of its key, that meets `condition`.
+template <class Table, class See>
+void for_each_stored(const SQLite::Database& database, const std::string& run_id,
+                     const std::string& condition, const See& see) {
+  const auto columns =
+      with_columns<Table>([](const auto&... column) { return std::array{column.name...}; });
+  SQLite::Statement row{database, fmt::format("SELECT {} FROM {} WHERE run_id = ?{} ORDER BY {}",
+                                              fmt::join(columns, ", "), Table::kName, condition,
+                                              fmt::join(Table::kKey, ", "))};
+  row.bind(1, run_id);
+  while (row.executeStep()) {
+    see(StoredRow<Table>{row});
+  }
+}
+
 template <class Kind>
 void read(const SQLite::Database& database, const std::string& run_id, StoredResults& stored) {
   using Table = MainTable<Kind>;
-  const auto columns =
-      with_columns<Table>([](const auto&... column) { return std::array{column.name...}; });
-  SQLite::Statement row{
-      database, fmt::format("SELECT {} FROM {} WHERE run_id = ? ORDER BY {}",
-                            fmt::join(columns, ", "), Table::kName, fmt::join(Table::kKey, ", "))};
-  row.bind(1, run_id);
-  while (row.executeStep()) {
-    stored.add(ProductKind<Kind>::from_row(StoredRow<Table>{row}));
+  std::string condition;
+  if constexpr (requires { Table::kCondition; }) {
+    condition = fmt::format(" AND {}", Table::kCondition);
   }
+  for_each_stored<Table>(database, run_id, condition, [&](const StoredRow<Table>& row) {
+    if constexpr (requires { typename ProductKind<Kind>::Parts; }) {
+      using Parts = typename ProductKind<Kind>::Parts;
+      constexpr std::string_view kGroup = Parts::kKey.front();
+      const auto group = fmt::format(" AND {} = '{}'", kGroup, row.text(kGroup.data()));
+      stored.add(ProductKind<Kind>::from_row(
+          row, [&](const auto& see) { for_each_stored<Parts>(database, run_id, group, see); }));
+    } else {
+      stored.add(ProductKind<Kind>::from_row(row));
+    }
+  });
 }
 
 bool has(const std::vector<std::int64_t>& sorted, std::int64_t number) {

@@ -61,9 +61,11 @@ Expected<SeparationSamples> find_separation_samples(const std::filesystem::path&
                                                     const std::string& spacecraft_id,
                                                     TaiTime from) {
   return read_archive(archive, [&](SQLite::Database& database) {
-    return SeparationSamples{.gyro = read_from<GyroSample>(database, spacecraft_id, from),
-                             .sun = read_from<SunDirection>(database, spacecraft_id, from),
-                             .stars = read_from<StarFix>(database, spacecraft_id, from)};
+    return SeparationSamples{
+        .gyro = read_from<GyroSample>(database, spacecraft_id, from),
+        .sun = read_from<SunDirection>(database, spacecraft_id, from),
+        .stars = read_from<StarFix>(database, spacecraft_id, from),
+        .orbit_states = read_from<TimedOrbitState>(database, spacecraft_id, from)};
   });
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/timed_orbit_state.h"
 #include "pipelines/three_axis/samples.h"
 
 namespace spindrift {
@@ -28,6 +29,7 @@ struct SeparationSamples {
   std::vector<GyroSample> gyro;
   std::vector<SunDirection> sun;
   std::vector<StarFix> stars;
+  std::vector<TimedOrbitState> orbit_states;
 };
 
 /// Of a spacecraft from a time on, in order of time, whatever run took them, but for those that a

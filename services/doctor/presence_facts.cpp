@@ -55,7 +55,7 @@ Expected<std::map<Guid, std::string>> participants_of(const bus::Participant& pa
 bool is_result(std::string_view topic) {
   bool is_one = topic == bus::kHealthTopic.name;
   for_each_product_kind([&]<class Kind>() {
-    if constexpr (AnnouncedProduct<Kind>) {
+    if constexpr (PublishedProduct<Kind>) {
       is_one = is_one || topic == ProductKind<Kind>::kTopic;
     }
   });

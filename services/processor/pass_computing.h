@@ -14,6 +14,7 @@
 #include "pipelines/core/assessment.h"
 #include "pipelines/core/notice.h"
 #include "services/archive/records.h"
+#include "services/archive/stored_pass.h"
 #include "services/processor/last_answers.h"
 #include "services/processor/pass_input.h"
 #include "services/processor/what_is_thrown.h"
@@ -26,6 +27,7 @@ struct MadeBefore {
   /// What was made from then on, which the run may not have got to, is stored again.
   TaiTime again_from;
   std::vector<TaiTime> batches;  ///< When solutions of `batch` are; in order.
+  Reconstructed reconstructed = {};
 };
 
 /// Of the runs that go on, by run.

@@ -28,12 +28,12 @@ TaiTime made_again_from(const StoredPass& stored, std::optional<TaiTime> reached
 
 std::variant<SpinRun, ThreeAxisRun> computing_side(const Mission& mission,
                                                    const SpacecraftRun& run) {
+  const auto plan =
+      run.start().mode == RunMode::Process ? SolvingPlan::AtTheEnd : SolvingPlan::Meanwhile;
   if (mission.spin() == nullptr) {
-    return ThreeAxisRun{mission, run.run_id()};
+    return ThreeAxisRun{mission, run.run_id(), plan};
   }
-  return SpinRun{
-      mission, run.run_id(),
-      run.start().mode == RunMode::Process ? BatchPlan::WholePass : BatchPlan::EveryMinute};
+  return SpinRun{mission, run.run_id(), plan};
 }
 
 /// A run holds what one configuration made.
@@ -140,7 +140,8 @@ void Processor::go_on(std::size_t i, const std::vector<StoredPass>& stored, cons
   for (std::size_t run = 0; run < stored.size(); ++run) {
     made.emplace(stored[run].run_id,
                  MadeBefore{.again_from = made_again_from(stored[run], taken.reached.at(run)),
-                            .batches = stored[run].batches});
+                            .batches = stored[run].batches,
+                            .reconstructed = stored[run].reconstructed});
   }
   std::visit([&](auto& pass) { pass.go_on(first, std::move(made)); }, passes_[i]);
   add(std::move(taken), gone_on.routed);
@@ -234,8 +235,8 @@ std::vector<ArchiveBatch> Processor::compute(const PassInput& work) {
 }
 
 std::vector<BackgroundTask> Processor::take_background_tasks(const PassInput& work) {
-  auto* const spin = std::get_if<SpinRun>(&passes_.at(work.spacecraft));
-  return spin == nullptr ? std::vector<BackgroundTask>{} : spin->take_background_tasks();
+  return std::visit([](auto& pass) { return pass.take_background_tasks(); },
+                    passes_.at(work.spacecraft));
 }
 
 std::vector<ArchiveBatch> Processor::take(SampleBatch samples) {

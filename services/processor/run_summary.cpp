@@ -61,11 +61,13 @@ void RunSummary::count(const ThreeAxisProduct& product) {
   }
 }
 
-void RunSummary::count_batch(const std::vector<Product>& products) {
+void RunSummary::count_solution(const std::vector<Product>& products) {
   for (const Product& product : products) {
     if (const auto* const solution = std::get_if<BatchProduct>(&product)) {
       count((*solution)->estimate);
       batch = **solution;
+    } else if (const auto* const reconstruction = std::get_if<ReconstructionProduct>(&product)) {
+      reconstructions.push_back(*reconstruction);
     }
   }
 }

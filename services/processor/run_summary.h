@@ -43,7 +43,8 @@ struct RunSummary {
   SensorHealths sensors = {};
   /// By kind, and by the test that did it.
   std::array<std::map<std::string_view, std::int64_t>, kSampleKinds> samples_rejected = {};
-  std::optional<AttitudeEstimate> attitude;  ///< The last.
+  std::optional<AttitudeEstimate> attitude;                 ///< The last.
+  std::vector<ReconstructionProduct> reconstructions = {};  ///< Of the separation, by each method.
   /// @}
   std::vector<Disagreement> disagreements = {};  ///< Likewise from the archive.
   std::vector<RunFault> faults = {};             ///< Likewise.
@@ -52,8 +53,8 @@ struct RunSummary {
   void count(const SpinProduct& product);
   void count(const ThreeAxisProduct& product);
 
-  /// The last solution, if it is among them.
-  void count_batch(const std::vector<Product>& products);
+  /// The last solution of `batch` or of a reconstruction, if it is among them.
+  void count_solution(const std::vector<Product>& products);
 
   /// Case of every revolution whose fix is AMBIGUOUS: it may be given again, decided.
   std::map<std::int64_t, int> ambiguous = {};

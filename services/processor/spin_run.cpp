@@ -10,10 +10,7 @@
 #include <variant>
 
 #include "pipelines/spin/batch/batch_estimator.h"
-#include "pipelines/time/utc.h"
 #include "services/clock/wall_clock.h"
-#include "services/processor/what_is_thrown.h"
-#include "services/words/notice_words.h"
 
 namespace spindrift {
 namespace {
@@ -26,20 +23,13 @@ Expected<BatchSolution> solve_edges(const SpinConfig& config, const Orbit& orbit
 }
 
 /// Its estimate, and what else it says.
-/// @return Unobservable when any of it is withheld.
 Expected<std::vector<Product>> products_of(const BatchSolution& solution) {
-  std::vector<Product> products{solution.estimate, std::make_shared<const BatchSolution>(solution)};
-  for (const Product& product : products) {
-    if (const auto why = why_withheld(product)) {
-      return Unexpected{{ErrorCode::Unobservable, sentence_of(*why)}};
-    }
-  }
-  return products;
+  return unless_withheld({solution.estimate, std::make_shared<const BatchSolution>(solution)});
 }
 
 }  // namespace
 
-SpinRun::SpinRun(const Mission& mission, const std::string& run_id, BatchPlan plan)
+SpinRun::SpinRun(const Mission& mission, const std::string& run_id, SolvingPlan plan)
     : config_{*mission.spin()},
       orbit_{*mission.orbit},
       computing_{mission.spacecraft_id, run_id, SpinPass{config_, orbit_}},
@@ -75,7 +65,7 @@ std::vector<ArchiveBatch> SpinRun::compute(const PassInput& input) {
 
 /// By the time of telemetry, so that the same telemetry gives the same solutions.
 void SpinRun::note_time(TaiTime t) {
-  if (plan_ == BatchPlan::WholePass || (next_batch_ && t < *next_batch_)) {
+  if (plan_ == SolvingPlan::AtTheEnd || (next_batch_ && t < *next_batch_)) {
     return;
   }
   if (next_batch_) {
@@ -101,16 +91,9 @@ bool SpinRun::is_stored(TaiTime batch) const {
 std::vector<BackgroundTask> SpinRun::take_background_tasks() { return std::exchange(due_, {}); }
 
 Expected<std::vector<Product>> SpinRun::solve(const PassEdges& edges) const {
-  Expected<std::vector<Product>> products;
-  const auto what = what_is_thrown(
-      [&] { products = solve_edges(config_, orbit_, edges).and_then(&products_of); });
-  if (!what) {
-    return products;
-  }
-  const TaiTime t = edges.last().value_or(TaiTime{});
-  spdlog::error("{}: batch solution failed at {}: {}: its run is DOUBTFUL",
-                computing_.spacecraft_id(), format_utc(t), *what);
-  return std::vector<Product>{RunFault{.t = t, .what = *what}};
+  return solved_or_fault(
+      computing_.spacecraft_id(), "batch solution", edges.last().value_or(TaiTime{}),
+      [&] { return solve_edges(config_, orbit_, edges).and_then(&products_of); });
 }
 
 /// What was still held. Then the last batch solution is due, whatever became due before.
@@ -118,7 +101,7 @@ void SpinRun::settle(std::vector<Product>& products) {
   const std::size_t due = due_.size();
   computing_.finish(products, [this](const SpinOutput& output) { note(output); });
   due_.erase(due_.begin() + static_cast<std::ptrdiff_t>(due), due_.end());
-  if (plan_ == BatchPlan::EveryMinute) {
+  if (plan_ == SolvingPlan::Meanwhile) {
     edges_.keep_last(kLastRevolutions);
   }
   if (edges_.forgot_some()) {
@@ -132,7 +115,7 @@ ArchiveBatch SpinRun::finish() {
   settle(last.products);
   if (!computing_.failed()) {
     if (auto products = solve(std::exchange(edges_, {}))) {
-      summary_.count_batch(*products);
+      summary_.count_solution(*products);
       std::move(products->begin(), products->end(), std::back_inserter(last.products));
     } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {
       spdlog::warn("{}: no batch solution: {}", computing_.spacecraft_id(),
@@ -146,7 +129,7 @@ ArchiveBatch SpinRun::finish() {
 /// Where solutions of the run may be waiting to be solved it is finished behind them, so that a run
 /// that is finished lacks none.
 void SpinRun::end_run(std::vector<ArchiveBatch>& batches) {
-  if (plan_ == BatchPlan::WholePass) {
+  if (plan_ == SolvingPlan::AtTheEnd) {
     batches.push_back(finish());
     finished_.push_back(std::move(summary_));
     return;

@@ -19,12 +19,9 @@
 
 namespace spindrift {
 
-/// When the estimator `batch` runs, beside the end of the pass.
-enum class BatchPlan {
-  WholePass,   ///< Then only, over all edges.
-  EveryMinute  ///< Of telemetry; each time, in the end too, over the last revolutions.
-};
-
+/// The estimator `batch` runs over all edges at the end of the pass; meanwhile every minute of
+/// telemetry, and then each time, in the end too, over the last revolutions.
+///
 /// What throws while it is computed becomes a RunFault: a run that fails so computes nothing more
 /// (pass_computing.h), of a batch solution that does only this one is missing.
 class SpinRun {
@@ -32,7 +29,7 @@ class SpinRun {
   static constexpr std::int64_t kLastRevolutions = 1000;
 
   /// @param mission Of a spinner.
-  SpinRun(const Mission& mission, const std::string& run_id, BatchPlan plan);
+  SpinRun(const Mission& mission, const std::string& run_id, SolvingPlan plan);
 
   /// The runs of `made`, of which `first` is the oldest, are stored, and their samples come again
   /// first.
@@ -65,7 +62,7 @@ class SpinRun {
   std::deque<RunSummary> finished_;  ///< They stay where they are: their last tasks point to them.
   RunSummary summary_;
   PassComputing<SpinPass> computing_;
-  BatchPlan plan_;
+  SolvingPlan plan_;
   PassEdges edges_;
   std::optional<TaiTime> next_batch_;
   std::optional<TaiTime> last_batch_;  ///< The last edge of the solution that was due last.

@@ -1,17 +1,42 @@
 #include "services/processor/three_axis_run.h"
 
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
 #include <iterator>
+#include <memory>
 #include <utility>
 #include <variant>
 
 #include "services/clock/wall_clock.h"
+#include "services/processor/separation_solving.h"
 
 namespace spindrift {
+namespace {
 
-ThreeAxisRun::ThreeAxisRun(const Mission& mission, const std::string& run_id)
+constexpr std::string_view kReconstruction = "reconstruction of the separation";
+
+/// @return Unobservable where no method gives an answer. One that alone gives none is said.
+Expected<std::vector<Product>> products_of(const std::string& spacecraft_id,
+                                           SolvedSeparation solved) {
+  const std::string why = fmt::format("{}", fmt::join(solved.failures, "; "));
+  if (solved.methods.empty()) {
+    return Unexpected{{ErrorCode::Unobservable, why}};
+  }
+  if (!why.empty()) {
+    spdlog::warn("{}: no second {}: {}", spacecraft_id, kReconstruction, why);
+  }
+  return std::vector<Product>{solved.methods.begin(), solved.methods.end()};
+}
+
+}  // namespace
+
+ThreeAxisRun::ThreeAxisRun(const Mission& mission, const std::string& run_id, SolvingPlan plan)
     : config_{std::get<ThreeAxisConfig>(mission.config)},
       orbit_{mission.orbit},
-      computing_{mission.spacecraft_id, run_id, ThreeAxisPass{config_, orbit_}} {
+      separation_{mission.separation},
+      computing_{mission.spacecraft_id, run_id, ThreeAxisPass{config_, orbit_}},
+      plan_{plan} {
   begin(run_id);
 }
 
@@ -21,6 +46,15 @@ void ThreeAxisRun::begin(const std::string& run_id) {
   summary_.run_id = run_id;
   summary_.spacecraft_id = computing_.spacecraft_id();
   summary_.kind = SpacecraftKind::ThreeAxis;
+  if (separation_) {
+    record_.emplace(ReconstructionRequest{.sensors = config_,
+                                          .times = separation_->times,
+                                          .gyro = {},
+                                          .sun_directions = {},
+                                          .star_fixes = {},
+                                          .orbit = orbit_,
+                                          .node_at_every_gyro_sample = true});
+  }
 }
 
 void ThreeAxisRun::go_on(const std::string& first, AllMadeBefore made) {
@@ -31,25 +65,111 @@ void ThreeAxisRun::go_on(const std::string& first, AllMadeBefore made) {
 std::vector<ArchiveBatch> ThreeAxisRun::compute(const PassInput& input) {
   std::vector<ArchiveBatch> batches;
   if (input.run_id != computing_.run_id()) {
-    batches.push_back(finish());
-    finished_.push_back(summary());
+    end_run(batches);
     begin(input.run_id);
   }
   auto computed =
       computing_.compute(input, [this](const ThreeAxisOutput& output) { note(output); });
   std::move(computed.begin(), computed.end(), std::back_inserter(batches));
+  record(input);
   return batches;
+}
+
+/// As they arrive, what the order of time still holds back included.
+void ThreeAxisRun::record(const PassInput& input) {
+  if (!record_) {
+    return;
+  }
+  in_order_of_arrival(input.values, [this](const auto& arrived) {
+    if constexpr (requires { record_->push(arrived.value); }) {
+      if (record_->push(arrived.value) && plan_ == SolvingPlan::Meanwhile) {
+        hand_out_solutions();
+      }
+    }
+  });
+}
+
+void ThreeAxisRun::hand_out_solutions() {
+  const auto request = std::make_shared<const ReconstructionRequest>(record_->request());
+  for (const auto method : {ReconstructionMethod::Batch, ReconstructionMethod::Sequential}) {
+    if (!is_stored(method)) {
+      due_.push_back(solving(request, method));
+    }
+  }
+}
+
+/// Or one that rests on more.
+bool ThreeAxisRun::is_stored(ReconstructionMethod method) const {
+  const MadeBefore* const made = computing_.made_before();
+  if (made == nullptr) {
+    return false;
+  }
+  const auto stored = made->reconstructed.find(name_of(method));
+  return stored != made->reconstructed.end() && stored->second >= sample_count(record_->request());
+}
+
+BackgroundTask ThreeAxisRun::solving(std::shared_ptr<const ReconstructionRequest> request,
+                                     std::optional<ReconstructionMethod> method) const {
+  const TaiTime separation = request->times.separation;
+  return {.batch = computing_.batch(),
+          .solve =
+              [=, launcher = separation_->launcher, spacecraft_id = computing_.spacecraft_id()] {
+                return solved_or_fault(spacecraft_id, kReconstruction, separation, [&] {
+                  return products_of(spacecraft_id, solve_separation(*request, launcher, method));
+                });
+              },
+          .what = kReconstruction,
+          .is_awaited = true};
+}
+
+/// Of all that has arrived, by both methods.
+BackgroundTask ThreeAxisRun::solving_at_end() const {
+  return solving(std::make_shared<const ReconstructionRequest>(record_->request()), std::nullopt);
+}
+
+std::vector<BackgroundTask> ThreeAxisRun::take_background_tasks() {
+  return std::exchange(due_, {});
+}
+
+/// Something of it has come.
+bool ThreeAxisRun::has_separation() const {
+  return record_ && sample_count(record_->request()) > 0;
 }
 
 ArchiveBatch ThreeAxisRun::finish() {
   ArchiveBatch last = computing_.batch();
   computing_.finish(last.products, [this](const ThreeAxisOutput& output) { note(output); });
+  if (has_separation()) {
+    if (auto products = solving_at_end().solve()) {
+      summary_.count_solution(*products);
+      std::move(products->begin(), products->end(), std::back_inserter(last.products));
+    } else {
+      spdlog::warn("{}: no {}: {}", computing_.spacecraft_id(), kReconstruction,
+                   products.error().message);
+    }
+  }
   last.finished_utc = utc_now();
   return last;
 }
 
+/// Behind its solutions, as SpinRun does.
+void ThreeAxisRun::end_run(std::vector<ArchiveBatch>& batches) {
+  if (plan_ == SolvingPlan::AtTheEnd || !has_separation()) {
+    batches.push_back(finish());
+    finished_.push_back(summary());
+    return;
+  }
+  ArchiveBatch held = computing_.batch();
+  computing_.finish(held.products, [this](const ThreeAxisOutput& output) { note(output); });
+  batches.push_back(std::move(held));
+  BackgroundTask last = solving_at_end();
+  last.batch.finished_utc = utc_now();
+  last.summary = &finished_.emplace_back(summary());
+  due_.push_back(std::move(last));
+}
+
 std::vector<RunSummary> ThreeAxisRun::summaries() const {
-  std::vector<RunSummary> summaries = finished_;
+  std::vector<RunSummary> summaries{finished_.begin(), finished_.end()};
   summaries.push_back(summary());
   return summaries;
 }

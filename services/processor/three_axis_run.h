@@ -3,25 +3,32 @@
 
 #pragma once
 
+#include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "pipelines/reconstruction/separation_record.h"
 #include "pipelines/three_axis/three_axis_pass.h"
 #include "services/archive/records.h"
 #include "services/mission/mission.h"
+#include "services/processor/background_task.h"
 #include "services/processor/pass_computing.h"
 #include "services/processor/run_summary.h"
 
 namespace spindrift {
 
-/// Called as SpinRun is. It hands out no background tasks.
+/// Called as SpinRun is. Where the mission tells of a separation it is reconstructed at the end of
+/// the pass, from all that arrived; meanwhile whenever SeparationRecord says, too: then `batch`
+/// first, and `sequential` behind it.
 class ThreeAxisRun {
  public:
-  ThreeAxisRun(const Mission& mission, const std::string& run_id);
+  ThreeAxisRun(const Mission& mission, const std::string& run_id, SolvingPlan plan);
 
   void go_on(const std::string& first, AllMadeBefore made);
   std::vector<ArchiveBatch> compute(const PassInput& input);
+  std::vector<BackgroundTask> take_background_tasks();
   ArchiveBatch finish();
   std::vector<RunSummary> summaries() const;
 
@@ -29,12 +36,24 @@ class ThreeAxisRun {
   void begin(const std::string& run_id);
   RunSummary summary() const;
   void note(const ThreeAxisOutput& output);
+  void record(const PassInput& input);
+  void hand_out_solutions();
+  BackgroundTask solving(std::shared_ptr<const ReconstructionRequest> request,
+                         std::optional<ReconstructionMethod> method) const;
+  BackgroundTask solving_at_end() const;
+  bool is_stored(ReconstructionMethod method) const;
+  bool has_separation() const;
+  void end_run(std::vector<ArchiveBatch>& batches);
 
   ThreeAxisConfig config_;
   std::optional<Orbit> orbit_;
-  std::vector<RunSummary> finished_;
+  std::optional<SeparationPlan> separation_;
+  std::deque<RunSummary> finished_;  ///< They stay where they are: their last tasks point to them.
   RunSummary summary_;
   PassComputing<ThreeAxisPass> computing_;
+  SolvingPlan plan_;
+  std::optional<SeparationRecord> record_;  ///< Where the mission tells of a separation.
+  std::vector<BackgroundTask> due_;
 };
 
 }  // namespace spindrift

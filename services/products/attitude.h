@@ -24,12 +24,11 @@
 
 namespace spindrift {
 
-/// As it is called in the archive, on the bus and by people.
-inline constexpr std::string_view kAttitudeSource = "mekf";
-
 struct AttitudeTable {
   static constexpr std::string_view kName = "attitude";
   static constexpr std::array<std::string_view, 2> kKey{"t_tai_ns", "source"};
+  /// What was reconstructed afterwards stands there, too (reconstruction.h).
+  static constexpr std::string_view kCondition = "source NOT IN ('batch', 'sequential')";
 
   template <int kAxis>
   static std::optional<double> rate_rad_s(const AttitudeEstimate& estimate) {
@@ -38,7 +37,7 @@ struct AttitudeTable {
   }
   static constexpr std::tuple kColumns{
       ProductColumn{"t_tai_ns", [](const AttitudeEstimate& one) { return tai_ns(one.t); }},
-      ProductColumn{"source", [](const AttitudeEstimate& /*one*/) { return kAttitudeSource; }},
+      ProductColumn{"source", [](const AttitudeEstimate& one) { return name_of(one.source); }},
       ProductColumn{"qx", [](const AttitudeEstimate& one) { return one.q_icrf_body.x(); }},
       ProductColumn{"qy", [](const AttitudeEstimate& one) { return one.q_icrf_body.y(); }},
       ProductColumn{"qz", [](const AttitudeEstimate& one) { return one.q_icrf_body.z(); }},
@@ -64,8 +63,8 @@ struct ProductKind<AttitudeEstimate> {
 
   static constexpr const char* kTopic = "spindrift/attitude";
   static constexpr bool is_announced(const AttitudeEstimate& /*estimate*/) { return true; }
-  static constexpr std::string_view instance(const AttitudeEstimate& /*estimate*/) {
-    return kAttitudeSource;
+  static std::string_view instance(const AttitudeEstimate& estimate) {
+    return name_of(estimate.source);
   }
   static std::int64_t number(const AttitudeEstimate& estimate) { return tai_ns(estimate.t); }
   static constexpr bool is_settled(const AttitudeEstimate& /*estimate*/) { return true; }
@@ -80,7 +79,8 @@ struct ProductKind<AttitudeEstimate> {
         .rate_body_rad_s = std::nullopt,
         .covariance_rad2 = sigma_rad * sigma_rad / 3.0 * Eigen::Matrix3d::Identity(),
         .assessment = {.quality = named(row.text("quality"), Quality::Lost),
-                       .reasons = reasons_of(row.text("reasons"))}};
+                       .reasons = reasons_of(row.text("reasons"))},
+        .source = named(row.text("source"), AttitudeSource::Sequential)};
     if (row.has("rate_x_rad_s")) {
       estimate.rate_body_rad_s = Eigen::Vector3d{row.real("rate_x_rad_s"), row.real("rate_y_rad_s"),
                                                  row.real("rate_z_rad_s")};

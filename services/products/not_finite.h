@@ -9,6 +9,7 @@
 #include <string_view>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 #include "pipelines/core/assessment.h"
 #include "services/products/product_kind.h"
@@ -47,12 +48,16 @@ std::optional<NotFinite> not_finite(const Kind& product) {
     }
   };
   // Of these the column has a text.
-  if constexpr (requires { product.assessment; }) {
-    const auto& reasons = product.assessment.reasons;
+  const auto look_at = [&](const std::vector<Reason>& reasons) {
     if (!std::all_of(reasons.begin(), reasons.end(),
                      [](const Reason& reason) { return is_finite(reason); })) {
       found = NotFinite{.table = MainTable<Kind>::kName, .column = "reasons"};
     }
+  };
+  if constexpr (requires { product.assessment; }) {
+    look_at(product.assessment.reasons);
+  } else if constexpr (requires { product->solution.assessment; }) {
+    look_at(product->solution.assessment.reasons);
   }
   for_each_table<Kind>([&]<class Table>() {
     for_each_row<Table>(product, [&](const auto& row) {

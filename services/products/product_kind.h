@@ -29,12 +29,16 @@ ProductColumn(std::string_view, Get) -> ProductColumn<Get>;
 ///   kWeight        a ProductWeight
 ///   Tables         a std::tuple of its tables; the first has one row a product
 /// and, of those that are announced,
-///   kTopic         on the bus
+///   kTopic         on the bus; or
+///   announced_as   products of kinds with a topic, in their order, in its place
 ///   is_announced   whether this one is
 ///   instance       of the bus, beside the spacecraft: of each only the latest is in force
 ///   number         rises within an instance: the same number is the same product, given again
 ///   is_settled     whether it will not be given again with another answer
-///   from_row       the product as the archive has it
+///   from_row       the product as the archive has it; with
+///   Parts          a table of which it is given its rows besides
+/// and where it needs it
+///   kStays         true: it is not withdrawn in part, but stays until another takes its place
 ///
 /// A table has
 ///   kName
@@ -42,6 +46,7 @@ ProductColumn(std::string_view, Get) -> ProductColumn<Get>;
 ///   index kColumns       a std::tuple of ProductColumn
 /// and where it needs them
 ///   kOfSpacecraft  true: the spacecraft's column stands behind the run's
+///   kCondition     an SQL condition that tells its rows from those of other kinds there
 ///   kReplaces      an SQL condition on which a row takes the place of one with the same key
 ///   rows(product)  a range of rows to which the columns apply: the product has none or many. Then
 ///   group(product) is the value of the first column of the key, which they all have: rows of it
@@ -56,6 +61,10 @@ using MainTable = std::tuple_element_t<0, typename ProductKind<Product>::Tables>
 
 template <class Product>
 concept AnnouncedProduct = requires {
+  &ProductKind<Product>::is_announced;
+};
+template <class Product>
+concept PublishedProduct = requires {
   ProductKind<Product>::kTopic;
 };
 

@@ -11,9 +11,12 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "pipelines/reconstruction/separation.h"
+#include "pipelines/three_axis/products.h"
+#include "services/products/named.h"
 #include "services/products/product_kind.h"
 #include "services/units/degrees.h"
 #include "services/words/assessment_words.h"
@@ -26,6 +29,19 @@ using ReconstructionProduct = std::shared_ptr<const ReconstructedSeparation>;
 
 inline std::string_view method_of(const ReconstructionProduct& product) {
   return name_of(product->solution.method);
+}
+
+/// One of its events as what gives attitudes while they happen says them.
+inline AttitudeEstimate estimate_of(const Reconstruction& solution,
+                                    const ReconstructedEvent& event) {
+  const ReconstructedAttitude& attitude = event.attitude;
+  return {.t = attitude.t,
+          .q_icrf_body = attitude.q_icrf_body,
+          .rate_body_rad_s = attitude.rate_body_rad_s,
+          .covariance_rad2 = attitude.covariance_rad2,
+          .assessment = solution.assessment,
+          .source = solution.method == ReconstructionMethod::Batch ? AttitudeSource::Batch
+                                                                   : AttitudeSource::Sequential};
 }
 
 /// Without a value where nothing was checked.
@@ -64,6 +80,7 @@ struct ReconstructionTable {
           [](const Product& one) { return to_json_text(one->solution.assessment.reasons); }},
       ProductColumn{"status",
                     [](const Product& one) { return sentence_of(one->solution.assessment); }},
+      ProductColumn{"samples", [](const Product& one) { return one->samples; }},
       ProductColumn{"gyro_samples", [](const Product& one) { return one->solution.gyro.count; }},
       ProductColumn{"sun_vectors", [](const Product& one) { return one->solution.sun.count; }},
       ProductColumn{"star_fixes", [](const Product& one) { return one->solution.star.count; }},
@@ -106,6 +123,10 @@ struct ReconstructionEventTable {
     }
     return rows;
   }
+  template <int kAxis>
+  static double rate_rad_s(const Row& row) {
+    return row.event.attitude.rate_body_rad_s[kAxis];
+  }
   template <double Euler312::*kAngle>
   static double icrf_deg(const Row& row) {
     return row.in_icrf.*kAngle * kDegPerRad;
@@ -124,6 +145,9 @@ struct ReconstructionEventTable {
       ProductColumn{"qy", [](const Row& row) { return row.event.attitude.q_icrf_body.y(); }},
       ProductColumn{"qz", [](const Row& row) { return row.event.attitude.q_icrf_body.z(); }},
       ProductColumn{"qw", [](const Row& row) { return row.event.attitude.q_icrf_body.w(); }},
+      ProductColumn{"rate_x_rad_s", &rate_rad_s<0>},
+      ProductColumn{"rate_y_rad_s", &rate_rad_s<1>},
+      ProductColumn{"rate_z_rad_s", &rate_rad_s<2>},
       ProductColumn{"euler312_icrf_deg_1", &icrf_deg<&Euler312::phi_rad>},
       ProductColumn{"euler312_icrf_deg_2", &icrf_deg<&Euler312::theta_rad>},
       ProductColumn{"euler312_icrf_deg_3", &icrf_deg<&Euler312::psi_rad>},
@@ -190,6 +214,64 @@ struct ProductKind<ReconstructionProduct> {
   static constexpr ProductWeight kWeight = ProductWeight::Result;
   using Tables =
       std::tuple<ReconstructionTable, ReconstructionEventTable, ReconstructedAttitudeTable>;
+  static constexpr bool kStays = true;
+
+  static constexpr bool is_announced(const ReconstructionProduct& /*product*/) { return true; }
+  static std::string_view instance(const ReconstructionProduct& product) {
+    return method_of(product);
+  }
+  static std::int64_t number(const ReconstructionProduct& product) { return product->samples; }
+  static constexpr bool is_settled(const ReconstructionProduct& /*product*/) { return true; }
+
+  /// Its events, T1 last: the bus keeps the last one of a method for those who come later.
+  static std::vector<AttitudeEstimate> announced_as(const ReconstructionProduct& product) {
+    const Reconstruction& solution = product->solution;
+    std::vector<AttitudeEstimate> events;
+    for (auto event = solution.events.rbegin(); event != solution.events.rend(); ++event) {
+      events.push_back(estimate_of(solution, *event));
+    }
+    return events;
+  }
+
+  /// With what is announced of it only, and covariances that are the same about all axes.
+  using Parts = ReconstructionEventTable;
+  template <class Row, class EventRows>
+  static ReconstructionProduct from_row(const Row& row, const EventRows& for_each_event) {
+    ReconstructedSeparation separation{
+        .solution = {.method = named(row.text("method"), ReconstructionMethod::Sequential),
+                     .events = {},
+                     .history = {},
+                     .bias = std::nullopt,
+                     .misalignment = std::nullopt,
+                     .open_bias = {},
+                     .gyro = {},
+                     .sun = {},
+                     .star = {},
+                     .assessment = {.quality = named(row.text("quality"), Quality::Lost),
+                                    .reasons = reasons_of(row.text("reasons"))},
+                     .iterations = 0},
+        .in_orbit_frame = {},
+        .launcher = std::nullopt,
+        .samples = row.integer("samples")};
+    for_each_event(
+        [&](const auto& event) { separation.solution.events.push_back(event_of(event)); });
+    return std::make_shared<const ReconstructedSeparation>(std::move(separation));
+  }
+
+ private:
+  template <class Row>
+  static ReconstructedEvent event_of(const Row& row) {
+    const double sigma_rad = row.real("sigma_deg") * kRadPerDeg;
+    return {.event = named(row.text("event"), SeparationEvent::FirstStarFix),
+            .found = row.integer("found") != 0,
+            .attitude = {
+                .t = tai_from_ns(row.integer("t_tai_ns")),
+                .q_icrf_body = {row.real("qw"), row.real("qx"), row.real("qy"), row.real("qz")},
+                .rate_body_rad_s = {row.real("rate_x_rad_s"), row.real("rate_y_rad_s"),
+                                    row.real("rate_z_rad_s")},
+                .covariance_rad2 = sigma_rad * sigma_rad / 3.0 * Eigen::Matrix3d::Identity(),
+                .rate_covariance_rad2_s2 = Eigen::Matrix3d::Zero()}};
+  }
 };
 
 }  // namespace spindrift

@@ -10,8 +10,8 @@
 
 namespace spindrift {
 
-/// `Type`: the generated one, which to_idl fills. For each kind of product that is announced.
-template <AnnouncedProduct Product>
+/// `Type`: the generated one, which to_idl fills. For each kind of product that has a topic.
+template <PublishedProduct Product>
 struct ProductMessage;
 
 template <>
@@ -32,7 +32,7 @@ struct ProductMessage<AttitudeEstimate> {
   static const dds_topic_descriptor_t* descriptor() { return &spindrift_AttitudeEstimate_desc; }
 };
 
-template <AnnouncedProduct Product>
+template <PublishedProduct Product>
 bus::Topic<typename ProductMessage<Product>::Type> product_topic() {
   return {ProductKind<Product>::kTopic, ProductMessage<Product>::descriptor()};
 }

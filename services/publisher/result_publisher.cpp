@@ -18,7 +18,7 @@ Expected<ResultPublisher> ResultPublisher::create(const bus::Participant& partic
   Writers products;
   Expected<void> made;
   for_each_product_kind([&]<class Kind>() {
-    if constexpr (AnnouncedProduct<Kind>) {
+    if constexpr (PublishedProduct<Kind>) {
       const auto topic = product_topic<Kind>();
       made = made.and_then([&] {
         return bus::UntypedWriter::create(participant, topic.name, topic.type, qos,
@@ -39,11 +39,17 @@ Expected<void> ResultPublisher::publish(std::string_view spacecraft, std::string
                                         const Product& product) const {
   return std::visit(
       [&]<class Kind>(const Kind& value) -> Expected<void> {
-        if constexpr (AnnouncedProduct<Kind>) {
+        if constexpr (PublishedProduct<Kind>) {
           return to_idl({.spacecraft = spacecraft, .run_id = run_id, .service = service_}, value)
               .and_then([&](const typename ProductMessage<Kind>::Type& message) {
                 return products_.at(kProductKind<Kind>).write(&message);
               });
+        } else if constexpr (AnnouncedProduct<Kind>) {
+          Expected<void> published;
+          for (const auto& part : ProductKind<Kind>::announced_as(value)) {
+            published = published.and_then([&] { return publish(spacecraft, run_id, part); });
+          }
+          return published;
         } else {
           return {};
         }

@@ -24,8 +24,8 @@ class ResultPublisher {
   /// @return Unavailable when Cyclone refuses.
   static Expected<ResultPublisher> create(const bus::Participant& participant, std::string service);
 
-  /// On the topic of its kind; what has none, and what is_announced says no to, is not for
-  /// publishing (see announcements.h).
+  /// On the topic of its kind, or as what it is announced as; what has neither, and what
+  /// is_announced says no to, is not for publishing (see announcements.h).
   /// @return InvalidInput for a name that does not fit (to_idl.h), Unavailable when the bus
   /// refuses.
   Expected<void> publish(std::string_view spacecraft, std::string_view run_id,

@@ -129,7 +129,7 @@ Expected<spindrift_AttitudeEstimate> to_idl(const ResultOrigin& origin,
       .service = {}};
   put_text(out.status, sentence_of(estimate.assessment));
   return put_origin(out, origin)
-      .and_then([&] { return put_name(out.estimator, kAttitudeSource, "estimator"); })
+      .and_then([&] { return put_name(out.estimator, name_of(estimate.source), "estimator"); })
       .map([&out] { return out; });
 }
 

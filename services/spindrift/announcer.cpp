@@ -65,6 +65,9 @@ void Announcer::run() {
       if (!published) {
         spdlog::error("not published: {}", published.error().message);
       }
+      if (const auto* const one = std::get_if<ReconstructionProduct>(&result.product)) {
+        spdlog::info("{}: separation reconstructed: {}", result.spacecraft, to_text(*one));
+      }
       if (is_estimate(result.product)) {
         latest.insert_or_assign(result.spacecraft, &result.product);
       }

@@ -1,6 +1,6 @@
 /// @file
-/// Announces results once they are stored, on a thread of its own: on the bus, and the latest
-/// estimate every now and then in the log.
+/// Announces results once they are stored, on a thread of its own: on the bus, and in the log the
+/// latest estimate every now and then, and each reconstruction of a separation.
 
 #pragma once
 

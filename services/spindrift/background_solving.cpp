@@ -3,8 +3,11 @@
 #include <pthread.h>
 #include <sched.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <future>
 #include <map>
@@ -43,7 +46,7 @@ std::atomic<bool> given_up = false;
 std::optional<Expected<std::vector<Product>>> solve_giving_way(const BackgroundTask& task,
                                                                const Patience& patience) {
   std::packaged_task<Expected<std::vector<Product>>()> solving{[task] {
-    give_way_to_other_threads();
+    task.is_awaited ? let_samples_come_first() : give_way_to_other_threads();
     return task.solve();
   }};
   auto solution = solving.get_future();
@@ -60,6 +63,14 @@ std::optional<Expected<std::vector<Product>>> solve_giving_way(const BackgroundT
 }
 
 }  // namespace
+
+void let_samples_come_first() {
+  constexpr int kNice = 10;
+  if (setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice) != 0) {
+    spdlog::warn("the backlog competes with samples for the processor: {}",
+                 std::generic_category().message(errno));
+  }
+}
 
 bool is_solution_given_up() { return given_up; }
 
@@ -80,13 +91,13 @@ std::size_t solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& ar
     }
     if (*products) {
       if (task->summary != nullptr) {
-        task->summary->count_batch(**products);
+        task->summary->count_solution(**products);
       }
       task->batch.products = **std::move(products);
     } else {
       std::string& reason = said[spacecraft];
       if (std::exchange(reason, products->error().message) != products->error().message) {
-        spdlog::warn("{}: no batch solution: {}", spacecraft, reason);
+        spdlog::warn("{}: no {}: {}", spacecraft, task->what, reason);
       }
     }
     if (row_count(task->batch) > 0 && !archive.submit(std::move(task->batch))) {
@@ -96,7 +107,7 @@ std::size_t solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& ar
   std::size_t all_left = 0;
   for (const auto& [spacecraft, count] : left) {
     all_left += count;
-    spdlog::warn("{}: {} batch solution{} not computed yet: the next start of the service will",
+    spdlog::warn("{}: {} solution{} not computed yet: the next start of the service will",
                  spacecraft, count, count == 1 ? " is" : "s are");
   }
   return all_left;

@@ -1,14 +1,7 @@
 #include "services/spindrift/computing.h"
 
-#include <spdlog/spdlog.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <system_error>
 #include <utility>
 
-#include "services/spindrift/background_solving.h"
 #include "services/spindrift/submit_all.h"
 
 namespace spindrift {
@@ -18,22 +11,12 @@ namespace {
 constexpr std::size_t kFewSamples = 64;
 constexpr std::size_t kFewBatches = 8;
 
-/// What a burst leaves to be computed can wait, and its samples cannot be had again: where both
-/// want the processor this thread has a tenth of it.
-void let_samples_come_first() {
-  constexpr int kNice = 10;
-  if (setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice) != 0) {
-    spdlog::warn("the backlog competes with samples for the processor: {}",
-                 std::generic_category().message(errno));
-  }
-}
-
 }  // namespace
 
 Expected<void> Computing::take(PassInput input, std::size_t batches_behind) {
   const bool is_little = sample_count(input) <= kFewSamples && batches_behind <= kFewBatches;
-  // The thread that routes must not wait for batch solutions either.
-  if (is_little && waiting_ == 0 && tasks_.size() < kMostBackgroundTasks / 2) {
+  // The thread that routes must not wait for solutions either.
+  if (is_little && waiting_ == 0 && tasks_.is_roomy()) {
     return compute(input);
   }
   leave_to_backlog(std::move(input));

@@ -10,6 +10,7 @@
 #include "services/archive/archive.h"
 #include "services/processor/processor.h"
 #include "services/queue/bounded_queue.h"
+#include "services/spindrift/background_solving.h"
 #include "services/spindrift/patience.h"
 
 namespace spindrift {
@@ -20,9 +21,9 @@ namespace spindrift {
 /// mathematics takes.
 class Computing {
  public:
-  /// All of them outlive it. @param tasks Batch solutions that become due.
+  /// All of them outlive it. @param tasks Solutions that become due.
   Computing(Processor& processor, Archive& archive, BoundedQueue<PassInput>& backlog,
-            BoundedQueue<BackgroundTask>& tasks, const Patience& patience)
+            BackgroundTasks& tasks, const Patience& patience)
       : processor_{processor},
         archive_{archive},
         backlog_{backlog},
@@ -48,7 +49,7 @@ class Computing {
   Processor& processor_;
   Archive& archive_;
   BoundedQueue<PassInput>& backlog_;
-  BoundedQueue<BackgroundTask>& tasks_;
+  BackgroundTasks& tasks_;
   const Patience& patience_;
   std::atomic<std::size_t> waiting_ = 0;  ///< 0: the thread that works off is at rest.
   std::size_t samples_left_ = 0;

@@ -3,19 +3,17 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
 #include "pipelines/core/shown.h"
-#include "pipelines/reconstruction/reconstruct.h"
-#include "pipelines/reconstruction/separation.h"
 #include "services/archive/archive.h"
 #include "services/archive/stored_separation.h"
 #include "services/clock/wall_clock.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
+#include "services/processor/separation_solving.h"
 #include "services/scenario/output_file.h"
 #include "services/separation/separation_json.h"
 #include "services/separation/separation_plot.h"
@@ -103,6 +101,7 @@ Expected<Recorded> recorded_in_files(const std::vector<std::filesystem::path>& p
     append(*batch, spacecraft_id, recorded.samples.gyro);
     append(*batch, spacecraft_id, recorded.samples.sun);
     append(*batch, spacecraft_id, recorded.samples.stars);
+    append(*batch, spacecraft_id, recorded.samples.orbit_states);
     recorded.to_store.push_back(std::move(*batch));
   }
 }
@@ -118,33 +117,18 @@ Expected<Recorded> recorded(const ReconstructOptions& options, const Mission& mi
       });
 }
 
-struct Solved {
-  std::vector<ReconstructionProduct> methods;
-  std::vector<std::string> failures;
-};
-
 /// @return InvalidConfiguration where no method gives an answer: the samples do not allow one.
-Expected<Solved> solved(const ReconstructOptions& options, const Mission& mission,
-                        SeparationSamples samples) {
+Expected<SolvedSeparation> solved(const ReconstructOptions& options, const Mission& mission,
+                                  SeparationSamples samples) {
   const ReconstructionRequest request{.sensors = std::get<ThreeAxisConfig>(mission.config),
                                       .times = mission.separation->times,
                                       .gyro = std::move(samples.gyro),
                                       .sun_directions = std::move(samples.sun),
                                       .star_fixes = std::move(samples.stars),
                                       .orbit = mission.orbit,
+                                      .orbit_states = std::move(samples.orbit_states),
                                       .node_at_every_gyro_sample = true};
-  Solved solved;
-  for (const auto method : {ReconstructionMethod::Batch, ReconstructionMethod::Sequential}) {
-    if (options.method.value_or(method) != method) {
-      continue;
-    }
-    if (auto solution = reconstruct(request, method)) {
-      solved.methods.push_back(std::make_shared<const ReconstructedSeparation>(
-          separation_of(*std::move(solution), mission.orbit, mission.separation->launcher)));
-    } else if (solved.failures.empty() || solved.failures.back() != solution.error().message) {
-      solved.failures.push_back(solution.error().message);
-    }
-  }
+  auto solved = solve_separation(request, mission.separation->launcher, options.method);
   if (solved.methods.empty()) {
     return refused(fmt::format("{}: {}", mission.spacecraft_id, fmt::join(solved.failures, "\n")));
   }
@@ -187,7 +171,7 @@ Expected<std::string> store(const ReconstructOptions& options, const Mission& mi
 }
 
 Expected<void> print(const ReconstructOptions& options, const SeparationReport& report,
-                     const Solved& solved) {
+                     const SolvedSeparation& solved) {
   const std::string plot = options.plot.empty() ? std::string{} : plot_of(report);
   if (!plot.empty()) {
     if (auto written = write_file(options.plot, plot); !written) {

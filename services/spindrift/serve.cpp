@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <memory>
@@ -169,14 +170,16 @@ void route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& 
                        BoundedQueue<PassInput>& backlog, Processor& processor, Archive& archive,
                        const Patience& patience, LinkWatch& links, Problems& problems,
                        ThreadFailures& failures) {
-  BoundedQueue<BackgroundTask> tasks{kMostBackgroundTasks};
+  BackgroundTasks tasks;
   Computing computing{processor, archive, backlog, tasks, patience};
-  std::size_t solutions_left = 0;
-  std::thread solving{[&] {
-    failures.note(contained(
-        "solving", [&] { solutions_left = solve_in_background(tasks, archive, patience); }));
-    tasks.close();
-  }};
+  std::atomic<std::size_t> solutions_left = 0;
+  const auto solve = [&](BoundedQueue<BackgroundTask>& of) {
+    failures.note(contained("solving",
+                            [&] { solutions_left += solve_in_background(of, archive, patience); }));
+    of.close();
+  };
+  std::thread solving{[&] { solve(tasks.usual); }};
+  std::thread solving_awaited{[&] { solve(tasks.awaited); }};
   std::thread working_off{[&] {
     failures.note(contained("computing the backlog", [&] { return computing.work_off(); }));
     backlog.close();
@@ -187,8 +190,10 @@ void route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& 
   taken.close();
   backlog.close();
   working_off.join();
-  tasks.close();
+  tasks.usual.close();
+  tasks.awaited.close();
   solving.join();
+  solving_awaited.join();
   if (!failures.first() || solutions_left > 0) {
     return;
   }

@@ -12,6 +12,7 @@
 #include "services/archive/stored_faults.h"
 #include "services/archive/stored_pass.h"
 #include "services/products/to_json.h"
+#include "services/separation/separation_json.h"
 #include "services/spindrift/batch_text.h"
 #include "services/units/decimals.h"
 #include "services/units/degrees.h"
@@ -161,7 +162,7 @@ std::string attitude_text(const RunSummary& summary) {
     text += fmt::format("               body rate    x {:+.5f}  y {:+.5f}  z {:+.5f} deg/s\n",
                         rate_deg_s.x(), rate_deg_s.y(), rate_deg_s.z());
   }
-  return text + fmt::format("  {:<13}{}  {}\n", kAttitudeSource, format_utc(attitude.t),
+  return text + fmt::format("  {:<13}{}  {}\n", name_of(attitude.source), format_utc(attitude.t),
                             sentence_of(attitude.assessment));
 }
 
@@ -179,6 +180,14 @@ nlohmann::json sensors_json(const RunSummary& summary) {
     }
   }
   return sensors;
+}
+
+std::string reconstructions_text(const RunSummary& summary) {
+  std::string text;
+  for (const ReconstructionProduct& one : summary.reconstructions) {
+    text += fmt::format("  {:<13}{}\n", text.empty() ? "separation" : "", to_text(one));
+  }
+  return text;
 }
 
 std::string disagreements_text(const RunSummary& summary) {
@@ -243,7 +252,8 @@ std::string to_text(const RunSummary& summary) {
       text += counted(count, plural) + ", ";
     }
     text += rejected_text(summary) + "\n";
-    return text + sensors_text(summary) + attitude_text(summary) + faults_text(summary);
+    return text + sensors_text(summary) + attitude_text(summary) + reconstructions_text(summary) +
+           faults_text(summary);
   }
   text += fmt::format("  received     {} edges, {} of them stored, {} coded frames, {}\n",
                       summary.edges_received, summary.edges_stored, summary.coded_frames_received,
@@ -279,6 +289,7 @@ nlohmann::json to_json(const RunSummary& summary) {
                       {"batch", nullptr},
                       {"sensors", sensors_json(summary)},
                       {"attitude", nullptr},
+                      {"reconstruction", nullptr},
                       {"faults", nlohmann::json::array()},
                       {"disagreements", nlohmann::json::array()}};
   for (const auto& [plural, count] : summary.samples_received) {
@@ -289,6 +300,12 @@ nlohmann::json to_json(const RunSummary& summary) {
   }
   if (summary.attitude) {
     json["attitude"] = to_json(*summary.attitude);
+  }
+  if (!summary.reconstructions.empty()) {
+    const nlohmann::json report = to_json(SeparationReport{.spacecraft_id = summary.spacecraft_id,
+                                                           .run_id = summary.run_id,
+                                                           .methods = summary.reconstructions});
+    json["reconstruction"] = {{"batch", report["batch"]}, {"sequential", report["sequential"]}};
   }
   if (summary.batch) {
     json["batch"].update(to_json(*summary.batch));
@@ -316,8 +333,15 @@ std::string to_text(const AttitudeEstimate& attitude) {
   const int decimals = decimals_for(sigma_deg(attitude), 4);
   return fmt::format(
       "attitude ICRF to body, Euler 3-1-2 {:.{}f} {:.{}f} {:.{}f} deg, sigma {:.{}f} deg, {}: {}",
-      phi, decimals, theta, decimals, psi, decimals, sigma_deg(attitude), decimals, kAttitudeSource,
-      sentence_of(attitude.assessment));
+      phi, decimals, theta, decimals, psi, decimals, sigma_deg(attitude), decimals,
+      name_of(attitude.source), sentence_of(attitude.assessment));
+}
+
+std::string to_text(const ReconstructionProduct& reconstruction) {
+  const Reconstruction& solution = reconstruction->solution;
+  const ReconstructedEvent& separation = *find(solution, SeparationEvent::Separation);
+  return fmt::format("T1 {}, {}", format_utc(separation.attitude.t),
+                     to_text(estimate_of(solution, separation)));
 }
 
 Expected<std::string> report(const Processor& processor, const std::filesystem::path& db,

@@ -23,6 +23,8 @@ nlohmann::json to_json(const SpinEstimate& estimate);
 /// An estimate on one line, for the log.
 std::string to_text(const SpinEstimate& estimate);
 std::string to_text(const AttitudeEstimate& attitude);
+/// Its T1.
+std::string to_text(const ReconstructionProduct& reconstruction);
 
 /// All runs of one command: text, or one JSON object with `db`, `runs` and `other_spacecraft`.
 /// @param db Read for what is stored: the runs' products and samples must be in it.

@@ -22,7 +22,7 @@ namespace spindrift::three_axis_restart_test {
 
 /// More than twice what is made again after a restart.
 constexpr testing::ThreeAxisScene kLongPass{
-    .duration_s = 1300.0, .gyro_s = 1.0, .star_s = 10.0, .sun_s = 5.0};
+    .duration_s = 1300.0, .gyro_s = 1.0, .star_s = 10.0, .sun_s = 5.0, .separation = true};
 constexpr std::size_t kSamplesABatch = 13;
 constexpr std::size_t kSilence = 90;  ///< Before that batch.
 
@@ -69,6 +69,7 @@ using Batches = std::vector<ArchiveBatch>;
 struct Submitted {
   Batches samples;
   Batches products;
+  std::size_t solved = 0;  ///< Solutions of the separation among them.
 };
 
 class ThreeAxisRestart : public testing::ArchiveFixture {
@@ -91,6 +92,11 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
     for (const PassInput& input : routed.work) {
       Batches made = processor.compute(input);
       std::move(made.begin(), made.end(), std::back_inserter(out.products));
+      for (BackgroundTask& task : processor.take_background_tasks(input)) {
+        task.batch.products = task.solve().value();
+        out.products.push_back(std::move(task.batch));
+        ++out.solved;
+      }
     }
   }
 
@@ -139,7 +145,9 @@ TEST_F(ThreeAxisRestart, KilledAtAnyPointGivesWhatNoRestartWouldHave) {
   std::move(last.begin(), last.end(), std::back_inserter(whole.products));
   store(whole_db, whole.samples, whole.products);
   const std::vector<std::string> rows = all_rows(whole_db);
-  ASSERT_GT(number_of(whole_db, "SELECT count(*) FROM attitude"), 1000);
+  ASSERT_GT(number_of(whole_db, "SELECT count(*) FROM attitude WHERE source = 'mekf'"), 1000);
+  ASSERT_EQ(rows_of(whole_db, "SELECT method, event FROM reconstruction_event WHERE event = 'T1'"),
+            (std::vector<std::string>{"batch|T1|", "sequential|T1|"}));
   ASSERT_EQ(rows_of(whole_db, "SELECT DISTINCT rejected_by FROM rejected_sample ORDER BY 1"),
             (std::vector<std::string>{"innovation|", "late|", "saturated|"}));
 
@@ -167,11 +175,14 @@ TEST_F(ThreeAxisRestart, MakesOnlyTheLastTenMinutesAgain) {
   first.samples = processor.begin();
   receive(processor, 0, sent_.size(), first);
   store(db, first.samples, first.products);
-  const std::int64_t last = number_of(db, "SELECT max(t_tai_ns) FROM attitude");
+  ASSERT_GT(first.solved, 10U);
+  const std::int64_t last =
+      number_of(db, "SELECT max(t_tai_ns) FROM attitude WHERE source = 'mekf'");
 
   Processor restarted = new_processor();
   Submitted again;
   work(restarted, restarted.go_on(db).value().routed, again);
+  EXPECT_EQ(again.solved, 0U);
   ASSERT_FALSE(again.products.empty());
   ASSERT_TRUE(again.products.front().continuation);
   EXPECT_EQ(tai_ns(again.products.front().continuation->t), last - 600'000'000'000);

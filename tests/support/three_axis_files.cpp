@@ -6,6 +6,7 @@
 #include <fstream>
 #include <numbers>
 #include <random>
+#include <string>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/ephemeris/sun.h"
@@ -54,7 +55,10 @@ void write_three_axis_pass(const std::filesystem::path& folder, const ThreeAxisS
   const ThreeAxisConfig config = usual_three_axis();
   const TurningBody body = TurningBody::smooth(rng, scene.duration_s + 1.0, 0.02);
   Sensors sensors{body, config, rng};
-  std::ofstream{folder / "mission.toml"} << mission_toml(config);
+  std::ofstream{folder / "mission.toml"}
+      << mission_toml(config)
+      << (scene.separation ? fmt::format("[reconstruction]\nt1_tai_ns = {}\n", tai_ns(at_s(-60.0)))
+                           : "");
 
   const double end_s = scene.duration_s;
   write_rows(folder / "gyro.csv", "wx_rad_s,wy_rad_s,wz_rad_s", 0.0, end_s, scene.gyro_s,
@@ -84,6 +88,22 @@ void write_three_axis_pass(const std::filesystem::path& folder, const ThreeAxisS
                const OrbitState state = orbit->at(at_s(t_s)).value();
                return fields(state.position_icrf_km) + fields(state.velocity_icrf_km_s);
              });
+}
+
+void write_half(const std::filesystem::path& pass, std::int64_t middle_tai_ns, bool first,
+                const std::filesystem::path& to) {
+  for (const char* name : {"gyro.csv", "star.csv", "sun.csv", "orbit_state.csv"}) {
+    std::ifstream whole{pass / name};
+    std::ofstream half{to / name};
+    std::string row;
+    std::getline(whole, row);
+    half << row << '\n';
+    while (std::getline(whole, row)) {
+      if ((std::stoll(row) < middle_tai_ns) == first) {
+        half << row << '\n';
+      }
+    }
+  }
 }
 
 }  // namespace spindrift::testing

@@ -5,7 +5,6 @@
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -89,23 +88,6 @@ std::vector<std::string> pass_rows(const std::filesystem::path& db) {
   return rows;
 }
 
-/// Of the CSV files of a pass the rows of one half of its time.
-void write_half(const std::filesystem::path& pass, std::int64_t middle_tai_ns, bool first,
-                const std::filesystem::path& to) {
-  for (const char* name : {"gyro.csv", "star.csv", "sun.csv", "orbit_state.csv"}) {
-    std::ifstream whole{pass / name};
-    std::ofstream half{to / name};
-    std::string row;
-    std::getline(whole, row);
-    half << row << '\n';
-    while (std::getline(whole, row)) {
-      if ((std::stoll(row) < middle_tai_ns) == first) {
-        half << row << '\n';
-      }
-    }
-  }
-}
-
 /// The last attitude that a late joiner is given.
 std::int64_t last_on(const bus::BusConfig& bus) {
   const auto participant = bus::Participant::create(bus).value();
@@ -132,7 +114,7 @@ TEST(ThreeAxis, ServeGivesWhatProcessGivesAlsoWhenItIsKilledInThePass) {
   for (const bool first : {true, false}) {
     ASSERT_TRUE(service.ready()) << service.program().log();
     const TemporaryFolder half;
-    write_half(pass.path(), middle, first, half.path());
+    testing::write_half(pass.path(), middle, first, half.path());
     Program replay{{"replay", "--mission", service.mission(), "--telemetry", half.path().string(),
                     "--speed", "0", "--domain", std::to_string(service.bus().domain), "--partition",
                     service.bus().partition}};

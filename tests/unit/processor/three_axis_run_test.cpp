@@ -61,7 +61,7 @@ class ThreeAxisRunTest : public ::testing::Test {
   TurningBody body_ = TurningBody::smooth(rng_, 60.0, 0.02);
   Sensors sensors_{body_, usual_three_axis(), rng_};
   PassInput input_{.spacecraft = 0, .run_id = "run-1"};
-  ThreeAxisRun run_{mission(), "run-1"};
+  ThreeAxisRun run_{mission(), "run-1", SolvingPlan::Meanwhile};
 };
 
 TEST_F(ThreeAxisRunTest, GivesTheFirstAttitudeWithTheSampleThatReleasesItsStarFix) {

@@ -1,0 +1,188 @@
+// `spindrift serve` reconstructs a separation by itself.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <spindrift.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "pipelines/frames/angle.h"
+#include "pipelines/frames/rotation_vector.h"
+#include "services/bus/qos.h"
+#include "services/bus/reader.h"
+#include "services/publisher/product_messages.h"
+#include "tests/support/archive_rows.h"
+#include "tests/support/bus_fixture.h"
+#include "tests/support/processed_pass.h"
+#include "tests/support/recorded_separation.h"
+#include "tests/support/service.h"
+#include "tests/support/test_paths.h"
+#include "tests/support/three_axis_files.h"
+
+namespace spindrift::serve_separation_test {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::filesystem::path kSeparation = test_data() / "three-axis" / "separation";
+
+/// What was reconstructed, but the names of runs.
+std::vector<std::string> reconstructed_rows(const std::filesystem::path& db) {
+  std::vector<std::string> rows;
+  for (const char* query :
+       {"SELECT method, event, t_tai_ns, found, qx, qy, qz, qw, rate_x_rad_s, rate_y_rad_s,"
+        " rate_z_rad_s, euler312_orbit_deg_1, euler312_orbit_deg_2, euler312_orbit_deg_3,"
+        " sigma_deg, bound_deg FROM reconstruction_event ORDER BY 1, 2",
+        "SELECT method, t_tai_ns, quality, reasons, status, samples, gyro_samples, sun_vectors,"
+        " star_fixes, bias_x_rad_s, bias_sigma_z_rad_s FROM reconstruction ORDER BY 1",
+        "SELECT t_tai_ns, source, qx, qy, qz, qw, rate_x_rad_s, sigma_deg, quality, status"
+        " FROM attitude ORDER BY 2, 1"}) {
+    for (std::string& row : rows_of(db, query)) {
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
+/// A subscriber to attitudes who keeps all.
+class Listener {
+ public:
+  explicit Listener(const bus::BusConfig& bus)
+      : participant_{bus::Participant::create(bus).value()},
+        reader_{bus::Reader<spindrift_AttitudeEstimate>::create(
+                    participant_, product_topic<AttitudeEstimate>(), bus::telemetry_reader_qos())
+                    .value()} {}
+
+  /// Of an estimator, as they came.
+  std::vector<spindrift_AttitudeEstimate> of(const std::string& estimator) {
+    while (reader_
+               .take([&](const spindrift_AttitudeEstimate& one) {
+                 got_[one.estimator].push_back(one);
+               })
+               .value() > 0) {
+    }
+    return got_[estimator];
+  }
+
+ private:
+  bus::Participant participant_;
+  bus::Reader<spindrift_AttitudeEstimate> reader_;
+  std::map<std::string, std::vector<spindrift_AttitudeEstimate>> got_;
+};
+
+/// The one that a late joiner is given.
+std::vector<std::int64_t> kept_on(const bus::BusConfig& bus, const std::string& estimator) {
+  const auto participant = bus::Participant::create(bus).value();
+  const auto reader = bus::Reader<spindrift_AttitudeEstimate>::create(
+                          participant, product_topic<AttitudeEstimate>(), bus::results_qos())
+                          .value();
+  std::vector<std::int64_t> times;
+  for (const auto& one : take_samples(reader, 3)) {
+    if (one.estimator == estimator) {
+      times.push_back(one.t_tai_ns);
+    }
+  }
+  return times;
+}
+
+void expect_right(const spindrift_AttitudeEstimate& told, const testing::TrueAttitude& truth) {
+  EXPECT_EQ(told.t_tai_ns, tai_ns(truth.t));
+  const double off_deg =
+      angle_between_rad(Eigen::Quaterniond{told.qw, told.qx, told.qy, told.qz}, truth.q_icrf_body) /
+      kRadPerDeg;
+  EXPECT_LT(off_deg, 3.0 * told.sigma_deg);
+  EXPECT_LT(told.sigma_deg, 1.5);
+  EXPECT_EQ(told.quality, spindrift_QUALITY_OK) << told.status;
+}
+
+TEST(ServeSeparation, IsReconstructedWhenTheStarFixComesAndSentAndStored) {
+  const auto pass = testing::recorded_separation("separation");
+  Service service{kSeparation.string(), "replay"};
+  Listener listener{service.bus()};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  ASSERT_EQ(service.replay("0"), 0);
+  for (const char* const method : {"batch", "sequential"}) {
+    EXPECT_TRUE(eventually([&] { return listener.of(method).size() >= 4; })) << method;
+  }
+  const auto sent = listener.of("batch");
+  ASSERT_GE(sent.size(), 4U);
+  for (const auto& [event, place] :
+       {std::pair{"T4", 0U}, std::pair{"T3", 1U}, std::pair{"T2", 2U}, std::pair{"T1", 3U}}) {
+    expect_right(sent[place], pass.truth.at(event));
+  }
+  EXPECT_THAT(kept_on(service.bus(), "batch"), ElementsAre(tai_ns(pass.truth.at("T1").t)));
+  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM reconstruction"), 2);
+
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  EXPECT_THAT(service.program().log(),
+              HasSubstr("separation reconstructed: T1 2026-03-01T04:00:00.000Z, attitude ICRF to "
+                        "body, Euler 3-1-2 "));
+  const TemporaryFolder folder;
+  const Outcome processed = process(folder, kSeparation);
+  ASSERT_EQ(processed.status, 0) << processed.log;
+  EXPECT_EQ(reconstructed_rows(service.db()), reconstructed_rows(processed.db));
+  const auto summary = nlohmann::json::parse(service.program().out())["runs"][0]["reconstruction"];
+  EXPECT_EQ(summary["batch"]["events"][0]["event"], "T1");
+  EXPECT_EQ(summary, processed.run["reconstruction"]);
+}
+
+TEST(ServeSeparation, KilledBetweenStarFixesGivesWhatProcessGives) {
+  const TemporaryFolder pass;
+  testing::write_three_axis_pass(pass.path(), {.separation = true});
+  const TemporaryFolder folder;
+  const Outcome processed = process(folder, pass.path());
+  ASSERT_EQ(processed.status, 0) << processed.log;
+  const std::int64_t last = number_of(processed.db, "SELECT max(t_tai_ns) FROM gyro_sample");
+
+  Service service{pass.path().string(), "replay"};
+  Listener listener{service.bus()};
+  const std::int64_t t1 =
+      number_of(processed.db, "SELECT min(t_tai_ns) FROM reconstruction_event WHERE event = 'T1'");
+  const auto solutions = [&](const std::string& method) {
+    const auto told = listener.of(method);
+    return std::count_if(told.begin(), told.end(),
+                         [&](const auto& one) { return one.t_tai_ns == t1; });
+  };
+  for (const bool first : {true, false}) {
+    ASSERT_TRUE(service.ready()) << service.program().log();
+    const TemporaryFolder half;
+    testing::write_half(pass.path(), last - 30'000'000'000, first, half.path());
+    Program replay{{"replay", "--mission", service.mission(), "--telemetry", half.path().string(),
+                    "--speed", "0", "--domain", std::to_string(service.bus().domain), "--partition",
+                    service.bus().partition}};
+    ASSERT_EQ(replay.exit_status(), 0) << replay.log();
+    // At 1, 2, 4, 8 and 16 fixes; behind the restart the last of these again, and at 32.
+    for (const char* const method : {"batch", "sequential"}) {
+      ASSERT_TRUE(eventually([&, all = first ? 5 : 7] { return solutions(method) == all; }))
+          << solutions(method);
+    }
+    if (first) {
+      service.program().signal(SIGKILL);
+      service.program().exit_status();
+      service.start();
+    }
+  }
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  EXPECT_EQ(reconstructed_rows(service.db()), reconstructed_rows(processed.db));
+  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run"), 1);
+  EXPECT_TRUE(eventually([&] { return solutions("batch") == 8; })) << solutions("batch");
+}
+
+TEST(ServeSeparation, ProcessSaysWhyThereIsNoneAndDoesTheRest) {
+  const TemporaryFolder folder;
+  Program program{{"process", "--mission", (kSeparation / "mission.toml").string(), "--telemetry",
+                   (kSeparation / "gyro.csv").string(), "--db",
+                   (folder.path() / "out.db").string()}};
+  EXPECT_EQ(program.exit_status(), 0);
+  EXPECT_THAT(program.log(), HasSubstr("no reconstruction of the separation: no star fix: nothing "
+                                       "can be anchored"));
+}
+
+}  // namespace spindrift::serve_separation_test
