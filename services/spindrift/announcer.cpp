@@ -48,6 +48,12 @@ void Announcer::go_on(const std::string& run_id, const std::string& spacecraft,
 
 void Announcer::committed(std::span<const ArchiveBatch> batches) {
   for (const ArchiveBatch& batch : batches) {
+    if (batch.start && batch.start->mode == RunMode::Process) {
+      unannounced_.insert(batch.run_id);
+    }
+    if (unannounced_.contains(batch.run_id)) {
+      continue;
+    }
     if (const auto before = announced_before_.find(batch.run_id);
         before == announced_before_.end()) {
       waiting_.add(batch.spacecraft_id, batch.run_id, batch.products);

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <thread>
@@ -42,6 +43,7 @@ class Announcer {
   const ResultPublisher& publisher_;
   Announcements waiting_;
   std::map<std::string, StoredResults> announced_before_;              ///< By run.
+  std::set<std::string> unannounced_;                                  ///< Runs of other commands.
   std::map<std::string, std::chrono::steady_clock::time_point> said_;  ///< When, by spacecraft.
   std::thread thread_;                                                 // Last: it uses the others.
 };

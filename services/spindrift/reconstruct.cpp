@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
 #include "services/processor/separation_solving.h"
+#include "services/requests/request_client.h"
 #include "services/scenario/output_file.h"
 #include "services/separation/separation_json.h"
 #include "services/separation/separation_plot.h"
@@ -139,7 +141,7 @@ Expected<SolvedSeparation> solved(const ReconstructOptions& options, const Missi
 /// @return its id.
 Expected<std::string> store(const ReconstructOptions& options, const Mission& mission,
                             std::vector<SampleBatch> samples,
-                            const std::vector<ReconstructionProduct>& methods) {
+                            const std::vector<ReconstructionProduct>& methods, Archive& archive) {
   std::vector<std::string> telemetry{options.telemetry.begin(), options.telemetry.end()};
   if (telemetry.empty()) {
     telemetry.push_back(options.db.string());
@@ -148,54 +150,37 @@ Expected<std::string> store(const ReconstructOptions& options, const Mission& mi
   if (!processor) {
     return Unexpected{processor.error()};
   }
-  auto archive = Archive::open(options.db, {});
-  if (!archive) {
-    return Unexpected{archive.error()};
-  }
   ArchiveBatch last{.run_id = {}, .spacecraft_id = mission.spacecraft_id};
   const auto submit = [&](std::vector<ArchiveBatch> batches) {
     last.run_id = batches.empty() ? last.run_id : batches.back().run_id;
-    return submit_all(**archive, std::move(batches));
+    return submit_all(archive, std::move(batches));
   };
   Expected<void> stored =
       processor->arrive_after(options.db).and_then([&] { return submit(processor->begin()); });
   for (SampleBatch& batch : samples) {
     stored = stored.and_then([&] { return submit(processor->route(std::move(batch)).samples); });
   }
-  stored = stored.and_then([&] {
-    last.products.assign(methods.begin(), methods.end());
-    last.finished_utc = utc_now();
-    return (*archive)->submit(last);
-  });
-  return outcome_of(stored, (*archive)->close()).map([&] { return last.run_id; });
+  return stored
+      .and_then([&] {
+        last.products.assign(methods.begin(), methods.end());
+        last.finished_utc = utc_now();
+        return archive.submit(last);
+      })
+      .and_then([&] { return archive.flush(); })
+      .map([&] { return last.run_id; });
 }
 
-Expected<void> print(const ReconstructOptions& options, const SeparationReport& report,
-                     const SolvedSeparation& solved) {
-  const std::string plot = options.plot.empty() ? std::string{} : plot_of(report);
-  if (!plot.empty()) {
-    if (auto written = write_file(options.plot, plot); !written) {
-      return written;
-    }
-  }
-  if (options.json) {
-    nlohmann::json json = to_json(report);
-    json["db"] = options.db.string();
-    json["failures"] = solved.failures;
-    json["plot"] = plot.empty() ? nlohmann::json{} : nlohmann::json(options.plot.string());
-    fmt::print("{}", json_line(json));
-    return {};
-  }
-  fmt::print("{}archive: {}\n", to_text(report), options.db.string());
-  if (!plot.empty()) {
-    fmt::print("plot: {}\n", options.plot.string());
-  }
-  return {};
-}
+/// What is printed, whoever made it.
+struct Shown {
+  std::string text;
+  nlohmann::json object;
+  std::string plot;  ///< Empty: not asked for.
+  std::vector<std::string> failures;
+};
 
-}  // namespace
-
-Expected<bool> reconstruct(const ReconstructOptions& options) {
+/// @param store_in Is given samples and products, and returns the run's id.
+template <class StoreIn>
+Expected<Shown> made(const ReconstructOptions& options, const StoreIn& store_in) {
   const auto mission = mission_for(options);
   if (!mission) {
     return Unexpected{mission.error()};
@@ -212,19 +197,133 @@ Expected<bool> reconstruct(const ReconstructOptions& options) {
   if (!answer) {
     return Unexpected{answer.error()};
   }
-  for (const std::string& failure : answer->failures) {
-    spdlog::error("{}: {}", mission->spacecraft_id, failure);
-  }
-  const auto run_id = store(options, *mission, std::move(from->to_store), answer->methods);
+  const auto run_id = store_in(*mission, std::move(from->to_store), answer->methods);
   if (!run_id) {
     return Unexpected{run_id.error()};
   }
-  return print(options,
-               {.spacecraft_id = mission->spacecraft_id,
-                .run_id = *run_id,
-                .methods = answer->methods},
-               *answer)
-      .map([&] { return answer->failures.empty(); });
+  const SeparationReport report{
+      .spacecraft_id = mission->spacecraft_id, .run_id = *run_id, .methods = answer->methods};
+  Shown shown{.text = to_text(report),
+              .object = to_json(report),
+              .plot = options.plot.empty() ? std::string{} : plot_of(report),
+              .failures = {}};
+  shown.object["failures"] = answer->failures;
+  for (const std::string& failure : answer->failures) {
+    shown.failures.push_back(fmt::format("{}: {}", mission->spacecraft_id, failure));
+  }
+  return shown;
+}
+
+/// Here, with the archive opened for it.
+Expected<Shown> made_here(const ReconstructOptions& options) {
+  return made(options, [&](const Mission& mission, std::vector<SampleBatch> samples,
+                           const std::vector<ReconstructionProduct>& methods) {
+    return Archive::open(options.db, {}).and_then([&](std::unique_ptr<Archive>&& archive) {
+      auto run_id = store(options, mission, std::move(samples), methods, *archive);
+      return outcome_of(run_id.map([](const std::string&) {}), archive->close()).map([&] {
+        return *run_id;
+      });
+    });
+  });
+}
+
+/// By the service that holds the archive. @return empty where none does.
+Expected<std::optional<Shown>> made_by_holder(const ReconstructOptions& options) {
+  nlohmann::json request{{"do", kReconstructRequest},
+                         {"mission", nullptr},
+                         {"method", nullptr},
+                         {"plot", !options.plot.empty()}};
+  if (options.mission) {
+    request["mission"] = std::filesystem::absolute(*options.mission).string();
+  }
+  if (options.method) {
+    request["method"] = name_of(*options.method);
+  }
+  const auto answer = ask_holder(options.db, request);
+  if (!answer) {
+    return Unexpected{answer.error()};
+  }
+  if (!*answer) {
+    return std::nullopt;
+  }
+  const nlohmann::json& told = **answer;
+  if (told.contains("error")) {
+    return Unexpected{
+        {told.value("bad_input", false) ? ErrorCode::InvalidConfiguration : ErrorCode::Unavailable,
+         told["error"].get<std::string>()}};
+  }
+  return Shown{.text = told.at("text").get<std::string>(),
+               .object = told.at("object"),
+               .plot = told.at("plot").get<std::string>(),
+               .failures = told.at("failures").get<std::vector<std::string>>()};
+}
+
+Expected<void> print(const ReconstructOptions& options, Shown shown) {
+  if (!shown.plot.empty()) {
+    if (auto written = write_file(options.plot, shown.plot); !written) {
+      return written;
+    }
+  }
+  if (options.json) {
+    shown.object["db"] = options.db.string();
+    shown.object["plot"] =
+        shown.plot.empty() ? nlohmann::json{} : nlohmann::json(options.plot.string());
+    fmt::print("{}", json_line(shown.object));
+    return {};
+  }
+  fmt::print("{}archive: {}\n", shown.text, options.db.string());
+  if (!shown.plot.empty()) {
+    fmt::print("plot: {}\n", options.plot.string());
+  }
+  return {};
+}
+
+}  // namespace
+
+nlohmann::json answer_reconstruct(const nlohmann::json& request, const std::filesystem::path& db,
+                                  Archive& archive) {
+  ReconstructOptions options{.mission = std::nullopt,
+                             .telemetry = {},
+                             .db = db,
+                             .method = std::nullopt,
+                             .plot = request.value("plot", false) ? "plot.svg" : ""};
+  if (const auto mission = request.find("mission");
+      mission != request.end() && mission->is_string()) {
+    options.mission = mission->get<std::string>();
+  }
+  if (const auto method = request.find("method"); method != request.end() && method->is_string()) {
+    options.method = named(method->get_ref<const std::string&>(), ReconstructionMethod::Sequential);
+  }
+  const auto shown = made(options, [&](const Mission& mission, std::vector<SampleBatch> samples,
+                                       const std::vector<ReconstructionProduct>& methods) {
+    return store(options, mission, std::move(samples), methods, archive);
+  });
+  if (!shown) {
+    return {{"error", shown.error().message},
+            {"bad_input", shown.error().code == ErrorCode::InvalidConfiguration}};
+  }
+  return {{"text", shown->text},
+          {"object", shown->object},
+          {"plot", shown->plot},
+          {"failures", shown->failures}};
+}
+
+Expected<bool> reconstruct(const ReconstructOptions& options) {
+  // What files hold is stored under a run that takes it: not while another is taking it in.
+  auto by_holder = options.telemetry.empty() ? made_by_holder(options)
+                                             : Expected<std::optional<Shown>>{std::nullopt};
+  if (!by_holder) {
+    return Unexpected{by_holder.error()};
+  }
+  auto shown = *by_holder ? Expected<Shown>{**std::move(by_holder)} : made_here(options);
+  if (!shown) {
+    return Unexpected{shown.error()};
+  }
+  for (const std::string& failure : shown->failures) {
+    spdlog::error("{}", failure);
+  }
+  const bool complete = shown->failures.empty();
+  return print(options, *std::move(shown)).map([&] { return complete; });
 }
 
 }  // namespace spindrift

@@ -5,11 +5,14 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "pipelines/core/expected.h"
 #include "pipelines/reconstruction/reconstruction.h"
+#include "services/archive/archive.h"
 
 namespace spindrift {
 
@@ -22,7 +25,15 @@ struct ReconstructOptions {
   bool json = false;
 };
 
-/// Writes a run, and prints its answer on standard output.
+/// `do` of the request for it to a service that holds the archive (services/requests).
+inline constexpr std::string_view kReconstructRequest = "reconstruct";
+
+/// Of that service, which stores a run in its archive. On any thread.
+nlohmann::json answer_reconstruct(const nlohmann::json& request, const std::filesystem::path& db,
+                                  Archive& archive);
+
+/// Writes a run, or has it written by the service that holds the archive, and prints its answer on
+/// standard output.
 /// @return whether each method gave one; InvalidConfiguration for bad input, before anything is
 ///         written; Unavailable for a failure while running.
 Expected<bool> reconstruct(const ReconstructOptions& options);

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstddef>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -32,6 +33,7 @@
 #include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"
 #include "services/queue/contained.h"
+#include "services/requests/request_server.h"
 #include "services/spindrift/announcer.h"
 #include "services/spindrift/background_solving.h"
 #include "services/spindrift/comparison_notice.h"
@@ -40,6 +42,7 @@
 #include "services/spindrift/orbit_notice.h"
 #include "services/spindrift/outcome.h"
 #include "services/spindrift/patience.h"
+#include "services/spindrift/reconstruct.h"
 #include "services/spindrift/stop_signal.h"
 #include "services/spindrift/submit_all.h"
 #include "services/spindrift/summary_text.h"
@@ -291,6 +294,21 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
   return failures.first().and_then([&] { return taking; });
 }
 
+/// What other programs ask while this one holds the archive. Where they cannot it is said.
+Expected<std::unique_ptr<RequestServer>> answer_requests(const std::filesystem::path& db,
+                                                         Archive& archive) {
+  auto server = RequestServer::start(db, [&db, &archive](const nlohmann::json& request) {
+    let_samples_come_first();
+    return request.value("do", "") == kReconstructRequest
+               ? answer_reconstruct(request, db, archive)
+               : nlohmann::json{{"error", "not known here: do = reconstruct is"}};
+  });
+  if (!server) {
+    spdlog::warn("`reconstruct` has to wait until this service ends: {}", server.error().message);
+  }
+  return server;
+}
+
 Expected<Processor> make_processor(const ServeOptions& options) {
   const auto missions = load_missions(options.missions);
   if (!missions) {
@@ -398,6 +416,7 @@ Expected<void> serve(const ServeOptions& options) {
         .and_then([&] { return submit_all(archive, std::move(stored.routed.samples)); })
         .and_then([&] { return archive.flush(); })
         .and_then([&] {
+          const auto requests = answer_requests(options.db, archive);
           return run(std::move(stored.routed.work), stored.last_origins, *participant, *publisher,
                      *processor, archive, problems, stop_signal, failures);
         });

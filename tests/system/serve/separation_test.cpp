@@ -172,7 +172,47 @@ TEST(ServeSeparation, KilledBetweenStarFixesGivesWhatProcessGives) {
   ASSERT_EQ(service.stop(), 0) << service.program().log();
   EXPECT_EQ(reconstructed_rows(service.db()), reconstructed_rows(processed.db));
   EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run"), 1);
+  // Of the orbit states, as the mission names no orbit.
+  EXPECT_EQ(number_of(service.db(), "SELECT count(euler312_orbit_deg_1) FROM reconstruction_event"),
+            8);
   EXPECT_TRUE(eventually([&] { return solutions("batch") == 8; })) << solutions("batch");
+}
+
+TEST(ServeSeparation, TheCommandGoesThroughTheServiceThatHoldsTheArchive) {
+  Service service{kSeparation.string(), "replay"};
+  Listener listener{service.bus()};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  ASSERT_EQ(service.replay("0"), 0);
+  ASSERT_TRUE(eventually(
+      [&] { return number_of(service.db(), "SELECT count(*) FROM reconstruction") == 2; }));
+  const auto plot = service.db().parent_path() / "plot.svg";
+  const auto reconstruct = [&](const std::string& mission, std::vector<std::string> more) {
+    more.insert(more.begin(),
+                {"reconstruct", "--mission", mission, "--db", service.db().string(), "--json"});
+    return Program{more};
+  };
+  Program held = reconstruct(service.mission(), {"--plot", plot.string(), "--method", "batch"});
+  ASSERT_EQ(held.exit_status(), 0) << held.log();
+  EXPECT_TRUE(std::filesystem::exists(plot));
+  Program refused = reconstruct("/no/such/mission.toml", {});
+  EXPECT_EQ(refused.exit_status(), 2);
+  EXPECT_THAT(refused.out(), HasSubstr("/no/such/mission.toml: cannot be read"));
+  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  // Nothing of it is announced: what is in force is the pass's own, at the fix and at the end.
+  EXPECT_TRUE(eventually([&] { return listener.of("batch").size() >= 8; }));
+  EXPECT_EQ(listener.of("batch").size(), 8U);
+
+  Program free = reconstruct(service.mission(), {"--method", "batch"});
+  ASSERT_EQ(free.exit_status(), 0) << free.log();
+  const auto by_service = nlohmann::json::parse(held.out());
+  const auto by_itself = nlohmann::json::parse(free.out());
+  EXPECT_EQ(by_service["batch"], by_itself["batch"]);
+  EXPECT_EQ(by_service["plot"], plot.string());
+  EXPECT_TRUE(by_service["sequential"].is_null());
+  EXPECT_EQ(rows_of(service.db(),
+                    "SELECT mode, finished_utc IS NOT NULL, count(*) FROM run"
+                    " GROUP BY 1 ORDER BY 1"),
+            (std::vector<std::string>{"process|1|2|", "replay|1|1|"}));
 }
 
 TEST(ServeSeparation, ProcessSaysWhyThereIsNoneAndDoesTheRest) {
