@@ -16,6 +16,7 @@ OrbitState circular(double radius_km) {
 
 TEST(ReconstructionRequestTest, AnOrbitIsThatOfTheFirstStateFromT1OnThatIsOnOne) {
   ReconstructionRequest request = separation_flight({}, 1).request();
+  request.orbit.reset();
   const TaiTime t1 = request.times.separation;
   EXPECT_FALSE(orbit_of(request));
   request.orbit_states = {{shifted(t1, 90.0), circular(7300.0)},

@@ -48,7 +48,8 @@ class SeparationRecordTest : public ::testing::Test {
                              .times = times_,
                              .gyro = {},
                              .sun_directions = {},
-                             .star_fixes = {}}};
+                             .star_fixes = {},
+                             .orbit = flight_.orbit}};
     std::vector<double> due;
     for (const AnySample& sample : arrivals) {
       if (std::visit([&](const auto& is) { return record.push(is); }, sample)) {
