@@ -25,6 +25,7 @@ CREATE TABLE run (
   software_version TEXT NOT NULL,
   config_toml      TEXT NOT NULL,
   config_sha256    TEXT NOT NULL,
+  config_path      TEXT NOT NULL,     -- where it was read, absolute; an orbit file that it names is relative to it
   orbit_sha256     TEXT,              -- of the orbit file; NULL: the mission names none
   started_utc      TEXT NOT NULL,
   finished_utc     TEXT,              -- NULL: running, interrupted or killed

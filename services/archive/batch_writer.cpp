@@ -61,8 +61,8 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                   " ON CONFLICT DO UPDATE SET kind = excluded.kind"},
       run_{database,
            "INSERT INTO run (run_id, spacecraft_id, mode, software_version, config_toml,"
-           " config_sha256, orbit_sha256, started_utc, first_arrival)"
-           " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+           " config_sha256, config_path, orbit_sha256, started_utc, first_arrival)"
+           " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
       run_telemetry_{database,
                      "INSERT INTO run_telemetry (run_id, position, telemetry) VALUES (?, ?, ?)"},
       run_finished_{database, "UPDATE run SET finished_utc = ? WHERE run_id = ?"},
@@ -149,8 +149,8 @@ void BatchWriter::insert_latest_counts(std::span<const ArchiveBatch> batches) {
 void BatchWriter::insert(const ArchiveBatch& batch, const RunStart& start) {
   execute(spacecraft_, batch.spacecraft_id, name_of(start.spacecraft_kind));
   execute(run_, batch.run_id, batch.spacecraft_id, name_of(start.mode), start.software_version,
-          start.config_toml, start.config_sha256, start.orbit_sha256, start.started_utc,
-          start.first_arrival);
+          start.config_toml, start.config_sha256, start.config_path, start.orbit_sha256,
+          start.started_utc, start.first_arrival);
   std::int64_t position = 0;
   for (const std::string& telemetry : start.telemetry) {
     execute(run_telemetry_, batch.run_id, ++position, telemetry);

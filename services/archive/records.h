@@ -34,6 +34,7 @@ struct RunStart {
   std::string software_version;
   std::string config_toml;
   std::string config_sha256;
+  std::string config_path = {};             ///< Absolute. An orbit file is relative to it.
   std::optional<std::string> orbit_sha256;  ///< Of the mission's orbit file, if it names one.
   std::vector<std::string> telemetry;       ///< File paths, or DDS domain and partition.
   std::string started_utc;                  ///< ISO 8601, ending in Z.

@@ -28,17 +28,18 @@ std::vector<Value> read_from(const SQLite::Database& database, const std::string
 }
 
 std::optional<StoredMission> newest_mission(const SQLite::Database& database) {
-  SQLite::Statement query{
-      database,
-      "SELECT run_id, config_toml, orbit_sha256 FROM run JOIN spacecraft USING (spacecraft_id)"
-      " WHERE kind = 'three_axis' ORDER BY run.rowid DESC LIMIT 1"};
+  SQLite::Statement query{database,
+                          "SELECT run_id, config_toml, config_path, orbit_sha256 FROM run JOIN "
+                          "spacecraft USING (spacecraft_id)"
+                          " WHERE kind = 'three_axis' ORDER BY run.rowid DESC LIMIT 1"};
   if (!query.executeStep()) {
     return std::nullopt;
   }
-  const SQLite::Column orbit = query.getColumn(2);
+  const SQLite::Column orbit = query.getColumn(3);
   return StoredMission{
       .run_id = query.getColumn(0).getString(),
       .config_toml = query.getColumn(1).getString(),
+      .config_path = query.getColumn(2).getString(),
       .orbit_sha256 = orbit.isNull() ? std::nullopt : std::optional{orbit.getString()}};
 }
 

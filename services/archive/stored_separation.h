@@ -18,6 +18,7 @@ namespace spindrift {
 struct StoredMission {
   std::string run_id;
   std::string config_toml;
+  std::filesystem::path config_path;
   std::optional<std::string> orbit_sha256;  ///< Of the orbit file, where it names one.
 };
 

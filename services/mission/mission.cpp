@@ -90,7 +90,8 @@ Expected<Mission> parse(const std::filesystem::path& path, std::string text,
                  .sha256 = std::move(*sha256),
                  .orbit_sha256 = std::move(orbit->file_sha256),
                  .tables = tables_of(values),
-                 .orbit_doubts = std::move(doubts)};
+                 .orbit_doubts = std::move(doubts),
+                 .path = std::filesystem::absolute(path)};
 }
 
 Expected<Mission> load(const std::filesystem::path& path, std::optional<SpacecraftKind> only) {

@@ -30,6 +30,7 @@ struct Mission {
   std::optional<std::string> orbit_sha256;           ///< Of the orbit file, if one is named.
   std::set<std::string> tables;                      ///< That have values, "three_axis.gyro".
   std::vector<std::string> orbit_doubts;  ///< About that file, for people (orbit_doubts.h).
+  std::filesystem::path path = {};        ///< Absolute; an orbit file is relative to it.
 
   SpacecraftKind kind() const { return static_cast<SpacecraftKind>(config.index()); }
   /// Null for any other spacecraft.

@@ -82,6 +82,7 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
              .software_version = kSoftwareVersion,
              .config_toml = mission.toml_text,
              .config_sha256 = mission.sha256,
+             .config_path = mission.path.string(),
              .orbit_sha256 = mission.orbit_sha256,
              .telemetry = source.telemetry,
              .started_utc = utc_now(),

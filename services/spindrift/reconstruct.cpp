@@ -33,23 +33,23 @@ Unexpected refused(std::string message) {
   return Unexpected{{ErrorCode::InvalidConfiguration, std::move(message)}};
 }
 
-/// That of the newest run in the archive. Its orbit file lies beside the archive or nowhere.
+/// That of the newest run in the archive. Its orbit file lies where the run had it, or beside the
+/// archive, which may have come from elsewhere.
 Expected<Mission> stored_mission(const std::filesystem::path& db) {
   const auto stored = find_stored_mission(db);
   if (!stored) {
     return Unexpected{stored.error()};
   }
-  const std::string what =
-      fmt::format("the mission of run {} in {}", stored->run_id, shown(db.string()));
-  auto mission = mission_of(db, stored->config_toml);
-  if (!mission) {
-    return refused(fmt::format("{}: give --mission: {}", what, mission.error().message));
+  std::string why;
+  for (const std::filesystem::path& path : {stored->config_path, db}) {
+    auto mission = mission_of(path, stored->config_toml);
+    if (mission && mission->orbit_sha256 == stored->orbit_sha256) {
+      return mission;
+    }
+    why = mission ? "the orbit file is not that of the run" : mission.error().message;
   }
-  if (mission->orbit_sha256 != stored->orbit_sha256) {
-    return refused(fmt::format(
-        "{}: the orbit file beside the archive is not that of the run: give --mission", what));
-  }
-  return mission;
+  return refused(fmt::format("the mission of run {} in {}: give --mission: {}", stored->run_id,
+                             shown(db.string()), why));
 }
 
 Expected<Mission> mission_for(const ReconstructOptions& options) {

@@ -134,7 +134,7 @@ TEST_F(ArchiveFile, TablesOfEveryEdgeTakeNoOtherNamesThanThoseOfTheContract) {
   SQLite::Database raw{path().string(), SQLite::OPEN_READWRITE};
   raw.exec("INSERT INTO spacecraft VALUES ('A', 'A', 'spin')");
   const std::string run =
-      "INSERT INTO run VALUES ('r', 'A', 'live', '', '', '', NULL, '', NULL, 0, 0)";
+      "INSERT INTO run VALUES ('r', 'A', 'live', '', '', '', '', NULL, '', NULL, 0, 0)";
   raw.exec(run);
   const auto takes = [&raw](const std::string& values) {
     return raw.tryExec("INSERT INTO " + values) == SQLite::OK;

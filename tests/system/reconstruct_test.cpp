@@ -120,9 +120,15 @@ TEST(Reconstruct, OfTheRatesThatDawnFlewIsWhereItWas) {
   }
 }
 
-TEST(Reconstruct, AnOrbitFileThatIsNotBesideTheArchiveIsAskedFor) {
+TEST(Reconstruct, WhereTheOrbitFileOfTheRunIsGoneAMissionIsAskedFor) {
   const TemporaryFolder folder;
-  const Outcome processed = process(folder, pass_of("separation"));
+  const auto pass = folder.path() / "pass";
+  std::filesystem::copy(pass_of("separation"), pass);
+  const Outcome processed = process(folder, pass);
+  const Answer found = reconstruct({"--db", processed.db.string(), "--method", "batch"});
+  ASSERT_EQ(found.status, 0) << found.log;
+  EXPECT_FALSE(found.object["batch"]["events"][0]["euler312_orbit_deg"].is_null());
+  std::filesystem::remove(pass / "orbit.oem");
   const Answer answer = reconstruct({"--db", processed.db.string()});
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.object["error"], HasSubstr("give --mission"));

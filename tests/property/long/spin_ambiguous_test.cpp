@@ -96,8 +96,7 @@ TEST(SpinAmbiguous, CandidatesThatNothingSettlesAreSaidToBeAmbiguousToTheEnd) {
       EXPECT_TRUE(names(estimate, body.axis_icrf)) << sentence_of(estimate.assessment);
     }
     EXPECT_TRUE(std::any_of(output.notices.begin(), output.notices.end(), [](const Notice& notice) {
-      return notice.code == NoticeCode::AmbiguousNoPrior &&
-             notice.values.front() == NamedValue{"geometry_case", std::int64_t{7}};
+      return notice.values == std::vector{NamedValue{"geometry_case", std::int64_t{7}}};
     }));
   }
 }
