@@ -99,7 +99,8 @@ TEST(SpinModelErrors, OfADegreeAreCoveredWhereverTheyShow) {
     separations_shown += separation && outcome.model_off() ? 1 : 0;
     separations_uncovered += separation && outcome.model_off() && uncovered ? 1 : 0;
     azimuths_believed += azimuth && !outcome.doubtful() ? 1 : 0;
-    EXPECT_TRUE(outcome.model_off() || !azimuth);
+    // A mean that has just begun anew has too few fixes to show anything, and says so.
+    EXPECT_TRUE(outcome.model_off() || has(outcome.assessment, ReasonCode::FewFixes) || !azimuth);
     // With Sun and Earth both across the axis, the sun angle touches next to nothing that could be
     // compared: the cant often nothing, the separation so little that noise may hide it.
     mounts_uncovered += outcome.mistake.ends_with("mount") && uncovered ? 1 : 0;
