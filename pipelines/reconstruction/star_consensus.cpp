@@ -34,10 +34,10 @@ bool agree(const StarObservation& earlier, const StarObservation& later, const T
   return off_rad.dot(covariance_rad2.llt().solve(off_rad)) < kLimit;
 }
 
-}  // namespace
-
-StarConsensus consensus_of(const RateTrack& rates, std::span<const StarObservation> stars,
-                           const ConsensusNoise& noise) {
+/// Those that agree with at least half of their neighbours among these.
+std::vector<StarObservation> agreeing(const RateTrack& rates,
+                                      std::span<const StarObservation> stars,
+                                      const ConsensusNoise& noise) {
   std::vector<double> times_s;
   for (const StarObservation& star : stars) {
     times_s.push_back(star.t_s);
@@ -56,11 +56,23 @@ StarConsensus consensus_of(const RateTrack& rates, std::span<const StarObservati
       }
     }
   }
-  StarConsensus result;
+  std::vector<StarObservation> accepted;
   for (std::size_t i = 0; i < stars.size(); ++i) {
     if (2 * agreed[i] >= compared[i]) {
-      result.accepted.push_back(stars[i]);
+      accepted.push_back(stars[i]);
     }
+  }
+  return accepted;
+}
+
+}  // namespace
+
+StarConsensus consensus_of(const RateTrack& rates, std::span<const StarObservation> stars,
+                           const ConsensusNoise& noise) {
+  StarConsensus result{.accepted = {stars.begin(), stars.end()}};
+  for (std::size_t before = 0; before != result.accepted.size();) {
+    before = result.accepted.size();
+    result.accepted = agreeing(rates, result.accepted, noise);
   }
   result.contradict = result.accepted.empty();
   if (result.contradict) {

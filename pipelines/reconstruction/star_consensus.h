@@ -26,7 +26,8 @@ struct ConsensusNoise {
   Eigen::Matrix3d bias_covariance_rad2_s2;
 };
 
-/// A fix is accepted that agrees with at least half of the four before and the four behind it.
+/// A fix is accepted that agrees with at least half of the four before and the four behind it that
+/// are accepted.
 StarConsensus consensus_of(const RateTrack& rates, std::span<const StarObservation> stars,
                            const ConsensusNoise& noise);
 

@@ -43,6 +43,17 @@ TEST(StarConsensus, LeavesOutTheFixThatIsFarOffWhereverItIs) {
   }
 }
 
+/// False in the same way: the first has most of its neighbours with it, until these are gone.
+TEST(StarConsensus, LeavesOutFourFalseOnesBeforeFiveTrueOnes) {
+  std::vector<StarObservation> stars = fixes(9);
+  for (std::size_t i = 0; i < 4; ++i) {
+    stars[i].q_icrf_body = stars[i].q_icrf_body * quaternion_by({0.0, 0.05, 0.0});
+  }
+  const StarConsensus found = consensus_of(kRates, stars, kNoise);
+  EXPECT_EQ(found.gated, 4);
+  EXPECT_EQ(found.accepted.front().t_s, 4.0);
+}
+
 TEST(StarConsensus, SaysThatTwoContradictEachOther) {
   std::vector<StarObservation> stars = fixes(2);
   stars[0].q_icrf_body = stars[0].q_icrf_body * quaternion_by({0.0, 0.05, 0.0});
