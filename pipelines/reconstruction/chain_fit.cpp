@@ -10,8 +10,12 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <deque>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/reconstruction/rotation_slopes.h"
@@ -206,6 +210,57 @@ class ChainProblem {
   PriorCost misalignment_prior_;
 };
 
+struct Misfit {
+  const char* sensor;
+  double sigmas;  ///< Root of the mean square of a residual.
+  const char* check;
+};
+
+template <class Residuals, class Squares>
+double rms(const Residuals& residuals, Squares squares_of) {
+  double squares = 0.0;
+  for (const auto& residual : residuals) {
+    squares += squares_of(residual);
+  }
+  return residuals.empty()
+             ? 0.0
+             : std::sqrt(squares / (3.0 * static_cast<double>(std::ssize(residuals))));
+}
+
+Misfit worst(const Chain& chain, const ChainState& state) {
+  std::vector<double> gyro_squares;
+  for (std::size_t i = 0; i < chain.turns.size(); ++i) {
+    const Turn& turn = chain.turns[i];
+    const Vector3d off_rad = rotation_vector_of(
+        turn.turn.conjugate() * (state.q_icrf_body[i].conjugate() * state.q_icrf_body[i + 1]));
+    gyro_squares.push_back(off_rad.dot(turn.covariance_rad2.llt().solve(off_rad)));
+  }
+  const auto sun_squares = [&](const ChainSun& sun) {
+    return (predicted_sun(state, sun) - sun.of.measured_body).squaredNorm() /
+           (chain.noise.sun_rad * chain.noise.sun_rad);
+  };
+  const auto star_squares = [&](const ChainStar& star) {
+    return std::pow(
+        angle_between_rad(state.q_icrf_body[star.node], star.of.q_icrf_body) / chain.noise.star_rad,
+        2);
+  };
+  const std::array<Misfit, 3> all{
+      Misfit{"gyro", rms(gyro_squares, [](double squares) { return squares; }),
+             "its unit, axes and noise"},
+      Misfit{"sun sensor", rms(chain.sun, sun_squares), "its axes, its noise and the orbit"},
+      Misfit{"star tracker", rms(chain.stars, star_squares), "its mounting, sign and noise"}};
+  return *std::max_element(all.begin(), all.end(),
+                           [](const Misfit& a, const Misfit& b) { return a.sigmas < b.sigmas; });
+}
+
+Error not_explained(const Chain& chain, const ChainState& state) {
+  const Misfit misfit = worst(chain, state);
+  return {ErrorCode::Unobservable,
+          fmt::format("no attitude explains the samples within {} iterations; the {} is furthest "
+                      "off, by {:.3g} of its sigmas: check {} in the mission file",
+                      kMostIterations, misfit.sensor, misfit.sigmas, misfit.check)};
+}
+
 }  // namespace
 
 double weight_of(double squares) {
@@ -226,8 +281,7 @@ Expected<ChainFit> fit(const Chain& chain, ChainState start, SunLoss loss) {
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem.problem(), &summary);
   if (summary.termination_type != ceres::CONVERGENCE) {
-    return Unexpected{{ErrorCode::Unobservable,
-                       fmt::format("no attitude explains the samples: {}", summary.message)}};
+    return Unexpected{not_explained(chain, found.state)};
   }
   found.iterations = static_cast<int>(summary.iterations.size());
   return found;
