@@ -210,6 +210,7 @@ INSERT INTO rejection VALUES
   ('no_orbit', 'the orbit does not reach: not testable, not wrong; or the orbit state is on no ellipse round the Earth'),
   ('saturated', 'the gyro turns faster than it can measure'),
   ('frozen', 'the gyro gives the same numbers again and again'),
+  ('outlier', 'the gyro''s samples beside it are elsewhere'),
   ('shadow', 'the Earth is before the Sun'),
   ('innovation', 'too far from where the attitude has it'),
   ('period', 'it failed the test of the spin period'),

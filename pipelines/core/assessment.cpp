@@ -66,7 +66,7 @@ std::string_view name_of(ReasonCode code) {
       "gyro_gaps",
       "gyro_saturated",
       "gyro_frozen",
-      "samples_repeated",
+      "gyro_outliers",
       "constant_rate",
       "gyro_bias_open",
       "gyro_bias_open_by_sun",

@@ -104,7 +104,7 @@ enum class ReasonCode {
   GyroGaps,             ///< count, longest_s
   GyroSaturated,        ///< count
   GyroFrozen,           ///< count
-  SamplesRepeated,      ///< count
+  GyroOutliers,         ///< count
   ConstantRate,         ///< -
   GyroBiasOpen,         ///< sigma_deg_s
   GyroBiasOpenBySun,    ///< sigma_deg_s, off_sun_deg

@@ -60,7 +60,9 @@ SensorResiduals star_residuals(const ChainSolution& fine) {
                      chain.noise.star_rad,
                  2);
   }
-  if (residuals.count > kFewResiduals) {
+  if (fine.louder_star > 1.0) {
+    residuals.noise = fine.louder_star;
+  } else if (residuals.count > kFewResiduals) {
     residuals.noise = std::sqrt(squares / (3.0 * static_cast<double>(residuals.count - 1)));
   }
   return residuals;
@@ -107,6 +109,7 @@ History bound_of(const ReconstructionRequest& request, const Observations& all,
   SolvedChain stated = fine.solved;
   const double stated_rad_s = request.sensors.gyro->noise_rad_s;
   stated.chain.noise.sun_rad /= fine.louder_sun;
+  stated.chain.noise.star_rad /= fine.louder_star;
   for (Turn& turn : stated.chain.turns) {
     turn.covariance_rad2 *= std::pow(stated_rad_s / all.gyro_noise_rad_s, 2);
   }

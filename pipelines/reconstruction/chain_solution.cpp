@@ -6,8 +6,10 @@
 #include <span>
 #include <utility>
 
+#include "pipelines/frames/rotation_vector.h"
 #include "pipelines/reconstruction/chain_covariance.h"
 #include "pipelines/reconstruction/chain_fit.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
@@ -86,6 +88,33 @@ double louder_sun(const SolvedChain& solved) {
   return louder > kLouder ? louder : 1.0;
 }
 
+/// By how far neighbours are from what the gyro turned between them, where it is beyond chance; at
+/// least 1. What is left about the solution says less: the chain goes along with each fix.
+double louder_star(const RateTrack& rates, std::span<const StarObservation> stars,
+                   const ChainNoise& noise, const Vector3d& bias_rad_s) {
+  std::vector<double> times_s;
+  for (const StarObservation& star : stars) {
+    times_s.push_back(star.t_s);
+  }
+  const std::vector<Turn> turns = rates.turns(times_s, bias_rad_s);
+  double squares = 0.0;
+  double excess_rad2 = 0.0;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    const Vector3d off_rad = rotation_vector_of(
+        turns[i].turn.conjugate() * (stars[i].q_icrf_body.conjugate() * stars[i + 1].q_icrf_body));
+    const Matrix3d expected_rad2 =
+        turns[i].covariance_rad2 + 2.0 * noise.star_rad * noise.star_rad * Matrix3d::Identity();
+    squares += off_rad.dot(expected_rad2.llt().solve(off_rad));
+    excess_rad2 += off_rad.squaredNorm() - expected_rad2.trace();
+  }
+  const double freedom = 3.0 * static_cast<double>(turns.size());
+  if (freedom <= 3.0 || squares < freedom + kContradictionSigmas * std::sqrt(2.0 * freedom)) {
+    return 1.0;
+  }
+  return std::sqrt(1.0 +
+                   std::max(0.0, excess_rad2) / (2.0 * freedom * std::pow(noise.star_rad, 2)));
+}
+
 /// Attitudes where the coarse solution has them, turned on by the gyro between.
 ChainState started_from(const SolvedChain& coarse, const Chain& chain) {
   ChainState state{.q_icrf_body = {},
@@ -118,45 +147,70 @@ std::vector<double> node_times(const ReconstructionRequest& request, const Obser
   return times_s;
 }
 
-}  // namespace
+ChainNoise noise_of(const ReconstructionRequest& request) {
+  return {.sun_rad = request.sensors.sun_sensor ? request.sensors.sun_sensor->noise_rad : 1.0,
+          .star_rad = request.sensors.star_tracker->noise_rad,
+          .bias_rad_s = request.sensors.gyro->bias_sigma_rad_s,
+          .misalignment_rad = request.sun_misalignment_sigma_rad};
+}
 
-Expected<ChainSolution> solution_of(const ReconstructionRequest& request, const Observations& all) {
-  const GyroSensor& gyro = *request.sensors.gyro;
-  ChainNoise noise{
-      .sun_rad = request.sensors.sun_sensor ? request.sensors.sun_sensor->noise_rad : 1.0,
-      .star_rad = request.sensors.star_tracker->noise_rad,
-      .bias_rad_s = gyro.bias_sigma_rad_s,
-      .misalignment_rad = request.sun_misalignment_sigma_rad};
+struct CoarseSolution {
+  SolvedChain solved;
+  StarConsensus stars;  ///< By its bias.
+};
+
+Expected<CoarseSolution> coarse_of(const ReconstructionRequest& request, const Observations& all) {
+  const ChainNoise noise = noise_of(request);
   const StarConsensus first = consensus_of(
       all.rates, all.stars,
       {.star_rad = noise.star_rad,
        .bias_rad_s = Vector3d::Zero(),
        .bias_covariance_rad2_s2 = std::pow(noise.bias_rad_s, 2) * Matrix3d::Identity()});
-  const auto coarse = coarse_solution(all, first.accepted, noise);
-  if (!coarse) {
-    return Unexpected{coarse.error()};
+  auto solved = coarse_solution(all, first.accepted, noise);
+  if (!solved) {
+    return Unexpected{solved.error()};
   }
   StarConsensus stars =
       consensus_of(all.rates, first.accepted,
                    {.star_rad = noise.star_rad,
-                    .bias_rad_s = coarse->state.bias_rad_s,
+                    .bias_rad_s = solved->state.bias_rad_s,
                     .bias_covariance_rad2_s2 =
-                        covariance_of(coarse->chain, coarse->state).shared.topLeftCorner<3, 3>()});
+                        covariance_of(solved->chain, solved->state).shared.topLeftCorner<3, 3>()});
   stars.gated += first.gated;
   stars.contradict = stars.contradict || first.contradict;
-  const double louder = louder_sun(*coarse);
-  noise.sun_rad *= louder;
-  SolvedChain fine{.chain = chain_of(all.rates, node_times(request, all), all.sun, stars.accepted,
-                                     coarse->state.bias_rad_s, noise),
-                   .state = {},
-                   .iterations = 0};
-  auto fitted = fit(fine.chain, started_from(*coarse, fine.chain), SunLoss::Near);
+  return CoarseSolution{.solved = *std::move(solved), .stars = std::move(stars)};
+}
+
+}  // namespace
+
+double louder_sun(const ReconstructionRequest& request, const Observations& all) {
+  const auto coarse = coarse_of(request, all);
+  return coarse ? louder_sun(coarse->solved) : 1.0;
+}
+
+Expected<ChainSolution> solution_of(const ReconstructionRequest& request, const Observations& all) {
+  const auto coarse = coarse_of(request, all);
+  if (!coarse) {
+    return Unexpected{coarse.error()};
+  }
+  ChainNoise noise = noise_of(request);
+  ChainSolution found{.solved = {},
+                      .stars = coarse->stars,
+                      .louder_sun = louder_sun(coarse->solved),
+                      .louder_star = louder_star(all.rates, coarse->stars.accepted, noise,
+                                                 coarse->solved.state.bias_rad_s)};
+  noise.sun_rad *= found.louder_sun;
+  noise.star_rad *= found.louder_star;
+  found.solved.chain = chain_of(all.rates, node_times(request, all), all.sun, found.stars.accepted,
+                                coarse->solved.state.bias_rad_s, noise);
+  auto fitted =
+      fit(found.solved.chain, started_from(coarse->solved, found.solved.chain), SunLoss::Near);
   if (!fitted) {
     return Unexpected{fitted.error()};
   }
-  fine.state = std::move(fitted->state);
-  fine.iterations = coarse->iterations + fitted->iterations;
-  return ChainSolution{.solved = std::move(fine), .stars = std::move(stars), .louder_sun = louder};
+  found.solved.state = std::move(fitted->state);
+  found.solved.iterations = coarse->solved.iterations + fitted->iterations;
+  return found;
 }
 
 }  // namespace spindrift

@@ -21,8 +21,13 @@ struct SolvedChain {
 struct ChainSolution {
   SolvedChain solved;
   StarConsensus stars;
-  double louder_sun;  ///< So many times the stated noise is that of the chain, at least 1.
+  // So many times the stated noise is that of the chain, at least 1.
+  double louder_sun;
+  double louder_star;
 };
+
+/// Of the sun vectors, by the median of a coarse solution; 1 where there is none.
+double louder_sun(const ReconstructionRequest& request, const Observations& all);
 
 /// @return Unobservable where no minimum is found.
 Expected<ChainSolution> solution_of(const ReconstructionRequest& request, const Observations& all);

@@ -1,81 +1,91 @@
 #include "pipelines/reconstruction/gyro_screening.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
+#include <utility>
 
 #include "pipelines/statistics/significance.h"
+#include "pipelines/three_axis/frozen_gyro.h"
+#include "pipelines/three_axis/gyro_outlier.h"
+#include "pipelines/three_axis/gyro_watch.h"
 
 namespace spindrift {
 namespace {
 
 constexpr std::size_t kFewest = 20;
-/// Fewer than that bend the attitude by little, whatever the gyro did.
-constexpr double kFewestFrozen = 5.0;
 
-/// Smallest step between neighbours that there is, of an axis; 0 where it never changes.
-double grid_rad_s(std::span<const GyroSample> samples, Eigen::Index axis) {
-  double smallest = std::numeric_limits<double>::infinity();
+/// Knows the step of the telemetry.
+FrozenGyro watch_of(std::span<const GyroSample> samples, double noise_rad_s) {
+  FrozenGyro watch{noise_rad_s};
   for (std::size_t i = 1; i < samples.size(); ++i) {
-    const double step =
-        std::abs(samples[i].rate_body_rad_s[axis] - samples[i - 1].rate_body_rad_s[axis]);
-    smallest = step > 0.0 ? std::min(smallest, step) : smallest;
+    watch.learn(samples[i - 1].rate_body_rad_s, samples[i].rate_body_rad_s);
   }
-  return std::isfinite(smallest) ? smallest : 0.0;
+  return watch;
 }
 
-using Axes = std::span<const Eigen::Index>;
-
-/// That a sample repeats the one before it about these axes: two normal values on one step of the
-/// grid. A gyro may be three times as quiet as stated.
-double chance_of_repeat(std::span<const GyroSample> samples, Axes axes, double noise_rad_s) {
-  double chance = 1.0;
-  for (const Eigen::Index axis : axes) {
-    const double steps =
-        grid_rad_s(samples, axis) / (2.0 / 3.0 * noise_rad_s * std::sqrt(std::numbers::pi));
-    chance *= std::min(steps, 1.0);
-  }
-  return chance;
-}
-
-/// So many samples in a row may be the same about these axes.
-double longest_by_chance(std::span<const GyroSample> samples, Axes axes, double noise_rad_s) {
-  const double chance = chance_of_repeat(samples, axes, noise_rad_s);
-  if (chance >= 1.0) {
-    return std::numeric_limits<double>::infinity();
-  }
-  const double rows = kFalseAlarm / static_cast<double>(samples.size());
-  const double longest = chance > 0.0 ? 1.0 + std::log(rows) / std::log(chance) : 1.0;
-  return std::max(longest, kFewestFrozen - 1.0);
-}
-
-/// Marks those behind the first of a row that is too long.
-void mark_frozen(std::span<const GyroSample> samples, Axes axes, double noise_rad_s,
-                 std::vector<bool>& frozen) {
-  const double longest = longest_by_chance(samples, axes, noise_rad_s);
-  const auto repeats = [&](std::size_t i, std::size_t first) {
-    return std::all_of(axes.begin(), axes.end(), [&](Eigen::Index axis) {
-      return samples[i].rate_body_rad_s[axis] == samples[first].rate_body_rad_s[axis];
-    });
-  };
-  std::size_t end = 0;
-  for (std::size_t begin = 0; begin < samples.size(); begin = end) {
-    end = begin + 1;
-    while (end < samples.size() && repeats(end, begin)) {
-      ++end;
-    }
-    for (std::size_t i = begin + 1; i<end&& static_cast<double>(end - begin)> longest; ++i) {
-      frozen[i] = true;
+/// But for the first of each row that repeats.
+std::vector<bool> frozen(std::span<const GyroSample> samples, FrozenGyro watch) {
+  std::vector<bool> marked(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (int row = watch.repeated(samples[i].rate_body_rad_s); row > 1; --row) {
+      marked[i + 2 - static_cast<std::size_t>(row)] = true;
     }
   }
+  return marked;
 }
 
-bool is_saturated(const GyroSample& sample, const GyroSensor& sensor) {
-  return sensor.range_rad_s &&
-         !(sample.rate_body_rad_s.cwiseAbs().maxCoeff() < *sensor.range_rad_s);
+/// Its change by the less of those on either side.
+bool is_outlier(std::span<const GyroSample> samples, std::size_t i, double noise_rad_s) {
+  const GyroSample& before = samples[i - 1];
+  const GyroSample& at = samples[i];
+  const GyroSample& behind = samples[i + 1];
+  Eigen::Vector3d change = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  if (i > 1) {
+    change = change_rad_s(samples[i - 2], before, before.t, at.t);
+  }
+  if (i + 2 < samples.size()) {
+    change = change.cwiseMin(change_rad_s(behind, samples[i + 2], at.t, behind.t));
+  }
+  return stands_out(before.rate_body_rad_s, at.rate_body_rad_s, behind.rate_body_rad_s, change,
+                    noise_rad_s);
+}
+
+std::vector<GyroSample> without_spikes(std::span<const GyroSample> samples, double noise_rad_s) {
+  std::vector<GyroSample> kept;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const bool is_end = i == 0 || i + 1 == samples.size();
+    if (is_end || !is_outlier(samples, i, noise_rad_s)) {
+      kept.push_back(samples[i]);
+    }
+  }
+  return kept;
+}
+
+/// How many at an end are off: all that are the same, as those of a gyro that has just been
+/// switched on.
+template <class Iterator>
+std::ptrdiff_t off_at_end(Iterator first, Iterator last, double noise_rad_s) {
+  const auto next = std::find_if(first, last, [&](const GyroSample& sample) {
+    return sample.rate_body_rad_s != first->rate_body_rad_s;
+  });
+  if (std::distance(next, last) < 2) {
+    return 0;
+  }
+  const bool is_off = end_stands_out(*std::prev(next), *next, *std::next(next), noise_rad_s);
+  return is_off ? std::distance(first, next) : 0;
+}
+
+void leave_out_outliers(ScreenedGyro& gyro, double noise_rad_s) {
+  std::vector<GyroSample> kept = without_spikes(gyro.usable, noise_rad_s);
+  const std::ptrdiff_t at_end = off_at_end(kept.rbegin(), kept.rend(), noise_rad_s);
+  kept.erase(kept.end() - at_end, kept.end());
+  const std::ptrdiff_t at_start = off_at_end(kept.begin(), kept.end(), noise_rad_s);
+  kept.erase(kept.begin(), kept.begin() + at_start);
+  gyro.first_is_outlier = at_start > 0;
+  gyro.outliers = std::ssize(gyro.usable) - std::ssize(kept);
+  gyro.usable = std::move(kept);
 }
 
 /// Only where the step before is as long as that behind: elsewhere the rate may do anything.
@@ -103,23 +113,22 @@ std::optional<double> noise_of(std::span<const GyroSample> samples, double noise
 }  // namespace
 
 ScreenedGyro screened(std::span<const GyroSample> samples, const GyroSensor& sensor) {
-  constexpr std::array<Eigen::Index, 3> kAll{0, 1, 2};
-  std::vector<bool> frozen(samples.size());
-  mark_frozen(samples, kAll, sensor.noise_rad_s, frozen);
-  for (const Eigen::Index axis : kAll) {
-    mark_frozen(samples, {&axis, 1}, sensor.noise_rad_s, frozen);
-  }
+  const FrozenGyro watch = watch_of(samples, sensor.noise_rad_s);
+  const std::vector<bool> repeats = frozen(samples, watch);
   ScreenedGyro result;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (is_saturated(samples[i], sensor)) {
       ++result.saturated;
-    } else if (frozen[i]) {
+    } else if (repeats[i]) {
       ++result.frozen;
     } else {
       result.usable.push_back(samples[i]);
     }
   }
   result.noise = noise_of(result.usable, sensor.noise_rad_s);
+  leave_out_outliers(result,
+                     std::max(sensor.noise_rad_s * std::max(1.0, result.noise.value_or(1.0)),
+                              0.5 * watch.step_rad_s()));
   return result;
 }
 

@@ -1,5 +1,6 @@
 /// @file
-/// Which gyro samples tell a rate: not those at the end of the range, nor those that repeat.
+/// Which gyro samples tell a rate: not those at the end of the range, those that repeat, nor
+/// those off from their neighbours.
 
 #pragma once
 
@@ -15,9 +16,10 @@ namespace spindrift {
 struct ScreenedGyro {
   std::vector<GyroSample> usable;
   std::int64_t saturated = 0;
-  /// Behind the first of a row of samples whose rates, all three or one, are the same, longer than
-  /// noise makes by chance on the grid of the telemetry.
-  std::int64_t frozen = 0;
+  std::int64_t frozen = 0;  ///< Behind the first of a row that repeats (frozen_gyro.h).
+  /// Off from their neighbours (gyro_outlier.h), by the noise that the samples have.
+  std::int64_t outliers = 0;
+  bool first_is_outlier = false;
   /// How many times the stated noise they scatter by about the lines through their neighbours, by
   /// the median; empty where there are too few.
   std::optional<double> noise;

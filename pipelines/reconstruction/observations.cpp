@@ -10,8 +10,10 @@
 
 #include "pipelines/ephemeris/shadow.h"
 #include "pipelines/ephemeris/sun.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/reconstruction/gyro_screening.h"
 #include "pipelines/reconstruction/request_check.h"
+#include "pipelines/reconstruction/torque_free_arc.h"
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
 
@@ -28,14 +30,15 @@ Unexpected refused(ErrorCode code, std::string message) {
   return Unexpected{{code, std::move(message)}};
 }
 
-/// In order of time, each instant once, what came first. Counts what it leaves out.
+/// From T1 on, in order of time, each instant once, what came first: however much more the caller
+/// has, and in whatever order, the result is the same.
 template <class Sample>
-std::vector<Sample> ordered(std::vector<Sample> samples, std::int64_t& repeated) {
+std::vector<Sample> ordered(std::vector<Sample> samples, TaiTime separation) {
+  std::erase_if(samples, [=](const Sample& sample) { return sample.t < separation; });
   std::stable_sort(samples.begin(), samples.end(),
                    [](const Sample& a, const Sample& b) { return a.t < b.t; });
   const auto end = std::unique(samples.begin(), samples.end(),
                                [](const Sample& a, const Sample& b) { return a.t == b.t; });
-  repeated += std::distance(end, samples.end());
   samples.erase(end, samples.end());
   return samples;
 }
@@ -125,12 +128,14 @@ Expected<RateTrack> rates_of(const Samples& samples, const GyroSensor& sensor, O
   const ScreenedGyro gyro = screened(needed(samples, all), sensor);
   if (gyro.usable.size() < 2) {
     return refused(ErrorCode::Unobservable,
-                   fmt::format("{} gyro samples behind T2 can be used, {} are saturated and {} "
-                               "frozen: at least 2 are needed",
-                               gyro.usable.size(), gyro.saturated, gyro.frozen));
+                   fmt::format("{} gyro samples behind T2 can be used, {} are saturated, {} "
+                               "frozen and {} off from their neighbours: at least 2 are needed",
+                               gyro.usable.size(), gyro.saturated, gyro.frozen, gyro.outliers));
   }
   all.saturated = gyro.saturated;
   all.frozen = gyro.frozen;
+  all.outliers = gyro.outliers;
+  all.first_is_outlier = gyro.first_is_outlier;
   all.gyro_noise = gyro.noise;
   const double louder = gyro.noise.value_or(1.0);
   all.gyro_noise_rad_s = sensor.noise_rad_s * (louder > kLouder ? louder : 1.0);
@@ -138,22 +143,41 @@ Expected<RateTrack> rates_of(const Samples& samples, const GyroSensor& sensor, O
   return RateTrack{timed(gyro.usable, all.origin), 0.0, all.end_s, all.gyro_noise_rad_s};
 }
 
-Expected<Samples> samples_of(const ReconstructionRequest& request, std::int64_t& repeated) {
-  Samples samples{.gyro = ordered(request.gyro, repeated),
-                  .sun = request.sensors.sun_sensor ? ordered(request.sun_directions, repeated)
+Expected<Samples> samples_of(const ReconstructionRequest& request) {
+  const TaiTime separation = request.times.separation;
+  Samples samples{.gyro = ordered(request.gyro, separation),
+                  .sun = request.sensors.sun_sensor ? ordered(request.sun_directions, separation)
                                                     : std::vector<SunDirection>{},
-                  .stars = ordered(request.star_fixes, repeated),
+                  .stars = ordered(request.star_fixes, separation),
                   .held_s = 0.0};
   if (samples.gyro.size() < 2) {
-    return refused(ErrorCode::Unobservable,
-                   fmt::format("{} gyro samples: at least 2 are needed", samples.gyro.size()));
+    return refused(
+        ErrorCode::Unobservable,
+        fmt::format("{} gyro samples from T1 on: at least 2 are needed", samples.gyro.size()));
   }
   if (samples.stars.empty()) {
-    return refused(ErrorCode::Unobservable,
-                   "no star fix: nothing can be anchored; samples up to the first one are needed");
+    return refused(
+        ErrorCode::Unobservable,
+        "no star fix from T1 on: nothing can be anchored; samples up to the first one are "
+        "needed");
   }
   samples.held_s = held_s(samples.gyro);
   return samples;
+}
+
+/// Between T1 and T2, by the rate at T2.
+std::optional<Error> turns_too_often(const Observations& all) {
+  const double rate_rad_s = all.rates.rate_at(0.0).norm();
+  const double arc_s = elapsed_s(all.events.front().t, all.origin);
+  if (rate_rad_s * arc_s <= kLongestArc_rad) {
+    return std::nullopt;
+  }
+  return Error{
+      ErrorCode::InvalidInput,
+      fmt::format("the rate of the first gyro sample behind T2, {}, is {:.4g} deg/s, and T1 "
+                  "lies {:.0f} s before: a turn of more than {:.0f} rad cannot be followed "
+                  "back; check the gyro's unit, or T1",
+                  format_utc(all.origin), degrees(rate_rad_s), arc_s, kLongestArc_rad)};
 }
 
 }  // namespace
@@ -163,16 +187,16 @@ double held_s(std::span<const GyroSample> gyro) {
 }
 
 SensorResiduals gyro_residuals(const Observations& all) {
-  return {
-      .count = all.gyro_samples, .outliers = all.saturated + all.frozen, .noise = all.gyro_noise};
+  return {.count = all.gyro_samples,
+          .outliers = all.saturated + all.frozen + all.outliers,
+          .noise = all.gyro_noise};
 }
 
 Expected<Observations> observations_of(const ReconstructionRequest& request) {
   if (auto error = refusal_of(request)) {
     return Unexpected{*std::move(error)};
   }
-  std::int64_t repeated = 0;
-  const auto samples = samples_of(request, repeated);
+  const auto samples = samples_of(request);
   if (!samples) {
     return Unexpected{samples.error()};
   }
@@ -185,10 +209,10 @@ Expected<Observations> observations_of(const ReconstructionRequest& request) {
     return Unexpected{*std::move(error)};
   }
   const TaiTime origin = (*events)[1].t;
-  Observations all{
-      .origin = origin, .events = *std::move(events), .rates = {}, .repeated = repeated};
+  Observations all{.origin = origin, .events = *std::move(events), .rates = {}};
   all.end_s = all.seconds_of(all.events.back().t);
-  const TaiTime last = later_by_s(samples->gyro.back().t, samples->held_s);
+  const TaiTime last = std::min(later_by_s(samples->gyro.back().t, samples->held_s),
+                                later_by_s(all.events.back().t, kUsedBehindFirstFix_s));
   add_stars(*request.sensors.star_tracker, samples->stars, last, all);
   if (all.stars.empty()) {
     return Unexpected{nothing_anchored(origin)};
@@ -199,6 +223,9 @@ Expected<Observations> observations_of(const ReconstructionRequest& request) {
     return Unexpected{rates.error()};
   }
   all.rates = *std::move(rates);
+  if (auto too_fast = turns_too_often(all)) {
+    return Unexpected{*std::move(too_fast)};
+  }
   return all;
 }
 

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/three_axis/rate_wander.h"
+#include "pipelines/time/tai_time.h"
 
 namespace spindrift {
 namespace {
@@ -15,20 +17,23 @@ using Eigen::Vector3d;
 
 constexpr double kGap = 1.75;
 
-/// How strongly the rate wanders beyond its noise, per axis and second.
-double wander_rad2_s3(std::span<const TimedRate> samples, double longest_step_s,
-                      double noise_rad_s) {
-  double squares = 0.0;
-  double span_s = 0.0;
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    const double step_s = samples[i].t_s - samples[i - 1].t_s;
-    if (step_s < longest_step_s) {
-      squares += (samples[i].rate_body_rad_s - samples[i - 1].rate_body_rad_s).squaredNorm() / 3.0 -
-                 2.0 * noise_rad_s * noise_rad_s;
-      span_s += step_s;
-    }
+/// In each step, as before it or as behind it, whichever is more; in one more before the first
+/// sample and one behind the last.
+std::vector<double> wander_rad2_s3(std::span<const TimedRate> samples, double noise_rad_s) {
+  std::vector<double> wander(samples.size() + 1);
+  RateWander forwards{noise_rad_s};
+  RateWander backwards{noise_rad_s};
+  const auto note = [&](RateWander& by, const TimedRate& sample, double& beside) {
+    by.note(shifted(TaiTime{}, sample.t_s), sample.rate_body_rad_s);
+    beside = std::max(beside, by.rad2_s3());
+  };
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    note(forwards, samples[i], wander[i + 1]);
   }
-  return span_s > 0.0 ? std::max(squares, 0.0) / span_s : 0.0;
+  for (std::size_t i = samples.size(); i-- > 0;) {
+    note(backwards, samples[i], wander[i]);
+  }
+  return wander;
 }
 
 }  // namespace
@@ -50,7 +55,7 @@ RateTrack::RateTrack(std::vector<TimedRate> samples, double begin_s, double end_
                      double noise_rad_s)
     : samples_{std::move(samples)} {
   const double longest_s = kGap * usual_step_s(samples_);
-  const double wander = wander_rad2_s3(samples_, longest_s, noise_rad_s);
+  const std::vector<double> wander = wander_rad2_s3(samples_, noise_rad_s);
   const bool held_before = begin_s < samples_.front().t_s;
   const bool held_behind = end_s > samples_.back().t_s;
   if (held_before) {
@@ -60,7 +65,7 @@ RateTrack::RateTrack(std::vector<TimedRate> samples, double begin_s, double end_
         std::find_if(samples_.begin(), samples_.end() - 1,
                      [&](const TimedRate& s) { return s.t_s >= first.t_s + held_s; });
     start_variance_rad2_s2_ =
-        (mirrored->rate_body_rad_s - first.rate_body_rad_s).squaredNorm() + wander * held_s;
+        (mirrored->rate_body_rad_s - first.rate_body_rad_s).squaredNorm() + wander.front() * held_s;
     samples_.insert(samples_.begin(), {begin_s, first.rate_body_rad_s});
   }
   if (held_behind) {
@@ -79,9 +84,10 @@ RateTrack::RateTrack(std::vector<TimedRate> samples, double begin_s, double end_
       step.gap_rad2 = h_s * h_s / 3.0 * start_variance_rad2_s2_ * Matrix3d::Identity();
     } else if (is_last || h_s > longest_s) {
       const Vector3d change = samples_[i + 1].rate_body_rad_s - samples_[i].rate_body_rad_s;
-      step.gap_rad2 = h_s * h_s / 12.0 *
-                      (change * change.transpose() +
-                       (is_last ? 4.0 : 1.0) * wander * h_s * Matrix3d::Identity());
+      step.gap_rad2 =
+          h_s * h_s / 12.0 *
+          (change * change.transpose() +
+           (is_last ? 4.0 : 1.0) * wander[i + (held_before ? 0 : 1)] * h_s * Matrix3d::Identity());
     }
     if (h_s > longest_s) {
       ++gaps_;

@@ -8,8 +8,8 @@
 ///
 /// A step of more than 1.75 times the usual one is a gap. The rate may have changed at once, at any
 /// instant of it, from what it was before to what it was behind: a turn of |dw| h / sqrt(12), along
-/// the change. It may also have changed and changed back: a random walk as strong as that of the
-/// samples of the pass, tied at both ends, h^3 / 12 times its density; behind the last sample,
+/// the change. It may also have changed and changed back: a random walk as strong as in the seconds
+/// beside (rate_wander.h), tied at both ends, h^3 / 12 times its density; behind the last sample,
 /// where nothing ties it, h^3 / 3. Before the first sample, whose error grows by the whole arc to
 /// T1, it may besides have changed about each axis as much as in the equally long stretch behind:
 /// thrusters are on for a while.

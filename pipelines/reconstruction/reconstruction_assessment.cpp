@@ -6,16 +6,21 @@
 #include <utility>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/three_axis/products.h"
 
 namespace spindrift {
 namespace {
 
 using enum ReasonCode;
 
-constexpr double kManySunOutliers = 0.15;
+constexpr double kManyOutliers = 0.15;  ///< Of sun vectors, or gyro samples.
+constexpr double kManyFixesGated = 1.0 / 3.0;
 constexpr double kLongGap_s = 10.0;  ///< The body may turn and stop in it, which no sigma foresees.
 constexpr double kFarOffBias_sigmas = 4.0;
-constexpr double kOpenAttitude_rad = 10.0 * kRadPerDeg;
+
+bool is_many(std::int64_t some, std::int64_t others, double share) {
+  return static_cast<double>(some) > share * static_cast<double>(some + others);
+}
 
 class Doubts {
  public:
@@ -38,9 +43,7 @@ class Doubts {
 void add_sun(const Observations& all, const Reconstruction& result, Doubts& doubts) {
   const SensorResiduals& sun = result.sun;
   doubts.count(SunVectors, sun.count, false);
-  const auto vectors = static_cast<double>(sun.count + sun.outliers);
-  doubts.count(SunOutliers, sun.outliers,
-               static_cast<double>(sun.outliers) > kManySunOutliers * vectors);
+  doubts.count(SunOutliers, sun.outliers, is_many(sun.outliers, sun.count, kManyOutliers));
   doubts.count(SunVectorsShadowed, all.in_shadow, false);
   doubts.count(ShadowUnknown, all.shadow_unknown, false);
 }
@@ -53,7 +56,8 @@ void add_gyro(const Observations& all, Doubts& doubts) {
   }
   doubts.count(GyroSaturated, all.saturated, true);
   doubts.count(GyroFrozen, all.frozen, true);
-  doubts.count(SamplesRepeated, all.repeated, false);
+  doubts.count(GyroOutliers, all.outliers,
+               all.first_is_outlier || is_many(all.outliers, all.gyro_samples, kManyOutliers));
 }
 
 void add_noise(const char* sensor, const SensorResiduals& residuals, Doubts& doubts) {
@@ -83,7 +87,8 @@ Assessment assess(const ReconstructionRequest& request, const Observations& all,
   const bool unchecked = result.sun.count == 0 && result.star.count == 1;
   Doubts doubts{.assessment = {unchecked ? Quality::Converging : Quality::Ok}};
   doubts.count(StarFixes, result.star.count, false);
-  doubts.count(StarFixesGated, stars.gated, false);
+  doubts.count(StarFixesGated, stars.gated,
+               is_many(stars.gated, std::ssize(stars.accepted), kManyFixesGated));
   if (stars.contradict) {
     doubts.add({StarFixesContradict}, true);
   }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/reconstruction/chain_solution.h"
 #include "pipelines/reconstruction/history.h"
 #include "pipelines/reconstruction/methods.h"
 #include "pipelines/reconstruction/observations.h"
@@ -227,6 +228,8 @@ struct Pass {
 
 Expected<Pass> backwards(const ReconstructionRequest& request, const Observations& all,
                          const StarObservation& star) {
+  const double sun_noise_rad =
+      all.sun.empty() ? 0.0 : louder_sun(request, all) * request.sensors.sun_sensor->noise_rad;
   const double last_s = all.seconds_of(all.events.back().t);
   const std::vector<double> times_s = step_times(all, last_s);
   const std::vector<Turn> turns = all.rates.turns(times_s, Vector3d::Zero());
@@ -250,10 +253,9 @@ Expected<Pass> backwards(const ReconstructionRequest& request, const Observation
       return Unexpected{not_solved(all, times_s[i])};
     }
     for (; sun != all.sun.rend() && sun->t_s == times_s[i]; ++sun) {
-      const double noise_rad = request.sensors.sun_sensor->noise_rad;
-      const bool accepted = at.accepts(*sun, noise_rad);
+      const bool accepted = at.accepts(*sun, sun_noise_rad);
       (accepted ? pass.sun.count : pass.sun.outliers) += 1;
-      if (accepted && !at.correct(*sun, noise_rad)) {
+      if (accepted && !at.correct(*sun, sun_noise_rad)) {
         return Unexpected{not_solved(all, times_s[i])};
       }
     }

@@ -23,6 +23,9 @@ struct ArcState {
   ArcSlopes slopes;
 };
 
+/// No arc may turn by more: a second of computing.
+inline constexpr double kLongestArc_rad = 1e4;
+
 ArcState start_of_arc(const BodyState& body);
 
 /// On from where an arc has come to, its slopes still those by its start.

@@ -19,8 +19,6 @@ using Eigen::Vector3d;
 // Of the bias's prior, along one square root of a second: 1 % of it in a day. Ten minutes do not
 // show it, and a day does not hold the bias of its first hour for the present one.
 constexpr double kBiasWalk_sqrt_s = 3e-5;
-// What the rate wanders by when nobody looks, at least: 1 deg in a minute.
-constexpr double kLeastWander_rad2_s3 = 1.4e-5 * kRadPerDeg * kRadPerDeg;
 // At most ten estimates a second of telemetry time, however the times of samples jitter.
 constexpr double kShortest_s = 0.095;
 
@@ -49,22 +47,59 @@ AttitudeEstimator::AttitudeEstimator(const ThreeAxisConfig& config)
     : config_{config}, gyro_{config.gyro.value_or(GyroSensor{})} {}
 
 void AttitudeEstimator::push(const GyroSample& sample, Products& out) {
-  const std::optional<GyroSample> before = gyro_.last();
-  const bool gap = before && gyro_.is_gap(elapsed_s(before->t, sample.t));
   if (const auto rejection = gyro_.judge(sample)) {
     leave_out({.t = sample.t, .kind = SampleKind::Gyro, .rejected_by = *rejection}, out);
     if (!waits_for_gyro(sample.t)) {
-      take_in_waiting(out);
-      coast(sample.t, out);
+      give_way(sample.t, out);
       give_where_due(out);
     }
     return;
   }
+  if (suspect_) {
+    decide_suspect(sample, out);
+  }
+  if (gyro_.is_suspect(sample)) {
+    suspect_ = sample;
+  } else {
+    take_in_gyro(sample, out);
+  }
+}
+
+void AttitudeEstimator::decide_suspect(const GyroSample& next, Products& out) {
+  if (gyro_.is_outlier(*suspect_, next)) {
+    leave_out_suspect(out);
+  } else {
+    take_in_gyro(*std::exchange(suspect_, std::nullopt), out);
+  }
+}
+
+void AttitudeEstimator::leave_out_suspect(Products& out) {
+  if (suspect_) {
+    leave_out({.t = std::exchange(suspect_, std::nullopt)->t,
+               .kind = SampleKind::Gyro,
+               .rejected_by = SampleRejection::Outlier},
+              out);
+  }
+}
+
+void AttitudeEstimator::take_in_gyro(const GyroSample& sample, Products& out) {
+  const std::optional<GyroSample> before = gyro_.last();
+  const bool gap = before && gyro_.is_gap(elapsed_s(before->t, sample.t));
+  gyro_.accept(sample);
   note_accepted(SampleKind::Gyro, sample.t);
   if (before) {
     const double length_s = elapsed_s(before->t, sample.t);
-    const Interval interval{.from = before->t, .length_s = length_s, .is_gap = gap};
-    for (const Sample& waiting : std::exchange(waiting_, {})) {
+    const Interval interval{
+        .from = before->t,
+        .length_s = length_s,
+        .is_gap = gap,
+        .change_rad_s = (sample.rate_body_rad_s - before->rate_body_rad_s).norm()};
+    if (gap && length_s > kGyroWait_s) {
+      note_gap(length_s);
+    }
+    while (!waiting_.empty() && time_of(waiting_.front()) <= sample.t) {
+      const Sample waiting = std::move(waiting_.front());
+      waiting_.pop_front();
       const double share = elapsed_s(*t_, time_of(waiting)) / elapsed_s(*t_, sample.t);
       follow({.t = time_of(waiting),
               .rate_body_rad_s = *rate_rad_s_ + share * (sample.rate_body_rad_s - *rate_rad_s_)},
@@ -81,6 +116,15 @@ void AttitudeEstimator::push(const GyroSample& sample, Products& out) {
   give_where_due(out);
 }
 
+void AttitudeEstimator::note_gap(double length_s) {
+  if (filter_) {
+    ++unchecked_gaps_;
+    longest_gap_s_ = std::max(longest_gap_s_, length_s);
+    checked_.setZero();
+    is_checked_ = false;
+  }
+}
+
 void AttitudeEstimator::push(const StarFix& fix, Products& out) { push_direct(fix, out); }
 void AttitudeEstimator::push(const SeenDirection& seen, Products& out) { push_direct(seen, out); }
 
@@ -90,8 +134,7 @@ void AttitudeEstimator::push_direct(const Sample& sample, Products& out) {
     waiting_.push_back(sample);
     return;
   }
-  take_in_waiting(out);
-  coast(t, out);
+  give_way(t, out);
   take_in(sample, out);
   if (gyro_is_out() || !rate_rad_s_) {
     give_where_due(out);
@@ -109,7 +152,15 @@ void AttitudeEstimator::take_in_waiting(Products& out) {
   }
 }
 
+/// No gyro sample is waited for any longer.
+void AttitudeEstimator::give_way(TaiTime t, Products& out) {
+  leave_out_suspect(out);
+  take_in_waiting(out);
+  coast(t, out);
+}
+
 void AttitudeEstimator::settle(Products& out) {
+  leave_out_suspect(out);
   take_in_waiting(out);
   if (filter_ && given_ != t_) {
     give(out);
@@ -123,7 +174,9 @@ void AttitudeEstimator::follow(const GyroSample& to, const Interval& interval) {
   const double noise_rad_s = config_.gyro->noise_rad_s;
   double turn_rad2 = noise_rad_s * noise_rad_s * interval.length_s * dt_s;
   if (interval.is_gap) {
-    turn_rad2 += gyro_.wander_rad2_s3() * interval.length_s * interval.length_s * dt_s / 12.0;
+    turn_rad2 += (gyro_.wander_rad2_s3() * interval.length_s +
+                  interval.change_rad_s * interval.change_rad_s) *
+                 interval.length_s * dt_s / 12.0;
   }
   turn(to, coasting_ ? coasted_rad2(interval.from, to.t) : turn_rad2);
 }
@@ -150,9 +203,8 @@ double AttitudeEstimator::coasted_rad2(TaiTime measured, TaiTime t) const {
   const double from_s = elapsed_s(measured, std::max(*t_, measured));
   const double to_s = elapsed_s(measured, t);
   const double noise_rad_s = config_.gyro->noise_rad_s;
-  const double wander_rad2_s3 = std::max(gyro_.wander_rad2_s3(), kLeastWander_rad2_s3);
   return noise_rad_s * noise_rad_s * (to_s * to_s - from_s * from_s) +
-         wander_rad2_s3 * (to_s * to_s * to_s - from_s * from_s * from_s) / 3.0;
+         gyro_.wander_rad2_s3() * (to_s * to_s * to_s - from_s * from_s * from_s) / 3.0;
 }
 
 void AttitudeEstimator::turn(const GyroSample& to, double turn_rad2) {
@@ -242,6 +294,10 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
     is_checked_ = Eigen::SelfAdjointEigenSolver<Matrix3d>{checked_, Eigen::EigenvaluesOnly}
                       .eigenvalues()[0] >= kEnoughToCheck;
   }
+  if (is_checked_) {
+    unchecked_gaps_ = 0;
+    longest_gap_s_ = 0.0;
+  }
   return true;
 }
 
@@ -268,6 +324,8 @@ void AttitudeEstimator::begin(const UncertainAttitude& attitude, Products& out) 
   rejected_in_a_row_ = 0;
   checked_.setZero();
   is_checked_ = false;
+  unchecked_gaps_ = 0;
+  longest_gap_s_ = 0.0;
   since_ = t_;
   give(out);
 }
@@ -338,6 +396,10 @@ Assessment AttitudeEstimator::assess() const {
   if (gyro_is_out()) {
     reasons.push_back(why_no_gyro());
   }
+  if (unchecked_gaps_ > 0) {
+    reasons.push_back(
+        {ReasonCode::GyroGaps, {{"count", unchecked_gaps_}, {"longest_s", longest_gap_s_}}});
+  }
   for (std::size_t kind = 0; kind < kSampleKinds; ++kind) {
     const InnovationRecord& innovations = innovations_.at(kind);
     const std::string sensor{name_of(static_cast<SampleKind>(kind))};
@@ -348,6 +410,10 @@ Assessment AttitudeEstimator::assess() const {
       reasons.push_back(
           {ReasonCode::SensorNoise, {{"sensor", sensor}, {"factor", std::sqrt(excess)}}});
     }
+  }
+  const double sigma_rad = std::sqrt(excess_noise() * filter_->attitude_covariance_rad2().trace());
+  if (sigma_rad > kOpenAttitude_rad) {
+    reasons.push_back({ReasonCode::AttitudeOpen, {{"deg", degrees(sigma_rad)}}});
   }
   if (!reasons.empty()) {
     assessment.quality = Quality::Doubtful;

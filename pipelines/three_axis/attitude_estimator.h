@@ -14,13 +14,15 @@
 ///                axis, have checked it since it began; without a gyro it begins at each fix
 ///     OK         all is well
 ///     DOUBTFUL   a sensor's samples are rejected while another's agree, or scatter beyond their
-///                noise, and the covariance is raised by that; or the gyro is out
+///                noise, and the covariance is raised by that; or the gyro is out, or was and
+///                nothing has checked since how the body turned meanwhile; or it is open by 10 deg
 ///     LOST       it may point anywhere, and the covariance says so; said once
 
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <variant>
@@ -80,6 +82,10 @@ class AttitudeEstimator {
  private:
   using Sample = std::variant<StarFix, SeenDirection>;
 
+  void take_in_gyro(const GyroSample& sample, Products& out);
+  void decide_suspect(const GyroSample& next, Products& out);
+  void leave_out_suspect(Products& out);
+  void give_way(TaiTime t, Products& out);
   void push_direct(const Sample& sample, Products& out);
   bool waits_for_gyro(TaiTime t) const;
   void take_in_waiting(Products& out);
@@ -94,7 +100,9 @@ class AttitudeEstimator {
     TaiTime from;
     double length_s;
     bool is_gap;
+    double change_rad_s;  ///< Of the rate across it.
   };
+  void note_gap(double length_s);
   void follow(const GyroSample& to, const Interval& interval);
   void coast(TaiTime t, Products& out);
   double coasted_rad2(TaiTime measured, TaiTime t) const;
@@ -112,7 +120,8 @@ class AttitudeEstimator {
 
   ThreeAxisConfig config_;
   GyroWatch gyro_;
-  std::deque<Sample> waiting_;  ///< For the gyro sample behind them.
+  std::optional<GyroSample> suspect_;  ///< Waits for the next to tell what it is.
+  std::deque<Sample> waiting_;         ///< For the gyro sample behind them.
 
   std::optional<TaiTime> t_;                   ///< To which the body has been followed.
   std::optional<Eigen::Vector3d> rate_rad_s_;  ///< As measured, there; empty: no gyro yet.
@@ -126,6 +135,9 @@ class AttitudeEstimator {
   int rejected_in_a_row_ = 0;
   Eigen::Matrix3d checked_ = Eigen::Matrix3d::Zero();  ///< About which axes, ICRF.
   bool is_checked_ = false;
+  std::int64_t unchecked_gaps_ =
+      0;                        ///< Of the gyro, in which the body may have turned and stopped.
+  double longest_gap_s_ = 0.0;  ///< Of those.
   std::optional<TaiTime> since_;
   bool began_anew_ = false;
   std::optional<TaiTime> given_;  ///< The last estimate.

@@ -3,62 +3,88 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/statistics/significance.h"
+#include "pipelines/three_axis/gyro_outlier.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
 namespace {
 
-// Over which the rate's changes are taken: a body's rate is smooth within it, and its changes from
-// sample to sample would not add up to those of a gap.
-constexpr double kApart_s = 1.0;
-constexpr double kMemory_s = 10.0;
 constexpr double kRecentInterval = 0.1;
 constexpr double kGap = 1.5;  // Usual intervals.
+// Of the noise, of each axis of a sample: it comes to the median within some ten samples.
+constexpr double kRecentNoise = 0.05;
 
 }  // namespace
 
+bool is_saturated(const GyroSample& sample, const GyroSensor& sensor) {
+  return sensor.range_rad_s && sample.rate_body_rad_s.cwiseAbs().maxCoeff() >= *sensor.range_rad_s;
+}
+
 std::optional<SampleRejection> GyroWatch::judge(const GyroSample& sample) {
-  repeats_ = sample.rate_body_rad_s == repeated_rad_s_ ? repeats_ + 1 : 1;
-  repeated_rad_s_ = sample.rate_body_rad_s;
-  if (sensor_.range_rad_s && sample.rate_body_rad_s.cwiseAbs().maxCoeff() >= *sensor_.range_rad_s) {
+  if (judged_) {
+    frozen_.learn(judged_->rate_body_rad_s, sample.rate_body_rad_s);
+  }
+  judged_ = sample;
+  const bool is_frozen = frozen_.repeated(sample.rate_body_rad_s) > 0;
+  if (is_saturated(sample, sensor_)) {
     out_because_ = SampleRejection::Saturated;
-  } else if (repeats_ >= kFrozenInARow) {
+  } else if (is_frozen) {
     out_because_ = SampleRejection::Frozen;
   } else {
     out_because_ = std::nullopt;
-    note(sample);
-    last_ = sample;
   }
   return out_because_;
 }
 
-void GyroWatch::note(const GyroSample& sample) {
-  if (!last_) {
-    a_second_ago_ = sample;
-    return;
+bool GyroWatch::is_suspect(const GyroSample& sample) const {
+  return before_last_ && end_stands_out(sample, *last_, *before_last_, scatter_rad_s());
+}
+
+bool GyroWatch::is_outlier(const GyroSample& suspect, const GyroSample& next) const {
+  return stands_out(last_->rate_body_rad_s, suspect.rate_body_rad_s, next.rate_body_rad_s,
+                    change_rad_s(*before_last_, *last_, last_->t, suspect.t), scatter_rad_s());
+}
+
+double GyroWatch::scatter_rad_s() const {
+  return std::max(noise_rad_s_, 0.5 * frozen_.step_rad_s());
+}
+
+void GyroWatch::accept(const GyroSample& sample) {
+  wander_.note(sample.t, sample.rate_body_rad_s);
+  if (last_) {
+    note_interval(elapsed_s(last_->t, sample.t));
   }
-  const double interval_s = elapsed_s(last_->t, sample.t);
+  if (before_last_) {
+    note_noise(sample);
+  }
+  before_last_ = last_;
+  last_ = sample;
+}
+
+void GyroWatch::note_interval(double interval_s) {
   intervals_ += 1.0;
   usual_interval_s_ +=
       std::max(kRecentInterval, 1.0 / intervals_) *
       ((is_gap(interval_s) ? kGap * usual_interval_s_ : interval_s) - usual_interval_s_);
+}
 
-  const double apart_s = elapsed_s(a_second_ago_.t, sample.t);
-  if (apart_s < kApart_s) {
-    return;
+/// Of the median: as many deviations are above as below it.
+void GyroWatch::note_noise(const GyroSample& sample) {
+  const double share = elapsed_s(last_->t, sample.t) / elapsed_s(before_last_->t, last_->t);
+  const Eigen::Vector3d off_rad_s =
+      sample.rate_body_rad_s - last_->rate_body_rad_s -
+      share * (last_->rate_body_rad_s - before_last_->rate_body_rad_s);
+  const double spread = std::sqrt(1.0 + (1.0 + share) * (1.0 + share) + share * share);
+  for (const double off : off_rad_s) {
+    const bool is_more = std::abs(off) > kMedianDeviation * spread * noise_rad_s_;
+    noise_rad_s_ *= is_more ? 1.0 + kRecentNoise : 1.0 - kRecentNoise;
   }
-  const double changed_rad2_s2 =
-      (sample.rate_body_rad_s - a_second_ago_.rate_body_rad_s).squaredNorm() / 3.0;
-  const double noise_rad2_s2 = 2.0 * sensor_.noise_rad_s * sensor_.noise_rad_s;
-  wander_rad2_s3_ += (1.0 - std::exp(-apart_s / kMemory_s)) *
-                     ((changed_rad2_s2 - noise_rad2_s2) / apart_s - wander_rad2_s3_);
-  a_second_ago_ = sample;
+  noise_rad_s_ = std::max(noise_rad_s_, sensor_.noise_rad_s);
 }
 
 bool GyroWatch::is_gap(double interval_s) const {
   return intervals_ > 1.0 && interval_s > kGap * usual_interval_s_;
 }
-
-double GyroWatch::wander_rad2_s3() const { return std::max(0.0, wander_rad2_s3_); }
 
 }  // namespace spindrift

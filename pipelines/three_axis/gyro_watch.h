@@ -7,22 +7,36 @@
 #include <optional>
 
 #include "pipelines/three_axis/config.h"
+#include "pipelines/three_axis/frozen_gyro.h"
 #include "pipelines/three_axis/products.h"
+#include "pipelines/three_axis/rate_wander.h"
 #include "pipelines/three_axis/samples.h"
 
 namespace spindrift {
 
+bool is_saturated(const GyroSample& sample, const GyroSensor& sensor);
+
 class GyroWatch {
  public:
-  /// A gyro that gives the same numbers so often in a row is frozen: noise that is not below the
-  /// step of the telemetry does it once in a thousand million times.
-  static constexpr int kFrozenInARow = 10;
+  explicit GyroWatch(const GyroSensor& sensor)
+      : sensor_{sensor},
+        frozen_{sensor.noise_rad_s},
+        noise_rad_s_{sensor.noise_rad_s},
+        wander_{sensor.noise_rad_s} {}
 
-  explicit GyroWatch(const GyroSensor& sensor) : sensor_{sensor} {}
-
+  /// Once for each sample.
   /// @param sample Later than the one before.
-  /// @return Why it is no measurement; empty: it is one.
+  /// @return Why it is no measurement whatever comes; empty: it may be one.
   std::optional<SampleRejection> judge(const GyroSample& sample);
+
+  /// Whether it is so far off the line through the two before it that the next one must tell what
+  /// it is.
+  bool is_suspect(const GyroSample& sample) const;
+  /// Whether such a one is off from its neighbours (gyro_outlier.h).
+  bool is_outlier(const GyroSample& suspect, const GyroSample& next) const;
+
+  /// It is a measurement.
+  void accept(const GyroSample& sample);
 
   /// The last measurement; empty: none yet.
   const std::optional<GyroSample>& last() const { return last_; }
@@ -30,25 +44,26 @@ class GyroWatch {
   /// Why the samples behind it are none; empty: there are no samples.
   std::optional<SampleRejection> out_because() const { return out_because_; }
 
-  /// Spectral density of the rate's change, of each axis, rad^2/s^3, as it changes from second to
-  /// second beyond the noise: by so much the rate wanders where nobody measures it.
-  double wander_rad2_s3() const;
+  double wander_rad2_s3() const { return wander_.rad2_s3(); }
 
   /// Whether samples are missing in an interval between two.
   bool is_gap(double interval_s) const;
 
  private:
-  void note(const GyroSample& sample);
+  void note_interval(double interval_s);
+  void note_noise(const GyroSample& sample);
+  double scatter_rad_s() const;
 
   GyroSensor sensor_;
+  FrozenGyro frozen_;
+  std::optional<GyroSample> judged_;
+  std::optional<GyroSample> before_last_;
   std::optional<GyroSample> last_;
   std::optional<SampleRejection> out_because_;
-  Eigen::Vector3d repeated_rad_s_ = Eigen::Vector3d::Zero();
-  int repeats_ = 0;
   double intervals_ = 0.0;
   double usual_interval_s_ = 0.0;
-  GyroSample a_second_ago_;
-  double wander_rad2_s3_ = 0.0;  ///< Less the noise; may be below zero by chance.
+  double noise_rad_s_;  ///< That of the samples, where it is more than stated.
+  RateWander wander_;
 };
 
 }  // namespace spindrift

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "pipelines/core/assessment.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -30,6 +31,7 @@ enum class SampleRejection {
   NoSensor,    ///< The mission file has no such sensor.
   Saturated,   ///< Of the gyro: beyond its range.
   Frozen,      ///< Of the gyro: the same numbers as too many before it.
+  Outlier,     ///< Of the gyro: off from its neighbours.
   Shadow,      ///< Of the sun sensor: the Earth is before the Sun.
   NoOrbit,     ///< Of an orbit state: on no ellipse round the Earth.
   Innovation,  ///< Too far from where the attitude has it.
@@ -55,6 +57,9 @@ using SensorHealths = std::array<SensorHealth, kSampleKinds>;  ///< By kind.
 /// What made an attitude: the filter, or a reconstruction of the separation.
 enum class AttitudeSource { Mekf, Batch, Sequential };
 std::string_view name_of(AttitudeSource source);
+
+/// An attitude with a larger sigma is open: DOUBTFUL.
+inline constexpr double kOpenAttitude_rad = 10.0 * kRadPerDeg;
 
 struct AttitudeEstimate {
   TaiTime t;

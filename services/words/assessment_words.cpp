@@ -66,13 +66,13 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
     {GyroGaps, "{count} gyro gap{s}, up to {longest_s:.1f} s"},
     {GyroSaturated, "{count} gyro sample{s} saturated"},
     {GyroFrozen, "{count} gyro sample{s} frozen"},
-    {SamplesRepeated, "{count} sample{s} repeated"},
+    {GyroOutliers, "{count} gyro outlier{s}"},
     {ConstantRate, "constant rate before T2"},
     {GyroBiasOpen, "gyro bias open by {sigma_deg_s:.2g} deg/s"},
     {GyroBiasOpenBySun,
      "gyro bias open by {sigma_deg_s:.2g} deg/s, {off_sun_deg:.0f} deg off the Sun line"},
     {GyroBiasFarOff, "gyro bias more than {prior_sigmas:.0f} times its prior"},
-    {AttitudeOpen, "attitude at T1 open by {deg:.0f} deg"},
+    {AttitudeOpen, "attitude open by {deg:.0f} deg"},
 }};
 static_assert(are_by_code(kReasonPatterns));
 

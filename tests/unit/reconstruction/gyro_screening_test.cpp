@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+
 namespace spindrift::gyro_screening_test {
 
 using Eigen::Vector3d;
@@ -61,6 +64,52 @@ TEST(GyroScreening, LeavesOutWhatIsAtTheEndOfTheRange) {
   const ScreenedGyro screened_gyro = screened(samples, kGyro);
   EXPECT_EQ(screened_gyro.saturated, 2);
   EXPECT_EQ(screened_gyro.usable.size(), 98U);
+}
+
+TEST(GyroScreening, LeavesOutASpikeWhereverItIs) {
+  for (const std::size_t spike : {0U, 1U, 57U, 98U, 99U}) {
+    for (const double size_rad_s : {-0.002, 0.002, 0.08}) {
+      std::vector<GyroSample> samples = noisy(100);
+      samples[spike].rate_body_rad_s.x() += size_rad_s;
+      const ScreenedGyro found = screened(samples, kGyro);
+      EXPECT_EQ(found.outliers, 1) << spike << " " << size_rad_s;
+      EXPECT_EQ(found.usable.size(), 99U);
+      EXPECT_EQ(found.first_is_outlier, spike == 0);
+      EXPECT_TRUE(std::none_of(found.usable.begin(), found.usable.end(),
+                               [&](const auto& sample) { return sample.t == samples[spike].t; }));
+    }
+  }
+}
+
+/// A gyro that has just been switched on.
+TEST(GyroScreening, LeavesOutZerosAtTheStart) {
+  for (const std::size_t zeros : {1U, 2U, 3U, 4U, 7U}) {
+    std::vector<GyroSample> samples = noisy(400, 0.1 * kGyro.noise_rad_s);
+    for (std::size_t i = 0; i < zeros; ++i) {
+      samples[i].rate_body_rad_s.setZero();
+    }
+    const ScreenedGyro found = screened(samples, kGyro);
+    EXPECT_TRUE(found.first_is_outlier);
+    EXPECT_GE(found.usable.front().t, samples[zeros].t) << zeros;
+  }
+}
+
+/// One degree per second within one, two or four samples, at any time, and back later.
+TEST(GyroScreening, KeepsWhatThrustersDo) {
+  for (const int samples_on : {1, 2, 4}) {
+    for (const int begin : {0, 1, 2, 50}) {
+      if (begin == 0 && samples_on == 1) {
+        continue;  // A spike looks the same.
+      }
+      std::vector<GyroSample> samples = noisy(100);
+      for (int i = 0; i < 100; ++i) {
+        const double up = std::clamp(static_cast<double>(i - begin) / samples_on, 0.0, 1.0);
+        const double down = std::clamp((i - 80.0) / samples_on, 0.0, 1.0);
+        samples[static_cast<std::size_t>(i)].rate_body_rad_s.y() += 0.0174 * (up - down);
+      }
+      EXPECT_EQ(screened(samples, kGyro).outliers, 0) << samples_on << " " << begin;
+    }
+  }
 }
 
 }  // namespace spindrift::gyro_screening_test

@@ -95,7 +95,7 @@ TEST(RateTrack, NoiseOfAllSamplesAddsUp) {
 TEST(RateTrack, GapsAreBridgedWithinTheirSigma) {
   std::mt19937_64 generator{7};
   std::normal_distribution<double> normal;
-  constexpr double kWander = 2e-5;  // rad/s per sqrt(s)
+  constexpr double kWander = 2e-4;  // rad/s per sqrt(s)
   double squares = 0.0;
   constexpr int kTrials = 300;
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -126,6 +126,25 @@ TEST(RateTrack, GapsAreBridgedWithinTheirSigma) {
   // The change across the gap is taken in besides: wider than the wandering alone asks for.
   EXPECT_LT(squares / kTrials, 1.1);
   EXPECT_GT(squares / kTrials, 0.4);
+}
+
+/// Ten hertz, a smooth rate of 0.5 deg/s that turns in 60 s.
+TEST(RateTrack, GapsOfASmoothRateAreBridgedWithinTheirSigma) {
+  const auto rate = [](double t_s) {
+    return Vector3d{0.0087 * std::sin(0.105 * t_s), 0.0087 * std::cos(0.105 * t_s), 0.0};
+  };
+  for (double from_s = 20.0; from_s < 80.0; from_s += 5.0) {
+    std::vector<TimedRate> samples = samples_at(0.1, 1201, rate);
+    const Turn expected =
+        track_of(samples).turns(std::vector{from_s, from_s + 9.0}, Vector3d::Zero()).front();
+    std::erase_if(samples, [=](const TimedRate& s) {
+      return s.t_s > from_s + 0.01 && s.t_s < from_s + 8.99;
+    });
+    const RateTrack track = track_of(samples);
+    const Turn turn = track.turns(std::vector{from_s, from_s + 9.0}, Vector3d::Zero()).front();
+    const Vector3d off = rotation_vector_of(turn.turn.conjugate() * expected.turn);
+    EXPECT_LT(std::sqrt(off.dot(turn.covariance_rad2.llt().solve(off))), 3.5) << from_s;
+  }
 }
 
 TEST(RateTrack, HoldsTheRateOutsideTheSamplesWithGrowingUncertainty) {

@@ -40,6 +40,26 @@ TEST_F(ReconstructRefuses, AStarFixBeforeControlOnAlone) {
   refuses(ErrorCode::Unobservable, "nothing can be anchored");
 }
 
+TEST_F(ReconstructRefuses, AnArcOfTooManyTurns) {
+  for (GyroSample& sample : flight_.gyro) {
+    sample.rate_body_rad_s.x() += 1e9;
+  }
+  refuses(ErrorCode::InvalidInput, "cannot be followed back; check the gyro's unit");
+}
+
+/// Degrees for radians.
+TEST(ReconstructBatchRefuses, RatesOfTheWrongUnitAndNamesTheGyro) {
+  SeparationFlight flight = separation_flight({.star_fix_step_s = 10.0, .end_s = 400.0}, 3);
+  for (GyroSample& sample : flight.gyro) {
+    sample.rate_body_rad_s *= 57.3;
+  }
+  const auto found = reconstruct(flight.request(), ReconstructionMethod::Batch);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::Unobservable);
+  EXPECT_THAT(found.error().message, HasSubstr("the gyro is furthest off"));
+  EXPECT_THAT(found.error().message, HasSubstr("check its unit"));
+}
+
 TEST_F(ReconstructRefuses, AMissionWithoutGyroOrStarTracker) {
   flight_.sensors.star_tracker.reset();
   refuses(ErrorCode::Unobservable, "nothing can be anchored");
@@ -98,7 +118,7 @@ TEST_F(ReconstructRefuses, AGyroThatIsFrozenThroughout) {
   for (GyroSample& sample : flight_.gyro) {
     sample.rate_body_rad_s = flight_.gyro.front().rate_body_rad_s;
   }
-  refuses(ErrorCode::Unobservable, "frozen: at least 2 are needed");
+  refuses(ErrorCode::Unobservable, "960 frozen and 0 off");
 }
 
 }  // namespace spindrift::refusals_test

@@ -268,6 +268,9 @@ TEST_F(AttitudeEstimatorTest, AGapOfTheGyroWidensAndTheNextFixHoldsIt) {
   EXPECT_GT(degrees(last().sigma_rad()), 20.0 * before_deg);
   EXPECT_LT(error_deg(last()), 3.0 * degrees(last().sigma_rad()));
   EXPECT_TRUE(last().rate_body_rad_s);
+  EXPECT_EQ(quality(), Quality::Doubtful);
+  EXPECT_EQ(last().assessment.reasons.front(),
+            (Reason{ReasonCode::GyroGaps, {{"count", std::int64_t{1}}, {"longest_s", 12.0}}}));
   run(42.0, 60.0, [&](double t_s) { star(t_s); });
   EXPECT_EQ(quality(), Quality::Ok);
   EXPECT_LT(degrees(last().sigma_rad()), 2.0 * before_deg);
@@ -303,6 +306,94 @@ TEST_F(AttitudeEstimatorTest, AfterAFixInAGapTheRestOfItWidensToo) {
   EXPECT_EQ(health(SampleKind::Star).rejected, 0);
 }
 
+/// The body turns by 30 deg meanwhile, and stands as before at either end.
+TEST_F(AttitudeEstimatorTest, WhatTurnedUnseenInAGapIsDoubtfulUntilItIsChecked) {
+  GyroSample still{.t = at_s(0.0), .rate_body_rad_s = Vector3d::Zero()};
+  const auto rest = [&](double from_s, double to_s) {
+    for (int i = static_cast<int>(std::lround(from_s * 10.0)); i < std::lround(to_s * 10.0); ++i) {
+      still.t = at_s(0.1 * i);
+      still.rate_body_rad_s = testing::normal_vector(rng_, config_.gyro->noise_rad_s);
+      estimator_.push(still, products_);
+      if (i % 10 == 0) {
+        StarFix fix = sensors_.star(0.0);
+        fix.t = still.t;
+        estimator_.push(fix, products_);
+      }
+    }
+  };
+  rest(0.0, 30.0);
+  EXPECT_EQ(quality(), Quality::Ok);
+  still.t = at_s(90.0);
+  estimator_.push(still, products_);
+  still.t = at_s(90.1);
+  still.rate_body_rad_s.x() += 1e-6;
+  estimator_.push(still, products_);
+  EXPECT_EQ(quality(), Quality::Doubtful);
+  EXPECT_TRUE(has(last().assessment, ReasonCode::GyroGaps));
+  EXPECT_GT(degrees(last().sigma_rad()), 0.8);
+  rest(90.2, 98.0);
+  EXPECT_EQ(quality(), Quality::Doubtful);
+  rest(98.0, 105.0);
+  EXPECT_EQ(quality(), Quality::Ok);
+}
+
+TEST_F(AttitudeEstimatorTest, ASigmaAboveTenDegreesIsDoubtful) {
+  gyro(0.0);
+  star(0.0);
+  run(0.0, 30.0, [&](double t_s) { star(t_s); });
+  GyroSample saturated{.t = at_s(31.0), .rate_body_rad_s = Vector3d::Constant(1.0)};
+  for (int second = 31; second < 1500 && degrees(last().sigma_rad()) < 12.0; ++second) {
+    saturated.t = at_s(second);
+    estimator_.push(saturated, products_);
+  }
+  EXPECT_TRUE(has(last().assessment, ReasonCode::AttitudeOpen));
+}
+
+TEST_F(AttitudeEstimatorTest, ASpikeOfTheGyroIsLeftOut) {
+  config_.gyro->range_rad_s.reset();
+  for (const double size_rad_s : {0.1 * kRadPerDeg, 10.0 * kRadPerDeg, 17.0}) {
+    SCOPED_TRACE(size_rad_s);
+    AttitudeEstimator estimator{config_};
+    AttitudeEstimator clean{config_};
+    AttitudeEstimator::Products products;
+    for (int i = 0; i <= 300; ++i) {
+      GyroSample sample = sensors_.gyro(0.1 * i);
+      clean.push(sample, products);
+      if (i == 200) {
+        products.clear();
+        sample.rate_body_rad_s.y() += size_rad_s;
+      }
+      estimator.push(sample, products);
+      if (i < 150 && i % 10 == 0) {
+        const StarFix fix = sensors_.star(0.1 * i);
+        clean.push(fix, products);
+        estimator.push(fix, products);
+      }
+    }
+    EXPECT_EQ(estimator.sensors().at(index_of(SampleKind::Gyro)).rejected, 1);
+    EXPECT_LT(degrees(angle_between_rad(estimator.filter()->q_icrf_body(),
+                                        clean.filter()->q_icrf_body())),
+              0.01);
+  }
+}
+
+/// One degree per second within a sample, then back, while star fixes go on.
+TEST_F(AttitudeEstimatorTest, WhatThrustersDoIsNoSpike) {
+  for (const int samples_on : {1, 2, 4}) {
+    AttitudeEstimator estimator{config_};
+    AttitudeEstimator::Products products;
+    for (int i = 0; i <= 300; ++i) {
+      GyroSample sample{.t = at_s(0.1 * i),
+                        .rate_body_rad_s = testing::normal_vector(rng_, config_.gyro->noise_rad_s)};
+      const double up = std::clamp((i - 100.0) / samples_on, 0.0, 1.0);
+      const double down = std::clamp((i - 200.0) / samples_on, 0.0, 1.0);
+      sample.rate_body_rad_s.z() += kRadPerDeg * (up - down);
+      estimator.push(sample, products);
+    }
+    EXPECT_EQ(estimator.sensors().at(index_of(SampleKind::Gyro)).rejected, 0) << samples_on;
+  }
+}
+
 TEST_F(AttitudeEstimatorTest, AFrozenGyroIsNoGyro) {
   gyro(0.0);
   star(0.0);
@@ -315,7 +406,7 @@ TEST_F(AttitudeEstimatorTest, AFrozenGyroIsNoGyro) {
   EXPECT_EQ(quality(), Quality::Doubtful);
   EXPECT_EQ(std::get<std::string>(last().assessment.reasons.front().values.front().value),
             "frozen");
-  EXPECT_EQ(health(SampleKind::Gyro).rejected, 31);
+  EXPECT_EQ(health(SampleKind::Gyro).rejected, 36);
 }
 
 TEST_F(AttitudeEstimatorTest, WhatNothingHoldsIsLostInTheEnd) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "tests/support/turning_body.h"
@@ -15,31 +16,40 @@ using testing::normal_vector;
 
 constexpr GyroSensor kGyro{.noise_rad_s = 3e-5, .bias_sigma_rad_s = 2e-4, .range_rad_s = 0.2};
 
+/// Taken for a measurement where nothing speaks against it.
+std::optional<SampleRejection> judge(GyroWatch& watch, const GyroSample& sample) {
+  const auto rejection = watch.judge(sample);
+  if (!rejection) {
+    watch.accept(sample);
+  }
+  return rejection;
+}
+
 TEST(GyroWatch, ASaturatedSampleIsNoMeasurement) {
   GyroWatch watch{kGyro};
-  EXPECT_EQ(watch.judge({at_s(0.0), {0.1, 0.1, -0.199}}), std::nullopt);
-  EXPECT_EQ(watch.judge({at_s(0.1), {0.1, 0.1, -0.2}}), SampleRejection::Saturated);
+  EXPECT_EQ(judge(watch, {at_s(0.0), {0.1, 0.1, -0.199}}), std::nullopt);
+  EXPECT_EQ(judge(watch, {at_s(0.1), {0.1, 0.1, -0.2}}), SampleRejection::Saturated);
   EXPECT_EQ(watch.out_because(), SampleRejection::Saturated);
   EXPECT_EQ(watch.last()->t, at_s(0.0));
-  EXPECT_EQ(watch.judge({at_s(0.2), {0.1, 0.1, -0.1}}), std::nullopt);
+  EXPECT_EQ(judge(watch, {at_s(0.2), {0.1, 0.1, -0.1}}), std::nullopt);
   EXPECT_EQ(watch.out_because(), std::nullopt);
 }
 
 TEST(GyroWatch, WithoutARangeNothingIsSaturated) {
   GyroWatch watch{{.noise_rad_s = 3e-5, .bias_sigma_rad_s = 2e-4, .range_rad_s = std::nullopt}};
-  EXPECT_EQ(watch.judge({at_s(0.0), {10.0, 0.0, 0.0}}), std::nullopt);
+  EXPECT_EQ(judge(watch, {at_s(0.0), {10.0, 0.0, 0.0}}), std::nullopt);
 }
 
 TEST(GyroWatch, TenEqualSamplesInARowAreFrozenUntilOneDiffers) {
   GyroWatch watch{kGyro};
   const Vector3d rate_rad_s{0.01, 0.0, 0.0};
   for (int i = 0; i < 9; ++i) {
-    EXPECT_EQ(watch.judge({at_s(0.1 * i), rate_rad_s}), std::nullopt) << i;
+    EXPECT_EQ(judge(watch, {at_s(0.1 * i), rate_rad_s}), std::nullopt) << i;
   }
   for (int i = 9; i < 15; ++i) {
-    EXPECT_EQ(watch.judge({at_s(0.1 * i), rate_rad_s}), SampleRejection::Frozen) << i;
+    EXPECT_EQ(judge(watch, {at_s(0.1 * i), rate_rad_s}), SampleRejection::Frozen) << i;
   }
-  EXPECT_EQ(watch.judge({at_s(1.5), {0.01, 1e-9, 0.0}}), std::nullopt);
+  EXPECT_EQ(judge(watch, {at_s(1.5), {0.01 + 1e-5, 1e-5, 1e-5}}), std::nullopt);
 }
 
 TEST(GyroWatch, WanderIsWhatTheRateChangesByBeyondTheNoise) {
@@ -47,10 +57,11 @@ TEST(GyroWatch, WanderIsWhatTheRateChangesByBeyondTheNoise) {
   // Noise alone.
   GyroWatch still{kGyro};
   for (int i = 0; i < 2000; ++i) {
-    still.judge({at_s(0.1 * i), normal_vector(rng, kGyro.noise_rad_s)});
+    judge(still, {at_s(0.1 * i), normal_vector(rng, kGyro.noise_rad_s)});
   }
-  const double of_noise = 2.0 * kGyro.noise_rad_s * kGyro.noise_rad_s;
-  EXPECT_LT(still.wander_rad2_s3(), of_noise);
+  // A degree in a minute: its cube over three.
+  const double least_rad2_s3 = std::pow(std::numbers::pi / 180.0, 2) * 3.0 / std::pow(60.0, 3);
+  EXPECT_NEAR(still.wander_rad2_s3(), least_rad2_s3, 0.02 * least_rad2_s3);
   // A random walk of the rate.
   GyroWatch wandering{kGyro};
   const double walk_rad2_s3 = 1e-6;
@@ -58,7 +69,7 @@ TEST(GyroWatch, WanderIsWhatTheRateChangesByBeyondTheNoise) {
   double mean_rad2_s3 = 0.0;
   for (int i = 0; i < 20000; ++i) {
     rate_rad_s += normal_vector(rng, std::sqrt(0.1 * walk_rad2_s3));
-    wandering.judge({at_s(0.1 * i), rate_rad_s + normal_vector(rng, kGyro.noise_rad_s)});
+    judge(wandering, {at_s(0.1 * i), rate_rad_s + normal_vector(rng, kGyro.noise_rad_s)});
     mean_rad2_s3 += i >= 200 ? wandering.wander_rad2_s3() / 19800.0 : 0.0;
   }
   EXPECT_NEAR(mean_rad2_s3, walk_rad2_s3, 0.1 * walk_rad2_s3);
@@ -69,13 +80,48 @@ TEST(GyroWatch, AGapIsLongerThanTheUsualInterval) {
   for (const double interval_s : {0.1, 1.0}) {
     GyroWatch watch{kGyro};
     // The first interval may be any, as that of recorded flights is.
-    watch.judge({at_s(0.0), normal_vector(rng, kGyro.noise_rad_s)});
-    watch.judge({at_s(0.3 * interval_s), normal_vector(rng, kGyro.noise_rad_s)});
+    judge(watch, {at_s(0.0), normal_vector(rng, kGyro.noise_rad_s)});
+    judge(watch, {at_s(0.3 * interval_s), normal_vector(rng, kGyro.noise_rad_s)});
     for (int i = 1; i < 30; ++i) {
-      watch.judge({at_s(interval_s * i), normal_vector(rng, kGyro.noise_rad_s)});
+      judge(watch, {at_s(interval_s * i), normal_vector(rng, kGyro.noise_rad_s)});
     }
     EXPECT_FALSE(watch.is_gap(1.1 * interval_s));
     EXPECT_TRUE(watch.is_gap(2.0 * interval_s));
+  }
+}
+
+/// At rest, with a step of the telemetry ten times the noise, a true rate near half a step.
+TEST(GyroWatch, ABodyAtRestBelowTheStepOfTheTelemetryIsNotFrozenOnceAStepWasSeen) {
+  std::mt19937_64 rng{73};
+  GyroWatch watch{kGyro};
+  const double step_rad_s = 10.0 * kGyro.noise_rad_s;
+  const auto rounded = [&](double rate_rad_s) {
+    const Vector3d rate = Vector3d::Constant(rate_rad_s) + normal_vector(rng, kGyro.noise_rad_s);
+    return Vector3d{step_rad_s * (rate / step_rad_s).array().round()};
+  };
+  judge(watch, {at_s(-0.2), rounded(1.2 * step_rad_s)});
+  judge(watch, {at_s(-0.1), rounded(0.1 * step_rad_s)});
+  for (int i = 0; i < 3000; ++i) {
+    ASSERT_EQ(judge(watch, {at_s(0.1 * i), rounded(0.1 * step_rad_s)}), std::nullopt) << i;
+  }
+}
+
+TEST(GyroWatch, OneDeadAxisIsFrozen) {
+  std::mt19937_64 rng{74};
+  for (const bool from_the_start : {true, false}) {
+    GyroWatch watch{kGyro};
+    for (int i = 0; i < 200; ++i) {
+      Vector3d rate_rad_s = normal_vector(rng, kGyro.noise_rad_s);
+      if (from_the_start || i >= 100) {
+        rate_rad_s.y() = 0.01;
+      }
+      const auto rejection = judge(watch, {at_s(0.1 * i), rate_rad_s});
+      if (!from_the_start && i < 100) {
+        EXPECT_EQ(rejection, std::nullopt) << i;
+      } else if (i > 120 || (from_the_start && i > 30)) {
+        EXPECT_EQ(rejection, SampleRejection::Frozen) << i;
+      }
+    }
   }
 }
 

@@ -34,10 +34,10 @@ TEST(AssessmentWords, CountOneOfAThing) {
                           one_of(StarFixesGated),
                           {GyroGaps, {{"count", std::int64_t{1}}, {"longest_s", 12.0}}},
                           one_of(GyroSaturated),
-                          one_of(SamplesRepeated),
+                          one_of(GyroOutliers),
                           one_of(Edges)}}),
             "DOUBTFUL, 1 star fix, 1 sun vector, 1 star fix gated, 1 gyro gap, up to 12.0 s, 1 "
-            "gyro sample saturated, 1 sample repeated, 1 edge");
+            "gyro sample saturated, 1 gyro outlier, 1 edge");
   EXPECT_EQ(sentence_of({Quality::Ok, {{StarFixes, {{"count", std::int64_t{2}}}}}}),
             "OK, 2 star fixes");
 }

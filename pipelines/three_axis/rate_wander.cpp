@@ -1,0 +1,36 @@
+#include "pipelines/three_axis/rate_wander.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipelines/frames/angle.h"
+
+namespace spindrift {
+namespace {
+
+// Over which the rate's changes are taken: a body's rate is smooth within it, and its changes from
+// sample to sample would not add up to those of a gap.
+constexpr double kApart_s = 1.0;
+constexpr double kMemory_s = 10.0;
+// When nobody looks, at least: 1 deg in a minute.
+constexpr double kLeast_rad2_s3 = 1.4e-5 * kRadPerDeg * kRadPerDeg;
+
+}  // namespace
+
+void RateWander::note(TaiTime t, const Eigen::Vector3d& rate_rad_s) {
+  const double apart_s = a_second_ago_ ? std::abs(seconds_between(a_second_ago_->t, t)) : 0.0;
+  if (a_second_ago_ && apart_s < kApart_s) {
+    return;
+  }
+  if (a_second_ago_) {
+    const double changed_rad2_s2 = (rate_rad_s - a_second_ago_->rad_s).squaredNorm() / 3.0;
+    const double noise_rad2_s2 = 2.0 * noise_rad_s_ * noise_rad_s_;
+    rad2_s3_ += (1.0 - std::exp(-apart_s / kMemory_s)) *
+                ((changed_rad2_s2 - noise_rad2_s2) / apart_s - rad2_s3_);
+  }
+  a_second_ago_ = Rate{t, rate_rad_s};
+}
+
+double RateWander::rad2_s3() const { return std::max(kLeast_rad2_s3, rad2_s3_); }
+
+}  // namespace spindrift
