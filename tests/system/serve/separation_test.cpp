@@ -221,8 +221,9 @@ TEST(ServeSeparation, ProcessSaysWhyThereIsNoneAndDoesTheRest) {
                    (kSeparation / "gyro.csv").string(), "--db",
                    (folder.path() / "out.db").string()}};
   EXPECT_EQ(program.exit_status(), 0);
-  EXPECT_THAT(program.log(), HasSubstr("no reconstruction of the separation: no star fix: nothing "
-                                       "can be anchored"));
+  EXPECT_THAT(program.log(),
+              HasSubstr("no reconstruction of the separation: no star fix from T1 on: "
+                        "nothing can be anchored"));
 }
 
 }  // namespace spindrift::serve_separation_test
