@@ -14,7 +14,6 @@
 #include <random>
 
 #include "pipelines/frames/angle.h"
-#include "pipelines/spin/nutation/tilt_spectrum.h"
 
 namespace spindrift::nutation_test {
 
@@ -96,15 +95,6 @@ TEST(Nutation, OfAnExactCircleIsFoundExactly) {
                 0.0, 1e-4);
     EXPECT_TRUE(found.other_periods_s.empty());
     EXPECT_LT(search.false_alarm, 1e-100);
-  }
-}
-
-TEST(TiltSpectrum, IsGreatestWhereTheTiltGoesRound) {
-  constexpr int kTurns = 300;
-  for (const double per_turn : {0.07, 0.37, 0.81, 1.24, 1.93}) {
-    const TiltSignal signal{tipped(kChannels, kTurns, circle(0.003, per_turn, 0.4))};
-    EXPECT_NEAR(strongest_per_turn(signal), per_turn, 0.25 / kTurns);
-    EXPECT_NEAR(unseen_per_turn(signal), 3.0 / kTurns, 1e-4);
   }
 }
 
