@@ -60,8 +60,29 @@ class Service {
   /// The whole pass at once, from ready to stopped. @return Whether all went well.
   bool serves_its_pass() { return ready() && replay("0") == 0 && stop_when_computed() == 0; }
 
-  /// Once it has stored nothing for a while: a stop computes for some seconds only.
+  /// A stop computes for some seconds only: started again while it leaves anything, as where other
+  /// tests have the processors.
   int stop_when_computed() {
+    constexpr int kMostStops = 10;
+    int status = stop_when_at_rest();
+    for (int stops = 1;
+         status == 0 && stops < kMostStops &&
+         program_->log().find("the next start of the service will") != std::string::npos;
+         ++stops) {
+      start();
+      status = ready() ? stop_when_at_rest() : -1;
+    }
+    return status;
+  }
+
+  int stop() {
+    program_->signal(SIGTERM);
+    return program_->exit_status();
+  }
+
+ private:
+  /// Once it has stored nothing for a while.
+  int stop_when_at_rest() {
     using namespace std::chrono_literals;
     using Clock = std::chrono::steady_clock;
     SQLite::Database archive{db().string()};
@@ -76,12 +97,6 @@ class Service {
     return stop();
   }
 
-  int stop() {
-    program_->signal(SIGTERM);
-    return program_->exit_status();
-  }
-
- private:
   TemporaryFolder folder_;
   bus::BusConfig bus_;
   std::string pass_;
