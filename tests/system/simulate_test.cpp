@@ -229,21 +229,29 @@ TEST(Simulate, MakesASeparationThatIsReconstructed) {
   }
 }
 
+/// A service of the pass in `out` that hears what `simulate --publish` sends of its scenario, and
+/// stops behind it. @return What was said of it.
+nlohmann::json served(const std::string& scenario, const std::filesystem::path& out,
+                      const std::filesystem::path& db) {
+  const auto bus = bus_of_its_own();
+  const std::string domain = std::to_string(bus.domain);
+  Program service{{"serve", "--mission", (out / "mission.toml").string(), "--db", db.string(),
+                   "--domain", domain, "--partition", bus.partition}};
+  EXPECT_TRUE(service.says("ready")) << service.log();
+  Program publishing{{"simulate", scenario, "--publish", "--speed", "0", "--domain", domain,
+                      "--partition", bus.partition, "--json"}};
+  EXPECT_EQ(publishing.exit_status(), 0) << publishing.log();
+  service.signal(SIGTERM);
+  EXPECT_EQ(service.exit_status(), 0) << service.log();
+  return nlohmann::json::parse(publishing.out());
+}
+
 TEST(Simulate, PublishesTheSamplesOfASeparation) {
   const TemporaryFolder folder;
   const auto out = folder.path() / "pass";
   const auto summary = simulated(kSeparation, out);
-  const auto bus = bus_of_its_own();
   const auto db = folder.path() / "served.db";
-  const std::string domain = std::to_string(bus.domain);
-  Program service{{"serve", "--mission", (out / "mission.toml").string(), "--db", db.string(),
-                   "--domain", domain, "--partition", bus.partition}};
-  ASSERT_TRUE(service.says("ready")) << service.log();
-  Program publishing{{"simulate", kSeparation, "--publish", "--speed", "0", "--domain", domain,
-                      "--partition", bus.partition, "--json"}};
-  ASSERT_EQ(publishing.exit_status(), 0) << publishing.log();
-  service.signal(SIGTERM);
-  ASSERT_EQ(service.exit_status(), 0) << service.log();
+  served(kSeparation, out, db);
   for (const auto& [table, counted] :
        {std::pair{"gyro_sample", "gyro_samples"}, std::pair{"sun_sample", "sun_vectors"},
         std::pair{"star_sample", "star_fixes"}}) {
@@ -257,21 +265,12 @@ TEST(Simulate, PublishesWhatItWouldWrite) {
   const TemporaryFolder folder;
   const auto out = folder.path() / "pass";
   simulated(kDirty, out);
-  const auto bus = bus_of_its_own();
   const auto db = folder.path() / "served.db";
-  const std::string domain = std::to_string(bus.domain);
-  Program service{{"serve", "--mission", (out / "mission.toml").string(), "--db", db.string(),
-                   "--domain", domain, "--partition", bus.partition}};
-  ASSERT_TRUE(service.says("ready")) << service.log();
-  Program publishing{{"simulate", kDirty, "--publish", "--speed", "0", "--domain", domain,
-                      "--partition", bus.partition, "--json"}};
-  ASSERT_EQ(publishing.exit_status(), 0) << publishing.log();
-  service.signal(SIGTERM);
-  ASSERT_EQ(service.exit_status(), 0) << service.log();
+  const nlohmann::json said = served(kDirty, out, db);
 
   auto expected = lines_of(out / "pulses.csv");
   expected.erase(expected.begin());
-  EXPECT_EQ(nlohmann::json::parse(publishing.out())["published"], expected.size());
+  EXPECT_EQ(said["published"], expected.size());
   auto stored = rows_of(db, "SELECT t_tai_ns || ',' || channel FROM pulse");
   for (std::string& row : stored) {
     row.pop_back();
