@@ -14,6 +14,7 @@
 #include "services/scenario/pass_files.h"
 #include "services/scenario/scenario_schema.h"
 #include "services/scenario/simulated_pass.h"
+#include "tests/support/scenario_text.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
 
@@ -66,21 +67,9 @@ co2_altitude_km = 40.0
 )";
 const std::string kWhole = kSpacecraft + kOrbit + kPass + kAttitude + kSensors;
 
-Expected<Scenario> loaded(const std::string& text) {
-  const TemporaryFolder folder;
-  return load_scenario(folder.write("scenario.toml", text));
-}
-
-std::string error_of(const std::string& text) {
-  const auto scenario = loaded(text);
-  return scenario ? "no error" : scenario.error().message;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
+using testing::error_of;
+using testing::loaded;
+using testing::replaced;
 
 const SpinScenario& spin(const Expected<Scenario>& scenario) {
   return std::get<SpinScenario>(scenario->flight);

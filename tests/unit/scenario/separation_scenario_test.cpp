@@ -14,6 +14,7 @@
 #include "services/scenario/pass_files.h"
 #include "services/scenario/scenario.h"
 #include "services/scenario/simulated_pass.h"
+#include "tests/support/scenario_text.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
@@ -26,21 +27,9 @@ using ::testing::Not;
 
 const std::string kWhole = text_of(scenarios() / "separation.toml");
 
-Expected<Scenario> loaded(const std::string& text) {
-  const TemporaryFolder folder;
-  return load_scenario(folder.write("scenario.toml", text));
-}
-
-std::string error_of(const std::string& text) {
-  const auto scenario = loaded(text);
-  return scenario ? "no error" : scenario.error().message;
-}
-
-std::string changed(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
+using testing::error_of;
+using testing::loaded;
+using testing::replaced;
 
 const SeparationScenario& separation(const Expected<Scenario>& scenario) {
   return std::get<SeparationScenario>(scenario->flight);
@@ -72,7 +61,7 @@ TEST(SeparationScenario, TakesWhatIsLeftOutAsTheMissionFileHasIt) {
 
 TEST(SeparationScenario, LetsTheTruthDifferFromTheMissionFile) {
   const auto scenario =
-      loaded(changed(kWhole, "sigma_deg = 0.5", "sigma_deg = 0.5\noff_deg = [0, 0, 5]") +
+      loaded(replaced(kWhole, "sigma_deg = 0.5", "sigma_deg = 0.5\noff_deg = [0, 0, 5]") +
              R"([truth.gyro]
 noise_deg_s = 0
 bias_deg_s = [0.003, -0.002, 0.004]
@@ -96,7 +85,7 @@ noise_arcsec = 100
 TEST(SeparationScenario, WritesAMissionFileWithEventsAndWhatTheLauncherTells) {
   const TemporaryFolder folder;
   const auto scenario =
-      loaded(changed(kWhole, "sigma_deg = 0.5", "sigma_deg = 0.5\noff_deg = [0, 0, 5]"));
+      loaded(replaced(kWhole, "sigma_deg = 0.5", "sigma_deg = 0.5\noff_deg = [0, 0, 5]"));
   ASSERT_TRUE(scenario) << scenario.error().message;
   const SimulatedPass pass = simulated_pass(*scenario).value();
   ASSERT_TRUE(write_pass(folder.path(), *scenario, pass));
@@ -129,7 +118,7 @@ TEST(SeparationScenario, WritesAMissionFileWithEventsAndWhatTheLauncherTells) {
 TEST(SeparationScenario, GivesTheSamePassForTheSameSeed) {
   const SimulatedPass first = simulated(kWhole);
   const SimulatedPass second = simulated(kWhole);
-  const SimulatedPass other = simulated(changed(kWhole, "seed = 22", "seed = 23"));
+  const SimulatedPass other = simulated(replaced(kWhole, "seed = 22", "seed = 23"));
   EXPECT_EQ(first.truth, second.truth);
   EXPECT_EQ(first.mission_toml, second.mission_toml);
   const auto& gyro = first.telemetry.of<GyroSample>();
@@ -169,16 +158,16 @@ TEST(SeparationScenario, OrdersTelemetryByTime) {
 }
 
 TEST(SeparationScenario, ReportsMistakesAtOnce) {
-  std::string text = changed(kWhole, "rate_deg_s = [0.62, -0.33, 0.066]", "rate_deg_s = [62, 0]");
-  text = changed(text, "euler312_icrf_deg", "euler312_deg");
-  text = changed(text, "acquisition_s = 78.0", "acquisition_s = 50.0");
-  text = changed(text, "first_star_fix_s = 300.0", "first_star_fix_s = 310.0");
-  text = changed(text, "torque_nm = 0.07", "torque_nm = 70");
-  text = changed(text, "noise_arcsec = 20.0", "");
-  text = changed(text, "[0.0, 100.0, 0.0]", "[0.0, -100.0, 0.0]");
-  text = changed(text, "[three_axis.gyro]\nnoise_deg_s = 0.002\nbias_sigma_deg_s = 0.01\n", "");
-  text = changed(text, "lost = 0.01", "lost = nan\nspoilt = 0.5");
-  text = changed(text, "to_s = 152.0", "to_s = 140.0");
+  std::string text = replaced(kWhole, "rate_deg_s = [0.62, -0.33, 0.066]", "rate_deg_s = [62, 0]");
+  text = replaced(text, "euler312_icrf_deg", "euler312_deg");
+  text = replaced(text, "acquisition_s = 78.0", "acquisition_s = 50.0");
+  text = replaced(text, "first_star_fix_s = 300.0", "first_star_fix_s = 310.0");
+  text = replaced(text, "torque_nm = 0.07", "torque_nm = 70");
+  text = replaced(text, "noise_arcsec = 20.0", "");
+  text = replaced(text, "[0.0, 100.0, 0.0]", "[0.0, -100.0, 0.0]");
+  text = replaced(text, "[three_axis.gyro]\nnoise_deg_s = 0.002\nbias_sigma_deg_s = 0.01\n", "");
+  text = replaced(text, "lost = 0.01", "lost = nan\nspoilt = 0.5");
+  text = replaced(text, "to_s = 152.0", "to_s = 140.0");
   text += "[three_axis.magnetometer]\nnoise_nt = 1\n[spin.noise]\nsun_pulse_s = 1\n";
   const std::string error = error_of(text);
   for (const char* const problem :
@@ -196,16 +185,16 @@ TEST(SeparationScenario, ReportsMistakesAtOnce) {
 }
 
 TEST(SeparationScenario, RefusesThrustersThatThrowTheBodyAcrossTheDeadBand) {
-  EXPECT_THAT(error_of(changed(kWhole, "torque_nm = 0.07", "torque_nm = 2")),
+  EXPECT_THAT(error_of(replaced(kWhole, "torque_nm = 0.07", "torque_nm = 2")),
               HasSubstr("control.torque_nm = 2: changes the rate by 0.0573 deg/s in 0.05 s: must "
                         "not change it by more than control.dead_band_deg_s = 0.03"));
-  EXPECT_THAT(error_of(changed(kWhole, "duration_s = 309.0", "duration_s = 100000")),
+  EXPECT_THAT(error_of(replaced(kWhole, "duration_s = 309.0", "duration_s = 100000")),
               HasSubstr("pass.duration_s = 100000: must lie in (0, 86400] s"));
 }
 
 TEST(SeparationScenario, RefusesASpinnersScenarioThatSaysItIsThreeAxis) {
   const std::string spinner = text_of(scenarios() / "gto-nominal.toml");
-  EXPECT_THAT(error_of(changed(spinner, "kind = \"spin\"", "kind = \"three_axis\"")),
+  EXPECT_THAT(error_of(replaced(spinner, "kind = \"spin\"", "kind = \"three_axis\"")),
               AllOf(HasSubstr("spin: unknown"), HasSubstr("[separation]: missing"),
                     HasSubstr("attitude.rate_rpm: unknown")));
 }
