@@ -15,7 +15,7 @@
 #include "services/archive/stored_results.h"
 #include "services/publisher/announcements.h"
 #include "services/publisher/result_publisher.h"
-#include "services/spindrift/thread_failures.h"
+#include "services/serving/thread_failures.h"
 
 namespace spindrift {
 

@@ -31,7 +31,7 @@
 
 #include "services/processor/version.h"
 #include "services/progress/progress_bar.h"
-#include "services/spindrift/background_solving.h"
+#include "services/serving/background_solving.h"
 #include "services/spindrift/batch.h"
 #include "services/spindrift/doctor.h"
 #include "services/spindrift/geometry.h"

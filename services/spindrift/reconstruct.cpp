@@ -11,6 +11,7 @@
 #include "pipelines/core/shown.h"
 #include "services/archive/archive.h"
 #include "services/archive/stored_separation.h"
+#include "services/archive/submit_all.h"
 #include "services/clock/wall_clock.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
@@ -22,7 +23,6 @@
 #include "services/separation/separation_text.h"
 #include "services/spindrift/orbit_notice.h"
 #include "services/spindrift/outcome.h"
-#include "services/spindrift/submit_all.h"
 #include "services/spindrift/telemetry_input.h"
 #include "services/words/json_line.h"
 

@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "pipelines/time/utc.h"
-#include "services/spindrift/stop_signal.h"
+#include "services/serving/stop_signal.h"
 #include "services/words/counted.h"
 #include "services/words/json_key.h"
 

@@ -41,7 +41,10 @@ class Service {
                                  std::to_string(bus_.domain), "--partition", bus_.partition,
                                  "--json"},
         largest_file_kib);
+    ++starts_;
   }
+
+  int starts() const { return starts_; }
 
   Program& program() { return *program_; }
   const bus::BusConfig& bus() const { return bus_; }
@@ -101,6 +104,7 @@ class Service {
   bus::BusConfig bus_;
   std::string pass_;
   std::optional<Program> program_;
+  int starts_ = 0;
 };
 
 /// The pulses of a recorded pass, by way of an archive.

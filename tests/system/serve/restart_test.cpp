@@ -138,6 +138,15 @@ class Listener {
   bus::Reader<spindrift_SpinEstimate> estimates_;
 };
 
+int most_alike(const std::vector<std::int64_t>& times) {
+  std::map<std::int64_t, int> count;
+  int most = 0;
+  for (const std::int64_t t : times) {
+    most = std::max(most, ++count[t]);
+  }
+  return most;
+}
+
 TEST_P(ServeRestart, AnnouncesNothingTwiceButWhatIsInForce) {
   const std::vector<Pulse> pulses = pulses_of("nominal");
   Service service{"nominal"};
@@ -161,8 +170,13 @@ TEST_P(ServeRestart, AnnouncesNothingTwiceButWhatIsInForce) {
   ASSERT_EQ(announced.size(), 4U);
   for (const auto& [kind, times] : announced) {
     const std::set<std::int64_t> different{times.begin(), times.end()};
-    EXPECT_LE(times.size(), different.size() + 2) << kind;
-    if (kind != "batch") {  // The solution of a minute may come after that of an orderly stop.
+    if (kind == "batch") {
+      // A start withdraws solutions and makes them again: stopped before it has, the next one
+      // cannot know that they were announced. That of a minute may come after that of an orderly
+      // stop.
+      EXPECT_LE(most_alike(times), service.starts()) << kind;
+    } else {
+      EXPECT_LE(times.size(), different.size() + service.starts() - 1) << kind;
       EXPECT_TRUE(std::is_sorted(times.begin(), times.end())) << kind;
     }
   }

@@ -1,8 +1,8 @@
-#include "services/spindrift/thread_failures.h"
+#include "services/serving/thread_failures.h"
 
 #include <spdlog/spdlog.h>
 
-#include "services/spindrift/stop_signal.h"
+#include "services/serving/stop_signal.h"
 
 namespace spindrift {
 

@@ -1,8 +1,8 @@
-#include "services/spindrift/computing.h"
+#include "services/serving/computing.h"
 
 #include <utility>
 
-#include "services/spindrift/submit_all.h"
+#include "services/archive/submit_all.h"
 
 namespace spindrift {
 namespace {

@@ -10,7 +10,7 @@
 #include "services/archive/archive.h"
 #include "services/processor/background_task.h"
 #include "services/queue/bounded_queue.h"
-#include "services/spindrift/patience.h"
+#include "services/serving/patience.h"
 
 namespace spindrift {
 

@@ -1,4 +1,4 @@
-#include "services/spindrift/stop_signal.h"
+#include "services/serving/stop_signal.h"
 
 #include <unistd.h>
 

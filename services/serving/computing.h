@@ -10,8 +10,8 @@
 #include "services/archive/archive.h"
 #include "services/processor/processor.h"
 #include "services/queue/bounded_queue.h"
-#include "services/spindrift/background_solving.h"
-#include "services/spindrift/patience.h"
+#include "services/serving/background_solving.h"
+#include "services/serving/patience.h"
 
 namespace spindrift {
 

@@ -18,7 +18,7 @@
 #include "services/processor/problems.h"
 #include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"
-#include "services/spindrift/thread_failures.h"
+#include "services/serving/thread_failures.h"
 
 namespace spindrift {
 

@@ -1,4 +1,4 @@
-#include "services/spindrift/heartbeat.h"
+#include "services/serving/heartbeat.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

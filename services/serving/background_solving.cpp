@@ -1,4 +1,4 @@
-#include "services/spindrift/background_solving.h"
+#include "services/serving/background_solving.h"
 
 #include <pthread.h>
 #include <sched.h>
