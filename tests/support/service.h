@@ -36,6 +36,7 @@ class Service {
   }
 
   void start(int largest_file_kib = 0) {
+    log_before_ = log();
     program_.emplace(
         std::vector<std::string>{"serve", "--mission", mission(), "--db", db().string(), "--domain",
                                  std::to_string(bus_.domain), "--partition", bus_.partition,
@@ -45,6 +46,8 @@ class Service {
   }
 
   int starts() const { return starts_; }
+  /// Of all starts.
+  std::string log() const { return log_before_ + (program_ ? program_->log() : ""); }
 
   Program& program() { return *program_; }
   const bus::BusConfig& bus() const { return bus_; }
@@ -104,6 +107,7 @@ class Service {
   bus::BusConfig bus_;
   std::string pass_;
   std::optional<Program> program_;
+  std::string log_before_;
   int starts_ = 0;
 };
 

@@ -130,8 +130,8 @@ TEST(ThreeAxis, ServeGivesWhatProcessGivesAlsoWhenItIsKilledInThePass) {
   }
   EXPECT_TRUE(eventually([&] { return last_on(service.bus()) == last; }));
   ASSERT_EQ(service.stop(), 0) << service.program().log();
-  EXPECT_THAT(service.program().log(), HasSubstr("continuing run"));
-  EXPECT_THAT(service.program().log(), HasSubstr("attitude ICRF to body, Euler 3-1-2"));
+  EXPECT_THAT(service.log(), HasSubstr("continuing run"));
+  EXPECT_THAT(service.log(), HasSubstr("attitude ICRF to body, Euler 3-1-2"));
   EXPECT_EQ(pass_rows(service.db()), expected);
   const auto summary = nlohmann::json::parse(service.program().out())["runs"][0];
   EXPECT_EQ(summary["attitude"], outcome.run["attitude"]);

@@ -95,7 +95,7 @@ TEST_P(ServeRestart, IntoARunningPassGivesWhatNoRestartWouldHave) {
   }));
   ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
 
-  EXPECT_THAT(service.program().log(), HasSubstr("continuing run"));
+  EXPECT_THAT(service.log(), HasSubstr("continuing run"));
   EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NOT NULL"), 1);
   EXPECT_EQ(product_rows(service.db()), product_rows(whole.db()));
   EXPECT_EQ(last_batch_rows(service.db()), last_batch_rows(whole.db()));

@@ -121,7 +121,7 @@ TEST(ServeSeparation, IsReconstructedWhenTheStarFixComesAndSentAndStored) {
   EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM reconstruction"), 2);
 
   ASSERT_EQ(service.stop(), 0) << service.program().log();
-  EXPECT_THAT(service.program().log(),
+  EXPECT_THAT(service.log(),
               HasSubstr("separation reconstructed: T1 2026-03-01T04:00:00.000Z, attitude ICRF to "
                         "body, Euler 3-1-2 "));
   const TemporaryFolder folder;

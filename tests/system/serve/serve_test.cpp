@@ -116,7 +116,7 @@ TEST(Serve, PublishesItsResultsForThoseWhoComeLater) {
   EXPECT_EQ(beats.back().samples_received, 3600U);
   ASSERT_EQ(service.stop(), 0) << service.program().log();
 
-  EXPECT_THAT(service.program().log(), HasSubstr("SPINNER: axis RA "));
+  EXPECT_THAT(service.log(), HasSubstr("SPINNER: axis RA "));
   for (const std::string estimator : {"mean", "sequential", "batch"}) {
     ASSERT_TRUE(latest.contains(estimator)) << estimator;
   }
@@ -224,7 +224,7 @@ TEST(Serve, SaysAtTheEndOfARunWhichEstimatorsDisagree) {
   pass.replace("mount_angle_deg = 85", "mount_angle_deg = 86");
   Service service{pass.folder.path().string()};
   ASSERT_TRUE(service.serves_its_pass()) << service.program().log();
-  EXPECT_THAT(service.program().log(), HasSubstr("SPINNER: sequential and batch disagree"));
+  EXPECT_THAT(service.log(), HasSubstr("SPINNER: sequential and batch disagree"));
   const auto report = nlohmann::json::parse(service.program().out());
   EXPECT_EQ(report["runs"][0]["disagreements"][0]["other"], "batch");
 }
@@ -270,7 +270,7 @@ TEST(Serve, StopsAcceptingLoudlyWhenTheDiskIsFullAndEndsWithOne) {
   }));
   EXPECT_TRUE(service.program().says("the archive still does not store"));
   EXPECT_EQ(service.stop(), 1);
-  EXPECT_THAT(service.program().log(), HasSubstr("rows that were accepted are not in archive"));
+  EXPECT_THAT(service.log(), HasSubstr("rows that were accepted are not in archive"));
   replay.signal(SIGKILL);
 
   // What is there is whole: samples and products of each batch together.
@@ -286,7 +286,7 @@ TEST(Serve, NamesAWriterWhoseQosDoesNotDo) {
   ASSERT_TRUE(service.ready()) << service.program().log();
   const ForeignWriter weak{service.bus(), "weak", 1};
   ASSERT_TRUE(service.program().says("BEST_EFFORT")) << service.program().log();
-  EXPECT_THAT(service.program().log(), HasSubstr("pid " + std::to_string(weak.pid())));
+  EXPECT_THAT(service.log(), HasSubstr("pid " + std::to_string(weak.pid())));
   ASSERT_EQ(service.stop(), 0) << service.program().log();
 }
 
