@@ -151,7 +151,7 @@ Expected<Reconstruction> reconstruct_batch(const ReconstructionRequest& request,
                         .star = star_residuals(*fine),
                         .assessment = {},
                         .iterations = solved.iterations};
-  if (request.sun_misalignment_sigma_rad) {
+  if (solved.chain.noise.misalignment_rad) {
     result.misalignment =
         SunMisalignment{solved.state.misalignment_rad, known.shared.bottomRightCorner<3, 3>()};
   }

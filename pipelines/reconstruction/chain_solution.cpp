@@ -148,10 +148,11 @@ std::vector<double> node_times(const ReconstructionRequest& request, const Obser
 }
 
 ChainNoise noise_of(const ReconstructionRequest& request) {
-  return {.sun_rad = request.sensors.sun_sensor ? request.sensors.sun_sensor->noise_rad : 1.0,
+  const auto& sun_sensor = request.sensors.sun_sensor;
+  return {.sun_rad = sun_sensor ? sun_sensor->noise_rad : 1.0,
           .star_rad = request.sensors.star_tracker->noise_rad,
           .bias_rad_s = request.sensors.gyro->bias_sigma_rad_s,
-          .misalignment_rad = request.sun_misalignment_sigma_rad};
+          .misalignment_rad = sun_sensor ? sun_sensor->misalignment_sigma_rad : std::nullopt};
 }
 
 struct CoarseSolution {

@@ -26,6 +26,9 @@ struct SeparationTimes {
   std::optional<TaiTime> first_star_fix = std::nullopt;  ///< T4
 };
 
+/// Where nobody says how large it is.
+inline constexpr double kDisturbance_rad_s2 = 5e-7;
+
 /// All that counts, as values: it can be solved on any thread, later. Samples in any order; of
 /// those of one kind and instant the first counts.
 struct ReconstructionRequest {
@@ -42,10 +45,7 @@ struct ReconstructionRequest {
   /// One standard deviation per axis of the angular acceleration, even from T1 to T2, by torques
   /// that nobody models. The gravity gradient of a low orbit is up to 1.9e-6 times the difference
   /// of the moments over the moment.
-  double disturbance_rad_s2 = 5e-7;
-  /// Of `batch`. One standard deviation per axis of a constant misalignment of the sun sensor,
-  /// which is then estimated; empty: none.
-  std::optional<double> sun_misalignment_sigma_rad = std::nullopt;
+  double disturbance_rad_s2 = kDisturbance_rad_s2;
   /// Of `batch`. Otherwise the history has every sun vector, star fix and event. The events are the
   /// same.
   bool node_at_every_gyro_sample = false;

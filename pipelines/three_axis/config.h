@@ -18,6 +18,9 @@ struct GyroSensor {
 
 struct DigitalSunSensor {
   double noise_rad;
+  /// One standard deviation per axis of a constant misalignment, which a reconstruction by `batch`
+  /// then estimates; empty: none.
+  std::optional<double> misalignment_sigma_rad = std::nullopt;
 };
 
 struct StarTracker {

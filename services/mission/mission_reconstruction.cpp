@@ -69,11 +69,14 @@ std::optional<SeparationPlan> separation_plan(TomlDocument& document) {
   if (!separation) {
     return std::nullopt;
   }
-  return SeparationPlan{.times = {.separation = *separation,
-                                  .control_on = time_if(values, "reconstruction.t2_tai_ns"),
-                                  .acquisition = time_if(values, "reconstruction.t3_tai_ns"),
-                                  .first_star_fix = time_if(values, "reconstruction.t4_tai_ns")},
-                        .launcher = launcher(document)};
+  return SeparationPlan{
+      .times = {.separation = *separation,
+                .control_on = time_if(values, "reconstruction.t2_tai_ns"),
+                .acquisition = time_if(values, "reconstruction.t3_tai_ns"),
+                .first_star_fix = time_if(values, "reconstruction.t4_tai_ns")},
+      .launcher = launcher(document),
+      .disturbance_rad_s2 =
+          radians_if(values, "reconstruction.disturbance_deg_s2").value_or(kDisturbance_rad_s2)};
 }
 
 }  // namespace spindrift

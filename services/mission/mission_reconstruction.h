@@ -14,6 +14,7 @@ namespace spindrift {
 struct SeparationPlan {
   SeparationTimes times;
   std::optional<LauncherAttitude> launcher;  ///< Empty: it told nothing.
+  double disturbance_rad_s2 = kDisturbance_rad_s2;
 };
 
 /// @param document In which no problem was found by the schema; gets those of the launcher's chain.

@@ -53,6 +53,7 @@ void ThreeAxisRun::begin(const std::string& run_id) {
                                           .sun_directions = {},
                                           .star_fixes = {},
                                           .orbit = orbit_,
+                                          .disturbance_rad_s2 = separation_->disturbance_rad_s2,
                                           .node_at_every_gyro_sample = true});
   }
 }

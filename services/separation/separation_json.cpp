@@ -26,6 +26,14 @@ json vector_deg(const Eigen::Vector3d& rad) {
   return {rad.x() * kDegPerRad, rad.y() * kDegPerRad, rad.z() * kDegPerRad};
 }
 
+json matrix_deg2(const Eigen::Matrix3d& rad2) {
+  json rows = json::array();
+  for (int row = 0; row < 3; ++row) {
+    rows.push_back(vector_deg(rad2.row(row).transpose() * kDegPerRad));
+  }
+  return rows;
+}
+
 json to_json(const ReconstructedEvent& event) {
   const ReconstructedAttitude& attitude = event.attitude;
   const Euler312Reading reading = euler312_of(attitude.q_icrf_body);
@@ -42,6 +50,7 @@ json to_json(const ReconstructedEvent& event) {
           {"near_singular", reading.near_singular},
           {"euler312_orbit_deg", nullptr},
           {"sigma_deg", attitude.sigma_rad() * kDegPerRad},
+          {"covariance_deg2", matrix_deg2(attitude.covariance_rad2)},
           {"bound_deg", deg_or_null(event.bound_rad)}};
 }
 
@@ -78,6 +87,8 @@ json to_json(const ReconstructedSeparation& separation) {
               {"gyro_bias_deg_s", nullptr},
               {"gyro_bias_sigma_deg_s", nullptr},
               {"open_bias", json::array()},
+              {"sun_misalignment_deg", nullptr},
+              {"sun_misalignment_sigma_deg", nullptr},
               {"gyro", to_json(solution.gyro)},
               {"sun", to_json(solution.sun)},
               {"star", to_json(solution.star)},
@@ -97,6 +108,11 @@ json to_json(const ReconstructedSeparation& separation) {
   }
   for (const OpenBiasDirection& open : solution.open_bias) {
     object["open_bias"].push_back(to_json(open));
+  }
+  if (solution.misalignment) {
+    object["sun_misalignment_deg"] = vector_deg(solution.misalignment->vector_rad);
+    object["sun_misalignment_sigma_deg"] =
+        vector_deg(solution.misalignment->covariance_rad2.diagonal().cwiseSqrt());
   }
   if (separation.launcher) {
     object["launcher"] = to_json(*separation.launcher);

@@ -125,19 +125,33 @@ std::string orbit_text(const SeparationReport& report, int decimals) {
   return text;
 }
 
+/// In degrees, of radians.
+std::string axes_text(const Eigen::Vector3d& value, const Eigen::Matrix3d& covariance) {
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) {
+    text += fmt::format(
+        "{}{} {}", axis == 0 ? "" : "  ", "xyz"[axis],
+        signed_with_sigma(value[axis] * kDegPerRad, std::sqrt(covariance(axis, axis)) * kDegPerRad,
+                          kLeastDecimals));
+  }
+  return text;
+}
+
+std::string misalignment_text(const Reconstruction& solution) {
+  return solution.misalignment ? "  sun sensor   turned by " +
+                                     axes_text(solution.misalignment->vector_rad,
+                                               solution.misalignment->covariance_rad2) +
+                                     " deg, body axes\n"
+                               : "";
+}
+
 std::string bias_text(const Reconstruction& solution) {
   if (!solution.bias) {
     return {};
   }
-  std::string text = "  gyro bias    ";
-  for (int axis = 0; axis < 3; ++axis) {
-    text += fmt::format(
-        "{}{} {}", axis == 0 ? "" : "  ", "xyz"[axis],
-        signed_with_sigma(solution.bias->rad_s[axis] * kDegPerRad,
-                          std::sqrt(solution.bias->covariance_rad2_s2(axis, axis)) * kDegPerRad,
-                          kLeastDecimals));
-  }
-  text += " deg/s\n";
+  std::string text = "  gyro bias    " +
+                     axes_text(solution.bias->rad_s, solution.bias->covariance_rad2_s2) +
+                     " deg/s\n";
   for (const OpenBiasDirection& open : solution.open_bias) {
     const Eigen::Vector3d& axis = open.axis_body;
     text += fmt::format(
@@ -181,7 +195,8 @@ std::string to_text(const SeparationReport& report) {
   text += fmt::format("  rests on     {}, {}, {}\n", used_of(first.gyro, "gyro samples"),
                       used_of(first.sun, "sun vectors"), used_of(first.star, "star fixes"));
   text += events_text(first) + icrf_text(report, decimals) + quaternion_text(report) +
-          orbit_text(report, decimals) + bias_text(first) + launcher_text(report);
+          orbit_text(report, decimals) + bias_text(first) + misalignment_text(first) +
+          launcher_text(report);
   for (const ReconstructionProduct& product : report.methods) {
     text += fmt::format("  {:<13}{}\n", name_of(product->solution.method),
                         sentence_of(product->solution.assessment));

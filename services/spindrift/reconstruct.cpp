@@ -129,6 +129,7 @@ Expected<SolvedSeparation> solved(const ReconstructOptions& options, const Missi
                                       .star_fixes = std::move(samples.stars),
                                       .orbit = mission.orbit,
                                       .orbit_states = std::move(samples.orbit_states),
+                                      .disturbance_rad_s2 = mission.separation->disturbance_rad_s2,
                                       .node_at_every_gyro_sample = true};
   auto solved = solve_separation(request, mission.separation->launcher, options.method);
   if (solved.methods.empty()) {

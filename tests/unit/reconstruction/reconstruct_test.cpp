@@ -368,7 +368,7 @@ TEST(ReconstructBatch, EstimatesAMisalignmentOfTheSunSensorWhenAsked) {
     sun.sun_body = quaternion_by(misalignment) * sun.sun_body;
   }
   ReconstructionRequest request = flight.request();
-  request.sun_misalignment_sigma_rad = 0.02;
+  request.sensors.sun_sensor->misalignment_sigma_rad = 0.02;
   const Reconstruction found = batch(request);
   const Vector3d off = found.misalignment->vector_rad - misalignment;
   EXPECT_LT(std::sqrt(off.dot(found.misalignment->covariance_rad2.llt().solve(off))), 3.5);

@@ -55,9 +55,23 @@ TEST(SeparationJson, HasTheEventsInOrder) {
   EXPECT_NEAR(first["euler312_orbit_deg"][2].get<double>(), 3.0, 1e-9);
   EXPECT_TRUE(events[2]["euler312_orbit_deg"].is_null());
   EXPECT_NEAR(first["sigma_deg"].get<double>(), 0.4, 1e-9);
+  const auto& covariance = first["covariance_deg2"];
+  EXPECT_NEAR(covariance[0][0].get<double>() + covariance[1][1].get<double>() +
+                  covariance[2][2].get<double>(),
+              0.4 * 0.4, 1e-9);
   EXPECT_NEAR(first["bound_deg"].get<double>(), 0.35, 1e-9);
   EXPECT_NEAR(first["rate_deg_s"][1].get<double>(), -0.002 / kRadPerDeg, 1e-9);
   EXPECT_EQ(first["near_singular"], false);
+}
+
+TEST(SeparationJson, HasTheMisalignmentThatWasEstimated) {
+  const nlohmann::json json = json_after([](ReconstructedSeparation& one) {
+    one.solution.misalignment =
+        SunMisalignment{Eigen::Vector3d{0.01, -0.02, 0.0}, 1e-6 * Eigen::Matrix3d::Identity()};
+  });
+  EXPECT_NEAR(json["batch"]["sun_misalignment_deg"][1].get<double>(), -0.02 / kRadPerDeg, 1e-9);
+  EXPECT_NEAR(json["batch"]["sun_misalignment_sigma_deg"][0].get<double>(), 1e-3 / kRadPerDeg,
+              1e-9);
 }
 
 TEST(SeparationJson, IsNullWhereThereIsNothing) {

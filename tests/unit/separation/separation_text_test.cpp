@@ -65,6 +65,15 @@ TEST(SeparationText, HasEventsAttitudesBiasLauncherAndQualityOfBothMethods) {
 )");
 }
 
+TEST(SeparationText, SaysHowTheSunSensorIsTurned) {
+  const std::string turned = text_after([](ReconstructedSeparation& one) {
+    one.solution.misalignment =
+        SunMisalignment{Eigen::Vector3d{0.01, -0.02, 0.0}, 1e-6 * Eigen::Matrix3d::Identity()};
+  });
+  EXPECT_THAT(turned, HasSubstr("  sun sensor   turned by x +0.573 +/- 0.057  y -1.146 +/- 0.057  "
+                                "z +0.000 +/- 0.057 deg, body axes\n"));
+}
+
 TEST(SeparationText, SaysWhatIsNotKnown) {
   const std::string no_orbit =
       text_after([](ReconstructedSeparation& one) { one.in_orbit_frame.clear(); });
