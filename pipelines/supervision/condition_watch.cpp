@@ -1,0 +1,55 @@
+#include "pipelines/supervision/condition_watch.h"
+
+#include <utility>
+
+namespace spindrift {
+
+ConditionWatch::ConditionWatch(AlertCode code, std::string_view unit, Holding holding,
+                               std::string about)
+    : code_{code}, about_{std::move(about)}, unit_{unit}, holding_{holding} {}
+
+std::optional<ConditionChange> ConditionWatch::see(TaiTime t, const Reading& reading) {
+  const bool is_between =
+      reading.value <= reading.limit && reading.value > kClearShare * reading.limit;
+  if ((last_ && t <= *last_) || is_between) {
+    return std::nullopt;
+  }
+  return settle(t, reading.value > reading.limit ? Change::Raised : Change::Cleared,
+                {.value = reading.value,
+                 .limit = reading.limit,
+                 .unit = unit_,
+                 .since = t,
+                 .last = t,
+                 .sigma = reading.sigma});
+}
+
+std::optional<ConditionChange> ConditionWatch::see(TaiTime t, bool is_there) {
+  if (last_ && t <= *last_) {
+    return std::nullopt;
+  }
+  auto change =
+      settle(t, is_there ? Change::Raised : Change::Cleared,
+             {.value = 0.0, .limit = holding_.raise_s, .unit = "s", .since = t, .last = t});
+  if (change) {
+    change->evidence.value = seconds_between(change->evidence.since, t);
+  }
+  return change;
+}
+
+std::optional<ConditionChange> ConditionWatch::settle(TaiTime t, Change now, Evidence evidence) {
+  last_ = t;
+  if (coming_ != now) {
+    coming_ = now;
+    since_ = t;
+  }
+  const double held_s = now == Change::Raised ? holding_.raise_s : holding_.clear_s;
+  if (said_ == now || seconds_between(since_, t) < held_s) {
+    return std::nullopt;
+  }
+  said_ = now;
+  evidence.since = since_;
+  return ConditionChange{
+      .code = code_, .about = about_, .change = now, .t = t, .evidence = evidence};
+}
+
+}  // namespace spindrift

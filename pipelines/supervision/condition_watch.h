@@ -1,0 +1,76 @@
+/// @file
+/// Whether a condition holds, of readings that come in order of their time.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipelines/supervision/alert_code.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// What an alert rests on.
+struct Evidence {
+  double value;
+  double limit;  ///< That `value` is above.
+  std::string_view unit;
+  TaiTime since;  ///< The condition holds.
+  TaiTime last;   ///< Of the reading that told.
+  std::optional<double> sigma = {};
+};
+
+enum class Change { Raised, Cleared };
+
+struct ConditionChange {
+  AlertCode code;
+  std::string about;  ///< The thing, where the key has one.
+  Change change;
+  TaiTime t;
+  Evidence evidence;
+};
+using ConditionChanges = std::vector<ConditionChange>;
+
+/// For how long a condition holds before it is raised, and is gone before it is cleared.
+struct Holding {
+  double raise_s = 0.0;
+  double clear_s = 0.0;
+};
+
+/// Above the limit it is there, up to kClearShare of it it is gone, between them neither. What was
+/// not there to begin with is said to be cleared once: an alert of an earlier run may be open.
+class ConditionWatch {
+ public:
+  static constexpr double kClearShare = 0.8;
+
+  explicit ConditionWatch(AlertCode code, std::string_view unit, Holding holding = {},
+                          std::string about = {});
+
+  struct Reading {
+    double value;
+    double limit;
+    std::optional<double> sigma = {};
+  };
+  /// @param t A reading that is not later than the one before is not looked at.
+  std::optional<ConditionChange> see(TaiTime t, const Reading& reading);
+
+  /// Of a condition that is there or not; evidence is for how long.
+  std::optional<ConditionChange> see(TaiTime t, bool is_there);
+
+ private:
+  std::optional<ConditionChange> settle(TaiTime t, Change now, Evidence evidence);
+
+  AlertCode code_;
+  std::string about_;
+  std::string_view unit_;
+  Holding holding_;
+  std::optional<TaiTime> last_;
+  std::optional<Change> said_;
+  std::optional<Change> coming_;
+  TaiTime since_ = {};  ///< Of `coming_`.
+};
+
+}  // namespace spindrift

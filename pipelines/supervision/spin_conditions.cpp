@@ -1,0 +1,161 @@
+#include "pipelines/supervision/spin_conditions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "pipelines/frames/angle.h"
+
+namespace spindrift {
+namespace {
+
+// One answer that is off may be the noise of its sigma.
+constexpr Holding kSeveralAnswers{.raise_s = 10.0, .clear_s = 10.0};
+constexpr double kApartAtMost_s = 60.0;  // Answers that are compared.
+
+constexpr Holding as_long_again(double held_s) { return {.raise_s = held_s, .clear_s = held_s}; }
+
+void add(std::optional<ConditionChange> change, ConditionChanges& changes) {
+  if (change) {
+    changes.push_back(std::move(*change));
+  }
+}
+
+double sigma_deg_of(const SpinEstimate& estimate) {
+  return std::sqrt(estimate.covariance_rad2.trace()) * kDegPerRad;
+}
+
+double degrees_between(const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
+  return std::atan2(one.cross(other).norm(), one.dot(other)) * kDegPerRad;
+}
+
+}  // namespace
+
+SpinConditions::SpinConditions(const SpinConfig& config, Orbit orbit, const AlertLimits& limits,
+                               std::optional<SpinTarget> target)
+    : limits_{limits},
+      target_{target},
+      channels_{config, std::move(orbit), limits.silent_revolutions},
+      irrational_{limits.period.revolutions},
+      left_out_{limits.rejection.revolutions},
+      interference_{AlertCode::SpinInterference, "s", {.raise_s = 0.0, .clear_s = 60.0}},
+      period_{AlertCode::SpinPeriod, "%"},
+      rejection_{AlertCode::SpinRejection, "%"},
+      ambiguous_{AlertCode::SpinAmbiguous, "s", as_long_again(limits.ambiguous_s)},
+      doubtful_{AlertCode::SpinDoubtful, "s", as_long_again(limits.doubtful_s)},
+      sigma_{AlertCode::SpinSigma, "deg"},
+      disagree_{AlertCode::SpinDisagree, "sigma", kSeveralAnswers},
+      off_target_{AlertCode::SpinOffTarget, "deg", kSeveralAnswers},
+      nutation_{AlertCode::SpinNutation, "deg"},
+      rate_{AlertCode::SpinRate, "rad/s", kSeveralAnswers},
+      lost_{AlertCode::AttitudeLost, "s"} {}
+
+ConditionChanges SpinConditions::see(const PulseUse& use) {
+  std::optional<AxisSeen> axis;
+  if (const auto& answer = sequential_ ? sequential_ : mean_;
+      answer && is_unopposed(answer->assessment.quality)) {
+    axis = AxisSeen{.axis_icrf = answer->axis_icrf,
+                    .sigma_rad = std::sqrt(answer->covariance_rad2.trace())};
+  }
+  ConditionChanges changes = channels_.see(use.pulse, axis);
+  add(interference_.see(use.pulse.t, use.rejected_by == Rejection::Interference), changes);
+  if (use.revolution) {
+    if (const auto percent = left_out_.count(*use.revolution, use.rejected_by.has_value())) {
+      add(rejection_.see(use.pulse.t, {.value = *percent, .limit = limits_.rejection.percent}),
+          changes);
+    }
+  }
+  return changes;
+}
+
+ConditionChanges SpinConditions::see(const RevolutionProduct& revolution) {
+  t_sun1_.insert_or_assign(revolution.revolution, revolution.t_sun1);
+  return {};
+}
+
+ConditionChanges SpinConditions::see(const SpinMeasurement& measurement) {
+  ConditionChanges changes;
+  const auto t = t_sun1_.find(measurement.revolution);
+  if (measurement.quantity != SpinQuantity::Period || t == t_sun1_.end()) {
+    return changes;
+  }
+  if (const auto percent =
+          irrational_.count(measurement.revolution, measurement.rejected_by.has_value())) {
+    add(period_.see(t->second, {.value = *percent, .limit = limits_.period.percent}), changes);
+  }
+  t_sun1_.erase(t_sun1_.begin(), t);
+  return changes;
+}
+
+ConditionChanges SpinConditions::see(const SpinEstimate& estimate) {
+  ConditionChanges changes;
+  if (estimate.estimator == SpinEstimator::Batch) {
+    return changes;
+  }
+  first_ = first_.value_or(estimate.t);
+  const bool is_sequential = estimate.estimator == SpinEstimator::Sequential;
+  (is_sequential ? sequential_ : mean_) = estimate;
+  if (is_sequential || !sequential_) {
+    see_in_force(estimate, changes);
+  }
+  see_disagreement(changes);
+  return changes;
+}
+
+void SpinConditions::see_in_force(const SpinEstimate& estimate, ConditionChanges& changes) {
+  const Quality quality = estimate.assessment.quality;
+  add(ambiguous_.see(estimate.t, quality == Quality::Ambiguous), changes);
+  add(doubtful_.see(estimate.t, quality == Quality::Doubtful), changes);
+  add(lost_.see(estimate.t, quality == Quality::Lost), changes);
+  if (seconds_between(*first_, estimate.t) >= limits_.sigma_after_s) {
+    add(sigma_.see(estimate.t, {.value = sigma_deg_of(estimate), .limit = limits_.sigma_deg}),
+        changes);
+  }
+  if (target_ && is_unopposed(quality)) {
+    see_target(estimate, changes);
+  }
+}
+
+void SpinConditions::see_target(const SpinEstimate& estimate, ConditionChanges& changes) {
+  const double sigma_deg = sigma_deg_of(estimate);
+  add(off_target_.see(estimate.t,
+                      {.value = degrees_between(estimate.axis_icrf, target_->axis_icrf),
+                       .limit = limits_.off_target_deg + limits_.off_target_sigmas * sigma_deg,
+                       .sigma = sigma_deg}),
+      changes);
+  if (const auto& rate = target_->rate) {
+    add(rate_.see(estimate.t, {.value = std::abs(estimate.spin_rate_rad_s - rate->rad_s),
+                               .limit = rate->tolerance_rad_s,
+                               .sigma = estimate.spin_rate_sigma_rad_s}),
+        changes);
+  }
+}
+
+void SpinConditions::see_disagreement(ConditionChanges& changes) {
+  if (!mean_ || !sequential_ || mean_->assessment.quality != Quality::Ok ||
+      sequential_->assessment.quality != Quality::Ok ||
+      std::abs(seconds_between(mean_->t, sequential_->t)) > kApartAtMost_s) {
+    return;
+  }
+  const double sigma_deg = std::max(sigma_deg_of(*mean_), sigma_deg_of(*sequential_));
+  add(disagree_.see(std::max(mean_->t, sequential_->t),
+                    {.value = degrees_between(mean_->axis_icrf, sequential_->axis_icrf) / sigma_deg,
+                     .limit = limits_.disagree_sigmas}),
+      changes);
+}
+
+ConditionChanges SpinConditions::see(const BatchSolution& solution) {
+  ConditionChanges changes;
+  if (const auto& search = solution.nutation) {
+    const auto& found = search->found;
+    add(nutation_.see(solution.estimate.t,
+                      {.value = found ? found->half_angle_rad.value * kDegPerRad : 0.0,
+                       .limit = limits_.nutation_deg,
+                       .sigma = found ? std::optional{found->half_angle_rad.sigma * kDegPerRad}
+                                      : std::nullopt}),
+        changes);
+  }
+  return changes;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,61 @@
+/// @file
+/// What is worth an alert in the products of a spinner, in telemetry time.
+///
+/// Each condition reads one kind of product, or results only: results and details reach it by
+/// different ways, each in its own order.
+
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "pipelines/spin/batch/batch_solution.h"
+#include "pipelines/spin/types/products.h"
+#include "pipelines/supervision/channel_presence.h"
+#include "pipelines/supervision/condition_watch.h"
+#include "pipelines/supervision/limits.h"
+#include "pipelines/supervision/recent_share.h"
+
+namespace spindrift {
+
+/// The answer in force is that of `sequential`; until there is one, that of `mean`.
+class SpinConditions {
+ public:
+  SpinConditions(const SpinConfig& config, Orbit orbit, const AlertLimits& limits,
+                 std::optional<SpinTarget> target);
+
+  ConditionChanges see(const PulseUse& use);
+  ConditionChanges see(const RevolutionProduct& revolution);
+  ConditionChanges see(const SpinMeasurement& measurement);
+  ConditionChanges see(const SpinEstimate& estimate);
+  ConditionChanges see(const BatchSolution& solution);
+
+ private:
+  void see_in_force(const SpinEstimate& estimate, ConditionChanges& changes);
+  void see_target(const SpinEstimate& estimate, ConditionChanges& changes);
+  void see_disagreement(ConditionChanges& changes);
+
+  AlertLimits limits_;
+  std::optional<SpinTarget> target_;
+  ChannelPresence channels_;
+  RecentShare irrational_;
+  RecentShare left_out_;
+  ConditionWatch interference_;
+  ConditionWatch period_;
+  ConditionWatch rejection_;
+  ConditionWatch ambiguous_;
+  ConditionWatch doubtful_;
+  ConditionWatch sigma_;
+  ConditionWatch disagree_;
+  ConditionWatch off_target_;
+  ConditionWatch nutation_;
+  ConditionWatch rate_;
+  ConditionWatch lost_;
+  std::map<std::int64_t, TaiTime> t_sun1_;  ///< Of revolutions whose period is to come.
+  std::optional<TaiTime> first_;            ///< Estimate.
+  std::optional<SpinEstimate> mean_;
+  std::optional<SpinEstimate> sequential_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,97 @@
+#include "pipelines/supervision/alert_book.h"
+
+#include <gtest/gtest.h>
+
+namespace spindrift::alert_book_test {
+
+TaiTime at(double t_s) { return shifted(tai_from_ns(1'795'143'637'000'000'000), t_s); }
+
+Occurrence occurrence(double t_s) {
+  return {.run_id = "run-1",
+          .key = "spin.sigma",
+          .severity = AlertSeverity::Warning,
+          .t = at(t_s),
+          .message = "sigma",
+          .evidence = "{}"};
+}
+
+struct RaisedBook {
+  AlertBook book;
+  std::string id = book.raise(occurrence(1)).value().alert_id;
+};
+
+TEST(AlertBook, HasOneOpenAlertAKeyAndANewOneAfterItWasCleared) {
+  AlertBook book;
+  EXPECT_FALSE(book.clear(occurrence(0)));
+  const auto raised = book.raise(occurrence(1));
+  ASSERT_TRUE(raised);
+  EXPECT_EQ(raised->state, AlertState::Active);
+  EXPECT_EQ(raised->revision, 1);
+  EXPECT_LE(raised->alert_id.size(), 40U);
+  EXPECT_FALSE(book.raise(occurrence(2)));
+  const auto cleared = book.clear(occurrence(3));
+  ASSERT_TRUE(cleared);
+  EXPECT_EQ(cleared->alert_id, raised->alert_id);
+  EXPECT_EQ(cleared->from, AlertState::Active);
+  EXPECT_EQ(cleared->state, AlertState::Cleared);
+  EXPECT_EQ(cleared->cleared, at(3));
+  EXPECT_EQ(cleared->revision, 2);
+  EXPECT_TRUE(book.open().empty());
+  const auto again = book.raise(occurrence(4));
+  ASSERT_TRUE(again);
+  EXPECT_NE(again->alert_id, raised->alert_id);
+  EXPECT_EQ(again->count, 2);
+}
+
+TEST(AlertBook, KnowsWhatIsComputedAgain) {
+  RaisedBook once;
+  const Alert cleared = once.book.clear(occurrence(3)).value();
+  AlertBook restarted;
+  restarted.take_up(cleared);
+  EXPECT_FALSE(restarted.raise(occurrence(1)));
+  EXPECT_FALSE(restarted.clear(occurrence(3)));
+  EXPECT_TRUE(restarted.raise(occurrence(5)));
+
+  AlertBook open;
+  open.take_up(RaisedBook{}.book.open().front());
+  EXPECT_FALSE(open.clear(occurrence(0)));
+  EXPECT_FALSE(open.raise(occurrence(1)));
+  EXPECT_TRUE(open.clear(occurrence(2)));
+}
+
+TEST(AlertBook, GivesTheSameOccurrenceTheSameId) {
+  EXPECT_EQ(RaisedBook{}.id, RaisedBook{}.id);
+  AlertBook book;
+  EXPECT_NE(book.raise(occurrence(2)).value().alert_id, RaisedBook{}.id);
+}
+
+TEST(AlertBook, IsAcknowledgedOnceAndClearedAfterwards) {
+  RaisedBook raised;
+  const auto acknowledged = raised.book.acknowledge(raised.id, at(2), "night shift", "seen");
+  ASSERT_TRUE(acknowledged);
+  EXPECT_EQ(acknowledged->state, AlertState::Acknowledged);
+  EXPECT_EQ(acknowledged->by, "night shift");
+  EXPECT_EQ(acknowledged->note, "seen");
+  EXPECT_FALSE(raised.book.acknowledge(raised.id, at(3), "night shift", "seen"));
+  EXPECT_EQ(raised.book.open().size(), 1U);
+  EXPECT_EQ(raised.book.clear(occurrence(4)).value().from, AlertState::Acknowledged);
+  const auto too_late = raised.book.acknowledge(raised.id, at(5), "night shift", "seen");
+  ASSERT_FALSE(too_late);
+  EXPECT_EQ(too_late.error().message, "no alert '" + raised.id + "' is open");
+}
+
+TEST(AlertBook, IsActiveAgainWhenItsShelvingIsOver) {
+  RaisedBook raised;
+  const auto shelved = raised.book.shelve(raised.id, at(2), at(10), "shift", "later");
+  ASSERT_TRUE(shelved);
+  EXPECT_EQ(shelved->state, AlertState::Shelved);
+  EXPECT_EQ(shelved->shelved_until, at(10));
+  EXPECT_TRUE(raised.book.expire(at(9)).empty());
+  const auto expired = raised.book.expire(at(10));
+  ASSERT_EQ(expired.size(), 1U);
+  EXPECT_EQ(expired.front().state, AlertState::Active);
+  EXPECT_FALSE(expired.front().shelved_until);
+  EXPECT_EQ(expired.front().revision, 3);
+}
+
+}  // namespace spindrift::alert_book_test

@@ -1,0 +1,207 @@
+#include "pipelines/supervision/spin_conditions.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <set>
+#include <string>
+
+#include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/frames/angle.h"
+
+namespace spindrift::spin_conditions_test {
+
+const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+TaiTime at(double t_s) { return shifted(kStart, t_s); }
+
+const Eigen::Vector3d kAxis = Eigen::Vector3d::UnitZ();
+
+SpinConfig config() {
+  return {.sun_sensor = {.slit_cant_rad = 0.5, .slit_separation_rad = 0.5},
+          .north = InfraredSensor{.mount_angle_rad = 85.0 * kRadPerDeg, .azimuth_rad = 0.0},
+          .south = std::nullopt,
+          .noise = {.sun_s = 1e-4, .infrared_s = 1e-4},
+          .horizon = {.model = HorizonModel::Sphere, .co2_altitude_km = 40.0},
+          .screening = {},
+          .geometry = {},
+          .prior = std::nullopt};
+}
+
+/// In the equator, 10,000 km out: the Earth is 90 deg from the axis.
+Orbit orbit() {
+  return Orbit{KeplerOrbit::through(kStart, {.position_icrf_km = {1e4, 0.0, 0.0},
+                                             .velocity_icrf_km_s = {0.0, 6.3, 0.0}})
+                   .value()};
+}
+
+SpinEstimate estimate(double t_s, Quality quality, double sigma_deg = 0.05, double off_deg = 0.0,
+                      SpinEstimator estimator = SpinEstimator::Sequential) {
+  const double sigma_rad = sigma_deg * kRadPerDeg;
+  return {.t = at(t_s),
+          .estimator = estimator,
+          .axis_icrf = Eigen::AngleAxisd{off_deg * kRadPerDeg, Eigen::Vector3d::UnitX()} * kAxis,
+          .covariance_rad2 = 0.5 * sigma_rad * sigma_rad * Eigen::Matrix2d::Identity(),
+          .spin_rate_rad_s = 6.0,
+          .spin_rate_sigma_rad_s = 1e-5,
+          .assessment = {.quality = quality}};
+}
+
+/// Gathers the keys of what is raised and not cleared.
+struct Supervised {
+  SpinConditions conditions;
+  std::set<std::string> raised = {};
+
+  explicit Supervised(std::optional<SpinTarget> target = std::nullopt)
+      : conditions{config(), orbit(), AlertLimits{}, target} {}
+
+  template <class Product>
+  void see(const Product& product) {
+    for (const ConditionChange& change : conditions.see(product)) {
+      const std::string key = alert_key(change.code, change.about);
+      if (change.change == Change::Raised) {
+        raised.insert(key);
+      } else {
+        raised.erase(key);
+      }
+    }
+  }
+};
+
+using Keys = std::set<std::string>;
+
+void give_estimates(Supervised& pass, Quality quality, double sigma_deg, double off_deg,
+                    double from_s, double to_s) {
+  for (double t_s = from_s; t_s < to_s; t_s += 1.0) {
+    pass.see(estimate(t_s, quality, sigma_deg, off_deg));
+  }
+}
+
+/// Of all channels of a turn but `silent`.
+void give_edges(Supervised& pass, std::int64_t revolution, std::optional<PulseChannel> silent,
+                std::optional<Rejection> rejected_by = std::nullopt) {
+  for (const PulseChannel channel :
+       {PulseChannel::Sun1, PulseChannel::Sun2, PulseChannel::NorthIn, PulseChannel::NorthOut}) {
+    if (channel != silent) {
+      const double t_s =
+          static_cast<double>(revolution) + 0.1 * static_cast<double>(index_of(channel));
+      pass.see(PulseUse{.pulse = {.t = at(t_s), .channel = channel},
+                        .revolution = revolution,
+                        .rejected_by = rejected_by});
+    }
+  }
+}
+
+TEST(SpinConditions, RaiseNothingOfANominalPass) {
+  Supervised pass{SpinTarget{.axis_icrf = kAxis,
+                             .rate = SpinTarget::Rate{.rad_s = 6.0, .tolerance_rad_s = 0.1}}};
+  give_estimates(pass, Quality::Converging, 2.0, 0.0, 0.0, 30.0);
+  give_estimates(pass, Quality::Ok, 0.05, 0.0, 30.0, 300.0);
+  for (int revolution = 0; revolution < 300; ++revolution) {
+    give_edges(pass, revolution, std::nullopt);
+    pass.see(
+        RevolutionProduct{.revolution = revolution, .t_sun1 = at(revolution), .period_s = 1.0});
+    pass.see(SpinMeasurement{.revolution = revolution,
+                             .quantity = SpinQuantity::Period,
+                             .value = 1.0,
+                             .sigma = 1e-4,
+                             .rejected_by = std::nullopt});
+  }
+  EXPECT_EQ(pass.raised, Keys{});
+}
+
+TEST(SpinConditions, RaiseAQualityThatIsHeldAndClearIt) {
+  Supervised pass;
+  give_estimates(pass, Quality::Ambiguous, 0.05, 0.0, 0.0, 60.0);
+  EXPECT_EQ(pass.raised, Keys{});
+  give_estimates(pass, Quality::Ambiguous, 0.05, 0.0, 60.0, 70.0);
+  EXPECT_EQ(pass.raised, Keys{"spin.ambiguous"});
+  give_estimates(pass, Quality::Doubtful, 0.05, 0.0, 70.0, 140.0);
+  EXPECT_EQ(pass.raised, Keys{"spin.doubtful"});
+  pass.see(estimate(141.0, Quality::Lost));
+  EXPECT_EQ(pass.raised, (Keys{"attitude.lost", "spin.doubtful"}));
+}
+
+TEST(SpinConditions, RaiseASigmaThatIsWideTwoMinutesAfterTheFirstAnswer) {
+  Supervised pass;
+  give_estimates(pass, Quality::Ok, 1.5, 0.0, 0.0, 120.0);
+  EXPECT_EQ(pass.raised, Keys{});
+  give_estimates(pass, Quality::Ok, 1.5, 0.0, 120.0, 122.0);
+  EXPECT_EQ(pass.raised, Keys{"spin.sigma"});
+}
+
+TEST(SpinConditions, RaiseAnAxisAndARateAwayFromTheirTarget) {
+  Supervised pass{SpinTarget{.axis_icrf = kAxis,
+                             .rate = SpinTarget::Rate{.rad_s = 5.0, .tolerance_rad_s = 0.1}}};
+  give_estimates(pass, Quality::Ok, 0.1, 2.2, 0.0, 20.0);
+  EXPECT_EQ(pass.raised, Keys{"spin.rate"});
+  give_estimates(pass, Quality::Ok, 0.1, 2.4, 20.0, 40.0);
+  EXPECT_EQ(pass.raised, (Keys{"spin.off_target", "spin.rate"}));
+}
+
+TEST(SpinConditions, RaiseThatTheEstimatorsDiffer) {
+  Supervised pass;
+  for (double t_s = 0.0; t_s < 20.0; t_s += 1.0) {
+    pass.see(estimate(t_s, Quality::Ok));
+    pass.see(estimate(t_s + 0.5, Quality::Ok, 0.05, 0.3, SpinEstimator::Mean));
+  }
+  EXPECT_EQ(pass.raised, Keys{"spin.disagree"});
+}
+
+TEST(SpinConditions, RaiseAChannelThatTheAxisInForceShouldSee) {
+  Supervised pass;
+  pass.see(estimate(0.0, Quality::Ok));
+  for (int revolution = 0; revolution < 20; ++revolution) {
+    give_edges(pass, revolution, std::nullopt);
+  }
+  for (int revolution = 20; revolution < 29; ++revolution) {
+    give_edges(pass, revolution, PulseChannel::NorthIn);
+  }
+  EXPECT_EQ(pass.raised, Keys{});
+  give_edges(pass, 29, PulseChannel::NorthIn);
+  EXPECT_EQ(pass.raised, Keys{"channel.silent:north_in"});
+  give_edges(pass, 30, std::nullopt);
+  EXPECT_EQ(pass.raised, Keys{});
+}
+
+TEST(SpinConditions, ExpectNoEdgesOfABeamThatMissesTheEarth) {
+  Supervised pass;
+  pass.see(estimate(0.0, Quality::Ok, 0.05, 70.0));
+  for (int revolution = 0; revolution < 20; ++revolution) {
+    give_edges(pass, revolution, std::nullopt);
+  }
+  // From a quarter of the orbit on the Earth is 20 deg from that axis.
+  for (int revolution = 2300; revolution < 2350; ++revolution) {
+    give_edges(pass, revolution, PulseChannel::NorthIn);
+  }
+  EXPECT_EQ(pass.raised, Keys{});
+}
+
+TEST(SpinConditions, RaiseSharesOfTheLastHundredRevolutions) {
+  Supervised pass;
+  for (int revolution = 0; revolution < 110; ++revolution) {
+    const bool is_bad = revolution % 4 == 0;
+    give_edges(pass, revolution, std::nullopt,
+               is_bad ? std::optional{Rejection::Phase} : std::nullopt);
+    pass.see(
+        RevolutionProduct{.revolution = revolution, .t_sun1 = at(revolution), .period_s = 1.0});
+    pass.see(
+        SpinMeasurement{.revolution = revolution,
+                        .quantity = SpinQuantity::Period,
+                        .value = 1.0,
+                        .sigma = 1e-4,
+                        .rejected_by = is_bad ? std::optional{Rejection::Period} : std::nullopt});
+  }
+  EXPECT_EQ(pass.raised, (Keys{"spin.period", "spin.rejection"}));
+}
+
+TEST(SpinConditions, RaiseInterferenceWhileItLasts) {
+  Supervised pass;
+  give_edges(pass, 0, std::nullopt, Rejection::Interference);
+  EXPECT_EQ(pass.raised, Keys{"spin.interference"});
+  for (int revolution = 1; revolution < 70; ++revolution) {
+    give_edges(pass, revolution, std::nullopt);
+  }
+  EXPECT_EQ(pass.raised, Keys{});
+}
+
+}  // namespace spindrift::spin_conditions_test
