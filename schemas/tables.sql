@@ -521,16 +521,20 @@ CREATE TABLE operator_action (
   arguments     TEXT NOT NULL  -- JSON: an object
 ) STRICT;
 
--- key: what the alert is about; one alert per key is open at a time.
+-- key: what the alert is about; one alert per key is open at a time. run_id: of the run that raised or last
+-- changed it. count: the how manyth of its key. Rows are replaced by higher revisions only.
 CREATE TABLE alert (
   alert_id       TEXT PRIMARY KEY NOT NULL,
+  run_id         TEXT NOT NULL REFERENCES run,
   spacecraft_id  TEXT NOT NULL REFERENCES spacecraft,
   key            TEXT NOT NULL,
   severity       TEXT NOT NULL CHECK (severity IN ('info', 'warning', 'critical')),
   state          TEXT NOT NULL CHECK (state IN ('active', 'acknowledged', 'shelved', 'cleared')),
+  revision       INTEGER NOT NULL CHECK (revision > 0),
   raised_tai_ns  INTEGER NOT NULL,
   updated_tai_ns INTEGER NOT NULL,
   cleared_tai_ns INTEGER,
+  shelved_until_tai_ns INTEGER,
   count          INTEGER NOT NULL CHECK (count > 0),
   message        TEXT NOT NULL,
   evidence       TEXT NOT NULL  -- JSON; json_valid() may not stand in a schema with trusted_schema off
@@ -538,6 +542,7 @@ CREATE TABLE alert (
 
 CREATE TABLE alert_transition (
   alert_id   TEXT NOT NULL REFERENCES alert,
+  run_id     TEXT NOT NULL REFERENCES run,
   t_tai_ns   INTEGER NOT NULL,
   from_state TEXT CHECK (from_state IN ('active', 'acknowledged', 'shelved', 'cleared')),
   to_state   TEXT NOT NULL CHECK (to_state IN ('active', 'acknowledged', 'shelved', 'cleared')),

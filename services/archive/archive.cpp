@@ -107,6 +107,7 @@ Expected<void> Archive::submit(ArchiveBatch batch) {
     }
     ++submitted_batches_;
   }
+  options_.on_submit(batch);
   if (!queue_.push(std::move(batch))) {
     const std::lock_guard lock{mutex_};
     --submitted_batches_;

@@ -32,10 +32,13 @@ enum class OnWriteFailure {
   Retry,  ///< Let submitters wait, and try every second. For a pass that is under way.
 };
 
-/// The callbacks run on the writer thread, must not throw and must not call the archive.
+/// The callbacks run on the writer thread but for on_submit, must not throw and must not call the
+/// archive.
 struct ArchiveOptions {
   OnWriteFailure on_write_failure = OnWriteFailure::Stop;
   std::size_t queue_rows = 65536;  ///< Of samples, and as many of products.
+  /// Of what is submitted, by the thread that does, before it is queued: may add products to it.
+  std::function<void(ArchiveBatch&)> on_submit = [](auto& /*batch*/) {};
   /// After each commit, with what it stored.
   std::function<void(std::span<const ArchiveBatch>)> on_committed = [](const auto& /*stored*/) {};
   /// When writing begins to fail, and whenever it fails for another reason than before.

@@ -203,9 +203,11 @@ void ProductWriter::withdraw(const std::string& run_id, TaiTime from) {
     for_each_product_kind([&]<class Kind>() {
       for_each_table<Kind>([&]<class Table>() {
         constexpr bool kStandsAlone = kHasTime<Table> && std::is_same_v<Table, MainTable<Kind>>;
-        if (!kStays<Kind> && kStandsAlone != hangs_on_others) {
-          SQLite::Statement statement{database_, withdrawal<Kind, Table>()};
-          execute(statement, run_id, tai_ns(from));
+        if constexpr (!kStays<Kind>) {
+          if (kStandsAlone != hangs_on_others) {
+            SQLite::Statement statement{database_, withdrawal<Kind, Table>()};
+            execute(statement, run_id, tai_ns(from));
+          }
         }
       });
     });

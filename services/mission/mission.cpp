@@ -9,6 +9,7 @@
 
 #include "services/input_file/input_file.h"
 #include "services/input_file/sha256.h"
+#include "services/mission/mission_alerts.h"
 #include "services/mission/mission_orbit.h"
 #include "services/mission/mission_schema.h"
 #include "services/mission/mission_spin.h"
@@ -91,6 +92,8 @@ Expected<Mission> parse(const std::filesystem::path& path, std::string text,
                  .orbit_sha256 = std::move(orbit->file_sha256),
                  .tables = tables_of(values),
                  .orbit_doubts = std::move(doubts),
+                 .alerts = alert_limits(values),
+                 .target = spin_target(values),
                  .path = std::filesystem::absolute(path)};
 }
 

@@ -14,6 +14,7 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/spin/types/config.h"
+#include "pipelines/supervision/limits.h"
 #include "pipelines/three_axis/config.h"
 #include "services/mission/mission_reconstruction.h"
 #include "services/mission/spacecraft_kind.h"
@@ -30,7 +31,9 @@ struct Mission {
   std::optional<std::string> orbit_sha256;           ///< Of the orbit file, if one is named.
   std::set<std::string> tables;                      ///< That have values, "three_axis.gyro".
   std::vector<std::string> orbit_doubts;  ///< About that file, for people (orbit_doubts.h).
-  std::filesystem::path path = {};        ///< Absolute; an orbit file is relative to it.
+  AlertLimits alerts = {};
+  std::optional<SpinTarget> target = {};
+  std::filesystem::path path = {};  ///< Absolute; an orbit file is relative to it.
 
   SpacecraftKind kind() const { return static_cast<SpacecraftKind>(config.index()); }
   /// Null for any other spacecraft.

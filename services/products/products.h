@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "services/products/alert.h"
 #include "services/products/attitude.h"
 #include "services/products/batch_solution.h"
 #include "services/products/product_kind.h"
@@ -24,7 +25,7 @@ namespace spindrift {
 /// The list.
 using Product =
     std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate, BatchProduct,
-                 RunFault, RejectedSample, AttitudeEstimate, ReconstructionProduct>;
+                 RunFault, RejectedSample, AttitudeEstimate, ReconstructionProduct, Alert>;
 
 /// Its place in the list.
 template <class Kind>

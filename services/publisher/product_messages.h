@@ -32,6 +32,12 @@ struct ProductMessage<AttitudeEstimate> {
   static const dds_topic_descriptor_t* descriptor() { return &spindrift_AttitudeEstimate_desc; }
 };
 
+template <>
+struct ProductMessage<Alert> {
+  using Type = spindrift_Alert;
+  static const dds_topic_descriptor_t* descriptor() { return &spindrift_Alert_desc; }
+};
+
 template <PublishedProduct Product>
 bus::Topic<typename ProductMessage<Product>::Type> product_topic() {
   return {ProductKind<Product>::kTopic, ProductMessage<Product>::descriptor()};

@@ -133,6 +133,22 @@ Expected<spindrift_AttitudeEstimate> to_idl(const ResultOrigin& origin,
       .map([&out] { return out; });
 }
 
+Expected<spindrift_Alert> to_idl(const ResultOrigin& origin, const Alert& alert) {
+  spindrift_Alert out{};
+  out.revision = static_cast<std::uint32_t>(alert.revision);
+  out.severity = static_cast<spindrift_Severity>(alert.severity);
+  out.state = static_cast<spindrift_AlertState>(alert.state);
+  out.raised_tai_ns = tai_ns(alert.raised);
+  out.updated_tai_ns = tai_ns(alert.updated);
+  // The generated types know no const: a sample that is written is only read.
+  out.message = const_cast<char*>(alert.message.c_str());         // NOLINT(*-pro-type-const-cast)
+  out.evidence_json = const_cast<char*>(alert.evidence.c_str());  // NOLINT(*-pro-type-const-cast)
+  return put_name(out.spacecraft, origin.spacecraft, "spacecraft")
+      .and_then([&] { return put_name(out.dedupe_key, alert.key, "alert key"); })
+      .and_then([&] { return put_name(out.alert_id, alert.alert_id, "alert id"); })
+      .map([&out] { return out; });
+}
+
 Expected<HealthSample> to_idl(std::string_view service, const Health& health) {
   HealthSample out;
   for (const SpacecraftHealth& one : health.spacecraft) {

@@ -17,6 +17,7 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/spin/types/products.h"
+#include "pipelines/supervision/alert.h"
 #include "pipelines/three_axis/products.h"
 #include "services/bus/telemetry_messages.h"
 #include "services/publisher/health.h"
@@ -68,6 +69,9 @@ Expected<spindrift_SpinEstimate> to_idl(const ResultOrigin& origin, const SpinEs
 /// Rates that are not estimated are NaN.
 Expected<spindrift_AttitudeEstimate> to_idl(const ResultOrigin& origin,
                                             const AttitudeEstimate& estimate);
+
+/// Points into `alert`, which outlives what it gives.
+Expected<spindrift_Alert> to_idl(const ResultOrigin& origin, const Alert& alert);
 
 /// Points into the Health that it was made of, and into itself: it is moved and not copied.
 struct HealthSample {

@@ -32,6 +32,7 @@
 #include "services/processor/version.h"
 #include "services/progress/progress_bar.h"
 #include "services/serving/background_solving.h"
+#include "services/spindrift/alerts.h"
 #include "services/spindrift/batch.h"
 #include "services/spindrift/doctor.h"
 #include "services/spindrift/geometry.h"
@@ -65,6 +66,7 @@ struct Request {
   spindrift::DoctorOptions doctor;
   spindrift::GeometryOptions geometry;
   spindrift::ReconstructOptions reconstruct;
+  spindrift::AlertsOptions alerts;
   std::function<Expected<void>()> run;
   int status = EXIT_SUCCESS;  ///< Of a run that came to its end.
 };
@@ -270,6 +272,40 @@ void add_reconstruct(CLI::App& app, Request& request) {
   });
 }
 
+void add_alert_change(CLI::App& alerts, Request& request, const char* name, const char* about) {
+  spindrift::AlertsOptions& options = request.alerts;
+  CLI::App& command = *alerts.add_subcommand(name, about);
+  command.add_option("id", options.alert_id, "Alert, as `spindrift alerts` lists it")->required();
+  command.add_option("--by", options.by, "Who says so")->required();
+  command.add_option("--note", options.note, "Why")->required();
+  command.add_option("--db", options.db, "Archive")->check(check_path)->required();
+  if (std::string_view{name} == "shelve") {
+    command.add_option("--minutes", options.minutes, "For so long")
+        ->check(CLI::Range(1, 10080))
+        ->required();
+  }
+  command.callback([&] { request.run = [&] { return change_alert(request.alerts); }; });
+}
+
+void add_alerts(CLI::App& app, Request& request) {
+  spindrift::AlertsOptions& options = request.alerts;
+  CLI::App& command = *app.add_subcommand("alerts", "List the alerts of an archive");
+  CLI::Option* const db =
+      command.add_option("--db", options.db, "Archive; it is only read")->check(check_path);
+  command.add_flag("--json", options.json, "Print all alerts, a JSON object a line");
+  command.require_subcommand(0, 1);
+  add_alert_change(command, request, "ack", "Acknowledge an open alert");
+  add_alert_change(command, request, "shelve", "Silence an open alert for a while");
+  command.callback([&, db] {
+    if (!request.run && db->empty()) {
+      throw CLI::RequiredError{"--db"};
+    }
+    if (!request.run) {
+      request.run = [&] { return list_alerts(request.alerts); };
+    }
+  });
+}
+
 std::string subcommands_of(const CLI::App& app) {
   std::string names;
   for (const CLI::App* const command : app.get_subcommands({})) {
@@ -317,6 +353,7 @@ int run(int argc, char** argv) {
   add_doctor(app, request);
   add_geometry(app, request);
   add_reconstruct(app, request);
+  add_alerts(app, request);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

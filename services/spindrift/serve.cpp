@@ -21,7 +21,9 @@
 #include <variant>
 
 #include "pipelines/time/utc.h"
+#include "services/alerts/alert_desk.h"
 #include "services/archive/archive.h"
+#include "services/archive/stored_alerts.h"
 #include "services/archive/stored_results.h"
 #include "services/archive/submit_all.h"
 #include "services/bus/participant.h"
@@ -41,6 +43,7 @@
 #include "services/serving/patience.h"
 #include "services/serving/stop_signal.h"
 #include "services/serving/thread_failures.h"
+#include "services/spindrift/alerts.h"
 #include "services/spindrift/announcer.h"
 #include "services/spindrift/comparison_notice.h"
 #include "services/spindrift/orbit_notice.h"
@@ -296,26 +299,35 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
 
 /// What other programs ask while this one holds the archive. Where they cannot it is said.
 Expected<std::unique_ptr<RequestServer>> answer_requests(const std::filesystem::path& db,
-                                                         Archive& archive) {
-  auto server = RequestServer::start(db, [&db, &archive](const nlohmann::json& request) {
+                                                         Archive& archive, AlertDesk& desk) {
+  auto server = RequestServer::start(db, [&](const nlohmann::json& request) {
     let_samples_come_first();
-    return request.value("do", "") == kReconstructRequest
+    const std::string what = request.value("do", "");
+    if (what == kAlertRequest) {
+      return answer_alert(request, desk, archive);
+    }
+    return what == kReconstructRequest
                ? answer_reconstruct(request, db, archive)
-               : nlohmann::json{{"error", "not known here: do = reconstruct is"}};
+               : nlohmann::json{{"error", "not known here: do = reconstruct, alert are"}};
   });
   if (!server) {
-    spdlog::warn("`reconstruct` has to wait until this service ends: {}", server.error().message);
+    spdlog::warn("`reconstruct` and `alerts ack` have to wait until this service ends: {}",
+                 server.error().message);
   }
   return server;
 }
 
-Expected<Processor> make_processor(const ServeOptions& options) {
-  const auto missions = load_missions(options.missions);
+RunMode mode_of(const ServeOptions& options) {
+  return options.partition == "replay" ? RunMode::Replay : RunMode::Live;
+}
+
+Expected<Processor> make_processor(const ServeOptions& options,
+                                   const Expected<std::vector<Mission>>& missions) {
   if (!missions) {
     return Unexpected{missions.error()};
   }
   return Processor::make(*missions,
-                         {.mode = options.partition == "replay" ? RunMode::Replay : RunMode::Live,
+                         {.mode = mode_of(options),
                           .telemetry = {fmt::format("DDS domain {}, partition {}", options.domain,
                                                     options.partition)}});
 }
@@ -332,10 +344,11 @@ void note_faults(std::span<const ArchiveBatch> stored, Problems& problems) {
   }
 }
 
-Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db,
+Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db, AlertDesk& desk,
                                                 Announcer& announcer, Problems& problems,
                                                 ThreadFailures& failures) {
   return Archive::open(db, {.on_write_failure = OnWriteFailure::Retry,
+                            .on_submit = [&](ArchiveBatch& batch) { desk.see(batch, tai_now()); },
                             .on_committed =
                                 [&](std::span<const ArchiveBatch> stored) {
                                   failures.note(contained("announcing", [&] {
@@ -368,6 +381,17 @@ Expected<void> note_announced(const std::filesystem::path& db,
   return {};
 }
 
+/// Those of runs of services, before anything is computed.
+Expected<void> take_up_alerts(const std::filesystem::path& db, AlertDesk& desk) {
+  return find_alerts(db).map([&](const std::vector<StoredAlert>& alerts) {
+    for (const StoredAlert& stored : alerts) {
+      if (stored.of_service) {
+        desk.take_up(stored.spacecraft, stored.run_id, stored.alert);
+      }
+    }
+  });
+}
+
 /// A pipe that is full and that nobody reads must not keep a service that has stopped.
 Expected<void> print_if_read(const std::string& text) {
   pollfd out{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
@@ -382,7 +406,8 @@ Expected<void> print_if_read(const std::string& text) {
 
 Expected<void> serve(const ServeOptions& options) {
   // To the end of the process: a solution that was given up may still use it.
-  static auto processor = make_processor(options);
+  const auto missions = load_missions(options.missions);
+  static auto processor = make_processor(options, missions);
   if (!processor) {
     return Unexpected{processor.error()};
   }
@@ -401,22 +426,23 @@ Expected<void> serve(const ServeOptions& options) {
   ThreadFailures failures;
   Problems problems;
   Announcer announcer{*publisher, failures};
-  const auto opened = open_archive(options.db, announcer, problems, failures);
+  AlertDesk desk{*missions, mode_of(options)};
+  const auto opened = open_archive(options.db, desk, announcer, problems, failures);
   if (!opened) {
     return Unexpected{opened.error()};
   }
   Archive& archive = **opened;
   spdlog::info("archive {}", options.db.string());
 
-  auto gone_on = processor->arrive_after(options.db).and_then([&] {
-    return processor->go_on(options.db, moment_of(*processor));
-  });
+  auto gone_on = processor->arrive_after(options.db)
+                     .and_then([&] { return take_up_alerts(options.db, desk); })
+                     .and_then([&] { return processor->go_on(options.db, moment_of(*processor)); });
   const auto done = std::move(gone_on).and_then([&](GoneOn stored) {
     return note_announced(options.db, stored.routed.samples, announcer)
         .and_then([&] { return submit_all(archive, std::move(stored.routed.samples)); })
         .and_then([&] { return archive.flush(); })
         .and_then([&] {
-          const auto requests = answer_requests(options.db, archive);
+          const auto requests = answer_requests(options.db, archive, desk);
           return run(std::move(stored.routed.work), stored.last_origins, *participant, *publisher,
                      *processor, archive, problems, stop_signal, failures);
         });

@@ -154,6 +154,22 @@ TEST(Mission, HasTheDefaultsOfThePipelineWhereTheFileIsSilent) {
   EXPECT_FALSE(mission->spin()->prior);
 }
 
+TEST(Mission, HasLimitsOfAlertsAndATargetWhereTheFileGivesThem) {
+  const auto silent = load(contract());
+  ASSERT_TRUE(silent);
+  EXPECT_EQ(silent->alerts.ambiguous_s, AlertLimits{}.ambiguous_s);
+  EXPECT_EQ(silent->alerts.rejection.revolutions, AlertLimits{}.rejection.revolutions);
+  const auto given = load(contract() +
+                          "\n[spin.target]\nra_deg = 0.0\ndec_deg = 90.0\nrpm = 60.0\n"
+                          "tolerance_rpm = 0.5\n[alerts.\"spin.ambiguous\"]\nseconds = 7.0\n");
+  ASSERT_TRUE(given) << given.error().message;
+  EXPECT_EQ(given->alerts.ambiguous_s, 7.0);
+  ASSERT_TRUE(given->target);
+  EXPECT_NEAR(given->target->axis_icrf.z(), 1.0, 1e-15);
+  ASSERT_TRUE(given->target->rate);
+  EXPECT_NEAR(given->target->rate->rad_s, 6.283185307179586, 1e-12);
+}
+
 TEST(Mission, OfAThreeAxisSpacecraftHasNoSpin) {
   const auto mission = load(replaced(contract(), "kind = \"spin\"", "kind = \"three_axis\""));
   ASSERT_TRUE(mission) << mission.error().message;

@@ -1,0 +1,148 @@
+#include "services/alerts/alert_desk.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "services/words/alert_words.h"
+
+namespace spindrift {
+namespace {
+
+/// Of a product that the conditions know; of any other none.
+template <class Conditions>
+ConditionChanges changes_by(Conditions& conditions, const Product& product) {
+  return std::visit(
+      [&](const auto& value) -> ConditionChanges {
+        if constexpr (requires { conditions.see(value); }) {
+          return conditions.see(value);
+        } else if constexpr (requires { conditions.see(*value); }) {
+          return conditions.see(*value);
+        } else {
+          return {};
+        }
+      },
+      product);
+}
+
+std::optional<Alert> settle(AlertBook& book, const ConditionChange& change,
+                            const std::string& run_id, const Mission& mission) {
+  const Occurrence occurrence{.run_id = run_id,
+                              .key = alert_key(change.code, change.about),
+                              .severity = severity_of(change.code),
+                              .t = change.t,
+                              .message = sentence_of(change),
+                              .evidence = evidence_json(change.evidence, mission.sha256)};
+  return change.change == Change::Raised ? book.raise(occurrence) : book.clear(occurrence);
+}
+
+}  // namespace
+
+AlertDesk::AlertDesk(const std::vector<Mission>& missions, RunMode mode) : mode_{mode} {
+  for (const Mission& mission : missions) {
+    desks_[mission.spacecraft_id].supervised =
+        Supervised{.mission = mission, .conditions = conditions_of(mission)};
+  }
+}
+
+AlertDesk::Conditions AlertDesk::conditions_of(const Mission& mission) {
+  if (const SpinConfig* const spin = mission.spin()) {
+    return SpinConditions{*spin, *mission.orbit, mission.alerts, mission.target};
+  }
+  return AttitudeConditions{mission.alerts};
+}
+
+void AlertDesk::take_up(const std::string& spacecraft, const std::string& run_id,
+                        const Alert& alert) {
+  const std::lock_guard lock{mutex_};
+  Desk& desk = desks_[spacecraft];
+  desk.run_of.insert_or_assign(alert.alert_id, run_id);
+  desk.book.take_up(alert);
+}
+
+void AlertDesk::see(ArchiveBatch& batch, TaiTime now) {
+  const std::lock_guard lock{mutex_};
+  const auto found = desks_.find(batch.spacecraft_id);
+  if (found == desks_.end() || !found->second.supervised) {
+    return;
+  }
+  Desk& desk = found->second;
+  Supervised& supervised = *desk.supervised;
+  const bool begins = batch.continuation || (batch.start && batch.start->mode == mode_);
+  if (begins && supervised.run_id != batch.run_id) {
+    supervised.run_id = batch.run_id;
+    supervised.conditions = conditions_of(supervised.mission);
+  }
+  if (supervised.run_id != batch.run_id) {
+    return;
+  }
+  for (Alert& alert : changed_by(batch.products, desk)) {
+    batch.products.emplace_back(std::move(alert));
+  }
+  for (Alert& alert : desk.book.expire(now)) {
+    batch.products.emplace_back(std::move(alert));
+  }
+}
+
+std::vector<Alert> AlertDesk::changed_by(const std::vector<Product>& products, Desk& desk) {
+  Supervised& supervised = *desk.supervised;
+  std::vector<Alert> alerts;
+  for (const Product& product : products) {
+    const auto changes = std::visit(
+        [&](auto& conditions) { return changes_by(conditions, product); }, supervised.conditions);
+    for (const ConditionChange& change : changes) {
+      if (auto alert = settle(desk.book, change, supervised.run_id, supervised.mission)) {
+        desk.run_of.try_emplace(alert->alert_id, supervised.run_id);
+        alerts.push_back(*std::move(alert));
+      }
+    }
+  }
+  return alerts;
+}
+
+std::vector<OpenAlert> AlertDesk::open() const {
+  const std::lock_guard lock{mutex_};
+  std::vector<OpenAlert> all;
+  for (const auto& [spacecraft, desk] : desks_) {
+    for (Alert& alert : desk.book.open()) {
+      all.push_back({.spacecraft = spacecraft, .alert = std::move(alert)});
+    }
+  }
+  return all;
+}
+
+template <class Do>
+Expected<ArchiveBatch> AlertDesk::with_alert(const std::string& alert_id, const Do& act) {
+  const std::lock_guard lock{mutex_};
+  std::string open;
+  for (auto& [spacecraft, desk] : desks_) {
+    for (const Alert& alert : desk.book.open()) {
+      if (alert.alert_id == alert_id) {
+        return act(desk.book).map([&](Alert&& changed) {
+          ArchiveBatch batch{.run_id = desk.run_of.at(alert_id), .spacecraft_id = spacecraft};
+          batch.products.emplace_back(std::move(changed));
+          return batch;
+        });
+      }
+      open += fmt::format("{}{} ({})", open.empty() ? "" : ", ", alert.alert_id, alert.key);
+    }
+  }
+  return Unexpected{{ErrorCode::InvalidInput, fmt::format("no alert '{}' is open; open: {}",
+                                                          alert_id, open.empty() ? "none" : open)}};
+}
+
+Expected<ArchiveBatch> AlertDesk::acknowledge(const std::string& alert_id, TaiTime now,
+                                              const std::string& by, const std::string& note) {
+  return with_alert(alert_id,
+                    [&](AlertBook& book) { return book.acknowledge(alert_id, now, by, note); });
+}
+
+Expected<ArchiveBatch> AlertDesk::shelve(const std::string& alert_id, TaiTime now, TaiTime until,
+                                         const std::string& by, const std::string& note) {
+  return with_alert(alert_id,
+                    [&](AlertBook& book) { return book.shelve(alert_id, now, until, by, note); });
+}
+
+}  // namespace spindrift

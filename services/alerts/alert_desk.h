@@ -1,0 +1,75 @@
+/// @file
+/// Supervises what a program computes: alerts go to the archive with the products they rest on.
+
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/supervision/alert_book.h"
+#include "pipelines/supervision/attitude_conditions.h"
+#include "pipelines/supervision/spin_conditions.h"
+#include "services/archive/records.h"
+#include "services/mission/mission.h"
+
+namespace spindrift {
+
+struct OpenAlert {
+  std::string spacecraft;
+  Alert alert;
+};
+
+/// Used by any thread.
+class AlertDesk {
+ public:
+  /// @param mode Of the runs it sees: those of other programs through the same archive it does not.
+  AlertDesk(const std::vector<Mission>& missions, RunMode mode);
+  /// Supervises nothing: alerts that are taken up may be changed.
+  AlertDesk() = default;
+
+  /// An alert of before, as the archive has it, in the order in which they were raised.
+  void take_up(const std::string& spacecraft, const std::string& run_id, const Alert& alert);
+
+  /// Adds to `batch` the alerts that its products raise and clear, and those whose shelving is
+  /// over. In the order of computing. @param now Wall clock.
+  void see(ArchiveBatch& batch, TaiTime now);
+
+  /// Of all spacecraft.
+  std::vector<OpenAlert> open() const;
+
+  /// @return what is to be stored; InvalidInput where no such alert is open.
+  Expected<ArchiveBatch> acknowledge(const std::string& alert_id, TaiTime now,
+                                     const std::string& by, const std::string& note);
+  Expected<ArchiveBatch> shelve(const std::string& alert_id, TaiTime now, TaiTime until,
+                                const std::string& by, const std::string& note);
+
+ private:
+  using Conditions = std::variant<SpinConditions, AttitudeConditions>;
+  struct Supervised {
+    Mission mission;
+    Conditions conditions;
+    std::string run_id = {};  ///< Empty: none yet.
+  };
+  struct Desk {
+    std::optional<Supervised> supervised = {};
+    AlertBook book = {};
+    std::map<std::string, std::string> run_of =
+        {};  ///< By open alert, of those taken up and raised.
+  };
+
+  static Conditions conditions_of(const Mission& mission);
+  static std::vector<Alert> changed_by(const std::vector<Product>& products, Desk& desk);
+  template <class Do>
+  Expected<ArchiveBatch> with_alert(const std::string& alert_id, const Do& act);
+
+  RunMode mode_ = RunMode::Process;
+  mutable std::mutex mutex_;
+  std::map<std::string, Desk> desks_;  ///< By spacecraft.
+};
+
+}  // namespace spindrift

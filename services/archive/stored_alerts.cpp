@@ -1,0 +1,43 @@
+#include "services/archive/stored_alerts.h"
+
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Statement.h>
+
+#include "services/archive/connection.h"
+#include "services/products/alert.h"
+
+namespace spindrift {
+namespace {
+
+/// As ProductKind<Alert>::from_row wants it.
+class NamedRow {
+ public:
+  explicit NamedRow(SQLite::Statement& row) : row_{row} {}
+  bool has(const char* column) const { return !row_.getColumn(column).isNull(); }
+  std::int64_t integer(const char* column) const { return row_.getColumn(column).getInt64(); }
+  std::string text(const char* column) const { return row_.getColumn(column).getString(); }
+
+ private:
+  SQLite::Statement& row_;
+};
+
+}  // namespace
+
+Expected<std::vector<StoredAlert>> find_alerts(const std::filesystem::path& archive) {
+  return read_archive(archive, [&](SQLite::Database& database) {
+    SQLite::Statement query{database,
+                            "SELECT alert.*, run.mode FROM alert JOIN run USING (run_id)"
+                            " ORDER BY raised_tai_ns, alert_id"};
+    std::vector<StoredAlert> alerts;
+    while (query.executeStep()) {
+      const NamedRow row{query};
+      alerts.push_back({.run_id = row.text("run_id"),
+                        .spacecraft = row.text("spacecraft_id"),
+                        .of_service = row.text("mode") != "process",
+                        .alert = ProductKind<Alert>::from_row(row)});
+    }
+    return alerts;
+  });
+}
+
+}  // namespace spindrift

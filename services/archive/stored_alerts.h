@@ -1,0 +1,25 @@
+/// @file
+/// The alerts that an archive holds.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/supervision/alert.h"
+
+namespace spindrift {
+
+struct StoredAlert {
+  std::string run_id;
+  std::string spacecraft;
+  bool of_service;  ///< Of a live run or a replay.
+  Alert alert;      ///< Without its last change.
+};
+
+/// In the order in which they were raised. @return As find_stored_passes.
+Expected<std::vector<StoredAlert>> find_alerts(const std::filesystem::path& archive);
+
+}  // namespace spindrift

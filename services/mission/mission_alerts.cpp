@@ -1,0 +1,50 @@
+#include "services/mission/mission_alerts.h"
+
+#include <string>
+
+#include "pipelines/frames/celestial.h"
+#include "services/toml_schema/values.h"
+#include "services/units/degrees.h"
+
+namespace spindrift {
+namespace {
+
+ShareLimit share_limit(const TomlValues& values, const std::string& table) {
+  return {.percent = number(values, table + ".percent"),
+          .revolutions = static_cast<int>(number(values, table + ".revolutions"))};
+}
+
+}  // namespace
+
+AlertLimits alert_limits(const TomlValues& values) {
+  return {
+      .silent_revolutions = static_cast<int>(number(values, "alerts.channel.silent.revolutions")),
+      .period = share_limit(values, "alerts.spin.period"),
+      .rejection = share_limit(values, "alerts.spin.rejection"),
+      .ambiguous_s = number(values, "alerts.spin.ambiguous.seconds"),
+      .doubtful_s = number(values, "alerts.spin.doubtful.seconds"),
+      .sigma_deg = number(values, "alerts.spin.sigma.deg"),
+      .sigma_after_s = number(values, "alerts.spin.sigma.after_s"),
+      .disagree_sigmas = number(values, "alerts.spin.disagree.sigmas"),
+      .off_target_deg = number(values, "alerts.spin.off_target.deg"),
+      .off_target_sigmas = number(values, "alerts.spin.off_target.sigmas"),
+      .nutation_deg = number(values, "alerts.spin.nutation.deg"),
+      .launcher_percent = number(values, "alerts.reconstruction.launcher.percent")};
+}
+
+std::optional<SpinTarget> spin_target(const TomlValues& values) {
+  if (!values.contains("spin.target.ra_deg")) {
+    return std::nullopt;
+  }
+  SpinTarget target{.axis_icrf =
+                        direction_icrf({.ra_rad = radians(values, "spin.target.ra_deg"),
+                                        .dec_rad = radians(values, "spin.target.dec_deg")})};
+  const auto rpm = value_if<double>(values, "spin.target.rpm");
+  const auto tolerance_rpm = value_if<double>(values, "spin.target.tolerance_rpm");
+  if (rpm && tolerance_rpm) {
+    target.rate = {.rad_s = *rpm / kRpmPerRad_s, .tolerance_rad_s = *tolerance_rpm / kRpmPerRad_s};
+  }
+  return target;
+}
+
+}  // namespace spindrift

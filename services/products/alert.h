@@ -1,0 +1,96 @@
+/// @file
+/// An alert as a kind of product: each of its changes is one.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "pipelines/supervision/alert.h"
+#include "services/products/named.h"
+#include "services/products/product_kind.h"
+
+namespace spindrift {
+
+inline std::optional<std::int64_t> tai_ns_if(const std::optional<TaiTime>& t) {
+  return t ? std::optional{tai_ns(*t)} : std::nullopt;
+}
+
+struct AlertTable {
+  static constexpr std::string_view kName = "alert";
+  static constexpr std::array<std::string_view, 2> kKey{"raised_tai_ns", "alert_id"};
+  static constexpr bool kOfSpacecraft = true;
+  static constexpr std::string_view kReplaces = "excluded.revision > revision";
+  static constexpr std::tuple kColumns{
+      ProductColumn{"alert_id", [](const Alert& alert) { return alert.alert_id; }},
+      ProductColumn{"key", [](const Alert& alert) { return alert.key; }},
+      ProductColumn{"severity", [](const Alert& alert) { return name_of(alert.severity); }},
+      ProductColumn{"state", [](const Alert& alert) { return name_of(alert.state); }},
+      ProductColumn{"revision", [](const Alert& alert) { return alert.revision; }},
+      ProductColumn{"raised_tai_ns", [](const Alert& alert) { return tai_ns(alert.raised); }},
+      ProductColumn{"updated_tai_ns", [](const Alert& alert) { return tai_ns(alert.updated); }},
+      ProductColumn{"cleared_tai_ns", [](const Alert& alert) { return tai_ns_if(alert.cleared); }},
+      ProductColumn{"shelved_until_tai_ns",
+                    [](const Alert& alert) { return tai_ns_if(alert.shelved_until); }},
+      ProductColumn{"count", [](const Alert& alert) { return alert.count; }},
+      ProductColumn{"message", [](const Alert& alert) { return alert.message; }},
+      ProductColumn{"evidence", [](const Alert& alert) { return alert.evidence; }}};
+};
+
+struct AlertTransitionTable {
+  static constexpr std::string_view kName = "alert_transition";
+  static constexpr std::array<std::string_view, 3> kKey{"alert_id", "t_tai_ns", "to_state"};
+  static constexpr std::tuple kColumns{
+      ProductColumn{"alert_id", [](const Alert& alert) { return alert.alert_id; }},
+      ProductColumn{"t_tai_ns", [](const Alert& alert) { return tai_ns(alert.updated); }},
+      ProductColumn{"from_state",
+                    [](const Alert& alert) {
+                      return alert.from ? std::optional{name_of(*alert.from)} : std::nullopt;
+                    }},
+      ProductColumn{"to_state", [](const Alert& alert) { return name_of(alert.state); }},
+      ProductColumn{"by", [](const Alert& alert) { return alert.by; }},
+      ProductColumn{"note", [](const Alert& alert) { return alert.note; }}};
+};
+
+template <>
+struct ProductKind<Alert> {
+  static constexpr ProductWeight kWeight = ProductWeight::Result;
+  using Tables = std::tuple<AlertTable, AlertTransitionTable>;
+  static constexpr bool kStays = true;
+
+  static constexpr const char* kTopic = "spindrift/alert";
+  static constexpr bool is_announced(const Alert& /*alert*/) { return true; }
+  static std::string_view instance(const Alert& alert) { return alert.key; }
+  /// Revisions of one alert are fewer than the nanoseconds to the next.
+  static std::int64_t number(const Alert& alert) { return tai_ns(alert.raised) + alert.revision; }
+  static constexpr bool is_settled(const Alert& /*alert*/) { return true; }
+
+  /// Without its last change.
+  template <class Row>
+  static Alert from_row(const Row& row) {
+    Alert alert;
+    alert.alert_id = row.text("alert_id");
+    alert.key = row.text("key");
+    alert.severity = named(row.text("severity"), AlertSeverity::Critical);
+    alert.state = named(row.text("state"), AlertState::Cleared);
+    alert.revision = row.integer("revision");
+    alert.raised = tai_from_ns(row.integer("raised_tai_ns"));
+    alert.updated = tai_from_ns(row.integer("updated_tai_ns"));
+    if (row.has("cleared_tai_ns")) {
+      alert.cleared = tai_from_ns(row.integer("cleared_tai_ns"));
+    }
+    if (row.has("shelved_until_tai_ns")) {
+      alert.shelved_until = tai_from_ns(row.integer("shelved_until_tai_ns"));
+    }
+    alert.count = row.integer("count");
+    alert.message = row.text("message");
+    alert.evidence = row.text("evidence");
+    return alert;
+  }
+};
+
+}  // namespace spindrift

@@ -1,0 +1,74 @@
+#include "services/words/alert_words.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "pipelines/time/utc.h"
+
+namespace spindrift {
+namespace {
+
+struct Words {
+  AlertCode code;
+  std::string_view what;
+  std::string_view to_do;
+};
+
+using enum AlertCode;
+constexpr std::array<Words, kAlertCodes> kWords{{
+    {ChannelSilent, "no edge of the channel, which the axis in force should see",
+     "look at sensor and telemetry link"},
+    {SpinInterference, "edges of two channels spoil each other",
+     "none: they are left out while it lasts"},
+    {SpinPeriod, "share of revolutions with an irrational period",
+     "look at the edges of sun1 and at what was commanded"},
+    {SpinRejection, "share of edges left out", "look at pulse_use.rejected_by"},
+    {SpinAmbiguous, "the answer in force is AMBIGUOUS",
+     "wait for the geometry to turn, or give [spin.prior]"},
+    {SpinDoubtful, "the answer in force is DOUBTFUL",
+     "check mounting angles, noise, horizon and orbit of the mission file"},
+    {SpinSigma, "sigma of the answer in force", "wait, or look which channels give nothing"},
+    {SpinDisagree, "mean and sequential apart, times the larger sigma",
+     "use neither before one of them says why"},
+    {SpinOffTarget, "spin axis away from its target", "check [spin.target] and the manoeuvre"},
+    {SpinNutation, "half-angle of the nutation", "let it decay before the next manoeuvre"},
+    {SpinRate, "spin rate away from its target", "check [spin.target] and the manoeuvre"},
+    {AttitudeLost, "the answer in force is LOST", "do not use it; wait for the next accepted fix"},
+    {ReconstructionLauncher, "attitude at separation away from the launcher's",
+     "check [reconstruction.launcher] and the mounting of star tracker and sun sensor"},
+}};
+
+}  // namespace
+
+std::string sentence_of(const ConditionChange& change) {
+  const Words& words = kWords.at(static_cast<std::size_t>(change.code));
+  const Evidence& evidence = change.evidence;
+  if (change.change == Change::Cleared) {
+    return fmt::format("over at {}", format_utc(change.t));
+  }
+  const std::string sigma =
+      evidence.sigma ? fmt::format(" (sigma {:.3g})", *evidence.sigma) : std::string{};
+  // Of what is raised at once because it is there, the value says nothing.
+  const std::string value = evidence.limit > 0.0
+                                ? fmt::format(": {:.3g} {}{}, limit {:.3g}", evidence.value,
+                                              evidence.unit, sigma, evidence.limit)
+                                : std::string{};
+  return fmt::format("{}{} at {}: {}", words.what, value, format_utc(change.t), words.to_do);
+}
+
+std::string evidence_json(const Evidence& evidence, std::string_view config_sha256) {
+  nlohmann::ordered_json json{{"value", evidence.value},
+                              {"limit", evidence.limit},
+                              {"unit", evidence.unit},
+                              {"since_tai_ns", tai_ns(evidence.since)},
+                              {"samples", {tai_ns(evidence.since), tai_ns(evidence.last)}},
+                              {"config_sha256", config_sha256}};
+  if (evidence.sigma) {
+    json["sigma"] = *evidence.sigma;
+  }
+  return json.dump();
+}
+
+}  // namespace spindrift

@@ -1,0 +1,87 @@
+// What `spindrift process` and `spindrift alerts` say of passes that are not nominal.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/archive_rows.h"
+#include "tests/support/program.h"
+#include "tests/support/recorded_files.h"
+
+namespace spindrift::alerts_test {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::string kOpenKeys = "SELECT key FROM alert WHERE state <> 'cleared' ORDER BY key";
+
+void process(const PassCopy& pass) {
+  Program program{pass.arguments_here()};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+}
+
+/// Of a pass whose target is elsewhere.
+struct OffTarget : PassCopy {
+  OffTarget() : PassCopy{"nominal"} {
+    std::ofstream{folder.path() / "mission.toml", std::ios::app}
+        << "\n[spin.target]\nra_deg = 10.0\ndec_deg = 20.0\n";
+  }
+};
+
+TEST(Alerts, AreNotRaisedByRecordedPassesThatAreWell) {
+  for (const std::string pass : {"nominal", "north-only", "gms5"}) {
+    const PassCopy copy{pass};
+    process(copy);
+    EXPECT_EQ(rows_of(copy.db, "SELECT key FROM alert WHERE severity <> 'info'"),
+              std::vector<std::string>{})
+        << pass;
+  }
+}
+
+TEST(Alerts, NameAChannelThatDiesInTheMidstOfAPass) {
+  const PassCopy pass{"nominal"};
+  std::ifstream whole{kPasses / "nominal" / "pulses.csv"};
+  std::ofstream dead{pass.folder.path() / "pulses.csv"};
+  int rows = 0;
+  for (std::string row; std::getline(whole, row); ++rows) {
+    if (rows < 1800 || row.find("north_in") == std::string::npos) {
+      dead << row << "\n";
+    }
+  }
+  dead.close();
+  process(pass);
+  EXPECT_THAT(rows_of(pass.db, kOpenKeys), ElementsAre("channel.silent:north_in|"));
+}
+
+TEST(Alerts, AreListedAndAcknowledgedByTheirId) {
+  const OffTarget pass;
+  process(pass);
+  EXPECT_THAT(rows_of(pass.db, kOpenKeys), ElementsAre("spin.off_target|"));
+  const std::string id = rows_of(pass.db, "SELECT alert_id FROM alert").front();
+  const auto ask = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "alerts");
+    arguments.insert(arguments.end(), {"--db", pass.db.string()});
+    return arguments;
+  };
+  Program list{ask({})};
+  EXPECT_EQ(list.exit_status(), 0) << list.log();
+  EXPECT_THAT(list.out(), AllOf(HasSubstr("warning active spin.off_target"), HasSubstr("limit")));
+
+  Program unknown{ask({"ack", "none", "--by", "shift", "--note", "seen"})};
+  EXPECT_EQ(unknown.exit_status(), 1);
+  EXPECT_THAT(unknown.log(), HasSubstr("no alert 'none' is open; open: " + id.substr(0, 16)));
+  Program known{ask({"ack", id.substr(0, 16), "--by", "shift", "--note", "seen"})};
+  EXPECT_EQ(known.exit_status(), 0) << known.log();
+  EXPECT_EQ(rows_of(pass.db, "SELECT state, revision FROM alert"),
+            std::vector<std::string>{"acknowledged|2|"});
+  EXPECT_EQ(rows_of(pass.db,
+                    "SELECT from_state, to_state, by, note FROM alert_transition"
+                    " ORDER BY t_tai_ns DESC LIMIT 1"),
+            std::vector<std::string>{"active|acknowledged|shift|seen|"});
+}
+
+}  // namespace spindrift::alerts_test
