@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pipelines/time/utc.h"
-#include "services/archive/stored_alerts.h"
+#include "services/alerts/stored_alerts.h"
 #include "services/clock/wall_clock.h"
 #include "services/products/products.h"
 #include "services/products/to_json.h"

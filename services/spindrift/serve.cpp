@@ -22,8 +22,8 @@
 
 #include "pipelines/time/utc.h"
 #include "services/alerts/alert_desk.h"
+#include "services/alerts/stored_alerts.h"
 #include "services/archive/archive.h"
-#include "services/archive/stored_alerts.h"
 #include "services/archive/stored_results.h"
 #include "services/archive/submit_all.h"
 #include "services/bus/participant.h"

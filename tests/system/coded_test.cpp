@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
@@ -33,12 +34,24 @@ std::vector<std::string> on(const bus::BusConfig& bus, std::vector<std::string> 
 void serve(const std::string& mission, const std::filesystem::path& db,
            const std::vector<std::string>& source) {
   const bus::BusConfig bus = bus_of_its_own();
-  Program service{on(bus, {"serve", "--mission", mission, "--db", db.string()})};
-  ASSERT_TRUE(service.says("ready")) << service.log();
-  Program sending{on(bus, source)};
-  ASSERT_EQ(sending.exit_status(), 0) << sending.log();
-  service.signal(SIGTERM);
-  ASSERT_EQ(service.exit_status(), 0) << service.log();
+  // A stop computes for some seconds only: where other tests have the processors, the next start
+  // goes on.
+  constexpr int kMostStarts = 10;
+  bool sent = false;
+  for (int starts = 0; starts < kMostStarts; ++starts) {
+    Program service{on(bus, {"serve", "--mission", mission, "--db", db.string()})};
+    ASSERT_TRUE(service.says("ready")) << service.log();
+    if (!std::exchange(sent, true)) {
+      Program sending{on(bus, source)};
+      ASSERT_EQ(sending.exit_status(), 0) << sending.log();
+    }
+    service.signal(SIGTERM);
+    ASSERT_EQ(service.exit_status(), 0) << service.log();
+    if (service.log().find("the next start of the service will") == std::string::npos) {
+      return;
+    }
+  }
+  FAIL() << "left uncomputed by " << kMostStarts << " stops";
 }
 
 void process(const std::string& mission, const std::filesystem::path& telemetry,

@@ -1,4 +1,4 @@
-#include "services/archive/stored_alerts.h"
+#include "services/alerts/stored_alerts.h"
 
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>
