@@ -24,6 +24,9 @@
 
 namespace spindrift {
 
+/// What a service says that stopped before it had computed all.
+constexpr const char* kLeftToTheNextStart = "the next start of the service will";
+
 /// A service of its own for one test.
 class Service {
  public:
@@ -71,9 +74,8 @@ class Service {
   int stop_when_computed() {
     constexpr int kMostStops = 10;
     int status = stop_when_at_rest();
-    for (int stops = 1;
-         status == 0 && stops < kMostStops &&
-         program_->log().find("the next start of the service will") != std::string::npos;
+    for (int stops = 1; status == 0 && stops < kMostStops &&
+                        program_->log().find(kLeftToTheNextStart) != std::string::npos;
          ++stops) {
       start();
       status = ready() ? stop_when_at_rest() : -1;
@@ -110,6 +112,26 @@ class Service {
   std::string log_before_;
   int starts_ = 0;
 };
+
+/// `serve` with these arguments, which `send` brings telemetry, until all of it is computed:
+/// started again as Service::stop_when_computed does.
+template <class Send>
+void serve_whole(const std::vector<std::string>& serve, const Send& send) {
+  constexpr int kMostStarts = 10;
+  for (int starts = 0; starts < kMostStarts; ++starts) {
+    Program service{serve};
+    ASSERT_TRUE(service.says("ready")) << service.log();
+    if (starts == 0) {
+      send();
+    }
+    service.signal(SIGTERM);
+    ASSERT_EQ(service.exit_status(), 0) << service.log();
+    if (service.log().find(kLeftToTheNextStart) == std::string::npos) {
+      return;
+    }
+  }
+  FAIL() << "not computed by " << kMostStarts << " starts";
+}
 
 /// The pulses of a recorded pass, by way of an archive.
 inline std::vector<Pulse> pulses_of(const std::string& pass) {

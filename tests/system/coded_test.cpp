@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
@@ -14,6 +13,7 @@
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
 #include "tests/support/program.h"
+#include "tests/support/service.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::coded_test {
@@ -34,24 +34,10 @@ std::vector<std::string> on(const bus::BusConfig& bus, std::vector<std::string> 
 void serve(const std::string& mission, const std::filesystem::path& db,
            const std::vector<std::string>& source) {
   const bus::BusConfig bus = bus_of_its_own();
-  // A stop computes for some seconds only: where other tests have the processors, the next start
-  // goes on.
-  constexpr int kMostStarts = 10;
-  bool sent = false;
-  for (int starts = 0; starts < kMostStarts; ++starts) {
-    Program service{on(bus, {"serve", "--mission", mission, "--db", db.string()})};
-    ASSERT_TRUE(service.says("ready")) << service.log();
-    if (!std::exchange(sent, true)) {
-      Program sending{on(bus, source)};
-      ASSERT_EQ(sending.exit_status(), 0) << sending.log();
-    }
-    service.signal(SIGTERM);
-    ASSERT_EQ(service.exit_status(), 0) << service.log();
-    if (service.log().find("the next start of the service will") == std::string::npos) {
-      return;
-    }
-  }
-  FAIL() << "left uncomputed by " << kMostStarts << " stops";
+  serve_whole(on(bus, {"serve", "--mission", mission, "--db", db.string()}), [&] {
+    Program sending{on(bus, source)};
+    ASSERT_EQ(sending.exit_status(), 0) << sending.log();
+  });
 }
 
 void process(const std::string& mission, const std::filesystem::path& telemetry,

@@ -104,7 +104,7 @@ class ServeLostArchive : public ::testing::Test {
   void send_the_rest_and_expect_the_whole_pass() {
     ASSERT_TRUE(front_end().send_until(1.0));
     EXPECT_TRUE(is_computed()) << log();
-    EXPECT_EQ(service().stop(), 0) << log();
+    EXPECT_EQ(service().stop_when_computed(), 0) << log();
     expect_the_whole_pass();
   }
 
@@ -208,7 +208,7 @@ TEST_P(ServeReplacedArchive, GoesOnWithAllThatItHadWhenTheOtherFileIsMovedAway) 
   EXPECT_TRUE(health_says("not storing", false));
   ASSERT_TRUE(front_end().send_until(1.0));
   EXPECT_TRUE(is_computed()) << log();
-  EXPECT_EQ(service().stop(), 0) << log();
+  EXPECT_EQ(service().stop_when_computed(), 0) << log();
   EXPECT_EQ(text_of(aside(replaced())), content());
   expect_the_whole_pass();
 }

@@ -325,16 +325,15 @@ TEST(Serve, GivesEachOfSeveralMissionsTheRowsOfItsOwnService) {
     return (kPasses / pass / "mission.toml").string();
   };
   const auto db = folder.path() / "all.db";
-  Program service{
-      on_bus({"serve", "--mission", mission(passes[0]), mission(passes[1]), "--db", db.string()})};
-  ASSERT_TRUE(service.says("ready")) << service.log();
-  for (const std::string& pass : passes) {
-    Program replay{on_bus({"replay", "--mission", mission(pass), "--telemetry",
-                           (kPasses / pass).string(), "--speed", "0"})};
-    ASSERT_EQ(replay.exit_status(), 0) << replay.log();
-  }
-  service.signal(SIGTERM);
-  ASSERT_EQ(service.exit_status(), 0) << service.log();
+  serve_whole(
+      on_bus({"serve", "--mission", mission(passes[0]), mission(passes[1]), "--db", db.string()}),
+      [&] {
+        for (const std::string& pass : passes) {
+          Program replay{on_bus({"replay", "--mission", mission(pass), "--telemetry",
+                                 (kPasses / pass).string(), "--speed", "0"})};
+          ASSERT_EQ(replay.exit_status(), 0) << replay.log();
+        }
+      });
 
   for (const std::string& pass : passes) {
     const auto alone = folder.path() / (pass + ".db");
