@@ -1,12 +1,12 @@
 #include "pipelines/supervision/channel_presence.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
+#include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/geometry.h"
 
 namespace spindrift {
@@ -14,10 +14,6 @@ namespace {
 
 constexpr double kToSpare_rad = 1.0 * kRadPerDeg;
 constexpr double kSigmasToSpare = 3.0;
-
-double angle_between(const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
-  return std::atan2(one.cross(other).norm(), one.dot(other));
-}
 
 }  // namespace
 
@@ -73,10 +69,10 @@ bool ChannelPresence::should_see(PulseChannel channel, TaiTime t, const AxisSeen
   }
   const double to_spare_rad = kToSpare_rad + kSigmasToSpare * axis.sigma_rad;
   if (sees_the_sun(channel)) {
-    return angle_between(geometric_sun_icrf_km(t).normalized(), earth_icrf) >
+    return angle_between_rad(geometric_sun_icrf_km(t).normalized(), earth_icrf) >
            *disc_rad + to_spare_rad;
   }
-  const double earth_angle_rad = angle_between(axis.axis_icrf, earth_icrf);
+  const double earth_angle_rad = angle_between_rad(axis.axis_icrf, earth_icrf);
   const auto crosses = [&](double radius_rad) {
     return predict_chord_rad(beam->mount_angle_rad, earth_angle_rad, radius_rad).has_value();
   };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/frames/celestial.h"
 
 namespace spindrift {
 namespace {
@@ -26,7 +27,7 @@ double sigma_deg_of(const SpinEstimate& estimate) {
 }
 
 double degrees_between(const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
-  return std::atan2(one.cross(other).norm(), one.dot(other)) * kDegPerRad;
+  return angle_between_rad(one, other) * kDegPerRad;
 }
 
 }  // namespace

@@ -49,7 +49,14 @@ std::string done_text(const ArchiveBatch& batch) {
   return fmt::format("{} {} {}\n", alert.alert_id, alert.key, name_of(alert.state));
 }
 
+/// Holds the archive before it looks, so that nobody else's word comes between.
 Expected<std::string> changed_here(const AlertsOptions& options) {
+  auto archive = find_alerts(options.db).and_then([&](const auto& /*an archive it is*/) {
+    return Archive::open(options.db, {});
+  });
+  if (!archive) {
+    return Unexpected{archive.error()};
+  }
   const auto stored = find_alerts(options.db);
   if (!stored) {
     return Unexpected{stored.error()};
@@ -60,25 +67,27 @@ Expected<std::string> changed_here(const AlertsOptions& options) {
   }
   auto batch = changed(desk, options.alert_id, options.by, options.note, options.minutes);
   if (!batch) {
-    return Unexpected{batch.error()};
+    return Unexpected{{ErrorCode::InvalidConfiguration, batch.error().message}};
   }
   const std::string text = done_text(*batch);
-  return Archive::open(options.db, {}).and_then([&](std::unique_ptr<Archive>&& archive) {
-    const auto submitted = archive->submit(*std::move(batch));
-    return outcome_of(submitted, archive->close()).map([&] { return text; });
-  });
+  const auto submitted = (*archive)->submit(*std::move(batch));
+  return outcome_of(submitted, (*archive)->close()).map([&] { return text; });
 }
 
 }  // namespace
 
 Expected<void> list_alerts(const AlertsOptions& options) {
   return find_alerts(options.db).map([&](const std::vector<StoredAlert>& alerts) {
+    nlohmann::json all = nlohmann::json::array();
     for (const StoredAlert& stored : alerts) {
       if (options.json) {
-        fmt::print("{}", json_line(to_json(stored)));
+        all.push_back(to_json(stored));
       } else if (stored.alert.state != AlertState::Cleared) {
         fmt::print("{}", to_text(stored));
       }
+    }
+    if (options.json) {
+      fmt::print("{}", json_line({{"alerts", std::move(all)}}));
     }
   });
 }
@@ -96,7 +105,7 @@ Expected<void> change_alert(const AlertsOptions& options) {
     return changed_here(options).map([](const std::string& text) { fmt::print("{}", text); });
   }
   if (const auto error = (**answer).find("error"); error != (**answer).end()) {
-    return Unexpected{{ErrorCode::InvalidInput, error->get<std::string>()}};
+    return Unexpected{{ErrorCode::InvalidConfiguration, error->get<std::string>()}};
   }
   fmt::print("{}", (**answer).value("text", ""));
   return {};

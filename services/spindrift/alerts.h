@@ -24,7 +24,7 @@ struct AlertsOptions {
 
 inline constexpr std::string_view kAlertRequest = "alert";
 
-/// Prints those that are open, and with `json` all, an object a line.
+/// Prints those that are open, and with `json` all, in one object.
 Expected<void> list_alerts(const AlertsOptions& options);
 
 /// Acknowledges or shelves one: by the service that holds the archive, else here.

@@ -278,7 +278,7 @@ void add_alert_change(CLI::App& alerts, Request& request, const char* name, cons
   command.add_option("id", options.alert_id, "Alert, as `spindrift alerts` lists it")->required();
   command.add_option("--by", options.by, "Who says so")->required();
   command.add_option("--note", options.note, "Why")->required();
-  command.add_option("--db", options.db, "Archive")->check(check_path)->required();
+  command.add_option("--db", options.db, "Archive, if not said before")->check(check_path);
   if (std::string_view{name} == "shelve") {
     command.add_option("--minutes", options.minutes, "For so long")
         ->check(CLI::Range(1, 10080))
@@ -287,17 +287,18 @@ void add_alert_change(CLI::App& alerts, Request& request, const char* name, cons
   command.callback([&] { request.run = [&] { return change_alert(request.alerts); }; });
 }
 
+/// The archive may be named before or behind `ack` and `shelve`.
 void add_alerts(CLI::App& app, Request& request) {
   spindrift::AlertsOptions& options = request.alerts;
   CLI::App& command = *app.add_subcommand("alerts", "List the alerts of an archive");
-  CLI::Option* const db =
-      command.add_option("--db", options.db, "Archive; it is only read")->check(check_path);
-  command.add_flag("--json", options.json, "Print all alerts, a JSON object a line");
+  command.add_option("--db", options.db, "Archive")->check(check_path);
+  command.add_flag("--json", options.json,
+                   "Print all alerts, those that are over too, as one JSON object");
   command.require_subcommand(0, 1);
   add_alert_change(command, request, "ack", "Acknowledge an open alert");
   add_alert_change(command, request, "shelve", "Silence an open alert for a while");
-  command.callback([&, db] {
-    if (!request.run && db->empty()) {
+  command.callback([&] {
+    if (request.alerts.db.empty()) {
       throw CLI::RequiredError{"--db"};
     }
     if (!request.run) {

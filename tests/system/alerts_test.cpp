@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -72,9 +73,16 @@ TEST(Alerts, AreListedAndAcknowledgedByTheirId) {
   EXPECT_THAT(list.out(), AllOf(HasSubstr("warning active spin.off_target"), HasSubstr("limit")));
 
   Program unknown{ask({"ack", "none", "--by", "shift", "--note", "seen"})};
-  EXPECT_EQ(unknown.exit_status(), 1);
+  EXPECT_EQ(unknown.exit_status(), 2);
   EXPECT_THAT(unknown.log(), HasSubstr("no alert 'none' is open; open: " + id.substr(0, 16)));
-  Program known{ask({"ack", id.substr(0, 16), "--by", "shift", "--note", "seen"})};
+  Program nowhere{{"alerts", "ack", id.substr(0, 16), "--by", "shift", "--note", "seen"}};
+  EXPECT_EQ(nowhere.exit_status(), 2);
+  EXPECT_THAT(nowhere.log(), HasSubstr("--db is required"));
+  Program listed{ask({"--json"})};
+  EXPECT_EQ(listed.exit_status(), 0) << listed.log();
+  EXPECT_EQ(nlohmann::json::parse(listed.out())["alerts"][0]["state"], "active");
+  Program known{{"alerts", "--db", pass.db.string(), "ack", id.substr(0, 16), "--by", "shift",
+                 "--note", "seen"}};
   EXPECT_EQ(known.exit_status(), 0) << known.log();
   EXPECT_EQ(rows_of(pass.db, "SELECT state, revision FROM alert"),
             std::vector<std::string>{"acknowledged|2|"});
