@@ -6,12 +6,15 @@
 #include <chrono>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <variant>
 
 #include "pipelines/core/shown.h"
 #include "pipelines/ephemeris/oem_writer.h"
+#include "services/input_file/input_file.h"
+#include "services/mission/mission_orbit.h"
 #include "services/scenario/output_file.h"
 #include "services/telemetry_files/telemetry_layout.h"
 #include "services/telemetry_files/telemetry_row.h"
@@ -23,15 +26,37 @@ constexpr std::chrono::seconds kOrbitStep{60};
 constexpr std::chrono::minutes kOrbitMargin{10};
 constexpr std::size_t kBlock = 1U << 20U;
 
-Expected<std::string> orbit_text(const Scenario& scenario) {
-  if (scenario.oem_text) {
-    return *scenario.oem_text;
+/// In blocks: an orbit file may be larger than memory should hold.
+Expected<void> copy_orbit(const std::filesystem::path& from, const std::filesystem::path& to) {
+  auto source = InputFile::open(from, kMostOrbitBytes);
+  auto file = source ? OutputFile::create(to) : Unexpected{std::move(source.error())};
+  if (!file) {
+    return Unexpected{std::move(file.error())};
+  }
+  std::string block(kBlock, '\0');
+  for (;;) {
+    const auto size = source->read(block);
+    if (!size) {
+      return Unexpected{size.error()};
+    }
+    if (*size == 0) {
+      return file->commit();
+    }
+    if (auto written = file->write(std::string_view{block}.substr(0, *size)); !written) {
+      return written;
+    }
+  }
+}
+
+Expected<void> write_orbit(const std::filesystem::path& path, const Scenario& scenario) {
+  if (scenario.oem) {
+    return copy_orbit(*scenario.oem, path);
   }
   const TaiTime start = scenario.start;
   return sampled_orbit(scenario.orbit, start - kOrbitMargin,
                        shifted(start, scenario.duration_s) + kOrbitMargin, kOrbitStep)
-      .map([&](const std::vector<EphemerisPoint>& points) {
-        return oem_text(scenario.spacecraft_id, start, points);
+      .and_then([&](const std::vector<EphemerisPoint>& points) {
+        return write_file(path, oem_text(scenario.spacecraft_id, start, points));
       });
 }
 
@@ -91,10 +116,6 @@ Expected<void> prepare(const std::filesystem::path& folder,
 Expected<std::vector<std::filesystem::path>> write_pass(const std::filesystem::path& folder,
                                                         const Scenario& scenario,
                                                         const SimulatedPass& pass) {
-  const auto orbit = orbit_text(scenario);
-  if (!orbit) {
-    return Unexpected{orbit.error()};
-  }
   std::vector<std::filesystem::path> paths;
   for (const TelemetryKind& kind : pass.kinds) {
     paths.push_back(path_in(folder, kind));
@@ -110,9 +131,10 @@ Expected<std::vector<std::filesystem::path>> write_pass(const std::filesystem::p
           kind);
     });
   }
-  for (const auto& [name, text] : {std::pair{"orbit.oem", &*orbit},
-                                   {"truth.json", &truth},
-                                   {"mission.toml", &pass.mission_toml}}) {
+  paths.push_back(folder / "orbit.oem");
+  written = written.and_then([&] { return write_orbit(paths.back(), scenario); });
+  for (const auto& [name, text] :
+       {std::pair{"truth.json", &truth}, std::pair{"mission.toml", &pass.mission_toml}}) {
     paths.push_back(folder / name);
     written = written.and_then([&, whole = text] { return write_file(paths.back(), *whole); });
   }

@@ -65,12 +65,9 @@ void check_coverage(TomlDocument& document, const Orbit& orbit, std::optional<Ta
   }
 }
 
-/// Of the orbit's file, once that was found good.
-std::optional<std::string> oem_text_of(const TomlDocument& document) {
+std::optional<std::filesystem::path> oem_of(const TomlDocument& document) {
   const auto oem = value_if<std::string>(document.values, "orbit.oem");
-  const auto text = oem ? read_text_file(document.path.parent_path() / *oem, kMostOrbitBytes)
-                        : Expected<std::string>{Unexpected{Error{}}};
-  return text ? std::optional{*text} : std::nullopt;
+  return oem ? std::optional{document.path.parent_path() / *oem} : std::nullopt;
 }
 
 /// Its values by the rules of its kind of spacecraft.
@@ -118,7 +115,7 @@ Expected<Scenario> load_scenario(const std::filesystem::path& path) {
   }
   return Scenario{.spacecraft_id = value_of<std::string>(document->values, "spacecraft.id"),
                   .orbit = std::move(*orbit->orbit),
-                  .oem_text = oem_text_of(*document),
+                  .oem = oem_of(*document),
                   .start = *start,
                   .duration_s = number(document->values, "pass.duration_s"),
                   .flight = flight_of(*document, *start),

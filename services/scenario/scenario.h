@@ -20,7 +20,7 @@ namespace spindrift {
 struct Scenario {
   std::string spacecraft_id;
   Orbit orbit;
-  std::optional<std::string> oem_text;  ///< Of the orbit's file, where it is from one.
+  std::optional<std::filesystem::path> oem;  ///< The orbit's file, where it is from one.
   TaiTime start;
   double duration_s;
   std::variant<SpinScenario, SeparationScenario> flight;  ///< In the order of SpacecraftKind.
