@@ -127,12 +127,14 @@ FROM last JOIN spin_estimate_utc USING (run_id, estimator, t_tai_ns) JOIN run US
 
 -- The answers of a run two by two: apart in degrees and in the larger sigma of the two, since estimators of
 -- the same edges differ by no more than the worse of them errs (Hausman 1978: the variance of the difference
--- from an efficient one is the difference of the variances).
+-- from an efficient one is the difference of the variances). They contradict each other where both claim their
+-- axis and disagree, or both are on the same axis and one says that the other root may be it: no more than one can
+-- be right. An answer that is CONVERGING, DOUBTFUL or LOST claims nothing.
 CREATE VIEW spin_comparison AS
 WITH pair AS (
   SELECT a.run_id, a.spacecraft_id, a.finished, a.estimator AS one, b.estimator AS other,
-    a.ra_deg AS one_ra_deg, a.dec_deg AS one_dec_deg, a.sigma_deg AS one_sigma_deg,
-    b.ra_deg AS other_ra_deg, b.dec_deg AS other_dec_deg, b.sigma_deg AS other_sigma_deg,
+    a.ra_deg AS one_ra_deg, a.dec_deg AS one_dec_deg, a.sigma_deg AS one_sigma_deg, a.quality AS one_quality,
+    b.ra_deg AS other_ra_deg, b.dec_deg AS other_dec_deg, b.sigma_deg AS other_sigma_deg, b.quality AS other_quality,
     degrees(2 * asin(min(1, sqrt(
       pow(sin(radians(a.dec_deg - b.dec_deg) / 2), 2)
       + cos(radians(a.dec_deg)) * cos(radians(b.dec_deg))
@@ -142,7 +144,9 @@ WITH pair AS (
   WHERE (a.estimator = 'mean' AND b.estimator <> 'mean')
     OR (a.estimator = 'sequential' AND b.estimator = 'batch')
 )
-SELECT *, apart_deg / sigma_deg AS apart_sigmas, apart_deg > 3 * sigma_deg AS disagree
+SELECT *, apart_deg / sigma_deg AS apart_sigmas, apart_deg > 3 * sigma_deg AS disagree,
+  one_quality IN ('OK', 'AMBIGUOUS') AND other_quality IN ('OK', 'AMBIGUOUS')
+    AND (apart_deg > 3 * sigma_deg OR one_quality <> other_quality) AS contradict
 FROM pair;
 
 -- The answer of a pass of a three-axis spacecraft: the last attitude of each run, but for those that were
@@ -155,21 +159,29 @@ FROM run JOIN attitude_utc ON attitude_utc.run_id = run.run_id
      AND source NOT IN ('batch', 'sequential') ORDER BY t_tai_ns DESC, source LIMIT 1);
 
 -- One row a run: the answer to report, that of `batch`, where there is none of `sequential`, else of `mean`, or
--- the last attitude, or of a run that only reconstructed a separation the attitude at T1; and whether to act on it: one of a run that failed to compute (run_fault) is DOUBTFUL,
--- unless it is LOST. NULL from estimator to sigma_deg: the run has no answer; quality is then that of the run
--- that failed. A spin axis leaves qx to qw NULL, an attitude ra_deg and dec_deg.
+-- the last attitude, or of a run that only reconstructed a separation the attitude at T1; and whether to act on it:
+-- one of a run that failed to compute (run_fault) is DOUBTFUL, unless it is LOST. One that claims its axis is no
+-- better than the contradictions among the estimators allow: DOUBTFUL where axes disagree, else AMBIGUOUS. NULL from
+-- estimator to sigma_deg: the run has no answer; quality is then that of the run that failed. A spin axis leaves qx
+-- to qw NULL, an attitude ra_deg and dec_deg.
 CREATE VIEW pass_verdict AS
 SELECT run.run_id, run.spacecraft_id, run.started_utc, run.finished_utc IS NOT NULL AS finished,
   coalesce(estimator, source, separation.method) AS estimator,
-  CASE WHEN fault.what IS NULL OR 'LOST' IN (axis.quality, attitude.quality)
-    THEN coalesce(axis.quality, attitude.quality, separation.quality) ELSE 'DOUBTFUL' END AS quality,
+  CASE WHEN 'LOST' IN (axis.quality, attitude.quality) THEN 'LOST'
+    WHEN fault.what IS NOT NULL THEN 'DOUBTFUL'
+    WHEN axis.quality IN ('OK', 'AMBIGUOUS') THEN ifnull(
+      (SELECT CASE WHEN max(disagree) THEN 'DOUBTFUL' ELSE 'AMBIGUOUS' END FROM spin_comparison
+       WHERE spin_comparison.run_id = run.run_id AND contradict HAVING count(*) > 0), axis.quality)
+    ELSE coalesce(axis.quality, attitude.quality, separation.quality) END AS quality,
   ra_deg, dec_deg, ifnull(attitude.qx, event.qx) AS qx, ifnull(attitude.qy, event.qy) AS qy,
   ifnull(attitude.qz, event.qz) AS qz, ifnull(attitude.qw, event.qw) AS qw,
   coalesce(axis.sigma_deg, attitude.sigma_deg, event.sigma_deg) AS sigma_deg,
   ifnull('computing failed' || ifnull(' at ' || fault.utc, '') || ': ' || fault.what || '; ', '')
-    || coalesce(axis.status, attitude.status, separation.status, 'no estimate') || ifnull(
-    (SELECT group_concat('; ' || one || ' and ' || other || ' disagree', '')
-     FROM spin_comparison WHERE spin_comparison.run_id = run.run_id AND disagree), '') AS why
+    || ifnull((SELECT group_concat(
+      CASE WHEN disagree THEN format('%s and %s disagree by %.3f deg, %.1f sigma; ', one, other, apart_deg, apart_sigmas)
+        ELSE format('%s is %s, %s is %s; ', one, one_quality, other, other_quality) END, '')
+      FROM spin_comparison WHERE spin_comparison.run_id = run.run_id AND (disagree OR contradict)), '')
+    || coalesce(axis.status, attitude.status, separation.status, 'no estimate') AS why
 FROM run LEFT JOIN pass_answer AS axis ON axis.run_id = run.run_id AND estimator =
   (SELECT estimator FROM pass_answer WHERE pass_answer.run_id = run.run_id
    ORDER BY CASE estimator WHEN 'batch' THEN 1 WHEN 'sequential' THEN 2 ELSE 3 END LIMIT 1)

@@ -315,6 +315,37 @@ TEST_F(ArchiveProducts, EstimatorsDisagreeBeyondThreeOfTheLargerSigma) {
       ElementsAre("mean batch 3.1000 1", "mean sequential 6.0000 1", "sequential batch 2.9000 0"));
 }
 
+TEST_F(ArchiveProducts, VerdictIsNoBetterThanWhatTheEstimatorsContradictEachOtherIn) {
+  const double sigma_deg = 3e-4 / kRadPerDeg;
+  const auto archive = open();
+  const auto run_of = [&](const std::string& run_id, Quality sequential, double apart_sigmas,
+                          Quality batch_solution) {
+    ArchiveBatch batch = start_of(run_id);
+    SpinEstimate one = estimate_at(1, SpinEstimator::Sequential, apart_sigmas * sigma_deg);
+    SpinEstimate other = estimate_at(1, SpinEstimator::Batch, 0.0);
+    one.assessment.quality = sequential;
+    other.assessment.quality = batch_solution;
+    batch.products = {one, other};
+    ASSERT_TRUE(archive->submit(batch));
+  };
+  run_of("1", Quality::Ok, 2.9, Quality::Ok);
+  run_of("2", Quality::Ok, 3.5, Quality::Ok);
+  run_of("3", Quality::Ambiguous, 1.0, Quality::Ok);
+  run_of("4", Quality::Ambiguous, 3.5, Quality::Ok);
+  run_of("5", Quality::Doubtful, 3.5, Quality::Ok);
+  run_of("6", Quality::Ok, 3.5, Quality::Converging);
+  run_of("7", Quality::Ok, 3.5, Quality::Lost);
+  ASSERT_TRUE(archive->flush());
+
+  SQLite::Database database = reader();
+  EXPECT_THAT(column(database, "SELECT quality FROM pass_verdict ORDER BY run_id"),
+              ElementsAre("OK", "DOUBTFUL", "AMBIGUOUS", "DOUBTFUL", "OK", "CONVERGING", "LOST"));
+  EXPECT_EQ(text("SELECT why FROM pass_verdict WHERE run_id = '2'"),
+            "sequential and batch disagree by 0.060 deg, 3.5 sigma; OK");
+  EXPECT_EQ(text("SELECT why FROM pass_verdict WHERE run_id = '3'"),
+            "sequential is AMBIGUOUS, batch is OK; OK");
+}
+
 TEST_F(ArchiveProducts, UtcOfTheViewsIsThatOfFormatUtc) {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   std::vector<std::int64_t> times_ns;
