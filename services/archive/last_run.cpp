@@ -56,13 +56,4 @@ Expected<std::optional<std::int64_t>> find_last_first_arrival(const std::filesys
   });
 }
 
-Expected<bool> is_finished(const std::filesystem::path& archive, const std::string& run_id) {
-  return read_archive(archive, [&](SQLite::Database& database) {
-    SQLite::Statement query{database,
-                            "SELECT 1 FROM run WHERE run_id = ? AND finished_utc IS NOT NULL"};
-    query.bind(1, run_id);
-    return query.executeStep();
-  });
-}
-
 }  // namespace spindrift

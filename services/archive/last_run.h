@@ -32,7 +32,4 @@ Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& arch
 Expected<std::optional<std::int64_t>> find_last_first_arrival(const std::filesystem::path& archive,
                                                               const std::string& spacecraft_id);
 
-/// Whether the run came to its end: it goes on, or was interrupted or killed, otherwise.
-Expected<bool> is_finished(const std::filesystem::path& archive, const std::string& run_id);
-
 }  // namespace spindrift

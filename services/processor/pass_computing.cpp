@@ -1,8 +1,10 @@
 #include "services/processor/pass_computing.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "pipelines/time/utc.h"
+#include "services/standard_error/warning.h"
 #include "services/words/notice_words.h"
 
 namespace spindrift {
@@ -18,7 +20,10 @@ RunFault fault_of(const std::string& spacecraft_id, const std::string& run_id, T
 
 void say(const std::string& spacecraft_id, const std::vector<Notice>& notices) {
   for (const Notice& notice : notices) {
-    spdlog::warn("{}: {}", spacecraft_id, sentence_of(notice));
+    nlohmann::json values = values_of(notice);
+    values["spacecraft"] = spacecraft_id;
+    warn(name_of(notice.code), std::move(values),
+         fmt::format("{}: {}", spacecraft_id, sentence_of(notice)));
   }
 }
 

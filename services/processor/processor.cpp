@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "services/archive/last_run.h"
+#include "services/standard_error/warning.h"
 
 namespace spindrift {
 namespace {
@@ -121,8 +122,12 @@ Expected<GoneOn> Processor::go_on(const std::filesystem::path& archive, const Mo
         return Unexpected{last.error()};
       }
       if (*last) {
-        spdlog::warn("{}: a new run begins: {}: {}", runs_[i].spacecraft_id(), runs_[i].run_id(),
-                     why_not_continued(**last, runs_[i].start()));
+        const std::string why = why_not_continued(**last, runs_[i].start());
+        warn(
+            "new_run",
+            {{"spacecraft", runs_[i].spacecraft_id()}, {"run_id", runs_[i].run_id()}, {"why", why}},
+            fmt::format("{}: a new run begins: {}: {}", runs_[i].spacecraft_id(), runs_[i].run_id(),
+                        why));
       }
       gone_on.routed.samples.push_back(runs_[i].begin());
     } else {
@@ -269,9 +274,10 @@ std::vector<ArchiveBatch> Processor::finish(std::size_t spacecraft) {
 void Processor::count_other(const std::string& spacecraft, std::int64_t samples) {
   auto& [name, count] = entry_of(other_spacecraft_, spacecraft);
   if (count == 0) {
-    spdlog::warn("samples of {}, which has no mission file here, are left to others",
-                 name == kStillMoreSpacecraft ? "still more spacecraft"
-                                              : fmt::format("spacecraft '{}'", name));
+    warn("other_spacecraft", {{"spacecraft", name}},
+         fmt::format("samples of {}, which has no mission file here, are left to others",
+                     name == kStillMoreSpacecraft ? "still more spacecraft"
+                                                  : fmt::format("spacecraft '{}'", name)));
   }
   count += samples;
 }

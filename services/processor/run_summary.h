@@ -14,7 +14,7 @@
 #include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/types/products.h"
 #include "pipelines/three_axis/products.h"
-#include "services/archive/disagreement.h"
+#include "services/archive/verdict.h"
 #include "services/mission/mission.h"
 #include "services/products/products.h"
 
@@ -48,7 +48,7 @@ struct RunSummary {
   /// @}
   std::vector<Disagreement> disagreements = {};  ///< Likewise from the archive.
   std::vector<RunFault> faults = {};             ///< Likewise.
-  bool finished = true;                          ///< Likewise; not where the run was interrupted.
+  PassVerdict verdict = {};                      ///< Likewise.
 
   void count(const SpinProduct& product);
   void count(const ThreeAxisProduct& product);

@@ -18,6 +18,7 @@
 #include "pipelines/time/utc.h"
 #include "services/clock/wall_clock.h"
 #include "services/processor/version.h"
+#include "services/standard_error/warning.h"
 
 namespace spindrift {
 namespace {
@@ -238,11 +239,17 @@ void SpacecraftRun::follow(const SourceId& successor, Taken& out) {
 void SpacecraftRun::tell_sources(const Moment& moment) {
   for (const SourceWatch::News& news : sources_.take_news()) {
     if (news.healed) {
-      spdlog::warn("{}: source {} agrees with the others again", spacecraft_id_,
-                   named(news.source));
+      warn("source_agrees", {{"spacecraft", spacecraft_id_}, {"source", news.source.name}},
+           fmt::format("{}: source {} agrees with the others again", spacecraft_id_,
+                       named(news.source)));
     } else {
-      spdlog::warn("{}; until it agrees with them, or they are silent",
-                   problem_text(spacecraft_id_, news));
+      warn("source_apart",
+           {{"spacecraft", spacecraft_id_},
+            {"source", news.source.name},
+            {"t_tai_ns", tai_ns(news.t)},
+            {"others_tai_ns", tai_ns(news.pass)}},
+           fmt::format("{}; until it agrees with them, or they are silent",
+                       problem_text(spacecraft_id_, news)));
     }
   }
   const auto pass = sources_.pass_time();
@@ -250,10 +257,14 @@ void SpacecraftRun::tell_sources(const Moment& moment) {
   if (moment.host && pass && carrier && told_host_.size() < SourceWatch::kMostSources &&
       are_apart(*pass, *moment.host, SourceWatch::kHostApart) &&
       told_host_.insert(carrier->name).second) {
-    spdlog::warn(
-        "{}: source {} says {}, and the clock of this host {}: one of them is wrong, or "
-        "what it sends is recorded",
-        spacecraft_id_, named(*carrier), format_utc(*pass), format_utc(*moment.host));
+    warn("source_apart_from_host",
+         {{"spacecraft", spacecraft_id_},
+          {"source", carrier->name},
+          {"t_tai_ns", tai_ns(*pass)},
+          {"host_tai_ns", tai_ns(*moment.host)}},
+         fmt::format("{}: source {} says {}, and the clock of this host {}: one of them is wrong, "
+                     "or what it sends is recorded",
+                     spacecraft_id_, named(*carrier), format_utc(*pass), format_utc(*moment.host)));
   }
 }
 
@@ -291,10 +302,10 @@ void SpacecraftRun::note_earliest(ArchiveBatch& batch) {
 void SpacecraftRun::tell_both() {
   if (!told_both_ && received_.of<Pulse>() > 0 && received_.of<CodedFrame>() > 0) {
     told_both_ = true;
-    spdlog::warn(
-        "{}: both pulses and coded frames arrive: an edge that both give is used as the one that "
-        "comes first",
-        spacecraft_id_);
+    warn("pulses_and_coded_frames", {{"spacecraft", spacecraft_id_}},
+         fmt::format("{}: both pulses and coded frames arrive: an edge that both give is used as "
+                     "the one that comes first",
+                     spacecraft_id_));
   }
 }
 
@@ -314,10 +325,13 @@ void SpacecraftRun::tell_undescribed(const TelemetrySamples& samples) {
       }
     } else if (!tables_.contains(std::string{kSensor})) {
       told = true;
-      spdlog::warn(
-          "{}: {} arrive, and the mission file has no [{}]: they are stored, and nothing is "
-          "computed from them",
-          spacecraft_id_, Telemetry<Value>::kPlural, kSensor);
+      warn("no_sensor",
+           {{"spacecraft", spacecraft_id_},
+            {"samples", Telemetry<Value>::kPlural},
+            {"table", kSensor}},
+           fmt::format("{}: {} arrive, and the mission file has no [{}]: they are stored, and "
+                       "nothing is computed from them",
+                       spacecraft_id_, Telemetry<Value>::kPlural, kSensor));
     }
   });
 }
@@ -328,8 +342,9 @@ SpacecraftRun::Taken SpacecraftRun::finish() {
     follow(*successor, rest);
   }
   if (sources_.held() > 0) {
-    spdlog::warn("{}: {} samples are stored and left out, since their source's time disagrees",
-                 spacecraft_id_, sources_.held());
+    warn("samples_of_source_apart", {{"spacecraft", spacecraft_id_}, {"samples", sources_.held()}},
+         fmt::format("{}: {} samples are stored and left out, since their source's time disagrees",
+                     spacecraft_id_, sources_.held()));
   }
   release_held(rest.inputs);
   return rest;

@@ -1,6 +1,6 @@
 #include "services/processor/spin_run.h"
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,6 +11,7 @@
 
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "services/clock/wall_clock.h"
+#include "services/standard_error/warning.h"
 
 namespace spindrift {
 namespace {
@@ -105,8 +106,10 @@ void SpinRun::settle(std::vector<Product>& products) {
     edges_.keep_last(kLastRevolutions);
   }
   if (edges_.forgot_some()) {
-    spdlog::warn("{}: more edges than the batch solution can hold: it rests on the last {}",
-                 computing_.spacecraft_id(), PassEdges::kMost);
+    warn("batch_edges_forgotten",
+         {{"spacecraft", computing_.spacecraft_id()}, {"edges", PassEdges::kMost}},
+         fmt::format("{}: more edges than the batch solution can hold: it rests on the last {}",
+                     computing_.spacecraft_id(), PassEdges::kMost));
   }
 }
 
@@ -118,8 +121,10 @@ ArchiveBatch SpinRun::finish() {
       summary_.count_solution(*products);
       std::move(products->begin(), products->end(), std::back_inserter(last.products));
     } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {
-      spdlog::warn("{}: no batch solution: {}", computing_.spacecraft_id(),
-                   products.error().message);
+      warn("no_batch_solution",
+           {{"spacecraft", computing_.spacecraft_id()}, {"why", products.error().message}},
+           fmt::format("{}: no batch solution: {}", computing_.spacecraft_id(),
+                       products.error().message));
     }
   }
   last.finished_utc = utc_now();

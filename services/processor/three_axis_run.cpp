@@ -1,7 +1,6 @@
 #include "services/processor/three_axis_run.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <iterator>
 #include <memory>
@@ -10,6 +9,7 @@
 
 #include "services/clock/wall_clock.h"
 #include "services/processor/separation_solving.h"
+#include "services/standard_error/warning.h"
 
 namespace spindrift {
 namespace {
@@ -24,7 +24,8 @@ Expected<std::vector<Product>> products_of(const std::string& spacecraft_id,
     return Unexpected{{ErrorCode::Unobservable, why}};
   }
   if (!why.empty()) {
-    spdlog::warn("{}: no second {}: {}", spacecraft_id, kReconstruction, why);
+    warn("one_reconstruction_only", {{"spacecraft", spacecraft_id}, {"why", why}},
+         fmt::format("{}: no second {}: {}", spacecraft_id, kReconstruction, why));
   }
   return std::vector<Product>{solved.methods.begin(), solved.methods.end()};
 }
@@ -145,8 +146,10 @@ ArchiveBatch ThreeAxisRun::finish() {
       summary_.count_solution(*products);
       std::move(products->begin(), products->end(), std::back_inserter(last.products));
     } else {
-      spdlog::warn("{}: no {}: {}", computing_.spacecraft_id(), kReconstruction,
-                   products.error().message);
+      warn("no_reconstruction",
+           {{"spacecraft", computing_.spacecraft_id()}, {"why", products.error().message}},
+           fmt::format("{}: no {}: {}", computing_.spacecraft_id(), kReconstruction,
+                       products.error().message));
     }
   }
   last.finished_utc = utc_now();

@@ -1,7 +1,6 @@
 #include "services/requests/request_server.h"
 
 #include <poll.h>
-#include <spdlog/spdlog.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -12,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "services/standard_error/warning.h"
 #include "services/words/json_line.h"
 
 namespace spindrift {
@@ -99,7 +99,8 @@ void RequestServer::serve(const Descriptor& caller) const {
   }
   const auto sent = send_all(caller, json_line(answer));
   if (!sent) {
-    spdlog::warn("a request was answered to nobody: {}", sent.error().message);
+    warn("answered_to_nobody", {{"why", sent.error().message}},
+         "a request was answered to nobody: " + sent.error().message);
   }
 }
 

@@ -1,8 +1,8 @@
 #include "services/serving/background_solving.h"
 
+#include <fmt/format.h>
 #include <pthread.h>
 #include <sched.h>
-#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -19,6 +19,8 @@
 #include <utility>
 #include <vector>
 
+#include "services/standard_error/warning.h"
+
 namespace spindrift {
 namespace {
 
@@ -32,8 +34,9 @@ void give_way_to_other_threads() {
   static std::once_flag said;
   if (failed != 0) {
     std::call_once(said, [failed] {
-      spdlog::warn("batch solutions compete with fixes for the processor: {}",
-                   std::generic_category().message(failed));
+      warn("no_idle_priority", {{"errno", failed}},
+           "batch solutions compete with fixes for the processor: " +
+               std::generic_category().message(failed));
     });
   }
 }
@@ -67,8 +70,9 @@ std::optional<Expected<std::vector<Product>>> solve_giving_way(const BackgroundT
 void let_samples_come_first() {
   constexpr int kNice = 10;
   if (setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice) != 0) {
-    spdlog::warn("the backlog competes with samples for the processor: {}",
-                 std::generic_category().message(errno));
+    warn("no_lower_priority", {{"errno", errno}},
+         "the backlog competes with samples for the processor: " +
+             std::generic_category().message(errno));
   }
 }
 
@@ -97,7 +101,8 @@ std::size_t solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& ar
     } else {
       std::string& reason = said[spacecraft];
       if (std::exchange(reason, products->error().message) != products->error().message) {
-        spdlog::warn("{}: no {}: {}", spacecraft, task->what, reason);
+        warn("no_solution", {{"spacecraft", spacecraft}, {"what", task->what}, {"why", reason}},
+             fmt::format("{}: no {}: {}", spacecraft, task->what, reason));
       }
     }
     if (row_count(task->batch) > 0 && !archive.submit(std::move(task->batch))) {
@@ -107,8 +112,9 @@ std::size_t solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& ar
   std::size_t all_left = 0;
   for (const auto& [spacecraft, count] : left) {
     all_left += count;
-    spdlog::warn("{}: {} solution{} not computed yet: the next start of the service will",
-                 spacecraft, count, count == 1 ? " is" : "s are");
+    warn("solutions_not_computed", {{"spacecraft", spacecraft}, {"solutions", count}},
+         fmt::format("{}: {} solution{} not computed yet: the next start of the service will",
+                     spacecraft, count, count == 1 ? " is" : "s are"));
   }
   return all_left;
 }

@@ -1,7 +1,6 @@
 #include "services/spindrift/batch.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "services/spindrift/batch_text.h"
 #include "services/spindrift/orbit_notice.h"
 #include "services/spindrift/summary_text.h"
+#include "services/standard_error/warning.h"
 #include "services/words/json_line.h"
 
 namespace spindrift {
@@ -23,15 +23,21 @@ bool is_same_mission(const StoredEdges& stored, const Mission& mission) {
 
 /// To try another mission is what the command is for, and nobody must do so without knowing.
 void warn_of_another_mission(const StoredEdges& stored, const Mission& mission) {
-  const auto warn = [&](const char* what, const std::string& now, const std::string& then) {
+  const auto compare = [&](const char* what, const std::string& now, const std::string& then) {
     if (now != then) {
-      spdlog::warn("{}: the {} is not that of run {}: sha256 {} here, {} there",
-                   mission.spacecraft_id, what, stored.run_id, now, then);
+      warn("not_of_this_run",
+           {{"spacecraft", mission.spacecraft_id},
+            {"file", what},
+            {"run_id", stored.run_id},
+            {"sha256", now},
+            {"sha256_of_run", then}},
+           fmt::format("{}: the {} is not that of run {}: sha256 {} here, {} there",
+                       mission.spacecraft_id, what, stored.run_id, now, then));
     }
   };
-  warn("mission file", mission.sha256, stored.config_sha256);
-  warn("orbit file", mission.orbit_sha256.value_or("(none)"),
-       stored.orbit_sha256.value_or("(none)"));
+  compare("mission file", mission.sha256, stored.config_sha256);
+  compare("orbit file", mission.orbit_sha256.value_or("(none)"),
+          stored.orbit_sha256.value_or("(none)"));
 }
 
 }  // namespace
@@ -58,7 +64,7 @@ Expected<void> batch(const BatchOptions& options) {
           object.update(to_json(solution));
           object["run_id"] = stored->run_id;
           object["same_mission"] = is_same_mission(*stored, *mission);
-          fmt::print("{}", json_line(object));
+          fmt::print("{}", json_line(with_warnings(object)));
         } else {
           fmt::print("{}  run {}\n{}\n{}", mission->spacecraft_id, stored->run_id,
                      to_text(solution.estimate), to_text(solution));

@@ -1,8 +1,9 @@
 #include "services/spindrift/comparison_notice.h"
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
-#include "services/archive/disagreement.h"
+#include "services/archive/verdict.h"
+#include "services/standard_error/warning.h"
 
 namespace spindrift {
 
@@ -13,12 +14,22 @@ void warn_of_disagreements(const std::filesystem::path& db, std::span<const Arch
     }
     const auto found = find_disagreements(db, batch.run_id);
     if (!found) {
-      spdlog::warn("{}: the estimators of run {} are not compared: {}", batch.spacecraft_id,
-                   batch.run_id, found.error().message);
+      warn("not_compared",
+           {{"spacecraft", batch.spacecraft_id},
+            {"run_id", batch.run_id},
+            {"why", found.error().message}},
+           fmt::format("{}: the estimators of run {} are not compared: {}", batch.spacecraft_id,
+                       batch.run_id, found.error().message));
       continue;
     }
     for (const Disagreement& disagreement : *found) {
-      spdlog::warn("{}: {}", batch.spacecraft_id, sentence_of(disagreement));
+      warn("estimators_disagree",
+           {{"spacecraft", batch.spacecraft_id},
+            {"one", disagreement.one},
+            {"other", disagreement.other},
+            {"apart_deg", disagreement.apart_deg},
+            {"apart_sigmas", disagreement.apart_sigmas}},
+           fmt::format("{}: {}", batch.spacecraft_id, sentence_of(disagreement)));
     }
   }
 }

@@ -22,6 +22,7 @@
 #include "services/plot/scale.h"
 #include "services/scenario/output_file.h"
 #include "services/spindrift/orbit_notice.h"
+#include "services/standard_error/warning.h"
 #include "services/units/degrees.h"
 #include "services/words/json_line.h"
 
@@ -179,7 +180,7 @@ Expected<void> geometry(const GeometryOptions& options) {
     nlohmann::json json = to_json(*pass);
     json["plot"] =
         options.plot.empty() ? nlohmann::json(nullptr) : nlohmann::json(options.plot.string());
-    fmt::print("{}", json_line(json));
+    fmt::print("{}", json_line(with_warnings(json)));
   } else {
     fmt::print("{}", to_text(*pass));
     if (!options.plot.empty()) {

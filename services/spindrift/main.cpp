@@ -42,6 +42,7 @@
 #include "services/spindrift/serve.h"
 #include "services/spindrift/simulate.h"
 #include "services/standard_error/standard_error.h"
+#include "services/standard_error/warning.h"
 #include "services/words/json_line.h"
 
 namespace {
@@ -336,7 +337,7 @@ void tell_failure(const std::string& message, std::span<char* const> arguments) 
   fmt::print(stderr, "spindrift: {}\n", message);
   const auto is_json = [](const char* argument) { return std::string_view{argument} == "--json"; };
   if (std::any_of(arguments.begin(), arguments.end(), is_json)) {
-    fmt::print("{}", spindrift::json_line({{"error", message}}));
+    fmt::print("{}", spindrift::json_line(spindrift::with_warnings({{"error", message}})));
   }
 }
 

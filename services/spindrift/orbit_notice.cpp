@@ -1,14 +1,17 @@
 #include "services/spindrift/orbit_notice.h"
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 #include "pipelines/core/shown.h"
+#include "services/standard_error/warning.h"
 
 namespace spindrift {
 
 void warn_of_orbit(const std::filesystem::path& file, const Mission& mission) {
   for (const std::string& doubt : mission.orbit_doubts) {
-    spdlog::warn("{}: {}", shown(file.string()), doubt);
+    warn("orbit_doubt",
+         {{"spacecraft", mission.spacecraft_id}, {"file", file.string()}, {"why", doubt}},
+         fmt::format("{}: {}", shown(file.string()), doubt));
   }
 }
 

@@ -1,7 +1,6 @@
 #include "services/spindrift/process.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <csignal>
 #include <cstdint>
@@ -22,6 +21,7 @@
 #include "services/spindrift/outcome.h"
 #include "services/spindrift/summary_text.h"
 #include "services/spindrift/telemetry_input.h"
+#include "services/standard_error/warning.h"
 #include "services/words/counted.h"
 
 namespace spindrift {
@@ -73,9 +73,13 @@ void warn_where_no_edge_came(const Processor& processor, std::uint64_t bad_rows)
   }
   for (const RunSummary& summary : processor.summaries()) {
     if (summary.kind == SpacecraftKind::Spin && summary.edges_received == 0) {
-      spdlog::warn("{}: no edge of it in the telemetry, and no axis: {}, {} of other spacecraft",
-                   summary.spacecraft_id, counted(bad_rows, "bad rows"),
-                   counted(others, "samples"));
+      warn("no_edge",
+           {{"spacecraft", summary.spacecraft_id},
+            {"bad_rows", bad_rows},
+            {"samples_of_others", others}},
+           fmt::format(
+               "{}: no edge of it in the telemetry, and no axis: {}, {} of other spacecraft",
+               summary.spacecraft_id, counted(bad_rows, "bad rows"), counted(others, "samples")));
     }
   }
 }
@@ -126,7 +130,7 @@ Expected<bool> process(const ProcessOptions& options) {
     return Unexpected{outcome.error()};
   }
   if (telemetry->bad_rows().count > 0) {
-    spdlog::warn("{}", telemetry->bad_rows().text());
+    warn("bad_rows", {{"rows", telemetry->bad_rows().count}}, telemetry->bad_rows().text());
   }
   warn_where_no_edge_came(*processor, telemetry->bad_rows().count);
   return report(*processor, options.db, options.json).and_then([&](const std::string& text) {

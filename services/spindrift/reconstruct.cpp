@@ -24,6 +24,7 @@
 #include "services/spindrift/orbit_notice.h"
 #include "services/spindrift/outcome.h"
 #include "services/spindrift/telemetry_input.h"
+#include "services/standard_error/warning.h"
 #include "services/words/json_line.h"
 
 namespace spindrift {
@@ -192,7 +193,7 @@ Expected<Shown> made(const ReconstructOptions& options, const StoreIn& store_in)
     return Unexpected{std::move(from.error())};
   }
   if (from->bad_rows.count > 0) {
-    spdlog::warn("{}", from->bad_rows.text());
+    warn("bad_rows", {{"rows", from->bad_rows.count}}, from->bad_rows.text());
   }
   const auto answer = solved(options, *mission, std::move(from->samples));
   if (!answer) {
@@ -269,7 +270,7 @@ Expected<void> print(const ReconstructOptions& options, Shown shown) {
     shown.object["db"] = options.db.string();
     shown.object["plot"] =
         shown.plot.empty() ? nlohmann::json{} : nlohmann::json(options.plot.string());
-    fmt::print("{}", json_line(shown.object));
+    fmt::print("{}", json_line(with_warnings(shown.object)));
     return {};
   }
   fmt::print("{}archive: {}\n", shown.text, options.db.string());

@@ -1,7 +1,6 @@
 #include "services/spindrift/replay.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -11,6 +10,7 @@
 #include "services/progress/progress_bar.h"
 #include "services/spindrift/telemetry_input.h"
 #include "services/spindrift/telemetry_output.h"
+#include "services/standard_error/warning.h"
 #include "services/words/counted.h"
 #include "services/words/json_line.h"
 
@@ -71,7 +71,7 @@ Expected<void> replay(const ReplayOptions& options) {
                      [&](TelemetryOutput& output) { return publish(*telemetry, output); });
   const BadRows& bad = telemetry->bad_rows();
   if (bad.count > 0) {
-    spdlog::warn("{}", bad.text());
+    warn("bad_rows", {{"rows", bad.count}}, bad.text());
   }
   if (!sent) {
     return Unexpected{sent.error()};
@@ -79,7 +79,7 @@ Expected<void> replay(const ReplayOptions& options) {
   if (options.json) {
     nlohmann::json object = sent->json();
     object["input_rejected"] = bad.count;
-    fmt::print("{}", json_line(object));
+    fmt::print("{}", json_line(with_warnings(object)));
   } else {
     fmt::print("{} published, {} left out\n", sent->text(), counted(bad.count, "bad rows"));
   }

@@ -50,6 +50,7 @@
 #include "services/spindrift/outcome.h"
 #include "services/spindrift/reconstruct.h"
 #include "services/spindrift/summary_text.h"
+#include "services/standard_error/warning.h"
 
 namespace spindrift {
 namespace {
@@ -158,9 +159,10 @@ Expected<void> finish(Processor& processor, Archive& archive, const Patience& pa
   const std::size_t spacecraft = processor.spacecraft().size();
   for (std::size_t i = 0; i < spacecraft; ++i) {
     if (patience.ended) {
-      spdlog::warn(
-          "the runs of {} spacecraft are not finished yet: the next start of the service will",
-          spacecraft - i);
+      warn("runs_not_finished", {{"spacecraft", spacecraft - i}},
+           fmt::format("the runs of {} spacecraft are not finished yet: the next start of the "
+                       "service will",
+                       spacecraft - i));
       return {};
     }
     if (auto stored = submit_all(archive, processor.finish(i)); !stored) {
@@ -204,8 +206,10 @@ void route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& 
     return;
   }
   if (computing.samples_left() > 0) {
-    spdlog::warn("{} samples are stored and not computed yet: the next start of the service will",
-                 computing.samples_left());
+    warn("samples_not_computed", {{"samples", computing.samples_left()}},
+         fmt::format("{} samples are stored and not computed yet: the next start of the service "
+                     "will",
+                     computing.samples_left()));
     return;
   }
   failures.note(contained("finishing", [&] { return finish(processor, archive, patience); }));
@@ -311,8 +315,9 @@ Expected<std::unique_ptr<RequestServer>> answer_requests(const std::filesystem::
                : nlohmann::json{{"error", "not known here: do = reconstruct, alert are"}};
   });
   if (!server) {
-    spdlog::warn("`reconstruct` and `alerts ack` have to wait until this service ends: {}",
-                 server.error().message);
+    warn("no_requests", {{"why", server.error().message}},
+         fmt::format("`reconstruct` and `alerts ack` have to wait until this service ends: {}",
+                     server.error().message));
   }
   return server;
 }

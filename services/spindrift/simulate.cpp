@@ -11,6 +11,7 @@
 #include "services/scenario/scenario.h"
 #include "services/scenario/simulated_pass.h"
 #include "services/spindrift/telemetry_output.h"
+#include "services/standard_error/warning.h"
 #include "services/words/counted.h"
 #include "services/words/json_key.h"
 #include "services/words/json_line.h"
@@ -31,7 +32,7 @@ void report(const Scenario& scenario, const SimulatedPass& pass, nlohmann::json 
   if (json) {
     outcome.update(counts_json(pass.made));
     outcome.update({{"spacecraft", scenario.spacecraft_id}, {"faults", counts_json(pass.faults)}});
-    fmt::print("{}", json_line(outcome));
+    fmt::print("{}", json_line(with_warnings(outcome)));
     return;
   }
   std::vector<std::string> made;

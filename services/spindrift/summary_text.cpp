@@ -7,13 +7,14 @@
 
 #include "pipelines/frames/euler312.h"
 #include "pipelines/time/utc.h"
-#include "services/archive/disagreement.h"
 #include "services/archive/last_run.h"
 #include "services/archive/stored_faults.h"
 #include "services/archive/stored_pass.h"
+#include "services/archive/verdict.h"
 #include "services/products/to_json.h"
 #include "services/separation/separation_json.h"
 #include "services/spindrift/batch_text.h"
+#include "services/standard_error/warning.h"
 #include "services/units/decimals.h"
 #include "services/units/degrees.h"
 #include "services/words/assessment_words.h"
@@ -207,6 +208,23 @@ std::string faults_text(const RunSummary& summary) {
   return text;
 }
 
+std::string to_text(const PassVerdict& verdict) {
+  const std::string answer = verdict.estimator.empty()
+                                 ? std::string{}
+                                 : fmt::format("{} by {}: ", verdict.quality, verdict.estimator);
+  return fmt::format("  verdict      {}{}\n", answer, verdict.why);
+}
+
+nlohmann::json to_json(const PassVerdict& verdict) {
+  const auto known = [](const std::string& text) {
+    return text.empty() ? nlohmann::json{} : nlohmann::json(text);
+  };
+  return {{"estimator", known(verdict.estimator)},
+          {"quality", known(verdict.quality)},
+          {"sigma_deg", verdict.sigma_deg ? nlohmann::json(*verdict.sigma_deg) : nlohmann::json{}},
+          {"why", verdict.why}};
+}
+
 nlohmann::json to_json(const RunFault& fault) {
   nlohmann::json object = json_of(fault);
   object["utc"] = format_utc(fault.t);
@@ -242,10 +260,11 @@ nlohmann::json to_json(const SpinEstimate& estimate) { return estimate_json(esti
 
 std::string to_text(const RunSummary& summary) {
   std::string text = fmt::format("{}  run {}{}\n", summary.spacecraft_id, summary.run_id,
-                                 summary.finished ? "" : ", interrupted");
-  if (!summary.finished) {
+                                 summary.verdict.finished ? "" : ", interrupted");
+  if (!summary.verdict.finished) {
     text += "  interrupted  what follows rests on a part of the telemetry\n";
   }
+  text += to_text(summary.verdict);
   if (summary.kind == SpacecraftKind::ThreeAxis) {
     text += "  received     ";
     for (const auto& [plural, count] : summary.samples_received) {
@@ -271,7 +290,8 @@ nlohmann::json to_json(const RunSummary& summary) {
   nlohmann::json json{{"run_id", summary.run_id},
                       {"spacecraft", summary.spacecraft_id},
                       {"kind", name_of(summary.kind)},
-                      {"finished", summary.finished},
+                      {"finished", summary.verdict.finished},
+                      {"verdict", to_json(summary.verdict)},
                       {"samples_received", nlohmann::json::object()},
                       {"edges_received", summary.edges_received},
                       {"edges_stored", summary.edges_stored},
@@ -354,11 +374,11 @@ Expected<std::string> report(const Processor& processor, const std::filesystem::
       return Unexpected{stored.error()};
     }
     summary.edges_stored = *stored;
-    const auto finished = is_finished(db, summary.run_id);
-    if (!finished) {
-      return Unexpected{finished.error()};
+    auto verdict = find_verdict(db, summary.run_id);
+    if (!verdict) {
+      return Unexpected{verdict.error()};
     }
-    summary.finished = *finished;
+    summary.verdict = *std::move(verdict);
     auto faults = find_faults(db, summary.run_id);
     if (!faults) {
       return Unexpected{faults.error()};
@@ -377,7 +397,7 @@ Expected<std::string> report(const Processor& processor, const std::filesystem::
     for (const RunSummary& summary : summaries) {
       object["runs"].push_back(to_json(summary));
     }
-    return json_line(object);
+    return json_line(with_warnings(object));
   }
   std::string text;
   for (const RunSummary& summary : summaries) {

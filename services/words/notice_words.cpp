@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "services/words/filled.h"
@@ -136,6 +138,62 @@ std::string_view what_is_missing(std::int64_t geometry_case) {
 }
 
 }  // namespace
+
+std::string_view name_of(NoticeCode code) {
+  static constexpr std::array<std::string_view, kNoticeCodes> kNames = {
+      "late_edges",
+      "edges_out_of_time",
+      "interference_begins",
+      "interfered",
+      "count_uncertain",
+      "no_period",
+      "edges_left_out",
+      "silent_channels",
+      "channels_without_sensor",
+      "outside_orbit",
+      "range_impossible",
+      "much_outside_orbit",
+      "no_fix",
+      "no_axis",
+      "dispersion_settles",
+      "likelihood_settles",
+      "revolutions_contradict",
+      "fix_contradicts_itself",
+      "healthy_beam_silent",
+      "prior_contradicted",
+      "prior_far",
+      "axis_moved",
+      "mean_never_began",
+      "sequential_never_began",
+      "little_leverage",
+      "not_finite",
+      "ambiguous_no_prior",
+      "ambiguous_near_tangent",
+      "ambiguous_prior_no_help",
+      "ambiguous_against_prior",
+      "ambiguous_far_from_prior",
+      "ambiguous_near_prior",
+      "ambiguous_prior_not_borne",
+      "late_samples",
+      "samples_out_of_time",
+      "attitude_never_began",
+  };
+  return kNames.at(static_cast<std::size_t>(code));
+}
+
+nlohmann::json values_of(const Notice& notice) {
+  nlohmann::json values = nlohmann::json::object();
+  const auto put = [&values](const std::vector<NamedValue>& named) {
+    for (const NamedValue& one : named) {
+      std::visit([&](const auto& is) { values[one.name] = is; }, one.value);
+    }
+  };
+  put(notice.values);
+  if (notice.why) {
+    put(notice.why->values);
+  }
+  return values;
+}
 
 std::string sentence_of(const Notice& notice) {
   constexpr int kMilliseconds = 3;

@@ -23,6 +23,7 @@ struct Outcome {
   nlohmann::json run;  ///< Of the summary.
   std::string log;
   std::filesystem::path db;
+  nlohmann::json warnings = {};
 };
 
 inline Outcome process(const TemporaryFolder& folder, const std::filesystem::path& pass) {
@@ -34,7 +35,8 @@ inline Outcome process(const TemporaryFolder& folder, const std::filesystem::pat
   return {.status = status,
           .run = answer.contains("runs") ? answer["runs"][0] : answer,
           .log = program.log(),
-          .db = db};
+          .db = db,
+          .warnings = answer["warnings"]};
 }
 
 using Replacements = std::vector<std::pair<std::string, std::string>>;

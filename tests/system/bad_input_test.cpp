@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -180,6 +181,13 @@ TEST(OneSensor, AloneGivesNoAxisAndNoBatchSolutionAndSaysWhy) {
     expect_no_axis(outcome);
     EXPECT_THAT(outcome.log, HasSubstr(why)) << sensor;
     EXPECT_THAT(outcome.log, HasSubstr("no batch solution: ")) << sensor;
+    std::set<std::string> codes;
+    for (const auto& warning : outcome.warnings) {
+      codes.insert(warning["code"]);
+      EXPECT_THAT(outcome.log, HasSubstr(warning["text"].get<std::string>()));
+      EXPECT_EQ(warning["values"]["spacecraft"], "SPINNER");
+    }
+    EXPECT_THAT(codes, ::testing::IsSupersetOf({"no_axis", "no_batch_solution"})) << sensor;
     EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM spin_batch"), 0);
   }
 }

@@ -94,6 +94,9 @@ TEST(Process, PrintsWhatItStored) {
     EXPECT_EQ(run[estimator]["ra_deg"], real_of(db, "SELECT ra_deg" + last(estimator)));
     EXPECT_EQ(run[estimator]["t_tai_ns"], number_of(db, "SELECT t_tai_ns" + last(estimator)));
   }
+  EXPECT_EQ(run["verdict"]["quality"].get<std::string>() + "|" +
+                run["verdict"]["why"].get<std::string>() + "|",
+            rows_of(db, "SELECT quality, why FROM pass_verdict").at(0));
   EXPECT_EQ(run["run_id"], rows_of(db, "SELECT run_id FROM run")
                                .at(0)
                                .substr(0, run["run_id"].get<std::string>().size()));

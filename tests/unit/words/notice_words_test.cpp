@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string_view>
+
 namespace spindrift::notice_words_test {
 
 using enum NoticeCode;
@@ -23,6 +26,25 @@ TEST(NoticeWords, SayWhichEdgesAnAmbiguousAxisLacks) {
   EXPECT_EQ(sentence_of({AmbiguousAgainstPrior, {{"geometry_case", std::int64_t{1}}}}),
             "the axis is ambiguous to the end: the edges contradict the prior of the mission "
             "(spin.prior)");
+}
+
+TEST(NoticeWords, NameEachCodeByItself) {
+  std::set<std::string_view> names;
+  for (int i = 0; i < kNoticeCodes; ++i) {
+    names.insert(name_of(static_cast<NoticeCode>(i)));
+  }
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(kNoticeCodes));
+  EXPECT_EQ(name_of(LateEdges), "late_edges");
+  EXPECT_EQ(name_of(MeanNeverBegan), "mean_never_began");
+  EXPECT_EQ(name_of(AttitudeNeverBegan), "attitude_never_began");
+}
+
+TEST(NoticeWords, GiveTheirValuesAndThoseOfWhyThereIsNoFix) {
+  const Notice notice{NoFix,
+                      {{"revolution", std::int64_t{4}}},
+                      WhyNoFix{NoFixCode::SunEarthInLine, {{"sun_earth_deg", 0.5}}}};
+  EXPECT_EQ(values_of(notice), nlohmann::json({{"revolution", 4}, {"sun_earth_deg", 0.5}}));
+  EXPECT_EQ(values_of({LateEdges}), nlohmann::json::object());
 }
 
 TEST(NoticeWords, SayWhatIsNotFinite) {

@@ -1,4 +1,4 @@
-#include "services/archive/disagreement.h"
+#include "services/archive/verdict.h"
 
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>
@@ -6,6 +6,28 @@
 #include "services/archive/connection.h"
 
 namespace spindrift {
+
+Expected<PassVerdict> find_verdict(const std::filesystem::path& archive,
+                                   const std::string& run_id) {
+  return read_archive(archive, [&](SQLite::Database& database) {
+    SQLite::Statement query{
+        database,
+        "SELECT finished, ifnull(estimator, ''), ifnull(quality, ''), sigma_deg,"
+        " why FROM pass_verdict WHERE run_id = ?"};
+    query.bind(1, run_id);
+    PassVerdict verdict;
+    if (query.executeStep()) {
+      verdict = {.finished = query.getColumn(0).getInt() != 0,
+                 .estimator = query.getColumn(1).getString(),
+                 .quality = query.getColumn(2).getString(),
+                 .sigma_deg = query.getColumn(3).isNull()
+                                  ? std::nullopt
+                                  : std::optional{query.getColumn(3).getDouble()},
+                 .why = query.getColumn(4).getString()};
+    }
+    return verdict;
+  });
+}
 
 Expected<std::vector<Disagreement>> find_disagreements(const std::filesystem::path& archive,
                                                        const std::string& run_id) {
