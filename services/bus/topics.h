@@ -7,6 +7,7 @@
 
 // The generated types, named without their header: only an adapter needs to see inside.
 struct spindrift_Health;
+struct spindrift_RehearsalClock;
 
 namespace spindrift::bus {
 
@@ -18,5 +19,6 @@ struct Topic {
 };
 
 extern const Topic<spindrift_Health> kHealthTopic;
+extern const Topic<spindrift_RehearsalClock> kRehearsalClockTopic;
 
 }  // namespace spindrift::bus

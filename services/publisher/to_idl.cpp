@@ -133,6 +133,16 @@ Expected<spindrift_AttitudeEstimate> to_idl(const ResultOrigin& origin,
       .map([&out] { return out; });
 }
 
+Expected<spindrift_RehearsalClock> to_idl(std::string_view spacecraft, const Origin& origin,
+                                          std::chrono::nanoseconds offset) {
+  spindrift_RehearsalClock out{};
+  out.session = origin.session;
+  out.offset_ns = offset.count();
+  return put_name(out.spacecraft, spacecraft, "spacecraft")
+      .and_then([&] { return put_name(out.source, origin.source, "source"); })
+      .map([&out] { return out; });
+}
+
 Expected<spindrift_Alert> to_idl(const ResultOrigin& origin, const Alert& alert) {
   spindrift_Alert out{};
   out.revision = static_cast<std::uint32_t>(alert.revision);

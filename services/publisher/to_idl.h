@@ -9,6 +9,7 @@
 
 #include <spindrift.h>
 
+#include <chrono>
 #include <limits>
 #include <optional>
 #include <span>
@@ -69,6 +70,10 @@ Expected<spindrift_SpinEstimate> to_idl(const ResultOrigin& origin, const SpinEs
 /// Rates that are not estimated are NaN.
 Expected<spindrift_AttitudeEstimate> to_idl(const ResultOrigin& origin,
                                             const AttitudeEstimate& estimate);
+
+/// @param offset Of the host's clock from the time of the telemetry that is due.
+Expected<spindrift_RehearsalClock> to_idl(std::string_view spacecraft, const Origin& origin,
+                                          std::chrono::nanoseconds offset);
 
 /// Points into `alert`, which outlives what it gives.
 Expected<spindrift_Alert> to_idl(const ResultOrigin& origin, const Alert& alert);

@@ -97,12 +97,14 @@ std::variant<SpinScenario, SeparationScenario> flight_of(const TomlDocument& doc
 
 }  // namespace
 
-Expected<Scenario> load_scenario(const std::filesystem::path& path) {
+Expected<Scenario> load_scenario(const std::filesystem::path& path,
+                                 std::optional<TaiTime> other_start) {
   auto document = read_scenario(path);
   if (!document) {
     return Unexpected{std::move(document.error())};
   }
-  const auto start = start_of(*document);
+  const auto own_start = start_of(*document);
+  const auto start = other_start ? other_start : own_start;
   auto orbit = load_orbit(document->values, path.parent_path());
   if (!orbit) {
     add_problem(*document, orbit_key(document->values), std::move(orbit.error().message));

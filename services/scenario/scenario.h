@@ -30,8 +30,10 @@ struct Scenario {
 
 /// Reads a scenario, and the orbit file that it names, by the rules of schemas/scenario.schema.toml
 /// or schemas/separation.schema.toml, and schemas/mission.schema.toml.
+/// @param other_start In the place of the scenario's.
 /// @return InvalidConfiguration with every problem, one a line:
 ///         "FILE:LINE: KEY = VALUE: what is allowed"; the line where one is to blame.
-Expected<Scenario> load_scenario(const std::filesystem::path& path);
+Expected<Scenario> load_scenario(const std::filesystem::path& path,
+                                 std::optional<TaiTime> other_start = {});
 
 }  // namespace spindrift

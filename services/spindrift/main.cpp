@@ -176,8 +176,12 @@ void add_replay(CLI::App& app, Request& request) {
   spindrift::ReplayOptions& options = request.replay;
   CLI::App& command = *app.add_subcommand("replay", "Publish recorded telemetry on DDS");
   add_recording_options(command, options.mission, options.telemetry);
-  command.add_option("--speed", options.speed, "Times real time; 0: as fast as it is taken")
-      ->capture_default_str();
+  CLI::Option* const speed =
+      command.add_option("--speed", options.speed, "Times real time; 0: as fast as it is taken")
+          ->capture_default_str();
+  command
+      .add_flag("--now", options.now, "Rehearse: late and outdated are judged as if it were now")
+      ->excludes(speed);
   add_bus_options(command, options.domain, options.partition);
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] {
@@ -195,9 +199,13 @@ void add_simulate(CLI::App& app, Request& request) {
       ->check(check_path);
   CLI::Option* const publish = where.add_flag("--publish", options.publish, "Onto DDS");
   where.require_option(1);
-  command.add_option("--speed", options.speed, "Times real time; 0: as fast as it is taken")
-      ->capture_default_str()
-      ->needs(publish);
+  CLI::Option* const speed =
+      command.add_option("--speed", options.speed, "Times real time; 0: as fast as it is taken")
+          ->capture_default_str()
+          ->needs(publish);
+  command.add_flag("--now", options.now, "Rehearse: the pass begins now, whatever pass.start says")
+      ->needs(publish)
+      ->excludes(speed);
   add_bus_options(command, options.domain, options.partition);
   command.get_option("--domain")->needs(publish);
   command.get_option("--partition")->needs(publish);

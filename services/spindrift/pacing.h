@@ -21,6 +21,12 @@ class Pacing {
   /// @param speed Times real time; 0: everything is due at once.
   explicit Pacing(double speed) : speed_{speed} {}
 
+  /// As if `t` had been due at `instant`.
+  void begin_at(TaiTime t, Clock::time_point instant) {
+    first_ = t;
+    start_ = instant;
+  }
+
   /// Empty: now, or the time has passed.
   std::optional<Clock::time_point> due(TaiTime t);
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "services/mission/mission.h"
@@ -67,6 +68,7 @@ Expected<void> replay(const ReplayOptions& options) {
       send_telemetry({.bus = {.domain = options.domain, .partition = options.partition},
                       .source = "replay",
                       .speed = options.speed,
+                      .rehearsal = options.now ? std::optional{Rehearsal::OfThePast} : std::nullopt,
                       .kinds = telemetry->kinds()},
                      [&](TelemetryOutput& output) { return publish(*telemetry, output); });
   const BadRows& bad = telemetry->bad_rows();

@@ -16,6 +16,7 @@ struct ReplayOptions {
   std::filesystem::path mission;
   std::vector<std::filesystem::path> telemetry;
   double speed = 1.0;  ///< Times real time; 0: as fast as it is taken.
+  bool now = false;  ///< As if it were of the present: subscribers are told by how much it is not.
   std::uint32_t domain = 0;
   std::string partition = "replay";
   bool json = false;

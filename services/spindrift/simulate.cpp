@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "pipelines/core/shown.h"
+#include "services/clock/wall_clock.h"
 #include "services/progress/progress_bar.h"
 #include "services/scenario/pass_files.h"
 #include "services/scenario/scenario.h"
@@ -80,6 +83,7 @@ Expected<void> to_bus(const SimulateOptions& options, const Scenario& scenario,
       {.bus = {.domain = options.domain, .partition = options.partition},
        .source = "simulate",
        .speed = options.speed,
+       .rehearsal = options.now ? std::optional{Rehearsal::OfThePresent} : std::nullopt,
        .kinds = pass.kinds},
       [&](TelemetryOutput& output) { return publish(scenario, pass.telemetry, output); });
   if (!sent) {
@@ -89,10 +93,13 @@ Expected<void> to_bus(const SimulateOptions& options, const Scenario& scenario,
   return {};
 }
 
+TaiTime next_second() { return std::chrono::ceil<std::chrono::seconds>(tai_now()); }
+
 }  // namespace
 
 Expected<void> simulate(const SimulateOptions& options) {
-  const auto scenario = load_scenario(options.scenario);
+  const auto start = options.now ? std::optional{next_second()} : std::nullopt;
+  const auto scenario = load_scenario(options.scenario, start);
   if (!scenario) {
     return Unexpected{scenario.error()};
   }

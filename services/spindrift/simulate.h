@@ -16,6 +16,7 @@ struct SimulateOptions {
   std::filesystem::path out;  ///< Folder for the files; unless `publish`.
   bool publish = false;
   double speed = 1.0;  ///< Times real time; 0: as fast as it is taken.
+  bool now = false;    ///< The pass is of the present.
   std::uint32_t domain = 0;
   std::string partition = "replay";
   bool json = false;

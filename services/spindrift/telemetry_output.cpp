@@ -10,6 +10,10 @@
 #include <variant>
 
 #include "pipelines/time/utc.h"
+#include "services/bus/qos.h"
+#include "services/bus/topics.h"
+#include "services/clock/wall_clock.h"
+#include "services/publisher/to_idl.h"
 #include "services/serving/stop_signal.h"
 #include "services/words/counted.h"
 #include "services/words/json_key.h"
@@ -173,6 +177,23 @@ PublishedCounts TelemetryOutput::counts() const {
   return counts;
 }
 
+/// In a rehearsal, before the first sample of a spacecraft.
+Expected<void> TelemetryOutput::tell_clock(std::string_view spacecraft, const Origin& origin,
+                                           TaiTime t) {
+  if (!rehearsal_ || told_clock_.contains(spacecraft)) {
+    return {};
+  }
+  if (!offset_) {
+    const TaiTime now = tai_now();
+    offset_ = *rehearsal_ == Rehearsal::OfThePast ? now - t : std::chrono::nanoseconds{0};
+    pacing_.begin_at(t, steady_clock::now() + (t + *offset_ - now));
+  }
+  told_clock_.emplace(spacecraft);
+  return to_idl(spacecraft, origin, *offset_).and_then([&](const spindrift_RehearsalClock& clock) {
+    return clock_->write(clock, stop_);
+  });
+}
+
 /// What is due together goes out packed; nothing that is out waits for what is not due, and of
 /// several topics none falls behind the others until its packet is full.
 void TelemetryOutput::wait_until_due(TaiTime t) {
@@ -205,7 +226,17 @@ Expected<PublishedCounts> send_telemetry(
   if (!publishers) {
     return Unexpected{std::move(publishers.error())};
   }
-  TelemetryOutput output{std::move(*publishers), sending.speed, stop.get_token()};
+  std::optional<bus::Writer<spindrift_RehearsalClock>> clock;
+  if (sending.rehearsal) {
+    auto writer = bus::Writer<spindrift_RehearsalClock>::create(
+        *participant, bus::kRehearsalClockTopic, bus::results_qos());
+    if (!writer) {
+      return Unexpected{std::move(writer.error())};
+    }
+    clock = std::move(*writer);
+  }
+  TelemetryOutput output{std::move(*publishers), sending.speed, stop.get_token(), sending.rehearsal,
+                         std::move(clock)};
   return send(sending, output, feed, stop.get_token()).map([&] { return output.counts(); });
 }
 

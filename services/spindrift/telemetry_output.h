@@ -3,10 +3,12 @@
 
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -44,20 +46,36 @@ using PublisherOfKind = std::optional<TelemetryPublisher<Value>>;
 /// Of those kinds of telemetry that are to be sent.
 using TelemetryPublishers = ByKind<PublisherOfKind>;
 
+/// What a rehearsal's telemetry is of.
+enum class Rehearsal {
+  OfThePast,     ///< Recorded: its first sample is due now, whatever its time.
+  OfThePresent,  ///< Each sample is due when the host's clock says its time.
+};
+
 /// One source on the topics of the telemetry.
 class TelemetryOutput {
  public:
-  TelemetryOutput(TelemetryPublishers publishers, double speed, std::stop_token stop)
-      : publishers_{std::move(publishers)}, pacing_{speed}, stop_{std::move(stop)} {}
+  /// @param clock Of a rehearsal, by which subscribers learn how the telemetry goes.
+  TelemetryOutput(TelemetryPublishers publishers, double speed, std::stop_token stop,
+                  std::optional<Rehearsal> rehearsal = {},
+                  std::optional<bus::Writer<spindrift_RehearsalClock>> clock = {})
+      : publishers_{std::move(publishers)},
+        pacing_{speed},
+        stop_{std::move(stop)},
+        rehearsal_{rehearsal},
+        clock_{std::move(clock)} {}
 
   /// When it is due, and for as long as a subscriber pushes back. Its kind is to be sent.
   /// @return as TelemetryPublisher::publish.
   template <class Value>
   Expected<void> publish(std::string_view spacecraft, const Value& value) {
-    wait_until_due(value.t);
-    return publishers_.of<Value>()->publish(spacecraft, value, stop_).map([&] {
-      reached_ = value.t;
-    });
+    auto& publisher = *publishers_.of<Value>();
+    return tell_clock(spacecraft, publisher.next(), value.t)
+        .and_then([&] {
+          wait_until_due(value.t);
+          return publisher.publish(spacecraft, value, stop_);
+        })
+        .map([&] { reached_ = value.t; });
   }
 
   const TelemetryPublishers& publishers() const { return publishers_; }
@@ -66,20 +84,26 @@ class TelemetryOutput {
   const std::optional<TaiTime>& reached() const { return reached_; }
 
  private:
+  Expected<void> tell_clock(std::string_view spacecraft, const Origin& origin, TaiTime t);
   void wait_until_due(TaiTime t);
 
   TelemetryPublishers publishers_;
   Pacing pacing_;
   std::stop_token stop_;
+  std::optional<Rehearsal> rehearsal_;
+  std::optional<bus::Writer<spindrift_RehearsalClock>> clock_;
+  std::optional<std::chrono::nanoseconds> offset_;  ///< Of the host's clock, in a rehearsal.
+  std::set<std::string, std::less<>> told_clock_;   ///< Spacecraft.
   std::optional<TaiTime> reached_;
   std::optional<TaiTime> flushed_;
 };
 
 struct Sending {
   bus::BusConfig bus;
-  std::string source;                ///< Its name on the bus.
-  double speed;                      ///< Times real time; 0: as fast as it is taken.
-  std::vector<TelemetryKind> kinds;  ///< That will come, for which there must be a subscriber.
+  std::string source;                  ///< Its name on the bus.
+  double speed;                        ///< Times real time; 0: as fast as it is taken.
+  std::optional<Rehearsal> rehearsal;  ///< At speed 1.
+  std::vector<TelemetryKind> kinds;    ///< That will come, for which there must be a subscriber.
 };
 
 /// Waits for a subscriber, lets `feed` publish, waits until everything has arrived. SIGINT and

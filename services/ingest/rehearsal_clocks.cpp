@@ -1,0 +1,39 @@
+#include "services/ingest/rehearsal_clocks.h"
+
+#include <cstddef>
+
+#include "services/bus/qos.h"
+#include "services/bus/topics.h"
+
+namespace spindrift {
+namespace {
+
+// Beyond so many nobody's clock is kept.
+constexpr std::size_t kMostSpacecraft = 4096;
+
+}  // namespace
+
+Expected<RehearsalClocks> RehearsalClocks::create(const bus::Participant& participant) {
+  return bus::Reader<spindrift_RehearsalClock>::create(participant, bus::kRehearsalClockTopic,
+                                                       bus::results_qos())
+      .map([](bus::Reader<spindrift_RehearsalClock>&& reader) {
+        return RehearsalClocks{std::move(reader)};
+      });
+}
+
+Expected<void> RehearsalClocks::look() {
+  const auto note = [&](const spindrift_RehearsalClock& clock) {
+    if (offsets_.size() < kMostSpacecraft || offsets_.contains(clock.spacecraft)) {
+      offsets_.insert_or_assign(clock.spacecraft, std::chrono::nanoseconds{clock.offset_ns});
+    }
+  };
+  return reader_.take(note).map([](std::size_t /*taken*/) {});
+}
+
+std::optional<std::chrono::nanoseconds> RehearsalClocks::offset(
+    const std::string& spacecraft) const {
+  const auto known = offsets_.find(spacecraft);
+  return known == offsets_.end() ? std::nullopt : std::optional{known->second};
+}
+
+}  // namespace spindrift
