@@ -5,6 +5,7 @@
 #include <array>
 
 #include "services/doctor/disk.h"
+#include "services/words/duration.h"
 
 namespace spindrift::doctor {
 namespace {
@@ -34,9 +35,9 @@ Check check_space(const DiskFacts& facts, std::size_t spacecraft) {
   const double bytes_per_hour = kBytesPerRevolution * kFastSpin_rpm * 60.0 *
                                 static_cast<double>(std::max<std::size_t>(spacecraft, 1));
   const double hours = static_cast<double>(facts.free_bytes) / bytes_per_hour;
-  const std::string found =
-      fmt::format("{} MiB free: {:.0f} h of {} spacecraft at {:.0f} rpm", facts.free_bytes >> 20U,
-                  hours, std::max<std::size_t>(spacecraft, 1), kFastSpin_rpm);
+  const std::string found = fmt::format("{} MiB free: {} of {} spacecraft at {:.0f} rpm",
+                                        facts.free_bytes >> 20U, duration_text(hours * 3600.0),
+                                        std::max<std::size_t>(spacecraft, 1), kFastSpin_rpm);
   const std::string advice = "make room, or put the archive on another disk";
   if (hours < kShortPass_h) {
     return failure("disk", found, advice);

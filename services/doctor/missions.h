@@ -24,14 +24,20 @@ struct MissionFacts {
   std::string spacecraft;
   SpacecraftKind kind = SpacecraftKind::Spin;
   std::optional<Coverage> ephemeris;  ///< Absent where the orbit is given otherwise, or not at all.
-  std::string no_orbit_now;           ///< Why there is none at present; empty: there is.
+  std::string no_orbit;               ///< Why there is none somewhere in the pass; empty: there is.
   bool infrared = true;               ///< It has an infrared sensor.
   std::vector<std::string> idle;      ///< Tables of the file that nothing reads.
   std::vector<std::string> orbit_doubts = {};  ///< See mission.h.
 };
 
-MissionFacts mission_facts(const Mission& mission, TaiTime now);
+/// That is to come; without one, the moment of now.
+struct ComingPass {
+  TaiTime from;
+  TaiTime to;
+};
 
-std::vector<Check> check_missions(std::span<const MissionFacts> missions, TaiTime now);
+MissionFacts mission_facts(const Mission& mission, const ComingPass& pass);
+
+std::vector<Check> check_missions(std::span<const MissionFacts> missions, const ComingPass& pass);
 
 }  // namespace spindrift::doctor

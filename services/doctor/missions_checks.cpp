@@ -5,6 +5,7 @@
 
 #include "pipelines/time/utc.h"
 #include "services/doctor/missions.h"
+#include "services/words/duration.h"
 
 namespace spindrift::doctor {
 namespace {
@@ -16,29 +17,28 @@ std::string coverage_text(const Coverage& coverage) {
                      format_utc(coverage.to, 0));
 }
 
-Check check_orbit(const MissionFacts& mission, TaiTime now) {
+Check check_orbit(const MissionFacts& mission, const ComingPass& pass) {
   const std::string name = fmt::format("orbit of {}", mission.spacecraft);
   const std::string coverage =
       mission.ephemeris ? coverage_text(*mission.ephemeris) : "no ephemeris: any time";
-  if (!mission.no_orbit_now.empty()) {
-    return warning(name, fmt::format("{}: {}", coverage, mission.no_orbit_now),
+  if (!mission.no_orbit.empty()) {
+    return warning(name, fmt::format("{}: {}", coverage, mission.no_orbit),
                    "get an ephemeris of the pass: there is no spin axis without the orbit");
   }
   if (!mission.ephemeris) {
     return ok(name, coverage);
   }
-  const double left_s = seconds_between(now, mission.ephemeris->to);
-  const std::string found = fmt::format("{}, another {:.1f} h", coverage, left_s / kHour_s);
-  return left_s < kDay_s ? warning(name, found, "get the next ephemeris now") : ok(name, found);
+  const double left_s = seconds_between(pass.to, mission.ephemeris->to);
+  const bool is_now = pass.from == pass.to;
+  const std::string found = fmt::format("{}, another {}{}", coverage, duration_text(left_s),
+                                        is_now ? "" : " behind the pass");
+  return is_now && left_s < kDay_s ? warning(name, found, "get the next ephemeris now")
+                                   : ok(name, found);
 }
 
 std::vector<Check> check_settings(const MissionFacts& mission) {
   const std::string name = fmt::format("mission {}", mission.spacecraft);
   std::vector<Check> checks;
-  if (mission.kind == SpacecraftKind::ThreeAxis) {
-    checks.push_back(warning(name, "a three-axis stabilised spacecraft",
-                             "its samples are stored; no attitude is computed from them yet"));
-  }
   if (!mission.infrared) {
     checks.push_back(warning(name, "no infrared sensor: the sun angle alone gives no spin axis",
                              "describe the sensors in [spin.ir.north] and [spin.ir.south]"));
@@ -61,7 +61,7 @@ std::vector<Check> check_settings(const MissionFacts& mission) {
 
 }  // namespace
 
-std::vector<Check> check_missions(std::span<const MissionFacts> missions, TaiTime now) {
+std::vector<Check> check_missions(std::span<const MissionFacts> missions, const ComingPass& pass) {
   std::vector<Check> checks;
   std::set<std::string> known;
   for (const MissionFacts& mission : missions) {
@@ -75,7 +75,7 @@ std::vector<Check> check_missions(std::span<const MissionFacts> missions, TaiTim
       checks.push_back(std::move(check));
     }
     if (mission.kind == SpacecraftKind::Spin) {
-      checks.push_back(check_orbit(mission, now));
+      checks.push_back(check_orbit(mission, pass));
     }
   }
   return checks;

@@ -1,5 +1,6 @@
 #include <toml++/toml.h>
 
+#include "pipelines/time/time_span.h"
 #include "services/doctor/missions.h"
 
 namespace spindrift::doctor {
@@ -18,14 +19,27 @@ std::vector<std::string> idle_tables(const Mission& mission) {
   return idle;
 }
 
+/// Holes of an ephemeris that are shorter than this many steps of the pass are not looked for.
+constexpr int kLooks = 1000;
+
+std::string no_orbit_in(const Orbit& orbit, const ComingPass& pass) {
+  for (int i = 0; i <= kLooks; ++i) {
+    const TaiTime t = shifted(pass.from, elapsed_s(pass.from, pass.to) * i / kLooks);
+    if (const auto state = orbit.at(t); !state) {
+      return state.error().message;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
-MissionFacts mission_facts(const Mission& mission, TaiTime now) {
+MissionFacts mission_facts(const Mission& mission, const ComingPass& pass) {
   MissionFacts facts{
       .spacecraft = mission.spacecraft_id,
       .kind = mission.kind(),
       .ephemeris = {},
-      .no_orbit_now = {},
+      .no_orbit = {},
       .infrared = mission.spin() == nullptr || mission.spin()->north || mission.spin()->south,
       .idle = idle_tables(mission),
       .orbit_doubts = mission.orbit_doubts};
@@ -35,9 +49,7 @@ MissionFacts mission_facts(const Mission& mission, TaiTime now) {
   if (const OrbitEphemeris* const ephemeris = mission.orbit->ephemeris()) {
     facts.ephemeris = {.from = ephemeris->usable_from(), .to = ephemeris->usable_to()};
   }
-  if (const auto state = mission.orbit->at(now); !state) {
-    facts.no_orbit_now = state.error().message;
-  }
+  facts.no_orbit = no_orbit_in(*mission.orbit, pass);
   return facts;
 }
 

@@ -73,21 +73,24 @@ Verdict worst_of(std::span<const Check> checks) {
   return worst;
 }
 
-std::string to_text(std::span<const Check> checks) {
+std::string to_text(std::span<const Check> checks, bool verbose) {
   std::size_t name_width = 0;
   for (const Check& check : checks) {
     name_width = std::max(name_width, check.name.size());
   }
   std::string text;
   for (const Check& check : checks) {
-    text += entry(check, name_width);
+    if (verbose || check.verdict != Verdict::Ok) {
+      text += entry(check, name_width);
+    }
   }
   const auto count = [&](Verdict verdict) {
     return std::count_if(checks.begin(), checks.end(),
                          [&](const Check& check) { return check.verdict == verdict; });
   };
-  return text + fmt::format("\n{}, {}\n", counted(count(Verdict::Failure), "failure"),
-                            counted(count(Verdict::Warning), "warning"));
+  return text + fmt::format("{}{}, {}, {} sound\n", text.empty() ? "" : "\n",
+                            counted(count(Verdict::Failure), "failure"),
+                            counted(count(Verdict::Warning), "warning"), count(Verdict::Ok));
 }
 
 std::string to_json(std::span<const Check> checks) {

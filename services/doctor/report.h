@@ -14,7 +14,8 @@ namespace spindrift::doctor {
 Verdict worst_of(std::span<const Check> checks);
 
 /// A list in columns, 100 wide where the words allow it, and a last line that sums it up.
-std::string to_text(std::span<const Check> checks);
+/// @param verbose What is sound, too.
+std::string to_text(std::span<const Check> checks, bool verbose);
 
 /// One object on one line: "verdict", and "checks" of "name", "verdict", "found", "advice".
 std::string to_json(std::span<const Check> checks);

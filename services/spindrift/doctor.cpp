@@ -16,6 +16,7 @@
 #include "services/doctor/presence.h"
 #include "services/doctor/report.h"
 #include "services/mission/mission.h"
+#include "services/spindrift/utc_option.h"
 
 namespace spindrift {
 namespace {
@@ -27,13 +28,30 @@ void append(std::vector<Check>& checks, std::vector<Check> more) {
                 std::make_move_iterator(more.end()));
 }
 
+Expected<doctor::ComingPass> coming_pass(const DoctorOptions& options) {
+  if (options.from.empty()) {
+    const TaiTime now = tai_now();
+    return doctor::ComingPass{.from = now, .to = now};
+  }
+  const auto from = utc_option("--from", options.from);
+  const auto to = utc_option("--to", options.to);
+  if (!from || !to) {
+    return Unexpected{from ? to.error() : from.error()};
+  }
+  if (*from >= *to) {
+    return Unexpected{{ErrorCode::InvalidConfiguration,
+                       fmt::format("--from {} must lie before --to {}", options.from, options.to)}};
+  }
+  return doctor::ComingPass{.from = *from, .to = *to};
+}
+
 Expected<std::vector<doctor::MissionFacts>> look_at_missions(
-    const std::vector<std::filesystem::path>& paths, TaiTime now) {
+    const std::vector<std::filesystem::path>& paths, const doctor::ComingPass& pass) {
   std::vector<doctor::MissionFacts> missions;
   std::string problems;
   for (const std::filesystem::path& path : paths) {
     if (const auto mission = load_mission(path)) {
-      missions.push_back(doctor::mission_facts(*mission, now));
+      missions.push_back(doctor::mission_facts(*mission, pass));
     } else {
       problems += (problems.empty() ? "" : "\n") + mission.error().message;
     }
@@ -72,19 +90,23 @@ std::vector<Check> check_storage(const std::filesystem::path& db, std::size_t sp
 }  // namespace
 
 Expected<bool> run_doctor(const DoctorOptions& options) {
-  const TaiTime now = tai_now();
-  const auto missions = look_at_missions(options.missions, now);
+  const auto pass = coming_pass(options);
+  if (!pass) {
+    return Unexpected{pass.error()};
+  }
+  const auto missions = look_at_missions(options.missions, *pass);
   if (!missions) {
     return Unexpected{missions.error()};
   }
   std::vector<Check> checks = check_bus({.domain = options.domain, .partition = options.partition});
-  append(checks, doctor::check_missions(*missions, now));
+  append(checks, doctor::check_missions(*missions, *pass));
   if (!options.db.empty()) {
     append(checks, check_storage(options.db, missions->size()));
   }
   append(checks, doctor::check_host(doctor::host_facts()));
   checks.push_back(doctor::check_leap_seconds(doctor::leap_facts()));
-  fmt::print("{}", options.json ? doctor::to_json(checks) : doctor::to_text(checks));
+  fmt::print("{}",
+             options.json ? doctor::to_json(checks) : doctor::to_text(checks, options.verbose));
   return doctor::worst_of(checks) != doctor::Verdict::Failure;
 }
 

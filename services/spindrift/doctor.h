@@ -17,11 +17,14 @@ struct DoctorOptions {
   std::filesystem::path db;  ///< Empty: no archive and no disk is looked at.
   std::uint32_t domain = 0;
   std::string partition = "live";
+  std::string from;  ///< Of the coming pass, UTC; empty: the moment of now is judged.
+  std::string to;
+  bool verbose = false;  ///< What is sound, too.
   bool json = false;
 };
 
 /// Prints its findings on standard output. Call it before any thread is started.
-/// @return whether a pass can be taken; InvalidConfiguration when a mission file is bad.
+/// @return whether a pass can be taken; InvalidConfiguration when a mission file or a time is bad.
 Expected<bool> run_doctor(const DoctorOptions& options);
 
 }  // namespace spindrift

@@ -15,13 +15,13 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/time_span.h"
-#include "pipelines/time/utc.h"
 #include "services/geometry/geometry_plot.h"
 #include "services/geometry/geometry_text.h"
 #include "services/mission/mission.h"
 #include "services/plot/scale.h"
 #include "services/scenario/output_file.h"
 #include "services/spindrift/orbit_notice.h"
+#include "services/spindrift/utc_option.h"
 #include "services/standard_error/warning.h"
 #include "services/units/degrees.h"
 #include "services/words/json_line.h"
@@ -48,13 +48,10 @@ struct Problems {
 
 std::optional<TaiTime> utc_of(std::string_view option, const std::string& text,
                               Problems& problems) {
-  const auto t = parse_utc(text);
+  const auto t = utc_option(option, text);
   if (!t) {
-    problems.add(fmt::format("{}: {}", option, t.error().message));
+    problems.add(t.error().message);
     return std::nullopt;
-  }
-  if (!text.ends_with('Z')) {
-    problems.add(fmt::format("{} {}: must be UTC and end in Z", option, text));
   }
   return *t;
 }

@@ -223,6 +223,11 @@ void add_doctor(CLI::App& app, Request& request) {
   command.add_option("--mission", options.missions, "Mission file of each spacecraft")
       ->check(check_path);
   command.add_option("--db", options.db, "Archive of the pass")->check(check_path);
+  CLI::Option* const from = command.add_option(
+      "--from", options.from, "Beginning of the coming pass, UTC; without, now is judged");
+  CLI::Option* const to = command.add_option("--to", options.to, "End, UTC")->needs(from);
+  from->needs(to);
+  command.add_flag("--verbose", options.verbose, "Say what is sound, too");
   add_bus_options(command, options.domain, options.partition);
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] {

@@ -158,6 +158,21 @@ TEST(Doctor, WarnsOfAnEphemerisThatDoesNotReach) {
               HasSubstr("to 2026-11-20T03:12:00Z: no orbit at"));
 }
 
+TEST(Doctor, JudgesForTheComingPass) {
+  const auto judged = [](const std::string& to) {
+    return diagnose(bus_of_its_own(),
+                    {"--mission", kMission, "--from", "2026-11-20T03:00:00Z", "--to", to});
+  };
+  const auto covered = judged("2026-11-20T03:10:00Z");
+  EXPECT_EQ(covered.verdict("orbit of SPINNER"), "ok");
+  EXPECT_THAT(covered.found("orbit of SPINNER"), HasSubstr("another 2 min behind the pass"));
+  EXPECT_EQ(judged("2026-11-20T03:13:00Z").verdict("orbit of SPINNER"), "warning");
+  EXPECT_EQ((Program{{"doctor", "--from", "2026-11-20T03:00:00Z"}}.exit_status()), 2);
+  EXPECT_EQ(
+      (Program{{"doctor", "--from", "2026-11-20T03:00:00Z", "--to", "2026-11-20"}}.exit_status()),
+      2);
+}
+
 TEST(Doctor, FailsOnTwoMissionsOfOneSpacecraft) {
   const auto diagnosis = diagnose(bus_of_its_own(), {"--mission", kMission, kMission});
   EXPECT_EQ(diagnosis.status, 1);

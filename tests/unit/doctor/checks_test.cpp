@@ -124,13 +124,13 @@ MissionFacts spinner(std::chrono::seconds left) {
   return {.spacecraft = "SPINNER",
           .kind = SpacecraftKind::Spin,
           .ephemeris = Coverage{.from = kNow - 1h, .to = kNow + left},
-          .no_orbit_now = {},
+          .no_orbit = {},
           .infrared = true,
           .idle = {}};
 }
 
 std::vector<Check> check_one(const MissionFacts& mission) {
-  return check_missions(std::vector{mission}, kNow);
+  return check_missions(std::vector{mission}, {kNow, kNow});
 }
 
 TEST(DoctorMissions, WarnsWhenTheEphemerisEndsWithinADay) {
@@ -138,13 +138,13 @@ TEST(DoctorMissions, WarnsWhenTheEphemerisEndsWithinADay) {
   const auto checks = check_one(spinner(24h - 1s));
   EXPECT_EQ(named(checks, "orbit of SPINNER").verdict, Verdict::Warning);
   EXPECT_THAT(named(checks, "orbit of SPINNER").found,
-              HasSubstr("from 2026-11-20T02:00:00Z to 2026-11-21T02:59:59Z, another 24.0 h"));
+              HasSubstr("from 2026-11-20T02:00:00Z to 2026-11-21T02:59:59Z, another 1 day"));
   expect_advice(checks);
 }
 
 TEST(DoctorMissions, WarnsWhenThereIsNoOrbitNow) {
   MissionFacts facts = spinner(48h);
-  facts.no_orbit_now = "3 s before the ephemeris begins";
+  facts.no_orbit = "3 s before the ephemeris begins";
   const Check orbit = named(check_one(facts), "orbit of SPINNER");
   EXPECT_EQ(orbit.verdict, Verdict::Warning);
   EXPECT_THAT(orbit.found, HasSubstr("3 s before the ephemeris begins"));
@@ -157,7 +157,7 @@ TEST(DoctorMissions, TakesElementsForAnyTime) {
 }
 
 TEST(DoctorMissions, FailsOnASpacecraftDescribedTwice) {
-  const auto checks = check_missions(std::vector{spinner(48h), spinner(48h)}, kNow);
+  const auto checks = check_missions(std::vector{spinner(48h), spinner(48h)}, {kNow, kNow});
   EXPECT_EQ(worst_of(checks), Verdict::Failure);
   expect_advice(checks);
 }
@@ -169,9 +169,14 @@ TEST(DoctorMissions, WarnsOfWhatHasNoEffect) {
   facts.idle.clear();
   facts.infrared = false;
   EXPECT_EQ(named(check_one(facts), "mission SPINNER").verdict, Verdict::Warning);
-  facts.infrared = true;
-  facts.kind = SpacecraftKind::ThreeAxis;
-  EXPECT_EQ(named(check_one(facts), "mission SPINNER").verdict, Verdict::Warning);
+}
+
+TEST(DoctorMissions, AsksTheOrbitOfAComingPassToReachItsEndOnly) {
+  const auto judged = [](TaiTime to) {
+    return named(check_missions(std::vector{spinner(2h)}, {kNow, to}), "orbit of SPINNER");
+  };
+  EXPECT_EQ(judged(kNow + 1h).verdict, Verdict::Ok);
+  EXPECT_THAT(judged(kNow + 1h).found, HasSubstr("another 1 h behind the pass"));
 }
 
 TEST(DoctorMissions, WarnsOfAnOrbitThatMayBeThatOfAnother) {
@@ -293,20 +298,26 @@ TEST(DoctorReport, AlignsItsColumnsAndBreaksLongLines) {
       ok("disk", "fine"),
       warning("a long name", std::string(40, 'a') + ' ' + std::string(40, 'b') + "\nsecond",
               "do it")};
-  EXPECT_EQ(to_text(checks),
+  EXPECT_EQ(to_text(checks, true),
             "ok       disk         fine\n"
             "WARNING  a long name  " +
                 std::string(40, 'a') + "\n" + "                        " + std::string(40, 'b') +
                 "\n" +
                 "                      second\n"
                 "                      -> do it\n"
-                "\n0 failures, 1 warning\n");
+                "\n0 failures, 1 warning, 1 sound\n");
+}
+
+TEST(DoctorReport, SaysOnlyWhatItFoundUnlessAskedForMore) {
+  EXPECT_EQ(to_text(std::vector{ok("disk", "fine")}, false), "0 failures, 0 warnings, 1 sound\n");
+  EXPECT_EQ(to_text(std::vector{ok("disk", "fine"), failure("clock", "wrong", "")}, false),
+            "FAILURE  clock  wrong\n\n1 failure, 0 warnings, 1 sound\n");
 }
 
 TEST(DoctorReport, LeavesAWordLongerThanALineWhole) {
   const std::string word(200, 'x');
-  EXPECT_THAT(to_text(std::vector{ok("n", word)}), HasSubstr(word));
-  EXPECT_THAT(to_text(std::vector{ok("n", word + " y " + word)}), HasSubstr(word + "\n"));
+  EXPECT_THAT(to_text(std::vector{ok("n", word)}, true), HasSubstr(word));
+  EXPECT_THAT(to_text(std::vector{ok("n", word + " y " + word)}, true), HasSubstr(word + "\n"));
 }
 
 TEST(DoctorReport, GivesTheWorstVerdict) {
