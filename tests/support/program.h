@@ -29,9 +29,14 @@ class Program {
   /// @param log Likewise its standard error, and `log()`.
   explicit Program(std::vector<std::string> arguments, int largest_file_kib = 0,
                    const std::string& out = "", const std::string& log = "")
+      : Program{spindrift_program(), std::move(arguments), largest_file_kib, out, log} {}
+
+  /// Another program.
+  Program(const std::filesystem::path& program, std::vector<std::string> arguments,
+          int largest_file_kib = 0, const std::string& out = "", const std::string& log = "")
       : out_path_{out.empty() ? (folder_.path() / "out").string() : out},
         log_path_{log.empty() ? (folder_.path() / "log").string() : log} {
-    arguments.insert(arguments.begin(), {spindrift_program().string()});
+    arguments.insert(arguments.begin(), {program.string()});
     if (largest_file_kib > 0) {
       const std::string limit = "ulimit -f " + std::to_string(largest_file_kib);
       arguments.insert(arguments.begin(), {"/bin/bash", "-c", limit + "; exec \"$@\"", "bash"});

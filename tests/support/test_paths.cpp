@@ -12,6 +12,7 @@ std::filesystem::path scenarios() { return source_folder() / "deploy" / "scenari
 
 std::filesystem::path spindrift_program() { return SPINDRIFT_PROGRAM; }
 
+std::filesystem::path example_program() { return SPINDRIFT_EXAMPLE; }
 std::filesystem::path foreign_writer_program() { return SPINDRIFT_BUS_FOREIGN_WRITER; }
 
 bool is_sanitized() { return SPINDRIFT_SANITIZED != 0; }

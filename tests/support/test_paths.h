@@ -16,6 +16,8 @@ std::filesystem::path recorded_passes();
 std::filesystem::path scenarios();
 /// The program under test.
 std::filesystem::path spindrift_program();
+/// The example of a subscriber (idl/examples).
+std::filesystem::path example_program();
 /// A writer of telemetry in another process (support/bus_foreign_writer.cpp).
 std::filesystem::path foreign_writer_program();
 /// Whether a sanitizer is built into that program.

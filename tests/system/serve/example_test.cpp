@@ -1,0 +1,42 @@
+// The example of a subscriber that clients begin with, beside the real service.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <string>
+
+#include "tests/support/archive_rows.h"
+#include "tests/support/service.h"
+
+namespace spindrift::example_test {
+
+using ::testing::HasSubstr;
+
+TEST(Example, FollowsTheAnswersAndTheHealthOfAPass) {
+  Service service{"nominal"};
+  ASSERT_TRUE(service.ready());
+  const std::string loopback =
+      "CYCLONEDDS_URI=file://" + (source_folder() / "deploy/cyclonedds/loopback.xml").string();
+  Program follow{
+      "/usr/bin/env",
+      {loopback, example_program(), std::to_string(service.bus().domain), service.bus().partition}};
+  ASSERT_EQ(service.replay("0"), 0);
+  EXPECT_TRUE(eventually([&] {
+    return follow.out().find("estimate SPINNER sequential t_tai_ns=") != std::string::npos &&
+           follow.out().find("health spindrift ") != std::string::npos;
+  })) << follow.out()
+      << follow.log();
+  ASSERT_EQ(service.stop_when_computed(), 0);
+  follow.signal(SIGTERM);
+  EXPECT_EQ(follow.exit_status(), 0);
+  EXPECT_EQ(follow.log(), "");
+}
+
+TEST(Example, DoesNotStartWithoutANetworkConfiguration) {
+  Program follow{"/usr/bin/env", {"-u", "CYCLONEDDS_URI", example_program(), "0", "live"}};
+  EXPECT_EQ(follow.exit_status(), 2);
+  EXPECT_THAT(follow.log(), HasSubstr("CYCLONEDDS_URI"));
+}
+
+}  // namespace spindrift::example_test
