@@ -168,6 +168,8 @@ void add_serve(CLI::App& app, Request& request) {
       ->required();
   add_archive_option(command, options.db);
   add_bus_options(command, options.domain, options.partition);
+  command.add_option("--webhook", options.webhook,
+                     "Alertmanager to tell the alerts: http://127.0.0.1:9093/api/v2/alerts");
   command.add_flag("--json", options.json, "Print one JSON object at the end");
   command.callback([&] { request.run = [&] { return serve(request.serve); }; });
 }

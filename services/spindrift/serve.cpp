@@ -20,6 +20,7 @@
 #include <utility>
 #include <variant>
 
+#include "pipelines/core/shown.h"
 #include "pipelines/time/utc.h"
 #include "services/alerts/alert_desk.h"
 #include "services/alerts/stored_alerts.h"
@@ -51,6 +52,7 @@
 #include "services/spindrift/reconstruct.h"
 #include "services/spindrift/summary_text.h"
 #include "services/standard_error/warning.h"
+#include "services/webhook/webhook.h"
 
 namespace spindrift {
 namespace {
@@ -337,6 +339,19 @@ Expected<Processor> make_processor(const ServeOptions& options,
                                                     options.partition)}});
 }
 
+/// None of a rehearsal: its alerts must not wake anybody.
+Expected<std::unique_ptr<Webhook>> start_webhook(const ServeOptions& options,
+                                                 const AlertDesk& desk) {
+  if (options.webhook.empty()) {
+    return nullptr;
+  }
+  if (mode_of(options) != RunMode::Live) {
+    spdlog::info("a rehearsal: nothing is told to {}", shown(options.webhook));
+    return nullptr;
+  }
+  return Webhook::start(options.webhook, desk, service_name());
+}
+
 void note_faults(std::span<const ArchiveBatch> stored, Problems& problems) {
   for (const ArchiveBatch& batch : stored) {
     for (const Product& product : batch.products) {
@@ -432,6 +447,10 @@ Expected<void> serve(const ServeOptions& options) {
   Problems problems;
   Announcer announcer{*publisher, failures};
   AlertDesk desk{*missions, mode_of(options)};
+  const auto webhook = start_webhook(options, desk);
+  if (!webhook) {
+    return Unexpected{webhook.error()};
+  }
   const auto opened = open_archive(options.db, desk, announcer, problems, failures);
   if (!opened) {
     return Unexpected{opened.error()};

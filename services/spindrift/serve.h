@@ -17,6 +17,7 @@ struct ServeOptions {
   std::filesystem::path db;
   std::uint32_t domain = 0;
   std::string partition = "live";
+  std::string webhook;  ///< URL of an Alertmanager that is told the alerts; empty: none.
   bool json = false;
 };
 

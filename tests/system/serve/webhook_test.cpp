@@ -1,0 +1,165 @@
+// `serve --webhook`: alerts of a live service, and none of a rehearsal, to an Alertmanager.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <boost/asio.hpp>
+#include <boost/beast.hpp>
+#include <csignal>
+#include <fstream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/archive_rows.h"
+#include "tests/support/service.h"
+
+namespace spindrift::webhook_test {
+
+namespace http = boost::beast::http;
+using ::testing::HasSubstr;
+
+/// Takes what is posted to it.
+class Receiver {
+ public:
+  explicit Receiver(http::status answer = http::status::ok)
+      : answer_{answer}, thread_{[this] { run(); }} {}
+  ~Receiver() {
+    stopping_ = true;
+    boost::asio::ip::tcp::socket last{context_};
+    boost::system::error_code ignored;
+    last.connect(acceptor_.local_endpoint(), ignored);
+    thread_.join();
+  }
+  Receiver(const Receiver&) = delete;
+  Receiver& operator=(const Receiver&) = delete;
+  Receiver(Receiver&&) = delete;
+  Receiver& operator=(Receiver&&) = delete;
+
+  std::string url() const {
+    return "http://127.0.0.1:" + std::to_string(acceptor_.local_endpoint().port()) +
+           "/api/v2/alerts";
+  }
+  std::vector<nlohmann::json> alerts() const {
+    const std::lock_guard lock{mutex_};
+    return alerts_;
+  }
+
+ private:
+  void run() {
+    while (true) {
+      boost::asio::ip::tcp::socket socket = acceptor_.accept();
+      if (stopping_) {
+        return;
+      }
+      boost::beast::flat_buffer buffer;
+      http::request<http::string_body> request;
+      http::read(socket, buffer, request);
+      {
+        const std::lock_guard lock{mutex_};
+        for (const auto& alert : nlohmann::json::parse(request.body())) {
+          alerts_.push_back(alert);
+        }
+      }
+      http::response<http::empty_body> response{answer_, request.version()};
+      response.prepare_payload();
+      http::write(socket, response);
+    }
+  }
+
+  http::status answer_;
+  boost::asio::io_context context_;
+  boost::asio::ip::tcp::acceptor acceptor_{context_,
+                                           {boost::asio::ip::make_address("127.0.0.1"), 0}};
+  mutable std::mutex mutex_;
+  std::vector<nlohmann::json> alerts_;
+  std::atomic<bool> stopping_ = false;
+  std::thread thread_;
+};
+
+/// A service of its own, and a pass of which the target is elsewhere.
+struct Told {
+  PassCopy pass{"nominal"};
+  bus::BusConfig bus{bus_of_its_own()};
+  std::filesystem::path db{pass.folder.path() / "served.db"};
+  Program service;
+
+  Told(const std::string& url, const std::string& partition) : service{arguments(url, partition)} {}
+
+  std::vector<std::string> arguments(const std::string& url, const std::string& partition) {
+    std::ofstream{pass.folder.path() / "mission.toml", std::ios::app}
+        << "\n[spin.target]\nra_deg = 10.0\ndec_deg = 20.0\n";
+    bus.partition = partition;
+    return {"serve",
+            "--mission",
+            (pass.folder.path() / "mission.toml").string(),
+            "--db",
+            db.string(),
+            "--domain",
+            std::to_string(bus.domain),
+            "--partition",
+            partition,
+            "--webhook",
+            url};
+  }
+
+  void send_pass() const {
+    FrontEnd front_end{bus, "SPINNER", pulses_of("nominal")};
+    ASSERT_TRUE(front_end.send_until(1.0));
+    ASSERT_TRUE(eventually([&] {
+      return number_of(db, "SELECT count(*) FROM alert WHERE key = 'spin.off_target'") == 1;
+    })) << service.log();
+  }
+};
+
+bool tells_off_target(const Receiver& receiver) {
+  const auto alerts = receiver.alerts();
+  return std::any_of(alerts.begin(), alerts.end(), [](const nlohmann::json& alert) {
+    return alert["labels"]["alertname"] == "spin.off_target" &&
+           alert["labels"]["spacecraft"] == "SPINNER";
+  });
+}
+
+TEST(Webhook, IsToldOfTheAlertsOfALiveService) {
+  const Receiver receiver;
+  Told told{receiver.url(), "live"};
+  ASSERT_TRUE(told.service.says("ready")) << told.service.log();
+  told.send_pass();
+  EXPECT_TRUE(eventually([&] { return tells_off_target(receiver); })) << told.service.log();
+  told.service.signal(SIGTERM);
+  EXPECT_EQ(told.service.exit_status(), 0);
+}
+
+TEST(Webhook, IsToldNothingOfARehearsal) {
+  const Receiver receiver;
+  Told told{receiver.url(), "replay"};
+  ASSERT_TRUE(told.service.says("ready")) << told.service.log();
+  EXPECT_THAT(told.service.log(), HasSubstr("a rehearsal: nothing is told to " + receiver.url()));
+  told.send_pass();
+  told.service.signal(SIGTERM);
+  EXPECT_EQ(told.service.exit_status(), 0);
+  EXPECT_TRUE(receiver.alerts().empty());
+}
+
+TEST(Webhook, ThatRefusesIsSaidAndHoldsNobodyUp) {
+  const Receiver receiver{http::status::internal_server_error};
+  Told told{receiver.url(), "live"};
+  ASSERT_TRUE(told.service.says("ready")) << told.service.log();
+  told.send_pass();
+  EXPECT_TRUE(told.service.says("does not take them: it answers with status 500"))
+      << told.service.log();
+  told.service.signal(SIGTERM);
+  EXPECT_EQ(told.service.exit_status(), 0);
+}
+
+TEST(Webhook, IsAUrl) {
+  Told told{"localhost", "live"};
+  EXPECT_EQ(told.service.exit_status(), 2);
+  EXPECT_THAT(told.service.log(), HasSubstr("--webhook localhost: must be a URL"));
+}
+
+}  // namespace spindrift::webhook_test
