@@ -10,10 +10,11 @@
 #include <vector>
 
 #include "pipelines/time/utc.h"
+#include "services/alerts/alert_json.h"
+#include "services/alerts/operator_word.h"
 #include "services/alerts/stored_alerts.h"
 #include "services/clock/wall_clock.h"
 #include "services/products/products.h"
-#include "services/products/to_json.h"
 #include "services/requests/request_client.h"
 #include "services/spindrift/outcome.h"
 #include "services/words/json_line.h"
@@ -21,27 +22,11 @@
 namespace spindrift {
 namespace {
 
-nlohmann::json to_json(const StoredAlert& stored) {
-  nlohmann::json object = json_of(stored.alert);
-  object["spacecraft_id"] = stored.spacecraft;
-  object["run_id"] = stored.run_id;
-  object["evidence"] = nlohmann::json::parse(stored.alert.evidence, nullptr, false);
-  return object;
-}
-
 std::string to_text(const StoredAlert& stored) {
   const Alert& alert = stored.alert;
   return fmt::format("{} {} {} {} {} since {}: {}\n", alert.alert_id, stored.spacecraft,
                      name_of(alert.severity), name_of(alert.state), alert.key,
                      format_utc(alert.raised), alert.message);
-}
-
-/// What the operator asks for, done to an alert of `desk`.
-Expected<ArchiveBatch> changed(AlertDesk& desk, const std::string& alert_id, const std::string& by,
-                               const std::string& note, int minutes) {
-  const TaiTime now = tai_now();
-  return minutes > 0 ? desk.shelve(alert_id, now, now + std::chrono::minutes{minutes}, by, note)
-                     : desk.acknowledge(alert_id, now, by, note);
 }
 
 std::string done_text(const ArchiveBatch& batch) {
@@ -65,13 +50,16 @@ Expected<std::string> changed_here(const AlertsOptions& options) {
   for (const StoredAlert& one : *stored) {
     desk.take_up(one.spacecraft, one.run_id, one.alert);
   }
-  auto batch = changed(desk, options.alert_id, options.by, options.note, options.minutes);
-  if (!batch) {
-    return Unexpected{{ErrorCode::InvalidConfiguration, batch.error().message}};
+  const auto taken = take_word({.alert_id = options.alert_id,
+                                .by = options.by,
+                                .note = options.note,
+                                .minutes = options.minutes},
+                               desk, **archive);
+  if (!taken && taken.error().code == ErrorCode::InvalidInput) {
+    return Unexpected{{ErrorCode::InvalidConfiguration, taken.error().message}};
   }
-  const std::string text = done_text(*batch);
-  const auto submitted = (*archive)->submit(*std::move(batch));
-  return outcome_of(submitted, (*archive)->close()).map([&] { return text; });
+  const auto stored_word = taken.map([](const ArchiveBatch& /*stored*/) {});
+  return outcome_of(stored_word, (*archive)->close()).map([&] { return done_text(*taken); });
 }
 
 }  // namespace
@@ -81,7 +69,7 @@ Expected<void> list_alerts(const AlertsOptions& options) {
     nlohmann::json all = nlohmann::json::array();
     for (const StoredAlert& stored : alerts) {
       if (options.json) {
-        all.push_back(to_json(stored));
+        all.push_back(alert_json(stored.spacecraft, stored.run_id, stored.alert));
       } else if (stored.alert.state != AlertState::Cleared) {
         fmt::print("{}", to_text(stored));
       }
@@ -112,15 +100,13 @@ Expected<void> change_alert(const AlertsOptions& options) {
 }
 
 nlohmann::json answer_alert(const nlohmann::json& request, AlertDesk& desk, Archive& archive) {
-  auto batch = changed(desk, request.value("alert_id", ""), request.value("by", ""),
-                       request.value("note", ""), request.value("minutes", 0));
-  if (!batch) {
-    return {{"error", batch.error().message}};
-  }
-  const std::string text = done_text(*batch);
-  const auto stored = archive.submit(*std::move(batch)).and_then([&] { return archive.flush(); });
-  return stored ? nlohmann::json{{"text", text}}
-                : nlohmann::json{{"error", stored.error().message}};
+  const auto taken = take_word({.alert_id = request.value("alert_id", ""),
+                                .by = request.value("by", ""),
+                                .note = request.value("note", ""),
+                                .minutes = request.value("minutes", 0)},
+                               desk, archive);
+  return taken ? nlohmann::json{{"text", done_text(*taken)}}
+               : nlohmann::json{{"error", taken.error().message}};
 }
 
 }  // namespace spindrift

@@ -1,0 +1,22 @@
+#include "services/alerts/operator_word.h"
+
+#include <chrono>
+
+#include "services/clock/wall_clock.h"
+
+namespace spindrift {
+
+Expected<ArchiveBatch> take_word(const OperatorWord& word, AlertDesk& desk, Archive& archive) {
+  const TaiTime now = tai_now();
+  auto batch = word.minutes > 0
+                   ? desk.shelve(word.alert_id, now, now + std::chrono::minutes{word.minutes},
+                                 word.by, word.note)
+                   : desk.acknowledge(word.alert_id, now, word.by, word.note);
+  return batch.and_then([&](const ArchiveBatch& changed) {
+    return archive.submit(changed).and_then([&] { return archive.flush(); }).map([&] {
+      return changed;
+    });
+  });
+}
+
+}  // namespace spindrift
