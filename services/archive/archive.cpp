@@ -158,7 +158,8 @@ ArchiveStatistics Archive::statistics() const {
   return {.rows_committed = rows_committed_,
           .samples_committed = samples_committed_,
           .queued_batches = queue_.size(),
-          .commit_p99_ms = commit_durations_.p99_ms(),
+          .commit_p50_ms = commit_durations_.percentile_ms(50),
+          .commit_p99_ms = commit_durations_.percentile_ms(99),
           .failure = failure_};
 }
 

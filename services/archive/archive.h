@@ -49,6 +49,7 @@ struct ArchiveStatistics {
   std::uint64_t rows_committed = 0;     ///< As submitted: a pulse that was stored before counts.
   std::uint64_t samples_committed = 0;  ///< The samples of telemetry among them.
   std::size_t queued_batches = 0;
+  std::optional<double> commit_p50_ms;
   std::optional<double> commit_p99_ms;  ///< Whole transactions, the last 1000 of them.
   std::optional<Error> failure;         ///< Writing fails at present, or failed and stopped.
 };

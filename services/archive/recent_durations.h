@@ -16,8 +16,9 @@ class RecentDurations {
 
   void add(double duration_ms);
 
-  /// Nearest rank: the smallest duration that 99 % do not exceed, ms. Empty before the first.
-  std::optional<double> p99_ms() const;
+  /// Nearest rank: the smallest duration that so many of a hundred do not exceed, ms. Empty before
+  /// the first.
+  std::optional<double> percentile_ms(std::size_t percent) const;
 
  private:
   std::size_t capacity_;

@@ -11,9 +11,9 @@
 
 namespace spindrift {
 
-/// Of the first of its tables.
-template <class Product>
-nlohmann::json json_of(const Product& product) {
+/// A row of `Table`.
+template <class Table, class Row>
+nlohmann::json json_of_row(const Row& row) {
   nlohmann::json object = nlohmann::json::object();
   const auto put = [&]<class Value>(std::string_view name, const Value& value) {
     if constexpr (requires { value.has_value(); }) {
@@ -22,9 +22,14 @@ nlohmann::json json_of(const Product& product) {
       object[std::string{name}] = value;
     }
   };
-  with_columns<MainTable<Product>>(
-      [&](const auto&... column) { (put(column.name, column.get(product)), ...); });
+  with_columns<Table>([&](const auto&... column) { (put(column.name, column.get(row)), ...); });
   return object;
+}
+
+/// Of the first of its tables.
+template <class Product>
+nlohmann::json json_of(const Product& product) {
+  return json_of_row<MainTable<Product>>(product);
 }
 
 }  // namespace spindrift

@@ -32,6 +32,7 @@ struct Health {
   std::string status;  ///< For people: "ok" or the worst problem; its first 64 bytes are published.
   std::string message;  ///< All problems as they are, a line each; empty when there are none.
   std::vector<SpacecraftHealth> spacecraft = {};
+  bool works = true;  ///< Samples are taken and stored, whatever else is wrong.
 };
 
 }  // namespace spindrift

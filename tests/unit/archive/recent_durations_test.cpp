@@ -8,11 +8,11 @@ namespace spindrift::recent_durations_test {
 
 TEST(RecentDurations, P99IsTheSmallestThatNinetyNinePercentDoNotExceed) {
   RecentDurations durations{1000};
-  EXPECT_FALSE(durations.p99_ms());
+  EXPECT_FALSE(durations.percentile_ms(99));
   for (int i = 1; i <= 200; ++i) {
     durations.add(i);
   }
-  EXPECT_EQ(durations.p99_ms(), 198.0);
+  EXPECT_EQ(durations.percentile_ms(99), 198.0);
 }
 
 TEST(RecentDurations, OldestAreForgottenFirst) {
@@ -20,7 +20,7 @@ TEST(RecentDurations, OldestAreForgottenFirst) {
   for (const double duration_ms : {9.0, 1.0, 2.0}) {
     durations.add(duration_ms);
   }
-  EXPECT_EQ(durations.p99_ms(), 2.0);
+  EXPECT_EQ(durations.percentile_ms(99), 2.0);
 }
 
 }  // namespace spindrift::recent_durations_test
