@@ -122,17 +122,20 @@ void Heartbeat::publish_health(const TelemetrySubscriberStatus& status) {
   const SequenceCounts counts = total(status);
   const ArchiveStatistics archive = watched_.archive.statistics();
   const std::vector<std::string> found = problems(status, archive.failure);
-  const auto published = watched_.publisher.publish(
-      Health{.t = tai_now(),
-             .samples_received = counts.received,
-             .samples_committed = archive.samples_committed,
-             .gaps = counts.missing,
-             .duplicates = counts.duplicates,
-             .queue_depth = watched_.taken.size() + watched_.work.size() + archive.queued_batches,
-             .commit_p99_ms = archive.commit_p99_ms.value_or(0.0),
-             .status = found.empty() ? "ok" : found.front(),
-             .message = fmt::format("{}", fmt::join(found, "\n")),
-             .spacecraft = watched_.links.report(std::chrono::steady_clock::now())});
+  const Health health{
+      .t = tai_now(),
+      .samples_received = counts.received,
+      .samples_committed = archive.samples_committed,
+      .gaps = counts.missing,
+      .duplicates = counts.duplicates,
+      .queue_depth = watched_.taken.size() + watched_.work.size() + archive.queued_batches,
+      .commit_p99_ms = archive.commit_p99_ms.value_or(0.0),
+      .status = found.empty() ? "ok" : found.front(),
+      .message = fmt::format("{}", fmt::join(found, "\n")),
+      .spacecraft = watched_.links.report(std::chrono::steady_clock::now()),
+      .works = (status.taking || status.failure.empty()) && !archive.failure};
+  watched_.on_health(health);
+  const auto published = watched_.publisher.publish(health);
   if (!published) {
     say_once(published.error().message);
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -33,6 +34,7 @@ class Heartbeat {
     const ResultPublisher& publisher;
     const LinkWatch& links;
     const Problems& problems;
+    std::function<void(const Health&)> on_health;  ///< Must not wait.
   };
 
   /// @param failures Outlives it, and is told when taking samples has failed.

@@ -30,8 +30,8 @@ bool is_estimate(const Product& product) {
 
 }  // namespace
 
-Announcer::Announcer(const ResultPublisher& publisher, ThreadFailures& failures)
-    : publisher_{publisher}, thread_{[this, &failures] {
+Announcer::Announcer(const ResultPublisher& publisher, ConsoleFeed* feed, ThreadFailures& failures)
+    : publisher_{publisher}, feed_{feed}, thread_{[this, &failures] {
         failures.note(contained("announcing", [this] { run(); }));
       }} {}
 
@@ -54,6 +54,9 @@ void Announcer::committed(std::span<const ArchiveBatch> batches) {
     if (unannounced_.contains(batch.run_id)) {
       continue;
     }
+    if (feed_ != nullptr) {
+      feed_->put_details(batch);
+    }
     if (const auto before = announced_before_.find(batch.run_id);
         before == announced_before_.end()) {
       waiting_.add(batch.spacecraft_id, batch.run_id, batch.products);
@@ -67,6 +70,9 @@ void Announcer::run() {
   for (auto results = waiting_.take_all(); !results.empty(); results = waiting_.take_all()) {
     std::map<std::string, const Product*> latest;
     for (const Announcement& result : results) {
+      if (feed_ != nullptr) {
+        feed_->put(result.spacecraft, result.run_id, result.product);
+      }
       const auto published = publisher_.publish(result.spacecraft, result.run_id, result.product);
       if (!published) {
         spdlog::error("not published: {}", published.error().message);

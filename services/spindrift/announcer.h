@@ -13,6 +13,7 @@
 
 #include "services/archive/records.h"
 #include "services/archive/stored_results.h"
+#include "services/console/console_feed.h"
 #include "services/publisher/announcements.h"
 #include "services/publisher/result_publisher.h"
 #include "services/serving/thread_failures.h"
@@ -21,8 +22,8 @@ namespace spindrift {
 
 class Announcer {
  public:
-  /// Both outlive it.
-  Announcer(const ResultPublisher& publisher, ThreadFailures& failures);
+  /// All of them outlive it. @param feed Null: there is no console.
+  Announcer(const ResultPublisher& publisher, ConsoleFeed* feed, ThreadFailures& failures);
   ~Announcer();
   Announcer(const Announcer&) = delete;
   Announcer& operator=(const Announcer&) = delete;
@@ -41,6 +42,7 @@ class Announcer {
   void say(const std::string& spacecraft, const Product& estimate);
 
   const ResultPublisher& publisher_;
+  ConsoleFeed* feed_;
   Announcements waiting_;
   std::map<std::string, StoredResults> announced_before_;              ///< By run.
   std::set<std::string> unannounced_;                                  ///< Runs of other commands.

@@ -170,6 +170,10 @@ void add_serve(CLI::App& app, Request& request) {
   add_bus_options(command, options.domain, options.partition);
   command.add_option("--webhook", options.webhook,
                      "Alertmanager to tell the alerts: http://127.0.0.1:9093/api/v2/alerts");
+  CLI::Option* const console =
+      command.add_option("--console", options.console, "Console for browsers at HOST:PORT");
+  command.add_option("--console-host", options.console_hosts, "Name by which browsers call it")
+      ->needs(console);
   command.add_flag("--json", options.json, "Print one JSON object at the end");
   command.callback([&] { request.run = [&] { return serve(request.serve); }; });
 }

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -34,6 +35,7 @@
 #include "services/processor/problems.h"
 #include "services/processor/processor.h"
 #include "services/processor/silence_watch.h"
+#include "services/processor/version.h"
 #include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"
 #include "services/queue/contained.h"
@@ -50,6 +52,7 @@
 #include "services/spindrift/orbit_notice.h"
 #include "services/spindrift/outcome.h"
 #include "services/spindrift/reconstruct.h"
+#include "services/spindrift/serve_console.h"
 #include "services/spindrift/summary_text.h"
 #include "services/standard_error/warning.h"
 #include "services/webhook/webhook.h"
@@ -259,7 +262,7 @@ Expected<void> how_taking_ended(const TelemetrySubscriber& subscriber) {
 /// From "ready" until a signal, or a failure, and everything taken is with the archive.
 Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins,
                    const bus::Participant& participant, const ResultPublisher& publisher,
-                   Processor& processor, Archive& archive, Problems& problems,
+                   Processor& processor, Archive& archive, Problems& problems, ConsoleFeed* feed,
                    StopSignal& stop_signal, ThreadFailures& failures) {
   BoundedQueue<SampleBatch> queue{kSamplesTaken, [](const SampleBatch& taken) {
                                     return std::max<std::size_t>(size_of(taken), 1);
@@ -292,7 +295,13 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
                                .archive = archive,
                                .publisher = publisher,
                                .links = links,
-                               .problems = problems},
+                               .problems = problems,
+                               .on_health =
+                                   [&](const Health& health) {
+                                     if (feed != nullptr) {
+                                       feed->put(health);
+                                     }
+                                   }},
                               failures};
     spdlog::info("ready");
     route_and_compute(std::move(again), queue, work, processor, archive, patience, links, problems,
@@ -402,11 +411,14 @@ Expected<void> note_announced(const std::filesystem::path& db,
 }
 
 /// Those of runs of services, before anything is computed.
-Expected<void> take_up_alerts(const std::filesystem::path& db, AlertDesk& desk) {
+Expected<void> take_up_alerts(const std::filesystem::path& db, AlertDesk& desk, ConsoleFeed* feed) {
   return find_alerts(db).map([&](const std::vector<StoredAlert>& alerts) {
     for (const StoredAlert& stored : alerts) {
       if (stored.of_service) {
         desk.take_up(stored.spacecraft, stored.run_id, stored.alert);
+        if (feed != nullptr) {
+          feed->put(stored);
+        }
       }
     }
   });
@@ -445,7 +457,8 @@ Expected<void> serve(const ServeOptions& options) {
   }
   ThreadFailures failures;
   Problems problems;
-  Announcer announcer{*publisher, failures};
+  const auto feed = make_console_feed(options, *missions, service_name());
+  Announcer announcer{*publisher, feed.get(), failures};
   AlertDesk desk{*missions, mode_of(options)};
   const auto webhook = start_webhook(options, desk);
   if (!webhook) {
@@ -459,7 +472,7 @@ Expected<void> serve(const ServeOptions& options) {
   spdlog::info("archive {}", options.db.string());
 
   auto gone_on = processor->arrive_after(options.db)
-                     .and_then([&] { return take_up_alerts(options.db, desk); })
+                     .and_then([&] { return take_up_alerts(options.db, desk, feed.get()); })
                      .and_then([&] { return processor->go_on(options.db, moment_of(*processor)); });
   const auto done = std::move(gone_on).and_then([&](GoneOn stored) {
     return note_announced(options.db, stored.routed.samples, announcer)
@@ -467,8 +480,12 @@ Expected<void> serve(const ServeOptions& options) {
         .and_then([&] { return archive.flush(); })
         .and_then([&] {
           const auto requests = answer_requests(options.db, archive, desk);
+          const auto console = start_console(options, feed.get(), desk, archive);
+          if (!console) {
+            return Expected<void>{Unexpected{console.error()}};
+          }
           return run(std::move(stored.routed.work), stored.last_origins, *participant, *publisher,
-                     *processor, archive, problems, stop_signal, failures);
+                     *processor, archive, problems, feed.get(), stop_signal, failures);
         });
   });
   if (auto outcome = outcome_of(done, archive.close()); !outcome) {

@@ -18,6 +18,8 @@ struct ServeOptions {
   std::uint32_t domain = 0;
   std::string partition = "live";
   std::string webhook;  ///< URL of an Alertmanager that is told the alerts; empty: none.
+  std::string console;  ///< HOST:PORT; empty: no console.
+  std::vector<std::string> console_hosts;  ///< Names by which browsers may call it.
   bool json = false;
 };
 

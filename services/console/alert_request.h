@@ -1,0 +1,29 @@
+/// @file
+/// Requests that change an alert: /api/v1/alerts/ALERT_ID/ack and .../shelve.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "pipelines/core/expected.h"
+#include "services/alerts/operator_word.h"
+
+namespace spindrift {
+
+struct AlertPath {
+  std::string alert_id;
+  bool shelves;  ///< Else acknowledges.
+};
+
+/// Empty where the path is no such one.
+std::optional<AlertPath> alert_path(std::string_view path);
+
+/// @param body A JSON object with `by`, which is not empty, with `note` if there is anything to
+/// say,
+///             and to shelve with `minutes`, 1 to 10080. @return InvalidInput, saying what is
+///             wrong.
+Expected<OperatorWord> operator_word(const AlertPath& path, std::string_view body);
+
+}  // namespace spindrift

@@ -1,0 +1,84 @@
+/// @file
+/// What the console answers to a request, whatever connection it came by.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "services/alerts/alert_desk.h"
+#include "services/alerts/operator_word.h"
+#include "services/archive/archive.h"
+#include "services/console/alert_request.h"
+#include "services/console/archive_view.h"
+#include "services/console/console_feed.h"
+#include "services/console/http_messages.h"
+#include "services/console/kept_connection.h"
+#include "services/console/metrics.h"
+#include "services/console/quantities.h"
+#include "services/console/request_target.h"
+
+namespace spindrift {
+
+/// Made by the thread that reads the archive.
+struct ReadingAnswer {
+  std::function<HttpResponse()> make;
+};
+/// Made by a thread that waits until the archive has stored something.
+struct StoringAnswer {
+  std::function<HttpResponse()> make;
+};
+/// The events behind `id`, and those to come.
+struct EventStream {
+  std::uint64_t id;
+};
+using Answer = std::variant<HttpResponse, ReadingAnswer, StoringAnswer, EventStream>;
+
+class ConsoleAnswers {
+ public:
+  /// All of them outlive it.
+  struct Service {
+    ConsoleFeed& feed;
+    AlertDesk& desk;
+    Archive& archive;
+  };
+  /// @param hosts By which browsers call it, as in `Host` without the port, in small letters.
+  ConsoleAnswers(const Service& service, std::filesystem::path db, std::string token,
+                 std::set<std::string> hosts);
+
+  /// @param is_crowded More connections are open than are served.
+  Answer to(const HttpRequest& request, bool is_crowded, const ViewerCounts& viewers);
+
+  /// Into the feed. Of the thread that reads the archive.
+  void read_verdicts();
+
+ private:
+  using Get = std::function<Answer(const HttpRequest&, const RequestTarget&, const ViewerCounts&)>;
+  void add_page();
+  void add_api();
+
+  bool is_host_known(const HttpRequest& request) const;
+  Answer routed(const HttpRequest& request, const ViewerCounts& viewers);
+  Answer events(const HttpRequest& request) const;
+  Answer health() const;
+  Answer quantities(const RequestTarget& target) const;
+  Answer series(const RequestTarget& target);
+  HttpResponse read_series(const std::string& run_id, const Quantity& quantity, const Span& span,
+                           std::size_t points);
+  Answer change_alert(const HttpRequest& request, const AlertPath& path);
+  HttpResponse change_alert(const OperatorWord& word);
+
+  Service service_;
+  std::string token_;
+  std::set<std::string> hosts_;
+  std::map<std::string, Get> gets_;  ///< By path.
+  KeptConnection archive_;           ///< Of the thread that reads it.
+};
+
+}  // namespace spindrift

@@ -1,0 +1,201 @@
+#include "services/console/console_feed.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <type_traits>
+#include <variant>
+
+#include "pipelines/time/utc.h"
+#include "services/alerts/alert_json.h"
+#include "services/clock/wall_clock.h"
+
+namespace spindrift {
+namespace {
+
+// Health comes every second.
+constexpr std::chrono::seconds kNoHealthFor{10};
+
+template <class Kind>
+constexpr std::string_view kEvent = std::is_same_v<Kind, SpinEstimate>       ? "estimate"
+                                    : std::is_same_v<Kind, SpinFix>          ? "fix"
+                                    : std::is_same_v<Kind, AttitudeEstimate> ? "attitude"
+                                                                             : "";
+
+/// Larger than all of an earlier start, which told less than one a microsecond.
+std::uint64_t first_id() { return static_cast<std::uint64_t>(tai_ns(tai_now()) / 1000); }
+
+}  // namespace
+
+ConsoleFeed::ConsoleFeed(const std::vector<Mission>& missions, nlohmann::json service)
+    : service_(std::move(service)), ring_{first_id()} {  // Braces would make service_ an array.
+  for (const Mission& mission : missions) {
+    kinds_.emplace(mission.spacecraft_id, mission.kind());
+    shown_.emplace(mission.spacecraft_id, mission);
+  }
+}
+
+void ConsoleFeed::put(const std::string& spacecraft, const std::string& run_id,
+                      const Product& product) {
+  const std::lock_guard lock{mutex_};
+  if (const auto* const alert = std::get_if<Alert>(&product)) {
+    ring_.add("alert", put_alert(spacecraft, run_id, *alert));
+    return;
+  }
+  const auto shown = shown_.find(spacecraft);
+  if (shown == shown_.end()) {
+    return;
+  }
+  shown->second.show(run_id);
+  std::visit(
+      [&]<class Kind>(const Kind& is) {
+        if constexpr (!kEvent<Kind>.empty()) {
+          nlohmann::json row = shown->second.take(is);
+          row["spacecraft"] = spacecraft;
+          ring_.add(kEvent<Kind>, row);
+        } else if constexpr (std::is_same_v<Kind, ReconstructionProduct>) {
+          shown->second.take(is);
+        }
+      },
+      product);
+}
+
+void ConsoleFeed::put_details(const ArchiveBatch& stored) {
+  const std::lock_guard lock{mutex_};
+  for (const RejectedInput& rejected : stored.rejected) {
+    samples_rejected_ += rejected.samples;
+  }
+  if (const auto shown = shown_.find(stored.spacecraft_id); shown != shown_.end()) {
+    shown->second.take_details(stored);
+  }
+}
+
+void ConsoleFeed::put(const Health& health) {
+  const std::lock_guard lock{mutex_};
+  service_.update(nlohmann::json{{"status", health.status},
+                                 {"message", health.message},
+                                 {"samples_received", health.samples_received},
+                                 {"samples_committed", health.samples_committed},
+                                 {"samples_rejected", samples_rejected_},
+                                 {"gaps", health.gaps},
+                                 {"duplicates", health.duplicates},
+                                 {"queue_depth", health.queue_depth},
+                                 {"commit_p99_ms", health.commit_p99_ms}});
+  trouble_ = health.works ? "" : health.status;
+  last_health_ = std::chrono::steady_clock::now();
+  for (const SpacecraftHealth& one : health.spacecraft) {
+    if (const auto shown = shown_.find(one.spacecraft); shown != shown_.end()) {
+      shown->second.take(one);
+    }
+  }
+  ring_.add("health", service_);
+}
+
+void ConsoleFeed::put(const StoredAlert& stored) {
+  const std::lock_guard lock{mutex_};
+  put_alert(stored.spacecraft, stored.run_id, stored.alert);
+}
+
+nlohmann::json ConsoleFeed::put_alert(const std::string& spacecraft, const std::string& run_id,
+                                      const Alert& alert) {
+  nlohmann::json row = alert_json(spacecraft, run_id, alert);
+  row["spacecraft"] = spacecraft;
+  const std::pair place{spacecraft, alert.key};
+  if (alert.state == AlertState::Cleared) {
+    alerts_.erase(place);
+  } else {
+    alerts_.insert_or_assign(place, row);
+  }
+  return row;
+}
+
+void ConsoleFeed::put_verdict(const std::string& spacecraft, const std::string& run_id,
+                              nlohmann::json verdict) {
+  const std::lock_guard lock{mutex_};
+  if (ShownSpacecraft& shown = shown_.at(spacecraft); shown.run_id() == run_id) {
+    shown.take_verdict(std::move(verdict));
+  }
+}
+
+void ConsoleFeed::tell_state() {
+  const std::lock_guard lock{mutex_};
+  ring_.add("state", state_now());
+}
+
+void ConsoleFeed::tell_pulses() {
+  const std::lock_guard lock{mutex_};
+  for (auto& [spacecraft, shown] : shown_) {
+    if (nlohmann::json pulses = shown.take_pulses(); !pulses.empty()) {
+      ring_.add("pulse", {{"spacecraft", spacecraft}, {"pulses", std::move(pulses)}});
+    }
+  }
+}
+
+nlohmann::json ConsoleFeed::state() {
+  const std::lock_guard lock{mutex_};
+  return state_now();
+}
+
+std::string ConsoleFeed::trouble() const {
+  const std::lock_guard lock{mutex_};
+  if (!last_health_) {
+    return {};  // It begins.
+  }
+  const auto silent = std::chrono::steady_clock::now() - *last_health_;
+  return silent <= kNoHealthFor
+             ? trouble_
+             : fmt::format("no heartbeat of the service for {} s",
+                           std::chrono::duration_cast<std::chrono::seconds>(silent).count());
+}
+
+std::optional<std::string> ConsoleFeed::run_of(const std::string& spacecraft) const {
+  const std::lock_guard lock{mutex_};
+  const auto shown = shown_.find(spacecraft);
+  return shown == shown_.end() ? std::nullopt : std::optional{shown->second.run_id()};
+}
+
+std::optional<SpacecraftKind> ConsoleFeed::kind_of(const std::string& spacecraft) const {
+  const auto kind = kinds_.find(spacecraft);
+  return kind == kinds_.end() ? std::nullopt : std::optional{kind->second};
+}
+
+std::vector<std::string> ConsoleFeed::spacecraft() const {
+  std::vector<std::string> all;
+  for (const auto& [spacecraft, kind] : kinds_) {
+    all.push_back(spacecraft);
+  }
+  return all;
+}
+
+EventRing::News ConsoleFeed::after(std::uint64_t id) const {
+  const std::lock_guard lock{mutex_};
+  return ring_.after(id);
+}
+
+bool ConsoleFeed::holds_all_after(std::uint64_t id) const {
+  const std::lock_guard lock{mutex_};
+  return ring_.holds_all_after(id);
+}
+
+std::uint64_t ConsoleFeed::nearest(std::uint64_t id) const {
+  const std::lock_guard lock{mutex_};
+  return ring_.nearest(id);
+}
+
+nlohmann::json ConsoleFeed::state_now() {
+  const TaiTime now = tai_now();
+  nlohmann::json state{{"t_tai_ns", tai_ns(now)},
+                       {"utc", format_utc(now)},
+                       {"service", service_},
+                       {"alerts", nlohmann::json::array()},
+                       {"spacecraft", nlohmann::json::object()}};
+  for (const auto& [place, alert] : alerts_) {
+    state["alerts"].push_back(alert);
+  }
+  for (auto& [spacecraft, shown] : shown_) {
+    state["spacecraft"][spacecraft] = shown.state();
+  }
+  return state;
+}
+
+}  // namespace spindrift

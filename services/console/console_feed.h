@@ -1,0 +1,83 @@
+/// @file
+/// What the console shows, in memory: the service puts it in and never waits.
+
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/alerts/stored_alerts.h"
+#include "services/archive/records.h"
+#include "services/console/event_ring.h"
+#include "services/console/shown_spacecraft.h"
+#include "services/mission/mission.h"
+#include "services/products/products.h"
+#include "services/publisher/health.h"
+
+namespace spindrift {
+
+/// From any thread. What is of other spacecraft than those of the missions is not shown, but for
+/// their alerts.
+class ConsoleFeed {
+ public:
+  /// @param missions Outlive it. @param service Name, version and mode.
+  ConsoleFeed(const std::vector<Mission>& missions, nlohmann::json service);
+
+  /// @name Of the service, once it is stored
+  /// @{
+  void put(const std::string& spacecraft, const std::string& run_id, const Product& product);
+  /// What is not announced, of a run whose results are.
+  void put_details(const ArchiveBatch& stored);
+  void put(const Health& health);
+  /// Of before the service began.
+  void put(const StoredAlert& stored);
+  /// @}
+
+  /// @name Of the console
+  /// @{
+  /// The archive's verdict on the run in force.
+  void put_verdict(const std::string& spacecraft, const std::string& run_id,
+                   nlohmann::json verdict);
+  /// Tells viewers the state of now.
+  void tell_state();
+  void tell_pulses();
+
+  nlohmann::json state();
+  /// Why the service takes or stores nothing; empty: it does.
+  std::string trouble() const;
+  /// Of a spacecraft. Empty: none yet. @return nothing where there is no such spacecraft.
+  std::optional<std::string> run_of(const std::string& spacecraft) const;
+  std::optional<SpacecraftKind> kind_of(const std::string& spacecraft) const;
+  std::vector<std::string> spacecraft() const;
+
+  /// As those of EventRing.
+  EventRing::News after(std::uint64_t id) const;
+  std::uint64_t nearest(std::uint64_t id) const;
+  bool holds_all_after(std::uint64_t id) const;
+  /// @}
+
+ private:
+  nlohmann::json put_alert(const std::string& spacecraft, const std::string& run_id,
+                           const Alert& alert);
+  nlohmann::json state_now();
+
+  mutable std::mutex mutex_;
+  nlohmann::json service_;
+  std::int64_t samples_rejected_ = 0;
+  std::map<std::string, SpacecraftKind> kinds_;
+  std::map<std::string, ShownSpacecraft> shown_;
+  /// Open ones, by spacecraft and key: of a key one is open at most.
+  std::map<std::pair<std::string, std::string>, nlohmann::json> alerts_;
+  std::string trouble_;
+  std::optional<std::chrono::steady_clock::time_point> last_health_;
+  EventRing ring_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,327 @@
+#include "services/console/console_server.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/asio.hpp>
+#include <boost/beast.hpp>
+#include <charconv>
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <set>
+#include <thread>
+#include <utility>
+#include <variant>
+
+#include "services/console/token_file.h"
+#include "services/queue/contained.h"
+#include "services/serving/background_solving.h"
+
+namespace spindrift {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+using tcp = asio::ip::tcp;
+using Failed = boost::system::error_code;
+
+// For a whole request, for an answer, and for what a viewer is told at once.
+constexpr std::chrono::seconds kPatience{10};
+constexpr std::chrono::milliseconds kLook{125};
+constexpr int kLooksAPulseBatch = 2;
+constexpr int kLooksAState = 8;
+// Twenty browsers that load the page at the same time.
+constexpr int kMostConnections = 128;
+// More are not even told so.
+constexpr int kMostOpen = 2 * kMostConnections;
+constexpr std::chrono::milliseconds kUntilNextAccept{100};
+// What the kernel keeps for a viewer that reads no more.
+constexpr int kSendBuffer_bytes = 128 * 1024;
+
+Expected<tcp::endpoint> endpoint_of(const std::string& address) {
+  const auto colon = address.rfind(':');
+  std::string host = colon == std::string::npos ? "" : address.substr(0, colon);
+  if (host.empty() || host == "localhost") {
+    host = "127.0.0.1";
+  } else if (host.starts_with('[') && host.ends_with(']')) {
+    host = host.substr(1, host.size() - 2);
+  }
+  Failed failed;
+  const auto numeric = asio::ip::make_address(host, failed);
+  const char* const begin = address.data() + (colon == std::string::npos ? 0 : colon + 1);
+  const char* const end = address.data() + address.size();
+  std::uint16_t port = 0;
+  const auto [rest, error] = std::from_chars(begin, end, port);
+  if (failed || error != std::errc{} || rest != end) {
+    return Unexpected{{ErrorCode::InvalidConfiguration,
+                       fmt::format("--console {}: must be HOST:PORT with a numeric host, as in "
+                                   "127.0.0.1:0",
+                                   address)}};
+  }
+  return tcp::endpoint{numeric, port};
+}
+
+std::string host_of(const tcp::endpoint& endpoint) {
+  const std::string host = endpoint.address().to_string();
+  return endpoint.address().is_v6() ? "[" + host + "]" : host;
+}
+
+std::set<std::string> hosts_of(const ConsoleOptions& options, const tcp::endpoint& endpoint) {
+  std::set<std::string> hosts{"localhost", host_of(endpoint)};
+  for (const std::string& name : options.names) {
+    hosts.insert(boost::algorithm::to_lower_copy(name));
+  }
+  return hosts;
+}
+
+/// Not that the client ended it, or that the network did.
+bool is_bad_http(Failed failed) {
+  return failed.category() == Failed{http::error::bad_value}.category() &&
+         failed != http::error::end_of_stream && failed != http::error::partial_message;
+}
+
+/// A connection, which ends with its answer.
+struct Session {
+  Session(tcp::socket socket, int& count) : stream{std::move(socket)}, open{count} {
+    ++open;
+    parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // See BoundedBody.
+  }
+  ~Session() { --open; }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+  Session(Session&&) = delete;
+  Session& operator=(Session&&) = delete;
+
+  beast::tcp_stream stream;
+  beast::flat_buffer buffer;
+  http::request_parser<BoundedBody> parser;
+  HttpResponse response;
+  std::string events = {};
+  std::uint64_t seen = 0;  ///< Of the events.
+  bool writing = false;
+  int& open;
+};
+using Shared = std::shared_ptr<Session>;
+
+}  // namespace
+
+/// All but `make` of an answer runs on the one thread of the context.
+class ConsoleServer::Loop {
+ public:
+  Loop(const ConsoleOptions& options, const ConsoleAnswers::Service& service, std::string token,
+       const tcp::endpoint& endpoint)
+      : feed_{service.feed},
+        answers_{service, options.db, std::move(token), hosts_of(options, endpoint)},
+        acceptor_{context_, endpoint} {
+    accept();
+    look();
+    thread_ = std::thread{[this] {
+      let_samples_come_first();
+      const auto ended = contained("console", [this] { context_.run(); });
+      if (!ended) {
+        spdlog::error("the console has ended: {}", ended.error().message);
+      }
+    }};
+  }
+  ~Loop() {
+    context_.stop();
+    thread_.join();
+  }
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
+  Loop(Loop&&) = delete;
+  Loop& operator=(Loop&&) = delete;
+
+  std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
+
+ private:
+  void accept() {
+    acceptor_.async_accept([this](Failed failed, tcp::socket socket) {
+      if (!failed) {
+        read(std::make_shared<Session>(std::move(socket), open_));
+      }
+      if (!failed && open_ < kMostOpen) {
+        accept();
+        return;
+      }
+      // No descriptors, or too many: those that are open end.
+      accepting_.expires_after(kUntilNextAccept);
+      accepting_.async_wait([this](Failed /*never*/) { accept(); });
+    });
+  }
+
+  void read(const Shared& session) {
+    session->stream.expires_after(kPatience);
+    http::async_read(session->stream, session->buffer, session->parser,
+                     [this, session](Failed failed, std::size_t /*bytes*/) {
+                       if (!failed) {
+                         serve(session);
+                       } else if (is_bad_http(failed)) {
+                         send(session, refusal(http::status::bad_request,
+                                               "this is no HTTP: " + failed.message()));
+                       }
+                     });
+  }
+
+  void serve(const Shared& session) {
+    Answer answer = answers_.to(session->parser.get(), open_ > kMostConnections, viewer_counts());
+    if (auto* const response = std::get_if<HttpResponse>(&answer)) {
+      send(session, std::move(*response));
+    } else if (auto* const reading = std::get_if<ReadingAnswer>(&answer)) {
+      send_when_made(reading_, session, std::move(reading->make));
+    } else if (auto* const storing = std::get_if<StoringAnswer>(&answer)) {
+      send_when_made(storing_, session, std::move(storing->make));
+    } else {
+      watch(session, std::get<EventStream>(answer).id);
+    }
+  }
+
+  void send_when_made(asio::thread_pool& on, Shared session, std::function<HttpResponse()> make) {
+    asio::post(on, [this, session = std::move(session), make = std::move(make)]() mutable {
+      let_samples_come_first();
+      HttpResponse response;
+      const auto made = contained("answering", [&] { response = make(); });
+      if (!made) {
+        response = refusal(http::status::internal_server_error, made.error().message);
+      }
+      asio::post(context_,
+                 [session = std::move(session), response = std::move(response)]() mutable {
+                   send(session, std::move(response));
+                 });
+    });
+  }
+
+  static void send(const Shared& session, HttpResponse response) {
+    session->response = std::move(response);
+    session->stream.expires_after(kPatience);
+    http::async_write(session->stream, session->response,
+                      [session](Failed /*failed*/, std::size_t /*bytes*/) {
+                        Failed gone;
+                        session->stream.socket().shutdown(tcp::socket::shutdown_send, gone);
+                      });
+  }
+
+  void watch(const Shared& session, std::uint64_t id) {
+    Failed ignored;  // It keeps more then.
+    session->stream.socket().set_option(asio::socket_base::send_buffer_size{kSendBuffer_bytes},
+                                        ignored);
+    session->seen = id;
+    session->events = event_stream_head();
+    viewers_.insert(session);
+    write(session);
+  }
+
+  void write(const Shared& session) {
+    session->writing = true;
+    session->stream.expires_after(kPatience);
+    asio::async_write(session->stream, asio::buffer(session->events),
+                      [this, session](Failed failed, std::size_t /*bytes*/) {
+                        session->writing = false;
+                        if (failed == beast::error::timeout) {
+                          drop(session);
+                        } else if (failed) {
+                          viewers_.erase(session);
+                        } else {
+                          tell(session);
+                        }
+                      });
+  }
+
+  /// What is new, if anything is. Who is so far behind that something is forgotten is dropped.
+  void tell(const Shared& session) {
+    if (!feed_.holds_all_after(session->seen)) {
+      drop(session);
+      return;
+    }
+    if (session->writing) {
+      return;
+    }
+    EventRing::News news = feed_.after(session->seen);
+    session->seen = news.last;
+    session->events = std::move(news.text);
+    if (!session->events.empty()) {
+      write(session);
+    }
+  }
+
+  void drop(const Shared& session) {
+    ++dropped_;
+    viewers_.erase(session);
+    session->stream.close();
+  }
+
+  void look() {
+    timer_.expires_after(kLook);
+    timer_.async_wait([this](Failed /*never*/) {
+      if (++looks_ % kLooksAPulseBatch == 0) {
+        feed_.tell_pulses();
+      }
+      if (looks_ % kLooksAState == 0) {
+        feed_.tell_state();
+        read_verdicts();
+      }
+      for (const Shared& viewer : std::set<Shared>{viewers_}) {
+        tell(viewer);
+      }
+      look();
+    });
+  }
+
+  /// For the next state. Not while series of before are still being read.
+  void read_verdicts() {
+    if (!reading_verdicts_.exchange(true)) {
+      asio::post(reading_, [this] {
+        let_samples_come_first();
+        static_cast<void>(contained("reading verdicts", [this] { answers_.read_verdicts(); }));
+        reading_verdicts_ = false;
+      });
+    }
+  }
+
+  ViewerCounts viewer_counts() const { return {.watching = viewers_.size(), .dropped = dropped_}; }
+
+  ConsoleFeed& feed_;
+  ConsoleAnswers answers_;
+  int open_ = 0;  // Outlives the context, which holds the sessions.
+  int looks_ = 0;
+  std::uint64_t dropped_ = 0;
+  std::atomic<bool> reading_verdicts_ = false;
+  asio::io_context context_{1};
+  tcp::acceptor acceptor_;
+  asio::steady_timer accepting_{context_};
+  asio::steady_timer timer_{context_};
+  std::set<Shared> viewers_;
+  asio::thread_pool reading_{1};
+  asio::thread_pool storing_{1};
+  std::thread thread_;
+};
+
+ConsoleServer::ConsoleServer(std::string url, std::unique_ptr<Loop> loop)
+    : url_{std::move(url)}, loop_{std::move(loop)} {}
+
+ConsoleServer::~ConsoleServer() = default;
+
+Expected<std::unique_ptr<ConsoleServer>> ConsoleServer::start(
+    const ConsoleOptions& options, const ConsoleAnswers::Service& service) {
+  const auto endpoint = endpoint_of(options.address);
+  if (!endpoint) {
+    return Unexpected{endpoint.error()};
+  }
+  auto token = token_of(options.db);
+  if (!token) {
+    return Unexpected{token.error()};
+  }
+  try {
+    auto loop = std::make_unique<Loop>(options, service, *std::move(token), *endpoint);
+    const std::string url = fmt::format("http://{}:{}/", host_of(*endpoint), loop->port());
+    return std::unique_ptr<ConsoleServer>{new ConsoleServer{url, std::move(loop)}};
+  } catch (const boost::system::system_error& failed) {
+    return Unexpected{
+        {ErrorCode::Unavailable, fmt::format("--console {}: {}", options.address, failed.what())}};
+  }
+}
+
+}  // namespace spindrift

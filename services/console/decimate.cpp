@@ -1,0 +1,54 @@
+#include "services/console/decimate.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace spindrift {
+namespace {
+
+bool is_lower(const SeriesPoint& a, const SeriesPoint& b) { return a.value < b.value; }
+bool is_earlier(const SeriesPoint& a, const SeriesPoint& b) { return a.t_tai_ns < b.t_tai_ns; }
+
+/// Of equal shares of `points` the extremes, or of all of them the highest.
+void thin(std::span<const SeriesPoint> points, std::size_t most, std::vector<SeriesPoint>& kept) {
+  if (points.size() <= most) {
+    kept.insert(kept.end(), points.begin(), points.end());
+    return;
+  }
+  if (most == 1) {
+    kept.push_back(*std::max_element(points.begin(), points.end(), &is_lower));
+    return;
+  }
+  const std::size_t shares = most / 2;
+  for (std::size_t i = 0; i < shares; ++i) {
+    const std::size_t begin = points.size() * i / shares;
+    const auto share = points.subspan(begin, points.size() * (i + 1) / shares - begin);
+    const auto [low, high] = std::minmax_element(share.begin(), share.end(), &is_lower);
+    kept.push_back(*std::min(low, high));
+    if (low != high) {
+      kept.push_back(*std::max(low, high));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<SeriesPoint> decimate(std::span<const SeriesPoint> points, std::size_t most) {
+  if (points.size() <= most) {
+    return {points.begin(), points.end()};
+  }
+  std::vector<SeriesPoint> accepted;
+  std::vector<SeriesPoint> rejected;
+  std::partition_copy(points.begin(), points.end(), std::back_inserter(accepted),
+                      std::back_inserter(rejected),
+                      [](const SeriesPoint& point) { return point.accepted.value_or(true); });
+  const std::size_t of_rejected =
+      std::min(rejected.size(), std::max(most / 2, most - std::min(most, accepted.size())));
+  std::vector<SeriesPoint> kept;
+  thin(rejected, of_rejected, kept);
+  thin(accepted, most - of_rejected, kept);
+  std::stable_sort(kept.begin(), kept.end(), &is_earlier);
+  return kept;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,48 @@
+/// @file
+/// The console's one connection to the archive, which reads.
+
+#pragma once
+
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Exception.h>
+#include <sys/types.h>
+
+#include <filesystem>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "pipelines/core/expected.h"
+#include "services/archive/connection.h"
+
+namespace spindrift {
+
+/// Opened once, and again when another file has come to stand at the path. Of one thread.
+class KeptConnection {
+ public:
+  explicit KeptConnection(std::filesystem::path archive) : path_{std::move(archive)} {}
+
+  /// What `read` finds in the archive. @param read As that of read_archive. @return likewise.
+  template <class Read>
+  auto read(const Read& read) -> Expected<std::invoke_result_t<Read, SQLite::Database&>> {
+    if (const auto open = follow(); !open) {
+      return Unexpected{open.error()};
+    }
+    try {
+      return read(*database_);
+    } catch (const SQLite::Exception& exception) {
+      database_.reset();
+      return Unexpected{archive_error(path_.string(), exception)};
+    }
+  }
+
+ private:
+  using Identity = std::pair<dev_t, ino_t>;
+  Expected<void> follow();
+
+  std::filesystem::path path_;
+  Identity file_ = {};
+  std::optional<SQLite::Database> database_;
+};
+
+}  // namespace spindrift

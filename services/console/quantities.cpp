@@ -1,0 +1,88 @@
+#include "services/console/quantities.h"
+
+#include <fmt/format.h>
+
+#include <initializer_list>
+#include <string_view>
+
+#include "pipelines/spin/types/products.h"
+
+namespace spindrift {
+namespace {
+
+/// `value` is an expression over the columns of `table`.
+Quantity quantity(std::string_view name, std::string_view unit, std::string_view table,
+                  std::string_view value, std::string_view condition) {
+  return {.name = std::string{name},
+          .unit = std::string{unit},
+          .sql = fmt::format("SELECT t_tai_ns, {}, NULL, NULL FROM {} WHERE run_id = ?1 AND {} AND "
+                             "t_tai_ns <= ?2 ORDER BY t_tai_ns DESC",
+                             value, table, condition)};
+}
+
+/// Their time is that of their revolution, which rises with its number.
+Quantity measurement(SpinQuantity of) {
+  return {.name = std::string{name_of(of)},
+          .unit = of == SpinQuantity::Period ? "s" : "deg",
+          .sql = fmt::format("SELECT t_tai_ns, value, accepted, rejected_by FROM revolution CROSS "
+                             "JOIN spin_measurement USING (run_id, revolution) WHERE run_id = ?1 "
+                             "AND quantity = '{}' AND t_tai_ns <= ?2 ORDER BY revolution DESC",
+                             name_of(of))};
+}
+
+Quantity fix(std::string_view column) {
+  return {.name = fmt::format("fix_{}", column),
+          .unit = "deg",
+          .sql = fmt::format("SELECT t_tai_ns, {}, accepted, NULL FROM spin_fix WHERE run_id = ?1 "
+                             "AND t_tai_ns <= ?2 ORDER BY revolution DESC",
+                             column)};
+}
+
+std::vector<Quantity> of_spin() {
+  std::vector<Quantity> all;
+  for (const SpinQuantity one :
+       {SpinQuantity::SunAngle, SpinQuantity::Period, SpinQuantity::NorthChord,
+        SpinQuantity::SouthChord, SpinQuantity::NorthDihedral, SpinQuantity::SouthDihedral,
+        SpinQuantity::MixedAzimuth}) {
+    all.push_back(measurement(one));
+  }
+  for (const SpinEstimator estimator :
+       {SpinEstimator::Mean, SpinEstimator::Sequential, SpinEstimator::Batch}) {
+    for (const std::string_view column :
+         {"sigma_deg", "ra_deg", "dec_deg", "spin_rate_rpm", "sigma_rpm"}) {
+      all.push_back(quantity(fmt::format("{}_{}", name_of(estimator), column),
+                             column.ends_with("rpm") ? "rpm" : "deg", "spin_estimate", column,
+                             fmt::format("estimator = '{}'", name_of(estimator))));
+    }
+  }
+  all.push_back(quantity("bound_deg", "deg", "spin_batch", "bound_deg", "TRUE"));
+  for (const std::string_view column : {"sigma_deg", "ra_deg", "dec_deg"}) {
+    all.push_back(fix(column));
+  }
+  return all;
+}
+
+std::vector<Quantity> of_three_axis() {
+  constexpr std::string_view kFiltered = "source NOT IN ('batch', 'sequential')";
+  std::vector<Quantity> all{quantity("sigma_deg", "deg", "attitude", "sigma_deg", kFiltered)};
+  for (const std::string_view axis : {"x", "y", "z"}) {
+    all.push_back(quantity(
+        fmt::format("rate_{}_deg_s", axis), "deg/s", "attitude",
+        fmt::format("degrees(rate_{}_rad_s)", axis),
+        fmt::format("source NOT IN ('batch', 'sequential') AND rate_{}_rad_s IS NOT NULL", axis)));
+  }
+  for (const std::string_view column : {"qx", "qy", "qz", "qw"}) {
+    all.push_back(quantity(column, "1", "attitude", column, kFiltered));
+  }
+  return all;
+}
+
+}  // namespace
+
+const std::vector<Quantity>& quantities_of(SpacecraftKind kind) {
+  static const std::vector<Quantity> kOfSpin = of_spin();
+  static const std::vector<Quantity> kOfThreeAxis = of_three_axis();
+  return kind == SpacecraftKind::Spin ? kOfSpin : kOfThreeAxis;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,202 @@
+#include "services/console/shown_spacecraft.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <memory>
+#include <string_view>
+#include <variant>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/time/utc.h"
+#include "services/products/to_json.h"
+#include "services/units/degrees.h"
+
+namespace spindrift {
+namespace {
+
+// Of a burst viewers see the newest.
+constexpr std::size_t kMostEdgesAtOnce = 1000;
+// More than those edges are of.
+constexpr std::size_t kTurnsKept = 256;
+
+std::string_view name_of(LinkState link) {
+  constexpr std::array<std::string_view, 3> kNames = {"waiting", "live", "stale"};
+  return kNames.at(static_cast<std::size_t>(link));
+}
+
+nlohmann::json place_json(const Eigen::Vector3d& direction_icrf) {
+  const PlaceDeg place = place_deg(direction_icrf);
+  return {{"ra_deg", place.ra_deg}, {"dec_deg", place.dec_deg}};
+}
+
+nlohmann::json prior_of(const Mission& mission) {
+  const SpinConfig* const spin = mission.spin();
+  if (spin == nullptr || !spin->prior) {
+    return nullptr;
+  }
+  nlohmann::json prior = place_json(spin->prior->axis_icrf);
+  prior["sigma_deg"] = spin->prior->sigma_rad * kDegPerRad;
+  return prior;
+}
+
+}  // namespace
+
+ShownSpacecraft::ShownSpacecraft(const Mission& mission) : mission_{mission} {
+  take(SpacecraftHealth{.spacecraft = mission.spacecraft_id, .link = LinkState::Waiting});
+}
+
+void ShownSpacecraft::show(const std::string& run_id) {
+  if (run_id != run_id_) {
+    run_id_ = run_id;
+    answers_ = nlohmann::json::object();
+    verdict_ = nlohmann::json::object();
+    periods_s_.clear();
+    edges_.clear();
+    bound_deg_.reset();
+  }
+}
+
+nlohmann::json ShownSpacecraft::take(const SpinEstimate& estimate) {
+  nlohmann::json row = json_of(estimate);
+  if (estimate.estimator == SpinEstimator::Batch && bound_deg_ && bound_deg_->first == estimate.t) {
+    row["bound_deg"] = bound_deg_->second;
+  }
+  answers_["estimates"][row["estimator"].get<std::string>()] = row;
+  return row;
+}
+
+nlohmann::json ShownSpacecraft::take(const SpinFix& fix) {
+  nlohmann::json row = json_of(fix);
+  for (const char* const name :
+       {"geometry_case", "resolution", "alternate_ra_deg", "alternate_dec_deg"}) {
+    answers_[name] = row[name];
+  }
+  return row;
+}
+
+nlohmann::json ShownSpacecraft::take(const AttitudeEstimate& attitude) {
+  nlohmann::json row = json_of(attitude);
+  answers_["source"] = row["source"];
+  answers_["q_icrf_body"] = {row["qx"], row["qy"], row["qz"], row["qw"]};
+  answers_["rate_deg_s"] = nullptr;
+  if (const auto& rate_rad_s = attitude.rate_body_rad_s) {
+    const Eigen::Vector3d rate_deg_s = *rate_rad_s * kDegPerRad;
+    answers_["rate_deg_s"] = {rate_deg_s.x(), rate_deg_s.y(), rate_deg_s.z()};
+  }
+  return row;
+}
+
+void ShownSpacecraft::take(const ReconstructionProduct& separation) {
+  nlohmann::json events = nlohmann::json::array();
+  for (const nlohmann::json& event : answers_.value("reconstruction", nlohmann::json::array())) {
+    if (event["method"] != method_of(separation)) {
+      events.push_back(event);
+    }
+  }
+  for (const auto& row : ReconstructionEventTable::rows(separation)) {
+    events.push_back(json_of_row<ReconstructionEventTable>(row));
+  }
+  answers_["reconstruction"] = std::move(events);
+}
+
+void ShownSpacecraft::take_details(const ArchiveBatch& stored) {
+  if (stored.start || stored.continuation) {
+    show(stored.run_id);
+  }
+  if (stored.run_id != run_id_) {
+    return;
+  }
+  for (const Product& product : stored.products) {
+    if (const auto* const use = std::get_if<PulseUse>(&product)) {
+      edges_.push_back(*use);
+    } else if (const auto* const turn = std::get_if<RevolutionProduct>(&product)) {
+      periods_s_.insert_or_assign(turn->t_sun1, turn->period_s);
+    } else if (const auto* const batch = std::get_if<BatchProduct>(&product)) {
+      bound_deg_ = {(*batch)->estimate.t, (*batch)->bound_rad * kDegPerRad};
+    }
+  }
+  while (edges_.size() > kMostEdgesAtOnce) {
+    edges_.pop_front();
+  }
+  while (periods_s_.size() > kTurnsKept) {
+    periods_s_.erase(periods_s_.begin());
+  }
+}
+
+std::optional<double> ShownSpacecraft::phase_deg(TaiTime t) const {
+  const auto behind = periods_s_.upper_bound(t);
+  if (behind == periods_s_.begin()) {
+    return std::nullopt;
+  }
+  const auto& [sun1, period_s] = *std::prev(behind);
+  const double turns = seconds_between(sun1, t) / period_s;
+  return (turns - std::floor(turns)) * 360.0;
+}
+
+void ShownSpacecraft::take(const SpacecraftHealth& health) {
+  last_sample_ = health.last_sample;
+  link_ = {{"state", name_of(health.link)}};
+  if (health.data_age_s) {
+    link_["data_age_s"] = *health.data_age_s;
+  }
+  if (last_sample_) {
+    link_["t_tai_ns"] = tai_ns(*last_sample_);
+    link_["utc"] = format_utc(*last_sample_);
+  }
+}
+
+nlohmann::json ShownSpacecraft::state() {
+  nlohmann::json state{{"kind", name_of(mission_.kind())}};
+  if (mission_.spin() != nullptr) {
+    state["prior"] = prior_of(mission_);
+    state["target"] = mission_.target ? place_json(mission_.target->axis_icrf) : nullptr;
+  }
+  state.update(link_);
+  state.update(answers_);
+  state.update(verdict_);
+  add_sky(state);
+  add_to_target(state);
+  return state;
+}
+
+void ShownSpacecraft::add_sky(nlohmann::json& state) {
+  if (!last_sample_ || !mission_.orbit) {
+    return;
+  }
+  const auto spacecraft = mission_.orbit->at(*last_sample_);
+  if (!spacecraft) {
+    return;  // The orbit ends: the axis is still there to be seen.
+  }
+  const PlaceDeg sun = place_deg(sun_.direction_icrf(*last_sample_, *spacecraft));
+  const PlaceDeg earth = place_deg(-spacecraft->position_icrf_km);
+  state["sun_ra_deg"] = sun.ra_deg;
+  state["sun_dec_deg"] = sun.dec_deg;
+  state["earth_ra_deg"] = earth.ra_deg;
+  state["earth_dec_deg"] = earth.dec_deg;
+}
+
+void ShownSpacecraft::add_to_target(nlohmann::json& state) const {
+  if (mission_.target && state.contains("ra_deg")) {
+    const Eigen::Vector3d axis_icrf =
+        direction_icrf({.ra_rad = state["ra_deg"].get<double>() * kRadPerDeg,
+                        .dec_rad = state["dec_deg"].get<double>() * kRadPerDeg});
+    state["to_target_deg"] = degrees(angle_between_rad(axis_icrf, mission_.target->axis_icrf));
+  }
+}
+
+nlohmann::json ShownSpacecraft::take_pulses() {
+  nlohmann::json pulses = nlohmann::json::array();
+  for (const PulseUse& edge : edges_) {
+    nlohmann::json pulse = json_of(edge);
+    const auto phase = phase_deg(edge.pulse.t);
+    pulse["phase_deg"] = phase ? nlohmann::json(*phase) : nlohmann::json{};
+    pulses.push_back(std::move(pulse));
+  }
+  edges_.clear();
+  return pulses;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,66 @@
+/// @file
+/// What the console shows of one spacecraft.
+
+#pragma once
+
+#include <deque>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "pipelines/ephemeris/sun.h"
+#include "services/archive/records.h"
+#include "services/mission/mission.h"
+#include "services/products/products.h"
+#include "services/publisher/health.h"
+
+namespace spindrift {
+
+class ShownSpacecraft {
+ public:
+  /// @param mission Outlives it.
+  explicit ShownSpacecraft(const Mission& mission);
+
+  /// What was shown of another run is forgotten.
+  void show(const std::string& run_id);
+  const std::string& run_id() const { return run_id_; }
+
+  /// @name Products of the run
+  /// @return as viewers are told, for some with what else is known of it.
+  /// @{
+  nlohmann::json take(const SpinEstimate& estimate);
+  nlohmann::json take(const SpinFix& fix);
+  nlohmann::json take(const AttitudeEstimate& attitude);
+  void take(const ReconstructionProduct& separation);
+  /// @}
+  void take_details(const ArchiveBatch& stored);
+
+  void take(const SpacecraftHealth& health);
+  /// The archive's, of the run.
+  void take_verdict(nlohmann::json verdict) { verdict_ = std::move(verdict); }
+
+  /// As in /api/v1/state.
+  nlohmann::json state();
+  /// Edges since the last time, with their spin phase where that is known.
+  nlohmann::json take_pulses();
+
+ private:
+  void add_sky(nlohmann::json& state);
+  void add_to_target(nlohmann::json& state) const;
+  std::optional<double> phase_deg(TaiTime t) const;
+
+  const Mission& mission_;
+  std::string run_id_;
+  nlohmann::json link_ = nlohmann::json::object();
+  nlohmann::json answers_ = nlohmann::json::object();
+  nlohmann::json verdict_ = nlohmann::json::object();
+  std::optional<TaiTime> last_sample_;
+  std::map<TaiTime, double> periods_s_;                  ///< Of the last turns, by their sun1.
+  std::deque<PulseUse> edges_;                           ///< That viewers were not told yet.
+  std::optional<std::pair<TaiTime, double>> bound_deg_;  ///< Of the last batch solution.
+  ApparentSun sun_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,37 @@
+#include "services/spindrift/serve_console.h"
+
+#include <spdlog/spdlog.h>
+
+#include "services/processor/version.h"
+
+namespace spindrift {
+
+std::unique_ptr<ConsoleFeed> make_console_feed(const ServeOptions& options,
+                                               const std::vector<Mission>& missions,
+                                               const std::string& name) {
+  if (options.console.empty()) {
+    return nullptr;
+  }
+  return std::make_unique<ConsoleFeed>(
+      missions, nlohmann::json{{"name", name},
+                               {"version", kSoftwareVersion},
+                               {"mode", options.partition == "replay" ? "replay" : "live"},
+                               {"status", "starting"}});
+}
+
+Expected<std::unique_ptr<ConsoleServer>> start_console(const ServeOptions& options,
+                                                       ConsoleFeed* feed, AlertDesk& desk,
+                                                       Archive& archive) {
+  if (feed == nullptr) {
+    return nullptr;
+  }
+  auto console = ConsoleServer::start(
+      {.address = options.console, .names = options.console_hosts, .db = options.db},
+      {.feed = *feed, .desk = desk, .archive = archive});
+  if (console) {
+    spdlog::info("console {}", (*console)->url());
+  }
+  return console;
+}
+
+}  // namespace spindrift

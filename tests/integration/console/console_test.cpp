@@ -1,0 +1,135 @@
+// Many connections at once, and viewers of the events.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <list>
+#include <string>
+#include <thread>
+
+#include "tests/integration/console/console_fixture.h"
+#include "tests/support/eventually.h"
+
+namespace spindrift::console_test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Console = ConsoleFixture;
+
+std::uint64_t last_id(const std::string& events) {
+  return std::stoull(events.substr(events.rfind("\nid: ") + 5));
+}
+
+TEST_F(Console, TellsTheStateWithAnIdThatRises) {
+  EventViewer viewer = client_->watch();
+  const std::string first = viewer.until("event: state\ndata: {");
+  EXPECT_THAT(first, HasSubstr("Content-Type: text/event-stream"));
+  const auto id = last_id(first);
+  EXPECT_THAT(viewer.until(fmt::format("id: {}\n", id + 1)), HasSubstr("alerts"));
+}
+
+TEST_F(Console, TellsAViewerWhatItMissed) {
+  EventViewer viewer = client_->watch();
+  const auto id = last_id(viewer.until("event: state"));
+  viewer.socket.close();
+  feed_.tell_state();
+  feed_.tell_state();
+  EventViewer again = client_->watch(fmt::format("Last-Event-ID: {}\r\n", id));
+  EXPECT_EQ(last_id(again.until("event: ")), id + 1);
+}
+
+TEST_F(Console, TellsAViewerOfAnEarlierStartAllThatIsNew) {
+  feed_.tell_state();
+  feed_.tell_state();
+  EventViewer viewer = client_->watch("Last-Event-ID: 7\r\n");
+  const auto id = last_id(viewer.until("event: alert\n"));
+  EXPECT_GT(id, 7U);
+  EXPECT_EQ(last_id(viewer.until("event: state\n")), id + 1);
+}
+
+TEST_F(Console, ServesTwentyViewersAndCountsThem) {
+  std::list<EventViewer> viewers;
+  for (int i = 0; i < 20; ++i) {
+    viewers.push_back(client_->watch());
+  }
+  for (EventViewer& viewer : viewers) {
+    EXPECT_THAT(viewer.until("event: state\n"), HasSubstr("200 OK"));
+  }
+  EXPECT_THAT(client_->get("/metrics").body(), HasSubstr("spindrift_viewers 20\n"));
+  viewers.clear();
+  EXPECT_TRUE(eventually([&] {
+    return client_->get("/metrics").body().find("spindrift_viewers 0\n") != std::string::npos;
+  }));
+}
+
+TEST_F(Console, DropsAViewerThatReadsNoMoreAndTellsTheOthersOn) {
+  EventViewer slow{client_->connected()};
+  slow.socket.set_option(boost::asio::socket_base::receive_buffer_size{4096});
+  boost::asio::write(
+      slow.socket,
+      boost::asio::buffer(std::string{"GET /api/v1/events HTTP/1.1\r\nHost: localhost\r\n\r\n"}));
+  slow.until("event: state\n");
+  EventViewer good = client_->watch();
+  good.until("event: state\n");
+  std::string told;
+  const std::string large(512 * 1024, 'x');
+  EXPECT_TRUE(eventually([&] {
+    feed_.put(Health{.t = {},
+                     .samples_received = 0,
+                     .samples_committed = 0,
+                     .gaps = 0,
+                     .duplicates = 0,
+                     .queue_depth = 0,
+                     .commit_p99_ms = 0.0,
+                     .status = "ok",
+                     .message = large});
+    told = good.until("event: health\n");
+    return client_->get("/metrics").body().find("spindrift_viewers_dropped_total 1\n") !=
+           std::string::npos;
+  }));
+  EXPECT_THAT(told, HasSubstr("event: health"));
+}
+
+TEST_F(Console, RefusesConnectionsBeyondItsLimit) {
+  std::list<HttpSocket> waiting;
+  for (int i = 0; i < 128; ++i) {
+    waiting.push_back(client_->connected());
+  }
+  EXPECT_TRUE(eventually([&] { return client_->get("/healthz").result_int() == 429U; }));
+  waiting.clear();
+  EXPECT_TRUE(eventually([&] { return client_->get("/healthz").result_int() == 200U; }));
+}
+
+TEST_F(Console, SaysThatItsPortIsTaken) {
+  const auto second = ConsoleServer::start(
+      {.address = server_->url().substr(7, server_->url().size() - 8), .names = {}, .db = path()},
+      {.feed = feed_, .desk = desk_, .archive = *archive_});
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, ErrorCode::Unavailable);
+  EXPECT_THAT(second.error().message, HasSubstr("in use"));
+}
+
+TEST_F(Console, RefusesAnAddressThatIsNone) {
+  for (const char* const address : {"", "ship:80", "127.0.0.1:x", "127.0.0.1:99999"}) {
+    const auto console = ConsoleServer::start({.address = address, .names = {}, .db = path()},
+                                              {.feed = feed_, .desk = desk_, .archive = *archive_});
+    ASSERT_FALSE(console) << address;
+    EXPECT_EQ(console.error().code, ErrorCode::InvalidConfiguration);
+  }
+}
+
+TEST_F(Console, EndsWithViewersConnected) {
+  EventViewer viewer = client_->watch();
+  viewer.until("event: state");
+  server_.reset();
+  std::string rest;
+  boost::system::error_code end;
+  boost::asio::read(viewer.socket, boost::asio::dynamic_buffer(rest), end);
+  EXPECT_TRUE(end);
+}
+
+}  // namespace
+}  // namespace spindrift::console_test

@@ -1,0 +1,130 @@
+// The console of `spindrift serve`, as a browser sees it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/support/archive_rows.h"
+#include "tests/support/bus_fixture.h"
+#include "tests/support/eventually.h"
+#include "tests/support/http_client.h"
+#include "tests/support/program.h"
+#include "tests/support/recorded_files.h"
+
+namespace spindrift::serve_console_test {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A service with a console, of a pass whose target is elsewhere.
+class ServedConsole : public ::testing::Test {
+ protected:
+  ServedConsole() {
+    std::ofstream{copy_.mission(), std::ios::app}
+        << "\n[spin.target]\nra_deg = 10.0\ndec_deg = 20.0\n";
+    start();
+  }
+  void start() {
+    service_.emplace(std::vector<std::string>{
+        "serve", "--mission", copy_.mission().string(), "--db", db().string(), "--domain",
+        std::to_string(bus_.domain), "--partition", bus_.partition, "--console", "127.0.0.1:0"});
+    ASSERT_TRUE(service_->says("ready")) << service_->log();
+    const std::string log = service_->log();
+    const auto url = log.find("http://127.0.0.1:");
+    ASSERT_LT(url, log.find("ready")) << log;
+    client_.emplace(log.substr(url, log.find("/\n", url) - url));
+  }
+  void replay() const {
+    Program replay{{"replay", "--mission", copy_.mission().string(), "--telemetry",
+                    copy_.folder.path().string(), "--speed", "0", "--domain",
+                    std::to_string(bus_.domain), "--partition", bus_.partition}};
+    ASSERT_EQ(replay.exit_status(), 0) << replay.log();
+  }
+  int stop() {
+    service_->signal(SIGTERM);
+    return service_->exit_status();
+  }
+  const std::filesystem::path& db() const { return copy_.db; }
+  nlohmann::json shown() { return client_->get_json("/api/v1/state")["spacecraft"]["SPINNER"]; }
+
+  const PassCopy copy_{"nominal"};
+  const bus::BusConfig bus_ = bus_of_its_own();
+  std::optional<Program> service_;
+  std::optional<HttpClient> client_;
+};
+
+TEST_F(ServedConsole, ShowsWhatTheArchiveHolds) {
+  EXPECT_EQ(shown()["state"], "waiting");
+  EXPECT_FALSE(shown().contains("quality"));
+  replay();
+  const auto is_of_verdict = [&] {
+    const auto state = shown();
+    return state.contains("ra_deg") && number_of(db(), "SELECT count(*) FROM revolution") > 590 &&
+           state["ra_deg"] == real_of(db(), "SELECT ra_deg FROM pass_verdict") &&
+           state["spin_rate_rpm"] == real_of(db(),
+                                             "SELECT spin_rate_rpm FROM pass_verdict JOIN "
+                                             "pass_answer USING (run_id, estimator)");
+  };
+  ASSERT_TRUE(eventually(is_of_verdict)) << shown() << service_->log();
+  EXPECT_GT(shown()["to_target_deg"], 70.0);
+  EXPECT_TRUE(shown()["sun_ra_deg"].is_number());
+  const auto points = client_->get_json(
+      "/api/v1/series?spacecraft=SPINNER&quantity=sun_angle&from=0&to=9000000000000000000"
+      "&points=10000")["points"];
+  EXPECT_EQ(points.size(),
+            number_of(db(),
+                      "SELECT count(*) FROM spin_measurement JOIN revolution USING (run_id, "
+                      "revolution) WHERE quantity = 'sun_angle'"));
+  EXPECT_THAT(client_->get("/metrics").body(),
+              HasSubstr("spindrift_samples_committed_total 3600\n"));
+  EventViewer missed = client_->watch("Last-Event-ID: 1\r\n");
+  EXPECT_THAT(missed.until("event: pulse\n"), HasSubstr("id: "));
+  EXPECT_EQ(stop(), 0) << service_->log();
+}
+
+TEST_F(ServedConsole, TakesAnAcknowledgementAndKnowsItAfterARestart) {
+  replay();
+  ASSERT_TRUE(eventually([&] { return !client_->get_json("/api/v1/state")["alerts"].empty(); }));
+  const auto alert = client_->get_json("/api/v1/state")["alerts"][0];
+  EXPECT_EQ(alert["key"], "spin.off_target");
+  EXPECT_EQ(alert["evidence"]["unit"], "deg");
+  std::optional<EventViewer> viewer = client_->watch();
+  viewer->until("event: state\n");
+  const std::string line = text_of(db().string() + ".token");
+  const auto reply =
+      client_->post("/api/v1/alerts/" + alert["alert_id"].get<std::string>() + "/ack",
+                    R"({"by":"night shift","note":"seen"})", line.substr(0, line.size() - 1));
+  ASSERT_EQ(reply.result_int(), 200U) << reply.body();
+  viewer->until("event: alert\n");
+  EXPECT_EQ(number_of(db(), "SELECT count(*) FROM alert_transition WHERE by = 'night shift'"), 1);
+  EXPECT_EQ(stop(), 0) << service_->log();
+  viewer.reset();  // Before its client.
+  start();
+  EXPECT_EQ(client_->get_json("/api/v1/state")["alerts"][0]["state"], "acknowledged");
+  EXPECT_EQ(stop(), 0) << service_->log();
+}
+
+TEST_F(ServedConsole, EndsWithViewersConnected) {
+  std::vector<EventViewer> viewers;
+  for (int i = 0; i < 20; ++i) {
+    viewers.push_back(client_->watch());
+    viewers.back().until("event: state\n");
+  }
+  EXPECT_EQ(stop(), 0) << service_->log();
+}
+
+TEST(ServeConsole, RefusesWhatIsNoAddress) {
+  const PassCopy copy{"nominal"};
+  Program service{{"serve", "--mission", copy.mission().string(), "--db", copy.db.string(),
+                   "--domain", "99", "--console", "ship"}};
+  EXPECT_EQ(service.exit_status(), 2);
+  EXPECT_THAT(service.log(), HasSubstr("--console ship: must be HOST:PORT"));
+}
+
+}  // namespace
+}  // namespace spindrift::serve_console_test

@@ -1,0 +1,169 @@
+#include "services/console/console_feed.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "services/mission/mission.h"
+#include "services/units/degrees.h"
+#include "tests/support/recorded_files.h"
+
+namespace spindrift::console_feed_test {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// Within the orbit of the recorded pass.
+const TaiTime kT = tai_from_ns(1'795'143'700'000'000'000);
+
+SpinEstimate estimate_at(TaiTime t, SpinEstimator estimator) {
+  return {.t = t,
+          .estimator = estimator,
+          .axis_icrf = axis_icrf_from(100.0, -55.0),
+          .covariance_rad2 = Eigen::Matrix2d::Identity() * 1e-6,
+          .spin_rate_rad_s = 6.0,
+          .spin_rate_sigma_rad_s = 1e-6,
+          .assessment = {}};
+}
+
+class Feed : public ::testing::Test {
+ protected:
+  Feed() {
+    missions_.back().target = SpinTarget{.axis_icrf = axis_icrf_from(100.0, -50.0)};
+    feed_ = std::make_unique<ConsoleFeed>(missions_, nlohmann::json{{"name", "test"}});
+  }
+  nlohmann::json shown() { return feed_->state()["spacecraft"]["SPINNER"]; }
+  void put(const Product& product, const std::string& run_id = "run") {
+    feed_->put("SPINNER", run_id, product);
+  }
+  void put_details(std::vector<Product> products) {
+    feed_->put_details({.run_id = "run", .spacecraft_id = "SPINNER", .products = products});
+  }
+  void put_link(LinkState link) {
+    feed_->put(
+        Health{.t = kT,
+               .samples_received = 7,
+               .samples_committed = 6,
+               .gaps = 0,
+               .duplicates = 0,
+               .queue_depth = 0,
+               .commit_p99_ms = 0.0,
+               .status = "ok",
+               .message = "",
+               .spacecraft = {
+                   {.spacecraft = "SPINNER", .link = link, .last_sample = kT, .data_age_s = 0.5}}});
+  }
+  std::string events() const { return feed_->after(0).text; }
+
+  std::vector<Mission> missions_{load_mission(kPasses / "nominal" / "mission.toml").value()};
+  std::unique_ptr<ConsoleFeed> feed_;
+};
+
+TEST_F(Feed, SaysNothingGoodBeforeTelemetry) {
+  const nlohmann::json state = shown();
+  EXPECT_EQ(state["kind"], "spin");
+  EXPECT_EQ(state["state"], "waiting");
+  for (const char* const name : {"quality", "ra_deg", "utc", "data_age_s", "sun_ra_deg"}) {
+    EXPECT_FALSE(state.contains(name)) << name;
+  }
+}
+
+TEST_F(Feed, ShowsLinkSunAndEarthOfTheLastSample) {
+  put_link(LinkState::Live);
+  const nlohmann::json state = shown();
+  EXPECT_EQ(state["state"], "live");
+  EXPECT_EQ(state["t_tai_ns"], tai_ns(kT));
+  EXPECT_EQ(state["data_age_s"], 0.5);
+  EXPECT_TRUE(state["sun_ra_deg"].is_number()) << state;
+  EXPECT_TRUE(state["earth_dec_deg"].is_number());
+  EXPECT_EQ(feed_->state()["service"]["samples_received"], 7);
+}
+
+TEST_F(Feed, ShowsTheVerdictOfTheRunInForceAndHowFarTheTargetIs) {
+  put(estimate_at(kT, SpinEstimator::Mean));
+  feed_->put_verdict("SPINNER", "run of before", {{"quality", "LOST"}});
+  EXPECT_FALSE(shown().contains("quality"));
+  feed_->put_verdict("SPINNER", "run", {{"quality", "OK"}, {"ra_deg", 100.0}, {"dec_deg", -55.0}});
+  EXPECT_EQ(shown()["quality"], "OK");
+  EXPECT_NEAR(shown()["to_target_deg"].get<double>(), 5.0, 1e-9);
+  EXPECT_NEAR(shown()["target"]["dec_deg"].get<double>(), -50.0, 1e-9);
+  EXPECT_EQ(shown()["estimates"]["mean"]["estimator"], "mean");
+  put(estimate_at(kT, SpinEstimator::Mean), "next run");
+  EXPECT_FALSE(shown().contains("quality"));
+}
+
+TEST_F(Feed, TellsTheBoundWithTheBatchSolution) {
+  put(estimate_at(kT, SpinEstimator::Sequential));
+  BatchSolution solution{};
+  solution.estimate = estimate_at(kT, SpinEstimator::Batch);
+  solution.bound_rad = 0.01 * kRadPerDeg;
+  put_details({std::make_shared<const BatchSolution>(solution)});
+  put(solution.estimate);
+  EXPECT_NEAR(shown()["estimates"]["batch"]["bound_deg"].get<double>(), 0.01, 1e-12);
+  EXPECT_FALSE(shown()["estimates"]["sequential"].contains("bound_deg"));
+}
+
+TEST_F(Feed, TellsEdgesTogetherWithTheirPhase) {
+  put(estimate_at(kT, SpinEstimator::Mean));
+  const auto edge = [](TaiTime t, std::optional<Rejection> rejected_by) {
+    return PulseUse{.pulse = {.t = t, .channel = PulseChannel::Sun2},
+                    .revolution = std::nullopt,
+                    .rejected_by = rejected_by};
+  };
+  put_details({edge(kT - 1s, Rejection::Unassociated), edge(kT + 250ms, std::nullopt),
+               RevolutionProduct{.revolution = 1, .t_sun1 = kT, .period_s = 1.0}});
+  put_details({edge(kT + 3500ms, Rejection::Phase)});
+  feed_->tell_pulses();
+  feed_->tell_pulses();
+  const std::string text = events();
+  const auto data = text.find("event: pulse\ndata: ");
+  ASSERT_NE(data, std::string::npos) << text;
+  EXPECT_EQ(text.find("event: pulse", data + 1), std::string::npos);
+  const auto told = nlohmann::json::parse(text.substr(text.find('{', data)));
+  EXPECT_EQ(told["spacecraft"], "SPINNER");
+  ASSERT_EQ(told["pulses"].size(), 3U);
+  EXPECT_TRUE(told["pulses"][0]["phase_deg"].is_null());
+  EXPECT_EQ(told["pulses"][0]["rejected_by"], "unassociated");
+  EXPECT_EQ(told["pulses"][1]["phase_deg"], 90.0);
+  EXPECT_EQ(told["pulses"][1]["accepted"], true);
+  EXPECT_NEAR(told["pulses"][2]["phase_deg"].get<double>(), 180.0, 1e-6);
+}
+
+TEST_F(Feed, ShowsAlertsUntilTheyAreCleared) {
+  Alert alert{.alert_id = "00ff",
+              .key = "spin.sigma",
+              .raised = kT,
+              .message = "large",
+              .evidence = R"({"value":2})"};
+  feed_->put({.run_id = "run", .spacecraft = "SPINNER", .of_service = true, .alert = alert});
+  ASSERT_EQ(feed_->state()["alerts"].size(), 1U);
+  EXPECT_EQ(feed_->state()["alerts"][0]["evidence"]["value"], 2);
+  EXPECT_THAT(events(), Not(HasSubstr("event: alert")));
+  alert.state = AlertState::Cleared;
+  put(alert, "an older run");
+  EXPECT_THAT(events(), HasSubstr("event: alert"));
+  EXPECT_EQ(feed_->state()["alerts"].size(), 0U);
+}
+
+TEST_F(Feed, HasTroubleWhenTheServiceDoesNotWork) {
+  EXPECT_EQ(feed_->trouble(), "");
+  feed_->put(Health{.t = kT,
+                    .samples_received = 0,
+                    .samples_committed = 0,
+                    .gaps = 0,
+                    .duplicates = 0,
+                    .queue_depth = 0,
+                    .commit_p99_ms = 0.0,
+                    .status = "not storing: disk full",
+                    .message = "",
+                    .works = false});
+  EXPECT_EQ(feed_->trouble(), "not storing: disk full");
+}
+
+}  // namespace
+}  // namespace spindrift::console_feed_test

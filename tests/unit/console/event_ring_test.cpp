@@ -1,0 +1,41 @@
+#include "services/console/event_ring.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace spindrift::event_ring_test {
+namespace {
+
+TEST(EventRing, GivesWhatIsBehindAnId) {
+  EventRing ring{100};
+  ring.add("state", {{"a", 1}});
+  ring.add("health", {{"b", 2}});
+  const auto news = ring.after(101);
+  EXPECT_EQ(news.text, "id: 102\nevent: health\ndata: {\"b\":2}\n\n");
+  EXPECT_EQ(news.last, 102U);
+  EXPECT_TRUE(ring.after(102).text.empty());
+}
+
+TEST(EventRing, StartsAgainWhereItCan) {
+  EventRing ring{100};
+  ring.add("state", {});
+  EXPECT_EQ(ring.nearest(7), 100U);     // Of an earlier start: all there is.
+  EXPECT_EQ(ring.nearest(5000), 101U);  // Of another service: from now on.
+  EXPECT_TRUE(ring.holds_all_after(100));
+}
+
+TEST(EventRing, ForgetsByBytes) {
+  EventRing ring{0};
+  const std::string mebibyte(1024 * 1024, 'x');
+  for (int i = 0; i < 20; ++i) {
+    ring.add("state", mebibyte);
+  }
+  EXPECT_FALSE(ring.holds_all_after(1));
+  EXPECT_EQ(ring.nearest(0), 5U);
+  EXPECT_TRUE(ring.holds_all_after(5));
+  EXPECT_LT(ring.after(5).text.size(), 2 * mebibyte.size());  // Not all at once.
+}
+
+}  // namespace
+}  // namespace spindrift::event_ring_test
