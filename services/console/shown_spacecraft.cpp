@@ -13,6 +13,7 @@
 #include "pipelines/time/utc.h"
 #include "services/products/to_json.h"
 #include "services/units/degrees.h"
+#include "services/words/reasons_json.h"
 
 namespace spindrift {
 namespace {
@@ -30,6 +31,14 @@ std::string_view name_of(LinkState link) {
 nlohmann::json place_json(const Eigen::Vector3d& direction_icrf) {
   const PlaceDeg place = place_deg(direction_icrf);
   return {{"ra_deg", place.ra_deg}, {"dec_deg", place.dec_deg}};
+}
+
+/// As the archive has it, but the reasons objects.
+template <class Estimate>
+nlohmann::json answer_json(const Estimate& estimate) {
+  nlohmann::json row = json_of(estimate);
+  row["reasons"] = nlohmann::json::parse(to_json_text(estimate.assessment.reasons));
+  return row;
 }
 
 nlohmann::json prior_of(const Mission& mission) {
@@ -60,7 +69,7 @@ void ShownSpacecraft::show(const std::string& run_id) {
 }
 
 nlohmann::json ShownSpacecraft::take(const SpinEstimate& estimate) {
-  nlohmann::json row = json_of(estimate);
+  nlohmann::json row = answer_json(estimate);
   if (estimate.estimator == SpinEstimator::Batch && bound_deg_ && bound_deg_->first == estimate.t) {
     row["bound_deg"] = bound_deg_->second;
   }
@@ -78,7 +87,7 @@ nlohmann::json ShownSpacecraft::take(const SpinFix& fix) {
 }
 
 nlohmann::json ShownSpacecraft::take(const AttitudeEstimate& attitude) {
-  nlohmann::json row = json_of(attitude);
+  nlohmann::json row = answer_json(attitude);
   answers_["source"] = row["source"];
   answers_["q_icrf_body"] = {row["qx"], row["qy"], row["qz"], row["qw"]};
   answers_["rate_deg_s"] = nullptr;

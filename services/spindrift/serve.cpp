@@ -10,7 +10,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -35,7 +34,6 @@
 #include "services/processor/problems.h"
 #include "services/processor/processor.h"
 #include "services/processor/silence_watch.h"
-#include "services/processor/version.h"
 #include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"
 #include "services/queue/contained.h"

@@ -150,6 +150,25 @@ TEST_F(Feed, ShowsAlertsUntilTheyAreCleared) {
   EXPECT_EQ(feed_->state()["alerts"].size(), 0U);
 }
 
+TEST(FeedOfThreeAxes, ShowsAttitudeAndRate) {
+  const std::vector<Mission> missions{
+      load_mission(test_data() / "three-axis" / "separation" / "mission.toml").value()};
+  ConsoleFeed feed{missions, {{"name", "test"}}};
+  feed.put("LEOSAT", "run",
+           AttitudeEstimate{.t = kT,
+                            .q_icrf_body = {0.5, 0.5, -0.5, 0.5},
+                            .rate_body_rad_s = Eigen::Vector3d{kRadPerDeg, 0.0, 0.0},
+                            .covariance_rad2 = Eigen::Matrix3d::Identity() * 1e-6,
+                            .assessment = {},
+                            .source = AttitudeSource::Mekf});
+  const auto shown = feed.state()["spacecraft"]["LEOSAT"];
+  EXPECT_EQ(shown["kind"], "three_axis");
+  EXPECT_EQ(shown["q_icrf_body"], (nlohmann::json{0.5, -0.5, 0.5, 0.5}));
+  EXPECT_EQ(shown["rate_deg_s"][0], 1.0);
+  EXPECT_FALSE(shown.contains("prior"));
+  EXPECT_THAT(feed.after(0).text, HasSubstr("event: attitude\n"));
+}
+
 TEST_F(Feed, HasTroubleWhenTheServiceDoesNotWork) {
   EXPECT_EQ(feed_->trouble(), "");
   feed_->put(Health{.t = kT,
