@@ -212,6 +212,7 @@ class ConsoleServer::Loop {
     session->events = event_stream_head();
     viewers_.insert(session);
     write(session);
+    feed_.tell_state();  // It does not wait for the next second to show something.
   }
 
   void write(const Shared& session) {
