@@ -1,0 +1,48 @@
+// The open alerts, most severe first.
+import { byId, clock, duration, element, sign } from './text.js';
+import { ask } from './hand.js';
+
+const order = ['critical', 'warning', 'info'];
+let shown = '';
+
+function evidenceOf(alert) {
+  try {
+    return typeof alert.evidence === 'string' ? JSON.parse(alert.evidence) : alert.evidence ?? {};
+  } catch {
+    return {};
+  }
+}
+
+function made(alert, utcOf) {
+  const [icon, colour] = sign(alert.severity);
+  const article = element('article', undefined, colour);
+  const { value, limit, unit = '', since_tai_ns } = evidenceOf(alert);
+  article.append(
+    element('strong', `${icon} ${alert.severity.toUpperCase()} ${alert.key}`),
+    element('p', alert.message),
+    element('p', `${alert.state} since ${clock(utcOf(since_tai_ns ?? alert.raised_tai_ns))}`
+      + (value === undefined ? '' : `, value ${value} ${unit}, limit ${limit ?? '–'} ${unit}`)));
+  for (const [verb, word] of [['ack', 'Acknowledge'], ['shelve', 'Shelve']]) {
+    if (verb === 'ack' && alert.state !== 'active') continue;
+    const button = element('button', word);
+    button.setAttribute('aria-label', `${word} ${alert.key}`);
+    button.dataset.of = `${verb} ${alert.alert_id}`;
+    button.addEventListener('click', () => ask(alert, verb));
+    article.append(button);
+  }
+  return article;
+}
+
+// Made anew only when they changed, with the focus kept: a key pressed on a button must hit it.
+export function drawAlerts(alerts, known, utcOf) {
+  const text = JSON.stringify(alerts) + known;
+  if (text === shown) return;
+  shown = text;
+  const list = byId('alerts');
+  const focused = list.contains(document.activeElement) ? document.activeElement.dataset.of : undefined;
+  const sorted = [...alerts].sort((a, b) => order.indexOf(a.severity) - order.indexOf(b.severity));
+  list.replaceChildren(...sorted.map(alert => made(alert, utcOf)));
+  if (!sorted.length) list.append(element('p', known ? 'no open alerts' : 'nothing known before the first telemetry', 'dim'));
+  if (focused) [...list.querySelectorAll('button')].find(button => button.dataset.of === focused)?.focus();
+  byId('alerts-title').textContent = sorted.length ? `Alerts (${sorted.length})` : 'Alerts';
+}

@@ -1,0 +1,30 @@
+// Attitude of a three-axis spacecraft: quaternion, Euler angles, rates, and the events of a reconstruction.
+import { byId, clock, fillTable, number, sigma } from './text.js';
+
+const degrees = radians => radians * 180 / Math.PI;
+
+// Angles 3-1-2 (about z, x, y) in degrees of q = [x, y, z, w], ICRF to body.
+export function euler312([x, y, z, w]) {
+  return [
+    degrees(Math.atan2(-2 * (x * y - w * z), w * w - x * x + y * y - z * z)),
+    degrees(Math.asin(Math.max(-1, Math.min(1, 2 * (y * z + w * x))))),
+    degrees(Math.atan2(-2 * (x * z - w * y), w * w - x * x - y * y + z * z)),
+  ];
+}
+
+const list = (values, digits, unit) => values.map(value => number(value, digits, unit)).join('  ');
+const quaternionOf = row => row.q_icrf_body ?? [row.qx, row.qy, row.qz, row.qw];
+
+export function drawAttitude(craft, utcOf) {
+  const rows = [];
+  if (craft.q_icrf_body) {
+    rows.push(['q x y z w', list(craft.q_icrf_body, 5)], ['Euler 3-1-2: ψ φ θ', list(euler312(craft.q_icrf_body), 3, '°')]);
+  }
+  if (craft.rate_deg_s) rows.push(['Rate x y z', list(craft.rate_deg_s, 4, '°/s')]);
+  rows.push(['Sigma', sigma(craft.sigma_deg)], ['Source', craft.source ?? craft.estimator ?? '–']);
+  for (const [name, value] of Object.entries(craft.innovations ?? {})) rows.push([`Innovation ${name}`, number(value, 2)]);
+  fillTable(byId('attitude'), rows);
+  const events = (craft.reconstruction ?? []).map(row => [`${row.event} ${row.method}`, clock(utcOf(row.t_tai_ns)),
+    list(quaternionOf(row), 4), sigma(row.sigma_deg)]);
+  fillTable(byId('events'), events.length ? [['Event', 'UTC', 'q x y z w', 'Sigma'], ...events] : [['no separation reconstructed']]);
+}

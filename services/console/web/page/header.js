@@ -1,0 +1,51 @@
+// What the operator must see at a glance, whatever else is on the page.
+import { byId, duration, element, number, sigma, sign } from './text.js';
+
+const figures = ['UTC', 'Data age', 'Mode', 'Link', 'Spin rate', 'Axis RA / Dec', '1 σ', 'Case', 'Dual solution', 'Attitude 1 σ'];
+const ofSpin = ['Spin rate', 'Axis RA / Dec', '1 σ', 'Case', 'Dual solution'];
+const settled = { GEOMETRY: 'by geometry', CONSTRAINT: 'by constraint', PRIOR: 'by prior', DISPERSION: 'by dispersion',
+  AMBIGUOUS: '⇄ NOT settled' };
+const places = new Map();
+
+for (const name of figures) {
+  const box = element('div');
+  const value = element('dd', '–');
+  value.id = `figure-${name.toLowerCase().replaceAll(/[^a-z]+/g, '-')}`;
+  box.append(element('dt', name), value);
+  byId('figures').append(box);
+  places.set(name, value);
+}
+
+function put(name, text, className = '') {
+  const place = places.get(name);
+  if (place.textContent !== text) place.textContent = text;
+  place.className = className;
+}
+
+// `since_s`: since the service said so. `stale`: too long ago to be called the state of the link.
+export function drawHeader(craft, service, since_s, stale) {
+  const spin = craft.kind !== 'three_axis';
+  for (const [name, place] of places) {
+    place.parentElement.hidden = ofSpin.includes(name) ? !spin : name === 'Attitude 1 σ' ? spin : false;
+  }
+  put('UTC', craft.utc ? craft.utc.replace('T', ' ').replace(/(\.\d+)?Z$/, '') : '–');
+  put('Data age', duration(craft.data_age_s + since_s), craft.state === 'stale' ? 'bad' : '');
+  put('Mode', service?.mode === 'replay' ? '↻ REPLAY' : service?.mode ? `▶ ${service.mode.toUpperCase()}` : '–',
+    service?.mode === 'replay' ? 'warn' : '');
+  const link = stale ? 'unknown' : craft.state ?? 'waiting';
+  const [icon, colour] = sign(link);
+  put('Link', `${icon} ${link.toUpperCase()}`, colour);
+  put('Spin rate', `${number(craft.spin_rate_rpm, 4)} ± ${sigma(craft.sigma_rpm, '')} rpm`);
+  put('Axis RA / Dec', `${number(craft.ra_deg, 3, '°')} / ${number(craft.dec_deg, 3, '°')}`);
+  put('1 σ', sigma(craft.sigma_deg));
+  put('Attitude 1 σ', sigma(craft.sigma_deg));
+  put('Case', Number.isFinite(craft.geometry_case) ? `${craft.geometry_case}` : '–');
+  put('Dual solution', settled[craft.resolution] ?? '–', craft.resolution === 'AMBIGUOUS' ? 'warn' : '');
+  const quality = craft.quality ?? 'WAITING';
+  const [mark, tone] = sign(craft.quality);
+  const verdict = `${mark} ${quality}`;
+  if (byId('quality').textContent !== verdict) byId('quality').textContent = verdict;
+  byId('quality').className = tone;
+  const why = craft.quality ? [craft.estimator, craft.why].filter(Boolean).join(': ') : 'for the first telemetry';
+  if (byId('why').textContent !== why) byId('why').textContent = why;
+}

@@ -1,0 +1,89 @@
+// Spin phase of the edges against time: a dot for an accepted one, a cross for a rejected one.
+import { Ring } from './ring.js';
+import { begin, colours, cross } from './canvas.js';
+import { byId, clock, number } from './text.js';
+
+const shown_s = 300;
+const channels = { sun1: '#f2b134', sun2: '#ffd98a', north_in: '#7cb9f2', north_out: '#b4d7f7', south_in: '#6fd08c',
+  south_out: '#b0e8c0' };
+const left = 40;
+const bottom = 20;
+
+export class Raster {
+  constructor() {
+    this.canvas = byId('raster');
+    this.edges = new Ring(6000);
+    this.drawn = [];
+    this.canvas.addEventListener('pointermove', event => this.say(event.offsetX, event.offsetY));
+    this.canvas.addEventListener('keydown', event => this.walk(event));
+  }
+
+  push(edge) { this.edges.push(edge); }
+  clear() { this.edges.clear(); }
+
+  draw(utcOf) {
+    const { pen, width, height } = begin(this.canvas);
+    const plot = { w: width - left - 8, h: height - bottom - 8 };
+    let last = -Infinity;
+    for (const edge of this.edges) last = Math.max(last, utcOf(edge.t_tai_ns));
+    pen.fillStyle = colours.dim;
+    pen.strokeStyle = colours.line;
+    for (const phase of [0, 90, 180, 270, 360]) {
+      const y = 6 + plot.h * (1 - phase / 360);
+      pen.fillText(`${phase}°`, 2, y + 5);
+      pen.beginPath();
+      pen.moveTo(left, y);
+      pen.lineTo(left + plot.w, y);
+      pen.stroke();
+    }
+    this.drawn = [];
+    if (!Number.isFinite(last)) {
+      pen.fillText('no edges yet', left + 10, 40);
+      return;
+    }
+    for (const part of [0, 0.5, 1]) {
+      pen.fillText(clock(last - shown_s * (1 - part)), left + part * (plot.w - 60), height - 4);
+    }
+    for (const edge of this.edges) {
+      const x = left + plot.w * (1 - (last - utcOf(edge.t_tai_ns)) / shown_s);
+      if (x < left || !Number.isFinite(edge.phase_deg)) continue;
+      const y = 6 + plot.h * (1 - edge.phase_deg / 360);
+      this.drawn.push({ x, y, edge, at: utcOf(edge.t_tai_ns) });
+      if (edge.accepted) {
+        pen.fillStyle = channels[edge.channel] ?? colours.text;
+        pen.fillRect(x - 1.5, y - 1.5, 3, 3);
+      } else {
+        pen.strokeStyle = colours.bad;
+        cross(pen, x, y, 4);
+      }
+    }
+  }
+
+  say(x, y) {
+    let nearest = null;
+    let best = 15;
+    for (const one of this.drawn) {
+      const away = Math.hypot(one.x - x, one.y - y);
+      if (away < best) [nearest, best] = [one, away];
+    }
+    this.tell(nearest);
+  }
+
+  // The arrow keys go through the rejected edges, as a pointer would.
+  walk(event) {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    const rejected = this.drawn.filter(one => !one.edge.accepted);
+    if (!step || !rejected.length) return;
+    event.preventDefault();
+    const at = rejected.findIndex(one => one.edge === this.told);
+    this.tell(rejected.at((at < 0 && step > 0 ? 0 : at + step) % rejected.length));
+  }
+
+  tell(one) {
+    this.told = one?.edge;
+    byId('raster-said').textContent = one
+      ? `${one.edge.channel} ${clock(one.at)} ${number(one.edge.phase_deg, 1, '°')} ${
+        one.edge.accepted ? 'accepted' : `rejected: ${one.edge.rejected_by}`}`
+      : '';
+  }
+}
