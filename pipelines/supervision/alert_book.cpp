@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <string_view>
 #include <utility>
@@ -10,6 +12,8 @@ namespace spindrift {
 namespace {
 
 constexpr std::string_view kService = "spindrift";
+// Changes of an alert are fewer than its nanoseconds.
+constexpr std::chrono::milliseconds kMoment{1};
 
 /// FNV-1a: the same occurrence has the same id wherever and whenever it is computed.
 std::string id_of(const Occurrence& occurrence) {
@@ -45,6 +49,11 @@ void AlertBook::take_up(Alert alert) {
   if (entry == by_key_.end() || entry->second.last.raised < alert.raised) {
     by_key_.insert_or_assign(key, Entry{.last = std::move(alert), .settled = settled});
   }
+}
+
+TaiTime AlertBook::after(const std::string& key, TaiTime t) const {
+  const auto entry = by_key_.find(key);
+  return entry == by_key_.end() ? t : std::max(t, entry->second.settled + kMoment);
 }
 
 std::optional<Alert> AlertBook::raise(const Occurrence& occurrence) {

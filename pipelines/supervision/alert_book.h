@@ -31,6 +31,10 @@ class AlertBook {
   /// An alert of before, as it was last.
   void take_up(Alert alert);
 
+  /// `t`, or a moment after the last change that the condition of a key made: of a condition that
+  /// nobody computes again, and whose clock may be set back.
+  TaiTime after(const std::string& key, TaiTime t) const;
+
   /// @return the alert as it is now; empty: nothing has changed.
   std::optional<Alert> raise(const Occurrence& occurrence);
   std::optional<Alert> clear(const Occurrence& occurrence);

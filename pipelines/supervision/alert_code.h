@@ -11,6 +11,14 @@
 namespace spindrift {
 
 enum class AlertCode {
+  LinkSilent,
+  LinkLate,
+  LinkAhead,
+  LinkGap,  ///< About a source, as are two others of the link.
+  LinkRejected,
+  LinkRepeated,
+  LinkRestarted,
+  ServiceTwice,
   ChannelSilent,  ///< About a channel.
   SpinInterference,
   SpinPeriod,
@@ -24,15 +32,25 @@ enum class AlertCode {
   SpinRate,
   AttitudeLost,
   ReconstructionLauncher,
+  ArchiveBacklog,
+  ArchiveWrite,
+  ArchiveDisk,
+  ClockJump,
+  DataOutdated,  ///< About what is needed and ends.
 };
-inline constexpr int kAlertCodes = static_cast<int>(AlertCode::ReconstructionLauncher) + 1;
+inline constexpr int kAlertCodes = static_cast<int>(AlertCode::DataOutdated) + 1;
 
 constexpr std::string_view name_of(AlertCode code) {
   constexpr std::array<std::string_view, kAlertCodes> kNames = {
-      "channel.silent",         "spin.interference", "spin.period", "spin.rejection",
-      "spin.ambiguous",         "spin.doubtful",     "spin.sigma",  "spin.disagree",
-      "spin.off_target",        "spin.nutation",     "spin.rate",   "attitude.lost",
-      "reconstruction.launcher"};
+      "link.silent",       "link.late",       "link.ahead",
+      "link.gap",          "link.rejected",   "link.repeated",
+      "link.restarted",    "service.twice",   "channel.silent",
+      "spin.interference", "spin.period",     "spin.rejection",
+      "spin.ambiguous",    "spin.doubtful",   "spin.sigma",
+      "spin.disagree",     "spin.off_target", "spin.nutation",
+      "spin.rate",         "attitude.lost",   "reconstruction.launcher",
+      "archive.backlog",   "archive.write",   "archive.disk",
+      "clock.jump",        "data.outdated"};
   return kNames.at(static_cast<std::size_t>(code));
 }
 
@@ -54,7 +72,10 @@ constexpr std::string_view name_of(AlertSeverity severity) {
 constexpr AlertSeverity severity_of(AlertCode code) {
   switch (code) {
     case AlertCode::AttitudeLost:
+    case AlertCode::ArchiveWrite:
       return AlertSeverity::Critical;
+    case AlertCode::LinkRepeated:
+    case AlertCode::LinkRestarted:
     case AlertCode::SpinInterference:
       return AlertSeverity::Info;
     default:

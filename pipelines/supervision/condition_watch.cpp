@@ -9,12 +9,21 @@ ConditionWatch::ConditionWatch(AlertCode code, std::string_view unit, Holding ho
     : code_{code}, about_{std::move(about)}, unit_{unit}, holding_{holding} {}
 
 std::optional<ConditionChange> ConditionWatch::see(TaiTime t, const Reading& reading) {
-  const bool is_between =
-      reading.value <= reading.limit && reading.value > kClearShare * reading.limit;
-  if ((last_ && t <= *last_) || is_between) {
+  return judge(t, reading, reading.value >= reading.limit,
+               reading.value <= kClearShare * reading.limit);
+}
+
+std::optional<ConditionChange> ConditionWatch::see_least(TaiTime t, const Reading& reading) {
+  return judge(t, reading, reading.value < reading.limit,
+               kClearShare * reading.value >= reading.limit);
+}
+
+std::optional<ConditionChange> ConditionWatch::judge(TaiTime t, const Reading& reading,
+                                                     bool is_there, bool is_gone) {
+  if ((last_ && t <= *last_) || (!is_there && !is_gone)) {
     return std::nullopt;
   }
-  return settle(t, reading.value > reading.limit ? Change::Raised : Change::Cleared,
+  return settle(t, is_there ? Change::Raised : Change::Cleared,
                 {.value = reading.value,
                  .limit = reading.limit,
                  .unit = unit_,
@@ -48,8 +57,12 @@ std::optional<ConditionChange> ConditionWatch::settle(TaiTime t, Change now, Evi
   }
   said_ = now;
   evidence.since = since_;
-  return ConditionChange{
-      .code = code_, .about = about_, .change = now, .t = t, .evidence = evidence};
+  return ConditionChange{.code = code_,
+                         .about = about_,
+                         .change = now,
+                         .t = t,
+                         .evidence = evidence,
+                         .severity = severity_of(code_)};
 }
 
 }  // namespace spindrift

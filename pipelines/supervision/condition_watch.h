@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "pipelines/supervision/alert_code.h"
@@ -16,7 +17,7 @@ namespace spindrift {
 /// What an alert rests on.
 struct Evidence {
   double value;
-  double limit;  ///< That `value` is above.
+  double limit;  ///< That `value` has reached.
   std::string_view unit;
   TaiTime since;  ///< The condition holds.
   TaiTime last;   ///< Of the reading that told.
@@ -31,8 +32,15 @@ struct ConditionChange {
   Change change;
   TaiTime t;
   Evidence evidence;
+  AlertSeverity severity = AlertSeverity::Warning;
 };
 using ConditionChanges = std::vector<ConditionChange>;
+
+inline void add(std::optional<ConditionChange> change, ConditionChanges& changes) {
+  if (change) {
+    changes.push_back(std::move(*change));
+  }
+}
 
 /// For how long a condition holds before it is raised, and is gone before it is cleared.
 struct Holding {
@@ -40,8 +48,8 @@ struct Holding {
   double clear_s = 0.0;
 };
 
-/// Above the limit it is there, up to kClearShare of it it is gone, between them neither. What was
-/// not there to begin with is said to be cleared once: an alert of an earlier run may be open.
+/// From its limit on it is there, up to kClearShare of it it is gone, between them neither. What
+/// was not there to begin with is said to be cleared once: an alert of an earlier run may be open.
 class ConditionWatch {
  public:
   static constexpr double kClearShare = 0.8;
@@ -57,10 +65,15 @@ class ConditionWatch {
   /// @param t A reading that is not later than the one before is not looked at.
   std::optional<ConditionChange> see(TaiTime t, const Reading& reading);
 
+  /// Of what must not be less than its limit.
+  std::optional<ConditionChange> see_least(TaiTime t, const Reading& reading);
+
   /// Of a condition that is there or not; evidence is for how long.
   std::optional<ConditionChange> see(TaiTime t, bool is_there);
 
  private:
+  std::optional<ConditionChange> judge(TaiTime t, const Reading& reading, bool is_there,
+                                       bool is_gone);
   std::optional<ConditionChange> settle(TaiTime t, Change now, Evidence evidence);
 
   AlertCode code_;

@@ -7,15 +7,24 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "pipelines/time/tai_time.h"
+
 namespace spindrift {
 
 /// A share of the last revolutions.
 struct ShareLimit {
   double percent;
   int revolutions;
+  friend bool operator==(const ShareLimit&, const ShareLimit&) = default;
 };
 
 struct AlertLimits {
+  double link_silent_s = 5.0;
+  double link_late_s = 10.0;
+  double gap_samples = 1.0;
+  double rejected_percent = 1.0;
+  double repeated_samples = 100.0;
+  double silent_s = 5.0;
   int silent_revolutions = 10;
   ShareLimit period = {.percent = 10.0, .revolutions = 100};
   ShareLimit rejection = {.percent = 20.0, .revolutions = 100};
@@ -27,7 +36,19 @@ struct AlertLimits {
   double off_target_deg = 2.0;
   double off_target_sigmas = 3.0;
   double nutation_deg = 0.5;
+  double diverged_percent = 99.9;
+  double diverged_s = 60.0;
   double launcher_percent = 99.0;
+  double backlog_s = 10.0;
+  double disk_gib = 1.0;
+  double clock_jump_s = 1.0;
+  friend bool operator==(const AlertLimits&, const AlertLimits&) = default;
+};
+
+/// The pass as planned.
+struct Contact {
+  TaiTime from;
+  TaiTime to;
 };
 
 /// Where axis and rate of a spinner should be.

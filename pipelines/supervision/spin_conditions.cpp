@@ -16,12 +16,6 @@ constexpr double kApartAtMost_s = 60.0;  // Answers that are compared.
 
 constexpr Holding as_long_again(double held_s) { return {.raise_s = held_s, .clear_s = held_s}; }
 
-void add(std::optional<ConditionChange> change, ConditionChanges& changes) {
-  if (change) {
-    changes.push_back(std::move(*change));
-  }
-}
-
 double sigma_deg_of(const SpinEstimate& estimate) {
   return std::sqrt(estimate.covariance_rad2.trace()) * kDegPerRad;
 }

@@ -27,15 +27,24 @@ ConditionChanges changes_by(Conditions& conditions, const Product& product) {
       product);
 }
 
-std::optional<Alert> settle(AlertBook& book, const ConditionChange& change,
-                            const std::string& run_id, const Mission& mission) {
-  const Occurrence occurrence{.run_id = run_id,
-                              .key = alert_key(change.code, change.about),
-                              .severity = severity_of(change.code),
-                              .t = change.t,
-                              .message = sentence_of(change),
-                              .evidence = evidence_json(change.evidence, mission.sha256)};
-  return change.change == Change::Raised ? book.raise(occurrence) : book.clear(occurrence);
+Occurrence occurrence_of(const ConditionChange& change, const std::string& run_id,
+                         const Mission& mission) {
+  return {.run_id = run_id,
+          .key = alert_key(change.code, change.about),
+          .severity = change.severity,
+          .t = change.t,
+          .message = sentence_of(change),
+          .evidence = evidence_json(change.evidence, mission.sha256)};
+}
+
+std::optional<Alert> settle(AlertBook& book, Change change, const Occurrence& occurrence) {
+  return change == Change::Raised ? book.raise(occurrence) : book.clear(occurrence);
+}
+
+void append(std::vector<Alert> alerts, std::vector<Product>& products) {
+  for (Alert& alert : alerts) {
+    products.emplace_back(std::move(alert));
+  }
 }
 
 }  // namespace
@@ -43,7 +52,9 @@ std::optional<Alert> settle(AlertBook& book, const ConditionChange& change,
 AlertDesk::AlertDesk(const std::vector<Mission>& missions, RunMode mode) : mode_{mode} {
   for (const Mission& mission : missions) {
     desks_[mission.spacecraft_id].supervised =
-        Supervised{.mission = mission, .conditions = conditions_of(mission)};
+        Supervised{.mission = mission,
+                   .conditions = conditions_of(mission),
+                   .service = ServiceConditions{mission.alerts, mission.contact}};
   }
 }
 
@@ -62,7 +73,7 @@ void AlertDesk::take_up(const std::string& spacecraft, const std::string& run_id
   desk.book.take_up(alert);
 }
 
-void AlertDesk::see(ArchiveBatch& batch, TaiTime now) {
+void AlertDesk::see(ArchiveBatch& batch) {
   const std::lock_guard lock{mutex_};
   const auto found = desks_.find(batch.spacecraft_id);
   if (found == desks_.end() || !found->second.supervised) {
@@ -78,12 +89,65 @@ void AlertDesk::see(ArchiveBatch& batch, TaiTime now) {
   if (supervised.run_id != batch.run_id) {
     return;
   }
-  for (Alert& alert : changed_by(batch.products, desk)) {
-    batch.products.emplace_back(std::move(alert));
+  std::vector<Alert> alerts = changed_by(batch.products, desk);
+  append(std::exchange(desk.taken_back, {}), batch.products);
+  append(std::move(alerts), batch.products);
+}
+
+void AlertDesk::take_back(const ArchiveBatch& batch) {
+  const std::lock_guard lock{mutex_};
+  for (const Product& product : batch.products) {
+    if (const auto* const alert = std::get_if<Alert>(&product)) {
+      desks_[batch.spacecraft_id].taken_back.push_back(*alert);
+    }
   }
-  for (Alert& alert : desk.book.expire(now)) {
-    batch.products.emplace_back(std::move(alert));
+}
+
+void AlertDesk::note_stored(std::span<const ArchiveBatch> batches) {
+  const std::lock_guard lock{mutex_};
+  for (const ArchiveBatch& batch : batches) {
+    const auto desk = desks_.find(batch.spacecraft_id);
+    if ((batch.start || batch.continuation) && desk != desks_.end() && desk->second.supervised &&
+        desk->second.supervised->run_id == batch.run_id) {
+      desk->second.supervised->stored_run = batch.run_id;
+    }
   }
+}
+
+std::vector<ArchiveBatch> AlertDesk::see(const std::map<std::string, ServiceState>& states,
+                                         TaiTime now) {
+  const std::lock_guard lock{mutex_};
+  std::vector<ArchiveBatch> batches;
+  for (auto& [spacecraft, desk] : desks_) {
+    if (!desk.supervised || desk.supervised->stored_run.empty()) {
+      continue;
+    }
+    ArchiveBatch batch{.run_id = desk.supervised->stored_run, .spacecraft_id = spacecraft};
+    append(std::exchange(desk.taken_back, {}), batch.products);
+    if (const auto state = states.find(spacecraft); state != states.end()) {
+      append(changed_by(state->second, desk), batch.products);
+    }
+    append(desk.book.expire(now), batch.products);
+    if (!batch.products.empty()) {
+      batches.push_back(std::move(batch));
+    }
+  }
+  return batches;
+}
+
+/// Nobody computes these again, and a clock that is set back must not hide them.
+std::vector<Alert> AlertDesk::changed_by(const ServiceState& state, Desk& desk) {
+  Supervised& supervised = *desk.supervised;
+  std::vector<Alert> alerts;
+  for (const ConditionChange& change : supervised.service.see(state)) {
+    Occurrence occurrence = occurrence_of(change, supervised.stored_run, supervised.mission);
+    occurrence.t = desk.book.after(occurrence.key, occurrence.t);
+    if (auto alert = settle(desk.book, change.change, occurrence)) {
+      desk.run_of.try_emplace(alert->alert_id, supervised.stored_run);
+      alerts.push_back(*std::move(alert));
+    }
+  }
+  return alerts;
 }
 
 std::vector<Alert> AlertDesk::changed_by(const std::vector<Product>& products, Desk& desk) {
@@ -93,7 +157,8 @@ std::vector<Alert> AlertDesk::changed_by(const std::vector<Product>& products, D
     const auto changes = std::visit(
         [&](auto& conditions) { return changes_by(conditions, product); }, supervised.conditions);
     for (const ConditionChange& change : changes) {
-      if (auto alert = settle(desk.book, change, supervised.run_id, supervised.mission)) {
+      if (auto alert = settle(desk.book, change.change,
+                              occurrence_of(change, supervised.run_id, supervised.mission))) {
         desk.run_of.try_emplace(alert->alert_id, supervised.run_id);
         alerts.push_back(*std::move(alert));
       }

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/supervision/alert_book.h"
 #include "pipelines/supervision/attitude_conditions.h"
+#include "pipelines/supervision/service_conditions.h"
 #include "pipelines/supervision/spin_conditions.h"
 #include "services/archive/records.h"
 #include "services/mission/mission.h"
@@ -35,9 +37,19 @@ class AlertDesk {
   /// An alert of before, as the archive has it, in the order in which they were raised.
   void take_up(const std::string& spacecraft, const std::string& run_id, const Alert& alert);
 
-  /// Adds to `batch` the alerts that its products raise and clear, and those whose shelving is
-  /// over. In the order of computing. @param now Wall clock.
-  void see(ArchiveBatch& batch, TaiTime now);
+  /// Adds to `batch` the alerts that its products raise and clear, in the order of computing; and
+  /// those that were taken back.
+  void see(ArchiveBatch& batch);
+
+  /// What was added to a batch, or given for one, that is not stored now: of the next one again.
+  void take_back(const ArchiveBatch& batch);
+  /// Runs that have begun: nothing is given for a run that is not stored.
+  void note_stored(std::span<const ArchiveBatch> batches);
+
+  /// Alerts that the service itself raises and clears, and those whose shelving is over.
+  /// @param states Of the spacecraft of which telemetry has come. @param now Wall clock.
+  /// @return what is to be stored.
+  std::vector<ArchiveBatch> see(const std::map<std::string, ServiceState>& states, TaiTime now);
 
   /// Of all spacecraft.
   std::vector<OpenAlert> open() const;
@@ -53,17 +65,21 @@ class AlertDesk {
   struct Supervised {
     Mission mission;
     Conditions conditions;
-    std::string run_id = {};  ///< Empty: none yet.
+    ServiceConditions service;
+    std::string run_id = {};      ///< Empty: none yet.
+    std::string stored_run = {};  ///< Likewise; the last that the archive holds.
   };
   struct Desk {
     std::optional<Supervised> supervised = {};
     AlertBook book = {};
+    std::vector<Alert> taken_back = {};  ///< Changes that are in the book and in no batch.
     std::map<std::string, std::string> run_of =
         {};  ///< By open alert, of those taken up and raised.
   };
 
   static Conditions conditions_of(const Mission& mission);
   static std::vector<Alert> changed_by(const std::vector<Product>& products, Desk& desk);
+  static std::vector<Alert> changed_by(const ServiceState& state, Desk& desk);
   template <class Do>
   Expected<ArchiveBatch> with_alert(const std::string& alert_id, const Do& act);
 

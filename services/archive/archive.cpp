@@ -108,7 +108,8 @@ Expected<void> Archive::submit(ArchiveBatch batch) {
     ++submitted_batches_;
   }
   options_.on_submit(batch);
-  if (!queue_.push(std::move(batch))) {
+  if (!queue_.push(std::move(batch))) {  // Left as it was.
+    options_.on_refused(batch);
     const std::lock_guard lock{mutex_};
     --submitted_batches_;
     return refusal();
@@ -160,7 +161,8 @@ ArchiveStatistics Archive::statistics() const {
           .queued_batches = queue_.size(),
           .commit_p50_ms = commit_durations_.percentile_ms(50),
           .commit_p99_ms = commit_durations_.percentile_ms(99),
-          .failure = failure_};
+          .failure = failure_,
+          .failures = failures_};
 }
 
 void Archive::run() {
@@ -324,6 +326,7 @@ void Archive::note_failure(const Error& error) {
     const std::lock_guard lock{mutex_};
     is_news = !failure_ || failure_->message != error.message;
     failure_ = error;
+    ++failures_;
     stops = state_ == State::Accepting && (options_.on_write_failure == OnWriteFailure::Stop ||
                                            error.code == ErrorCode::InvalidInput);
     if (stops) {

@@ -32,13 +32,15 @@ enum class OnWriteFailure {
   Retry,  ///< Let submitters wait, and try every second. For a pass that is under way.
 };
 
-/// The callbacks run on the writer thread but for on_submit, must not throw and must not call the
-/// archive.
+/// The callbacks run on the writer thread but for on_submit and on_refused, must not throw and must
+/// not call the archive.
 struct ArchiveOptions {
   OnWriteFailure on_write_failure = OnWriteFailure::Stop;
   std::size_t queue_rows = 65536;  ///< Of samples, and as many of products.
   /// Of what is submitted, by the thread that does, before it is queued: may add products to it.
   std::function<void(ArchiveBatch&)> on_submit = [](auto& /*batch*/) {};
+  /// Of what was shown to on_submit and is not queued, since the archive closes.
+  std::function<void(const ArchiveBatch&)> on_refused = [](const auto& /*batch*/) {};
   /// After each commit, with what it stored.
   std::function<void(std::span<const ArchiveBatch>)> on_committed = [](const auto& /*stored*/) {};
   /// When writing begins to fail, and whenever it fails for another reason than before.
@@ -52,6 +54,7 @@ struct ArchiveStatistics {
   std::optional<double> commit_p50_ms;
   std::optional<double> commit_p99_ms;  ///< Whole transactions, the last 1000 of them.
   std::optional<Error> failure;         ///< Writing fails at present, or failed and stopped.
+  std::uint64_t failures = 0;           ///< Writes that failed.
 };
 
 /// One archive open for writing. What is queued goes into one transaction, and the next one begins
@@ -137,6 +140,7 @@ class Archive {
   std::uint64_t committed_batches_ = 0;
   std::uint64_t rows_committed_ = 0;
   std::uint64_t samples_committed_ = 0;
+  std::uint64_t failures_ = 0;
   std::size_t rows_lost_ = 0;
   RecentDurations commit_durations_;
 

@@ -39,7 +39,7 @@ bool has_details_only(const ArchiveBatch& batch) {
 
 }  // namespace
 
-bool BatchQueue::push(ArchiveBatch batch) {
+bool BatchQueue::push(ArchiveBatch&& batch) {
   const bool are_details = has_details_only(batch);
   const bool are_products = has_products(batch);
   std::unique_lock lock{mutex_};

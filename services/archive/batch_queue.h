@@ -28,8 +28,8 @@ class BatchQueue {
 
   explicit BatchQueue(std::size_t capacity_rows) : capacity_rows_{capacity_rows} {}
 
-  /// Waits for room. @return false when the queue is closed: `batch` was not taken.
-  bool push(ArchiveBatch batch);
+  /// Waits for room. @return false when the queue is closed: `batch` is left as it was.
+  bool push(ArchiveBatch&& batch);
 
   /// Waits for at least one batch, and with samples only for a moment more: each commit costs a
   /// sync, and products wait behind it. Takes all the samples, and products: many, or in a

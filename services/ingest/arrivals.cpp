@@ -37,4 +37,9 @@ std::map<std::string, SequenceCounts> Arrivals::by_source() const {
   return tracker_.by_source();
 }
 
+std::uint64_t Arrivals::rejected() const {
+  const std::lock_guard lock{mutex_};
+  return rejected_;
+}
+
 }  // namespace spindrift

@@ -59,6 +59,8 @@ class Arrivals {
   SampleBatch take_rest(TaiTime now);
 
   std::map<std::string, SequenceCounts> by_source() const;
+  /// How many could not be true.
+  std::uint64_t rejected() const;
 
  private:
   /// @return whether it can be true.
@@ -70,6 +72,7 @@ class Arrivals {
     if (sample) {
       return true;
     }
+    ++rejected_;
     if (auto rejected = limit_.pass(rejected_from_idl(origin, sample.error().message), tai_now())) {
       batch.rejected.push_back(*std::move(rejected));
     }
@@ -78,10 +81,11 @@ class Arrivals {
 
   const std::set<std::string, std::less<>> ours_;
 
-  mutable std::mutex mutex_;  // Guards the three below.
+  mutable std::mutex mutex_;  // Guards the four below.
   SequenceTracker tracker_;
   RejectionLimit limit_;
   SampleBatch rest_;
+  std::uint64_t rejected_ = 0;
 };
 
 }  // namespace spindrift

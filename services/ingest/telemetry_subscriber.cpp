@@ -150,6 +150,7 @@ Expected<TelemetrySubscriberStatus> TelemetrySubscriber::status() const {
   }
   const std::lock_guard lock{mutex_};
   return TelemetrySubscriberStatus{.by_source = arrivals_->by_source(),
+                                   .rejected = arrivals_->rejected(),
                                    .reader = std::move(*reader),
                                    .taking = taking_,
                                    .failure = failure_,

@@ -29,6 +29,7 @@ namespace spindrift {
 
 struct TelemetrySubscriberStatus {
   std::map<std::string, SequenceCounts> by_source;
+  std::uint64_t rejected;    ///< Of those, they could not be true.
   bus::ReaderStatus reader;  ///< Of all topics together.
   bool taking;               ///< False: the thread ended, stopped or failed (see `failure`).
   std::string failure;

@@ -69,6 +69,7 @@ Expected<Mission> parse(const std::filesystem::path& path, std::string text,
     return Unexpected{std::move(sound.error())};
   }
   auto separation = separation_plan(*document);
+  const auto contact = planned_contact(*document);
   if (auto sound = soundness(*document); !sound) {
     return Unexpected{std::move(sound.error())};
   }
@@ -94,6 +95,7 @@ Expected<Mission> parse(const std::filesystem::path& path, std::string text,
                  .orbit_doubts = std::move(doubts),
                  .alerts = alert_limits(values),
                  .target = spin_target(values),
+                 .contact = contact,
                  .path = std::filesystem::absolute(path)};
 }
 

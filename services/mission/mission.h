@@ -33,6 +33,7 @@ struct Mission {
   std::vector<std::string> orbit_doubts;  ///< About that file, for people (orbit_doubts.h).
   AlertLimits alerts = {};
   std::optional<SpinTarget> target = {};
+  std::optional<Contact> contact = {};
   std::filesystem::path path = {};  ///< Absolute; an orbit file is relative to it.
 
   SpacecraftKind kind() const { return static_cast<SpacecraftKind>(config.index()); }

@@ -1,8 +1,11 @@
 #include "services/mission/mission_alerts.h"
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/time/utc.h"
 #include "services/toml_schema/values.h"
 #include "services/units/degrees.h"
 
@@ -18,6 +21,12 @@ ShareLimit share_limit(const TomlValues& values, const std::string& table) {
 
 AlertLimits alert_limits(const TomlValues& values) {
   return {
+      .link_silent_s = number(values, "alerts.link.silent.seconds"),
+      .link_late_s = number(values, "alerts.link.late.seconds"),
+      .gap_samples = number(values, "alerts.link.gap.samples"),
+      .rejected_percent = number(values, "alerts.link.rejected.percent"),
+      .repeated_samples = number(values, "alerts.link.repeated.samples"),
+      .silent_s = number(values, "alerts.channel.silent.seconds"),
       .silent_revolutions = static_cast<int>(number(values, "alerts.channel.silent.revolutions")),
       .period = share_limit(values, "alerts.spin.period"),
       .rejection = share_limit(values, "alerts.spin.rejection"),
@@ -29,7 +38,27 @@ AlertLimits alert_limits(const TomlValues& values) {
       .off_target_deg = number(values, "alerts.spin.off_target.deg"),
       .off_target_sigmas = number(values, "alerts.spin.off_target.sigmas"),
       .nutation_deg = number(values, "alerts.spin.nutation.deg"),
-      .launcher_percent = number(values, "alerts.reconstruction.launcher.percent")};
+      .diverged_percent = number(values, "alerts.attitude.diverged.percent"),
+      .diverged_s = number(values, "alerts.attitude.diverged.seconds"),
+      .launcher_percent = number(values, "alerts.reconstruction.launcher.percent"),
+      .backlog_s = number(values, "alerts.archive.backlog.seconds"),
+      .disk_gib = number(values, "alerts.archive.disk.gib"),
+      .clock_jump_s = number(values, "alerts.clock.jump.seconds")};
+}
+
+std::optional<Contact> planned_contact(TomlDocument& document) {
+  const auto aos = value_if<std::string>(document.values, "contact.aos_utc");
+  const auto los = value_if<std::string>(document.values, "contact.los_utc");
+  if (!aos || !los) {
+    return std::nullopt;
+  }
+  const Contact contact{.from = parse_utc(*aos).value(), .to = parse_utc(*los).value()};
+  if (contact.to <= contact.from) {
+    add_problem(
+        document, "contact.los_utc",
+        fmt::format("contact.los_utc = \"{}\": must be later than aos_utc = \"{}\"", *los, *aos));
+  }
+  return contact;
 }
 
 std::optional<SpinTarget> spin_target(const TomlValues& values) {

@@ -20,7 +20,7 @@ struct Announcement {
   Product product;  ///< Of a kind that is announced.
 };
 
-/// One thread adds, one takes. Beyond kMaxWaiting only the latest of each instance on the bus is
+/// Any thread adds, one takes. Beyond kMaxWaiting only the latest of each instance on the bus is
 /// kept: that is what a subscriber with keep-last 1 would see of them anyhow.
 class Announcements {
  public:

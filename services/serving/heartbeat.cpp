@@ -65,6 +65,9 @@ void Heartbeat::beat() {
   note_losses(*status);
   note_storing(watched_.archive.statistics().failure);
   publish_health(*status);
+  if (status->taking) {
+    supervise(*status);
+  }
   if (!status->taking && !status->failure.empty() && !std::exchange(failed_, true)) {
     failures_.note(Unexpected{{ErrorCode::Unavailable, "not taking samples: " + status->failure}});
   }
@@ -138,6 +141,17 @@ void Heartbeat::publish_health(const TelemetrySubscriberStatus& status) {
   const auto published = watched_.publisher.publish(health);
   if (!published) {
     say_once(published.error().message);
+  }
+}
+
+void Heartbeat::supervise(const TelemetrySubscriberStatus& status) {
+  const auto states = watched_.service.look(status, gaps_);
+  if (!states) {
+    say_once(states.error().message);
+    return;
+  }
+  for (ArchiveBatch& batch : watched_.desk.see(*states, watched_.service.t())) {
+    watched_.outbox.push(std::move(batch));
   }
 }
 

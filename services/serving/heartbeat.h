@@ -1,5 +1,5 @@
 /// @file
-/// Once a second: how the service is doing, on the bus, in the log and in the archive.
+/// Once a second: how the service is doing, on the bus, in the log and as alerts.
 
 #pragma once
 
@@ -19,6 +19,8 @@
 #include "services/processor/problems.h"
 #include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"
+#include "services/serving/alert_outbox.h"
+#include "services/serving/service_watch.h"
 #include "services/serving/thread_failures.h"
 
 namespace spindrift {
@@ -34,6 +36,9 @@ class Heartbeat {
     const ResultPublisher& publisher;
     const LinkWatch& links;
     const Problems& problems;
+    ServiceWatch& service;
+    AlertDesk& desk;
+    AlertOutbox& outbox;
     std::function<void(const Health&)> on_health;  ///< Must not wait.
   };
 
@@ -53,6 +58,7 @@ class Heartbeat {
   void note_losses(const TelemetrySubscriberStatus& status);
   void note_storing(const std::optional<Error>& failure);
   void publish_health(const TelemetrySubscriberStatus& status);
+  void supervise(const TelemetrySubscriberStatus& status);
   void say_once(const std::string& problem);
 
   Watched watched_;

@@ -46,6 +46,10 @@ void Announcer::go_on(const std::string& run_id, const std::string& spacecraft,
   announced_before_.insert_or_assign(run_id, std::move(stored));
 }
 
+void Announcer::announce(const ArchiveBatch& batch) {
+  waiting_.add(batch.spacecraft_id, batch.run_id, batch.products);
+}
+
 void Announcer::committed(std::span<const ArchiveBatch> batches) {
   for (const ArchiveBatch& batch : batches) {
     if (batch.start && batch.start->mode == RunMode::Process) {
@@ -70,6 +74,9 @@ void Announcer::run() {
   for (auto results = waiting_.take_all(); !results.empty(); results = waiting_.take_all()) {
     std::map<std::string, const Product*> latest;
     for (const Announcement& result : results) {
+      if (!is_news(result)) {
+        continue;
+      }
       if (feed_ != nullptr) {
         feed_->put(result.spacecraft, result.run_id, result.product);
       }
@@ -88,6 +95,19 @@ void Announcer::run() {
       say(spacecraft, *estimate);
     }
   }
+}
+
+/// Of an alert a revision that comes behind a later one is none either.
+bool Announcer::is_news(const Announcement& result) {
+  const auto* const alert = std::get_if<Alert>(&result.product);
+  if (alert == nullptr) {
+    return true;
+  }
+  const std::int64_t number = ProductKind<Alert>::number(*alert);
+  const auto [last, is_first] = alerts_.try_emplace({result.spacecraft, alert->key}, number);
+  const bool is_later = number > last->second;
+  last->second = std::max(last->second, number);
+  return is_first || is_later;
 }
 
 void Announcer::say(const std::string& spacecraft, const Product& estimate) {

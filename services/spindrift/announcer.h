@@ -5,11 +5,13 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <span>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "services/archive/records.h"
 #include "services/archive/stored_results.h"
@@ -34,11 +36,16 @@ class Announcer {
   /// Before anything of the run is committed.
   void go_on(const std::string& run_id, const std::string& spacecraft, StoredResults stored);
 
-  /// Of what the archive has just committed; never waits.
+  /// What the service says of itself: before it is stored, since the archive may make it wait.
+  void announce(const ArchiveBatch& batch);
+
+  /// Of what the archive has just committed; never waits. An alert that was announced before it
+  /// was stored is known.
   void committed(std::span<const ArchiveBatch> batches);
 
  private:
   void run();
+  bool is_news(const Announcement& result);
   void say(const std::string& spacecraft, const Product& estimate);
 
   const ResultPublisher& publisher_;
@@ -47,7 +54,9 @@ class Announcer {
   std::map<std::string, StoredResults> announced_before_;              ///< By run.
   std::set<std::string> unannounced_;                                  ///< Runs of other commands.
   std::map<std::string, std::chrono::steady_clock::time_point> said_;  ///< When, by spacecraft.
-  std::thread thread_;                                                 // Last: it uses the others.
+  std::map<std::pair<std::string, std::string>, std::int64_t>
+      alerts_;          ///< The last number by spacecraft and key.
+  std::thread thread_;  // Last: it uses the others.
 };
 
 }  // namespace spindrift

@@ -12,7 +12,6 @@
 #include "services/archive/archive.h"
 #include "services/archive/stored_faults.h"
 #include "services/archive/submit_all.h"
-#include "services/clock/wall_clock.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
 #include "services/progress/progress_bar.h"
@@ -112,12 +111,12 @@ Expected<bool> process(const ProcessOptions& options) {
     return Unexpected{telemetry.error()};
   }
   AlertDesk desk{{*mission}, RunMode::Process};
-  auto archive = Archive::open(
-      options.db, {.on_submit = [&](ArchiveBatch& batch) { desk.see(batch, tai_now()); },
-                   .on_committed =
-                       [&](std::span<const ArchiveBatch> stored) {
-                         warn_of_disagreements(options.db, stored);
-                       }});
+  auto archive =
+      Archive::open(options.db, {.on_submit = [&](ArchiveBatch& batch) { desk.see(batch); },
+                                 .on_committed =
+                                     [&](std::span<const ArchiveBatch> stored) {
+                                       warn_of_disagreements(options.db, stored);
+                                     }});
   if (!archive) {
     return Unexpected{archive.error()};
   }

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -29,6 +30,7 @@
 #include "services/archive/submit_all.h"
 #include "services/bus/participant.h"
 #include "services/clock/wall_clock.h"
+#include "services/ingest/other_services.h"
 #include "services/ingest/telemetry_subscriber.h"
 #include "services/mission/mission.h"
 #include "services/processor/problems.h"
@@ -38,10 +40,13 @@
 #include "services/publisher/result_publisher.h"
 #include "services/queue/contained.h"
 #include "services/requests/request_server.h"
+#include "services/serving/alert_outbox.h"
 #include "services/serving/background_solving.h"
 #include "services/serving/computing.h"
 #include "services/serving/heartbeat.h"
 #include "services/serving/patience.h"
+#include "services/serving/service_watch.h"
+#include "services/serving/session_watch.h"
 #include "services/serving/stop_signal.h"
 #include "services/serving/thread_failures.h"
 #include "services/spindrift/alerts.h"
@@ -86,6 +91,10 @@ Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::
   return missions;
 }
 
+RunMode mode_of(const ServeOptions& options) {
+  return options.partition == "replay" ? RunMode::Replay : RunMode::Live;
+}
+
 std::string service_name() {
   std::array<char, 48> host{};
   if (::gethostname(host.data(), host.size() - 1) != 0) {
@@ -94,17 +103,23 @@ std::string service_name() {
   return fmt::format("spindrift {}:{}", host.data(), ::getpid());
 }
 
+/// What came, for those who watch the link.
+struct Heard {
+  LinkWatch links;
+  SessionWatch sessions;
+};
+
 /// Before the archive may make them wait.
-void note_arrivals(const std::vector<ArchiveBatch>& samples, LinkWatch& links,
-                   SilenceWatch& silences) {
+void note_arrivals(const std::vector<ArchiveBatch>& samples, Heard& heard, SilenceWatch& silences) {
   const auto now = std::chrono::steady_clock::now();
   for (const ArchiveBatch& batch : samples) {
+    heard.sessions.note(batch);
     const auto note = [&](const auto& of_kind) {
       // A sample that is left out has a negative one.
       const auto last = std::find_if(of_kind.rbegin(), of_kind.rend(),
                                      [](const auto& sample) { return sample.arrival >= 0; });
       if (last != of_kind.rend()) {
-        links.note(batch.spacecraft_id, last->value.t, now);
+        heard.links.note(batch.spacecraft_id, last->value.t, now);
         silences.note(batch.spacecraft_id, now);
       }
     };
@@ -120,7 +135,7 @@ Moment moment_of(const Processor& processor) {
 }
 
 /// What is taken next; or that streams are silent, which only holds while nothing waits in `taken`.
-Routed next_routed(BoundedQueue<SampleBatch>& taken, Processor& processor, LinkWatch& links,
+Routed next_routed(BoundedQueue<SampleBatch>& taken, Processor& processor, Heard& heard,
                    SilenceWatch& silences) {
   const auto next_silence = silences.next();
   const auto next_decision = processor.next_decision();
@@ -130,21 +145,21 @@ Routed next_routed(BoundedQueue<SampleBatch>& taken, Processor& processor, LinkW
   const Moment moment = moment_of(processor);
   Routed routed = batch ? processor.route(std::move(*batch), moment)
                         : processor.fall_silent(silences.take_silent(moment.now), moment);
-  note_arrivals(routed.samples, links, silences);
+  note_arrivals(routed.samples, heard, silences);
   return routed;
 }
 
 /// First `again`. Then hands what is taken to the archive and on to be computed, until `taken` is
 /// closed and empty, or the archive refuses.
 Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
-                     Processor& processor, Archive& archive, Computing& computing, LinkWatch& links,
+                     Processor& processor, Archive& archive, Computing& computing, Heard& heard,
                      Problems& problems) {
   for (PassInput& input : again) {
     computing.leave_to_backlog(std::move(input));
   }
   SilenceWatch silences;
   while (!taken.is_drained()) {
-    Routed routed = next_routed(taken, processor, links, silences);
+    Routed routed = next_routed(taken, processor, heard, silences);
     problems.set_sources(processor.source_problems());
     auto stored = submit_all(archive, std::move(routed.samples));
     for (auto input = routed.work.begin(); stored && input != routed.work.end(); ++input) {
@@ -179,7 +194,7 @@ Expected<void> finish(Processor& processor, Archive& archive, const Patience& pa
 /// no longer empty a queue closes it: nobody must wait for room.
 void route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
                        BoundedQueue<PassInput>& backlog, Processor& processor, Archive& archive,
-                       const Patience& patience, LinkWatch& links, Problems& problems,
+                       const Patience& patience, Heard& heard, Problems& problems,
                        ThreadFailures& failures) {
   BackgroundTasks tasks;
   Computing computing{processor, archive, backlog, tasks, patience};
@@ -196,7 +211,7 @@ void route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& 
     backlog.close();
   }};
   failures.note(contained("taking in", [&] {
-    return route(std::move(again), taken, processor, archive, computing, links, problems);
+    return route(std::move(again), taken, processor, archive, computing, heard, problems);
   }));
   taken.close();
   backlog.close();
@@ -257,10 +272,30 @@ Expected<void> how_taking_ended(const TelemetrySubscriber& subscriber) {
   return {};
 }
 
+/// Of what was stored before a restart.
+void note_sessions(const std::vector<PassInput>& again, const LastOrigins& last_origins,
+                   const Processor& processor, SessionWatch& sessions) {
+  std::map<std::size_t, TaiTime> newest;
+  for (const PassInput& input : again) {
+    input.values.for_each([&](const auto& of_kind) {
+      for (const auto& arrived : of_kind) {
+        TaiTime& last = newest.try_emplace(input.spacecraft, arrived.value.t).first->second;
+        last = std::max(last, arrived.value.t);
+      }
+    });
+  }
+  const auto spacecraft = processor.spacecraft();
+  for (const auto& [index, t] : newest) {
+    sessions.go_on(spacecraft.at(index), last_origins, t);
+  }
+}
+
 /// From "ready" until a signal, or a failure, and everything taken is with the archive.
 Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins,
+                   const ServeOptions& options, const std::vector<Mission>& missions,
                    const bus::Participant& participant, const ResultPublisher& publisher,
-                   Processor& processor, Archive& archive, Problems& problems, ConsoleFeed* feed,
+                   OtherServices& others, Processor& processor, Archive& archive, AlertDesk& desk,
+                   Announcer& announcer, Problems& problems, ConsoleFeed* feed,
                    StopSignal& stop_signal, ThreadFailures& failures) {
   BoundedQueue<SampleBatch> queue{kSamplesTaken, [](const SampleBatch& taken) {
                                     return std::max<std::size_t>(size_of(taken), 1);
@@ -274,7 +309,8 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
     return Unexpected{started.error()};
   }
   TelemetrySubscriber& subscriber = **started;
-  LinkWatch links{processor.spacecraft()};
+  Heard heard{.links = LinkWatch{processor.spacecraft()}, .sessions = {}};
+  note_sessions(again, last_origins, processor, heard.sessions);
   Patience patience;
   stop_signal.on_stop([&] {
     spdlog::info("stopping");
@@ -287,13 +323,26 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
         contained("watching the stop", [&] { lose_patience(done, patience, queue, archive); }));
   }};
   {
+    AlertOutbox outbox{archive, desk, [&](const ArchiveBatch& batch) { announcer.announce(batch); },
+                       failures};
+    ServiceWatch service{{.missions = missions,
+                          .mode = mode_of(options),
+                          .db = options.db,
+                          .archive = archive,
+                          .taken = queue,
+                          .links = heard.links,
+                          .sessions = heard.sessions,
+                          .others = others}};
     const Heartbeat heartbeat{{.subscriber = subscriber,
                                .taken = queue,
                                .work = work,
                                .archive = archive,
                                .publisher = publisher,
-                               .links = links,
+                               .links = heard.links,
                                .problems = problems,
+                               .service = service,
+                               .desk = desk,
+                               .outbox = outbox,
                                .on_health =
                                    [&](const Health& health) {
                                      if (feed != nullptr) {
@@ -302,7 +351,7 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
                                    }},
                               failures};
     spdlog::info("ready");
-    route_and_compute(std::move(again), queue, work, processor, archive, patience, links, problems,
+    route_and_compute(std::move(again), queue, work, processor, archive, patience, heard, problems,
                       failures);
   }
   stop_signal.join();
@@ -329,10 +378,6 @@ Expected<std::unique_ptr<RequestServer>> answer_requests(const std::filesystem::
                      server.error().message));
   }
   return server;
-}
-
-RunMode mode_of(const ServeOptions& options) {
-  return options.partition == "replay" ? RunMode::Replay : RunMode::Live;
 }
 
 Expected<Processor> make_processor(const ServeOptions& options,
@@ -375,9 +420,11 @@ Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db,
                                                 Announcer& announcer, Problems& problems,
                                                 ThreadFailures& failures) {
   return Archive::open(db, {.on_write_failure = OnWriteFailure::Retry,
-                            .on_submit = [&](ArchiveBatch& batch) { desk.see(batch, tai_now()); },
+                            .on_submit = [&](ArchiveBatch& batch) { desk.see(batch); },
+                            .on_refused = [&](const ArchiveBatch& batch) { desk.take_back(batch); },
                             .on_committed =
                                 [&](std::span<const ArchiveBatch> stored) {
+                                  desk.note_stored(stored);
                                   failures.note(contained("announcing", [&] {
                                     announcer.committed(stored);
                                     warn_of_disagreements(db, stored);
@@ -453,6 +500,10 @@ Expected<void> serve(const ServeOptions& options) {
   if (!publisher) {
     return Unexpected{publisher.error()};
   }
+  auto others = OtherServices::create(*participant, service_name());
+  if (!others) {
+    return Unexpected{others.error()};
+  }
   ThreadFailures failures;
   Problems problems;
   const auto feed = make_console_feed(options, *missions, service_name());
@@ -482,8 +533,9 @@ Expected<void> serve(const ServeOptions& options) {
           if (!console) {
             return Expected<void>{Unexpected{console.error()}};
           }
-          return run(std::move(stored.routed.work), stored.last_origins, *participant, *publisher,
-                     *processor, archive, problems, feed.get(), stop_signal, failures);
+          return run(std::move(stored.routed.work), stored.last_origins, options, *missions,
+                     *participant, *publisher, *others, *processor, archive, desk, announcer,
+                     problems, feed.get(), stop_signal, failures);
         });
   });
   if (auto outcome = outcome_of(done, archive.close()); !outcome) {

@@ -18,7 +18,21 @@ struct Words {
 
 using enum AlertCode;
 constexpr std::array<Words, kAlertCodes> kWords{{
-    {ChannelSilent, "no edge of the channel, which the axis in force should see",
+    {LinkSilent, "no telemetry", "look at antenna, receiver and front-end"},
+    {LinkLate, "telemetry behind the clock of this host",
+     "look at the link, and at the clocks of front-end and host"},
+    {LinkAhead, "telemetry ahead of the clock of this host",
+     "look at the clocks of front-end and host"},
+    {LinkGap, "samples missing of the last minute, by gaps in seq",
+     "look at the link, and at the network between front-end and host"},
+    {LinkRejected, "share of unreadable or impossible samples of the last minute",
+     "look at rejected_input and at the front-end"},
+    {LinkRepeated, "a new session brings what came before it", "none: it is stored once"},
+    {LinkRestarted, "sessions that the source began in the last minute",
+     "none, if it was to be started again"},
+    {ServiceTwice, "another service publishes results of the spacecraft in this partition",
+     "stop one of the two"},
+    {ChannelSilent, "nothing of a channel that should give something",
      "look at sensor and telemetry link"},
     {SpinInterference, "edges of two channels spoil each other",
      "none: they are left out while it lasts"},
@@ -38,6 +52,11 @@ constexpr std::array<Words, kAlertCodes> kWords{{
     {AttitudeLost, "the answer in force is LOST", "do not use it; wait for the next accepted fix"},
     {ReconstructionLauncher, "attitude at separation away from the launcher's",
      "check [reconstruction.launcher] and the mounting of star tracker and sun sensor"},
+    {ArchiveBacklog, "samples wait to be committed", "look at disk and load of this host"},
+    {ArchiveWrite, "the archive does not store", "look at the log, and at the disk of the archive"},
+    {ArchiveDisk, "free space at the archive", "make room"},
+    {ClockJump, "the clock of this host was stepped", "look at its time service"},
+    {DataOutdated, "hours until what the service needs ends", "get it anew"},
 }};
 
 }  // namespace

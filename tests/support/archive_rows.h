@@ -70,8 +70,8 @@ inline std::vector<std::string> product_rows(const std::filesystem::path& db) {
 }
 
 /// All that an archive holds, of every table, but what two services that take the same telemetry
-/// cannot have in common: names of runs and sessions, their source, times of the wall clock, and
-/// how often a sample was sent.
+/// cannot have in common: names of runs and sessions, their source, times of the wall clock,
+/// how often a sample was sent, and alerts, of which some are of the service.
 inline std::vector<std::string> all_rows(const std::filesystem::path& db) {
   const SQLite::Database database{db.string(), SQLite::OPEN_READONLY, kBusy_ms};
   SQLite::Statement tables{
@@ -80,7 +80,7 @@ inline std::vector<std::string> all_rows(const std::filesystem::path& db) {
       " WHERE name NOT IN ('run_id', 'session', 'started_utc', 'finished_utc', 'first_arrival',"
       "  'arrival', 'received'))"
       " FROM sqlite_schema AS stored WHERE type = 'table' AND name NOT LIKE 'sqlite_%'"
-      " AND name NOT IN ('run_telemetry', 'stream_silence')"};
+      " AND name NOT IN ('run_telemetry', 'stream_silence', 'alert', 'alert_transition')"};
   std::vector<std::string> rows;
   while (tables.executeStep()) {
     const std::string table = tables.getColumn(0).getString();

@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 #include <spindrift.h>
 
+#include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/bus/qos.h"
@@ -14,6 +18,7 @@
 #include "services/publisher/product_messages.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/service.h"
+#include "tests/support/temporary_folder.h"
 
 namespace spindrift::serve_alerts_test {
 
@@ -49,7 +54,8 @@ TEST(ServeAlerts, ArePublishedOnceOverARestartAndAcknowledgedThroughTheService) 
   ASSERT_TRUE(service.ready()) << service.program().log();
   ASSERT_TRUE(front_end.send_until(1.0));
 
-  const std::string row = rows_of(service.db(), "SELECT alert_id FROM alert").front();
+  const std::string row =
+      rows_of(service.db(), "SELECT alert_id FROM alert WHERE key = 'spin.off_target'").front();
   const std::string id = row.substr(0, row.size() - 1);
   Program ack{
       {"alerts", "ack", id, "--by", "shift", "--note", "seen", "--db", service.db().string()}};
@@ -58,15 +64,118 @@ TEST(ServeAlerts, ArePublishedOnceOverARestartAndAcknowledgedThroughTheService) 
   std::vector<spindrift_AlertState> states;
   ASSERT_TRUE(eventually([&] {
     static_cast<void>(alerts.take([&](const spindrift_Alert& alert) {
-      ids.emplace_back(alert.alert_id);
-      states.push_back(alert.state);
+      if (std::string{alert.dedupe_key} == "spin.off_target") {
+        ids.emplace_back(alert.alert_id);
+        states.push_back(alert.state);
+      }
     }));
     return !states.empty() && states.back() == spindrift_ACKNOWLEDGED;
   }));
   EXPECT_THAT(ids, Each(id));
   ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
-  EXPECT_EQ(rows_of(service.db(), "SELECT key, state, revision, count FROM alert"),
+  EXPECT_EQ(rows_of(service.db(),
+                    "SELECT key, state, revision, count FROM alert WHERE key LIKE 'spin.%'"),
             std::vector<std::string>{"spin.off_target|acknowledged|2|1|"});
+}
+
+/// A service whose link is silent after a second, and all that is published of one key.
+struct Watched {
+  PassCopy copy{"nominal"};
+  std::string key;
+  std::optional<Service> service;
+  std::optional<bus::Participant> participant;
+  std::optional<bus::Reader<spindrift_Alert>> reader;
+  std::optional<FrontEnd> front_end;
+  std::vector<std::string> changes;  ///< State and revision.
+  std::vector<std::string> ids;      ///< Of those.
+
+  explicit Watched(std::string of_key) : key{std::move(of_key)} {
+    std::ofstream{copy.folder.path() / "mission.toml", std::ios::app}
+        << "\n[alerts.\"link.silent\"]\nseconds = 1.0\n";
+    service.emplace(copy.folder.path().string());
+    participant.emplace(bus::Participant::create(service->bus()).value());
+    reader.emplace(bus::Reader<spindrift_Alert>::create(*participant, product_topic<Alert>(),
+                                                        bus::telemetry_reader_qos())
+                       .value());
+    front_end.emplace(service->bus(), "SPINNER", pulses_of("nominal"));
+  }
+
+  bool is_published(const std::string& change) {
+    return eventually([&] {
+      static_cast<void>(reader->take([&](const spindrift_Alert& alert) {
+        if (alert.dedupe_key == key) {
+          changes.push_back(std::string{name_of(static_cast<AlertState>(alert.state))} + " " +
+                            std::to_string(alert.revision));
+          ids.emplace_back(alert.alert_id);
+        }
+      }));
+      return std::find(changes.begin(), changes.end(), change) != changes.end();
+    });
+  }
+  bool is_stored(const std::string& state) const {
+    return eventually([&] {
+      try {
+        return rows_of(service->db(), "SELECT state FROM alert WHERE key = '" + key + "'") ==
+               std::vector<std::string>{state + "|"};
+      } catch (const SQLite::Exception&) {
+        return false;
+      }
+    });
+  }
+};
+
+TEST(ServeAlerts, OfSilenceGoOnOverARestartUntilTelemetryIsBack) {
+  Watched link{"link.silent"};
+  ASSERT_TRUE(link.service->ready()) << link.service->log();
+  ASSERT_TRUE(link.front_end->send_until(0.1));
+  ASSERT_TRUE(link.is_published("active 1")) << link.service->log();
+  ASSERT_TRUE(link.is_stored("active"));
+  link.service->program().signal(SIGKILL);
+  ASSERT_EQ(link.service->program().exit_status(), -1);
+  link.service->start();
+  ASSERT_TRUE(link.service->ready()) << link.service->log();
+  ASSERT_TRUE(link.front_end->send_until(0.2));
+  EXPECT_TRUE(link.is_published("cleared 2")) << link.service->log();
+  const auto cleared = std::find(link.changes.begin(), link.changes.end(), "cleared 2");
+  EXPECT_THAT(
+      std::vector(link.ids.begin(), link.ids.begin() + (cleared - link.changes.begin()) + 1),
+      Each(link.ids.front()));
+  EXPECT_EQ(link.service->stop_when_computed(), 0) << link.service->log();
+}
+
+TEST(ServeAlerts, OfAnArchiveThatFailsArePublishedAtOnceAndStoredAfterwards) {
+  namespace fs = std::filesystem;
+  Watched archive{"archive.write"};
+  const fs::path db = archive.service->db();
+  const fs::path other = db.string() + ".other";
+  ASSERT_TRUE(archive.service->ready()) << archive.service->log();
+  ASSERT_TRUE(archive.front_end->send_until(0.1));
+  ASSERT_TRUE(eventually([&] { return number_of(db, "SELECT count(*) FROM spin_fix") > 10; }));
+  std::ofstream{other} << std::string(10'000, 'x');
+  fs::rename(other, db);
+  EXPECT_TRUE(archive.is_published("active 1")) << archive.service->log();
+  fs::rename(db, other);
+  EXPECT_TRUE(archive.is_published("cleared 2")) << archive.service->log();
+  EXPECT_TRUE(archive.is_stored("cleared"));
+  EXPECT_EQ(archive.changes, (std::vector<std::string>{"active 1", "cleared 2"}));
+  EXPECT_EQ(archive.service->stop_when_computed(), 0) << archive.service->log();
+}
+
+TEST(ServeAlerts, SayThatAnotherServicePublishesTheSameSpacecraft) {
+  Watched twice{"service.twice"};
+  const TemporaryFolder folder;
+  Program other{{"serve", "--mission", twice.service->mission(), "--db",
+                 (folder.path() / "other.db").string(), "--domain",
+                 std::to_string(twice.service->bus().domain), "--partition",
+                 twice.service->bus().partition}};
+  ASSERT_TRUE(twice.service->ready()) << twice.service->log();
+  ASSERT_TRUE(other.says("ready")) << other.log();
+  ASSERT_TRUE(twice.front_end->send_until(0.1));
+  EXPECT_TRUE(twice.is_published("active 1")) << twice.service->log();
+  other.signal(SIGTERM);
+  EXPECT_EQ(other.exit_status(), 0) << other.log();
+  EXPECT_TRUE(twice.is_published("cleared 2")) << twice.service->log();
+  EXPECT_EQ(twice.service->stop_when_computed(), 0) << twice.service->log();
 }
 
 }  // namespace spindrift::serve_alerts_test

@@ -130,7 +130,7 @@ TEST(BatchQueue, EndsARunAfterItsDetails) {
   end.finished_utc = "2026-11-20T04:00:00Z";
   ASSERT_TRUE(queue.push(details(3, "B")));
   ASSERT_TRUE(queue.push(details(3, "A")));
-  ASSERT_TRUE(queue.push(end));
+  ASSERT_TRUE(queue.push(std::move(end)));
   const auto taken = queue.take();
   EXPECT_THAT(names_of(taken), ElementsAre("A", "A"));
   EXPECT_TRUE(taken.back().finished_utc);
@@ -141,7 +141,7 @@ TEST(BatchQueue, WithdrawsDetailsFromBeforeAndNotThoseMadeAgain) {
   ArchiveBatch again = results(1, "A");
   again.continuation = Continuation{.t = TaiTime::min()};
   ASSERT_TRUE(queue.push(details(3, "A")));
-  ASSERT_TRUE(queue.push(again));
+  ASSERT_TRUE(queue.push(std::move(again)));
   ASSERT_TRUE(queue.push(details(100, "A")));
   const auto taken = queue.take();
   ASSERT_THAT(names_of(taken), ElementsAre("A", "A"));

@@ -613,4 +613,19 @@ TEST(Mission, WithAnOrbitFileOfOneEndlessLineIsRefusedByLine) {
   EXPECT_LT(mission.error().message.size(), 1000U);
 }
 
+TEST(Mission, HasTheLimitsOfAlertsThatThePipelinesHaveByThemselves) {
+  const auto mission = load(kElements);
+  ASSERT_TRUE(mission) << mission.error().message;
+  EXPECT_EQ(mission->alerts, AlertLimits{});
+}
+
+TEST(Mission, KnowsThePlannedContact) {
+  EXPECT_FALSE(load(kElements)->contact);
+  const auto mission = load(contract());
+  ASSERT_TRUE(mission) << mission.error().message;
+  EXPECT_EQ(mission->contact->to - mission->contact->from, std::chrono::minutes{10});
+  EXPECT_THAT(problems_of(replaced(contract(), "T03:10:00Z", "T03:00:00Z")),
+              ElementsAre(HasSubstr("must be later than aos_utc")));
+}
+
 }  // namespace spindrift::mission_test

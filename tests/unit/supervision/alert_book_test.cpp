@@ -59,6 +59,16 @@ TEST(AlertBook, KnowsWhatIsComputedAgain) {
   EXPECT_TRUE(open.clear(occurrence(2)));
 }
 
+TEST(AlertBook, SaysWhenAChangeIsNewWhateverTheClock) {
+  RaisedBook raised;
+  EXPECT_EQ(raised.book.after("spin.rate", at(0)), at(0));
+  EXPECT_EQ(raised.book.after("spin.sigma", at(2)), at(2));
+  EXPECT_FALSE(raised.book.clear(occurrence(0)));
+  Occurrence set_back = occurrence(0);
+  set_back.t = raised.book.after("spin.sigma", at(0));
+  EXPECT_TRUE(raised.book.clear(set_back));
+}
+
 TEST(AlertBook, GivesTheSameOccurrenceTheSameId) {
   EXPECT_EQ(RaisedBook{}.id, RaisedBook{}.id);
   AlertBook book;

@@ -28,6 +28,14 @@ TEST(ConditionWatch, RaisesAboveItsLimitAndClearsAtFourFifthsOfIt) {
   EXPECT_EQ(cleared->change, Change::Cleared);
 }
 
+TEST(ConditionWatch, RaisesWhatIsLessThanItShouldBe) {
+  ConditionWatch watch{AlertCode::ArchiveDisk, "GiB"};
+  EXPECT_FALSE(watch.see_least(at(0), {.value = 1.1, .limit = 1.0}));
+  EXPECT_EQ(watch.see_least(at(1), {.value = 0.9, .limit = 1.0})->change, Change::Raised);
+  EXPECT_FALSE(watch.see_least(at(2), {.value = 1.2, .limit = 1.0}));
+  EXPECT_EQ(watch.see_least(at(3), {.value = 1.25, .limit = 1.0})->change, Change::Cleared);
+}
+
 TEST(ConditionWatch, RaisesAndClearsOnlyWhatIsHeldForSoLong) {
   ConditionWatch watch = a_watch({.raise_s = 10.0, .clear_s = 5.0});
   EXPECT_FALSE(watch.see(at(0), true));

@@ -1,0 +1,37 @@
+/// @file
+/// How much a count has risen lately.
+
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+/// Of a count that was 0 before it was seen.
+class RiseOfLastMinute {
+ public:
+  /// @param t Later than before. @return 0 where it has fallen.
+  double see(TaiTime t, std::int64_t count) {
+    while (!counts_.empty() && seconds_between(counts_.front().t, t) >= kMinute_s) {
+      before_ = counts_.front().count;
+      counts_.pop_front();
+    }
+    counts_.push_back({.t = t, .count = count});
+    return static_cast<double>(std::max<std::int64_t>(count - before_, 0));
+  }
+
+ private:
+  static constexpr double kMinute_s = 60.0;
+  struct Seen {
+    TaiTime t;
+    std::int64_t count;
+  };
+  std::deque<Seen> counts_;
+  std::int64_t before_ = 0;  ///< As it was a minute ago.
+};
+
+}  // namespace spindrift

@@ -1,0 +1,110 @@
+#include "pipelines/supervision/service_conditions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "pipelines/time/time_span.h"
+
+namespace spindrift {
+namespace {
+
+// What a front-end sends again in a burst is late for a moment.
+constexpr Holding kNotForAMoment{.raise_s = 2.0, .clear_s = 2.0};
+constexpr double kDay_h = 24.0;
+
+}  // namespace
+
+ServiceConditions::Source::Source(const std::string& name)
+    : gap{AlertCode::LinkGap, "samples", {}, name},
+      restarted{AlertCode::LinkRestarted, "sessions", {}, name},
+      again{AlertCode::LinkRepeated, "samples", {}, name} {}
+
+ServiceConditions::ServiceConditions(const AlertLimits& limits, std::optional<Contact> contact)
+    : limits_{limits},
+      contact_{contact},
+      silent_{AlertCode::LinkSilent, "s"},
+      late_{AlertCode::LinkLate, "s", kNotForAMoment},
+      ahead_{AlertCode::LinkAhead, "s", kNotForAMoment},
+      rejected_{AlertCode::LinkRejected, "%"},
+      twice_{AlertCode::ServiceTwice, "s"},
+      backlog_{AlertCode::ArchiveBacklog, "s"},
+      write_{AlertCode::ArchiveWrite, "s"},
+      disk_{AlertCode::ArchiveDisk, "GiB"},
+      clock_{AlertCode::ClockJump, "s", {.raise_s = 0.0, .clear_s = 60.0}} {}
+
+ConditionChanges ServiceConditions::see(const ServiceState& state) {
+  ConditionChanges changes;
+  see_silence(state, changes);
+  see_link(state, changes);
+  see_archive(state, changes);
+  see_data(state, changes);
+  add(twice_.see(state.t, state.is_twice), changes);
+  return changes;
+}
+
+/// Outside a planned contact nothing is expected.
+void ServiceConditions::see_silence(const ServiceState& state, ConditionChanges& changes) {
+  if (!state.silent_s) {
+    return;
+  }
+  double silent_s = *state.silent_s;
+  if (contact_) {
+    const bool is_over = state.pass_t > contact_->to;
+    silent_s = is_over ? 0.0 : std::clamp(elapsed_s(contact_->from, state.pass_t), 0.0, silent_s);
+  }
+  auto change = silent_.see(state.t, {.value = silent_s, .limit = limits_.link_silent_s});
+  if (change && contact_) {
+    change->severity = AlertSeverity::Critical;
+  }
+  add(std::move(change), changes);
+}
+
+void ServiceConditions::see_link(const ServiceState& state, ConditionChanges& changes) {
+  if (state.late_s) {
+    add(late_.see(state.t, {.value = *state.late_s, .limit = limits_.link_late_s}), changes);
+    add(ahead_.see(state.t, {.value = -*state.late_s, .limit = limits_.link_late_s}), changes);
+  }
+  const double received = received_count_.see(state.t, state.received);
+  const double rejected = rejected_count_.see(state.t, state.rejected);
+  if (received > 0.0) {
+    add(rejected_.see(state.t,
+                      {.value = 100.0 * rejected / received, .limit = limits_.rejected_percent}),
+        changes);
+  }
+  for (const auto& [name, record] : state.sources) {
+    Source& source = sources_.try_emplace(name, name).first->second;
+    add(source.gap.see(state.t, {.value = source.missing.see(state.t, record.missing),
+                                 .limit = limits_.gap_samples}),
+        changes);
+    add(source.restarted.see(
+            state.t, {.value = source.restarts.see(state.t, record.restarts), .limit = 1.0}),
+        changes);
+    add(source.again.see(state.t, {.value = source.repeated.see(state.t, record.repeated),
+                                   .limit = limits_.repeated_samples}),
+        changes);
+  }
+}
+
+void ServiceConditions::see_archive(const ServiceState& state, ConditionChanges& changes) {
+  add(backlog_.see(state.t, {.value = state.backlog_s, .limit = limits_.backlog_s}), changes);
+  add(write_.see(state.t, state.write_failed), changes);
+  if (state.free_gib) {
+    add(disk_.see_least(state.t, {.value = *state.free_gib, .limit = limits_.disk_gib}), changes);
+  }
+}
+
+void ServiceConditions::see_data(const ServiceState& state, ConditionChanges& changes) {
+  add(clock_.see(state.t, {.value = std::abs(state.clock_step_s), .limit = limits_.clock_jump_s}),
+      changes);
+  for (const auto& [what, until] : state.data_until) {
+    ConditionWatch& watch =
+        outdated_.try_emplace(what, ConditionWatch{AlertCode::DataOutdated, "h", {}, what})
+            .first->second;
+    add(watch.see_least(state.t,
+                        {.value = elapsed_s(state.pass_t, until) / 3600.0, .limit = kDay_h}),
+        changes);
+  }
+}
+
+}  // namespace spindrift

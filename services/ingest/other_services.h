@@ -1,0 +1,45 @@
+/// @file
+/// Other services that report on a spacecraft in the same partition.
+
+#pragma once
+
+#include <spindrift.h>
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "services/bus/reader.h"
+
+namespace spindrift {
+
+/// By their health, which each publishes once a second.
+class OtherServices {
+ public:
+  using Instant = std::chrono::steady_clock::time_point;
+
+  /// Who was not heard for so long has ended.
+  static constexpr std::chrono::seconds kEndedAfter{5};
+
+  /// `participant` outlives it. @param own Name of this service, which is not among them.
+  /// @return Unavailable when Cyclone refuses.
+  static Expected<OtherServices> create(const bus::Participant& participant,
+                                        const std::string& own);
+
+  /// @return by spacecraft, one that is heard. Unavailable when Cyclone refuses.
+  Expected<std::map<std::string, std::string>> look(Instant now);
+
+ private:
+  struct Heard {
+    std::string service;
+    Instant last;
+  };
+
+  explicit OtherServices(bus::Reader<spindrift_Health> reader) : reader_{std::move(reader)} {}
+
+  bus::Reader<spindrift_Health> reader_;
+  std::map<std::string, Heard> heard_;  ///< By spacecraft.
+};
+
+}  // namespace spindrift

@@ -1,0 +1,130 @@
+#include "services/serving/service_watch.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "pipelines/time/time_span.h"
+#include "pipelines/time/utc.h"
+#include "services/clock/wall_clock.h"
+#include "services/doctor/leap_seconds.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kBytesPerGib = 1024.0 * 1024.0 * 1024.0;
+
+std::optional<TaiTime> leap_seconds_until() {
+  const doctor::LeapFacts facts = doctor::leap_facts();
+  const std::chrono::sys_days until =
+      facts.machine ? std::max(facts.machine->complete_until, facts.erfa.complete_until)
+                    : facts.erfa.complete_until;
+  const auto t = parse_utc(fmt::format("{:%Y-%m-%dT%H:%M:%S}Z",
+                                       fmt::gmtime(std::chrono::system_clock::to_time_t(until))));
+  return t ? std::optional{*t} : std::nullopt;
+}
+
+std::optional<double> free_gib(const std::filesystem::path& db) {
+  std::error_code unknown;
+  const auto space = std::filesystem::space(db.has_parent_path() ? db.parent_path() : ".", unknown);
+  return unknown ? std::nullopt
+                 : std::optional{static_cast<double>(space.available) / kBytesPerGib};
+}
+
+std::uint64_t received(const TelemetrySubscriberStatus& status) {
+  std::uint64_t sum = 0;
+  for (const auto& [source, counts] : status.by_source) {
+    sum += counts.received;
+  }
+  return sum;
+}
+
+}  // namespace
+
+ServiceWatch::ServiceWatch(const Watched& watched) : watched_{watched} {
+  const auto leap_seconds = leap_seconds_until();
+  for (const Mission& mission : watched.missions) {
+    auto& until = data_until_[mission.spacecraft_id];
+    if (leap_seconds) {
+      until.emplace("leap_seconds", *leap_seconds);
+    }
+    if (mission.orbit && mission.orbit->ephemeris() != nullptr) {
+      until.emplace("orbit", mission.orbit->ephemeris()->usable_to());
+    }
+  }
+}
+
+Expected<ServiceWatch::States> ServiceWatch::look(
+    const TelemetrySubscriberStatus& status, const std::map<std::string, std::uint64_t>& gaps) {
+  const Instant now = std::chrono::steady_clock::now();
+  note_time(now);
+  const auto others = watched_.others.look(now);
+  if (!others) {
+    return Unexpected{others.error()};
+  }
+  const ServiceState of_service = state_of_service(status, now);
+  States states;
+  for (const SpacecraftHealth& link : watched_.links.report(now)) {
+    if (link.link == LinkState::Waiting) {
+      continue;
+    }
+    ServiceState state = of_service;
+    note_link(link, state);
+    state.is_twice = others->contains(link.spacecraft);
+    state.data_until = data_until_.at(link.spacecraft);
+    state.sources = watched_.sessions.report(link.spacecraft);
+    for (const auto& [source, missing] : gaps) {
+      state.sources[source].missing = static_cast<std::int64_t>(missing);
+    }
+    states.emplace(link.spacecraft, std::move(state));
+  }
+  return states;
+}
+
+/// A wall clock that is set back stands for nothing that is later: time goes on without it.
+void ServiceWatch::note_time(Instant now) {
+  const TaiTime wall = tai_now();
+  if (last_) {
+    const auto elapsed = now - *last_;
+    clock_step_s_ = elapsed_s(later_by(wall_, elapsed), wall);
+    t_ = std::max(wall, later_by(t_, elapsed));
+  } else {
+    t_ = wall;
+  }
+  wall_ = wall;
+  last_ = now;
+}
+
+ServiceState ServiceWatch::state_of_service(const TelemetrySubscriberStatus& status, Instant now) {
+  const ArchiveStatistics archive = watched_.archive.statistics();
+  const bool failed =
+      archive.failure || archive.failures > std::exchange(failures_, archive.failures);
+  return {.t = t_,
+          .pass_t = t_,
+          .silent_s = std::nullopt,
+          .late_s = std::nullopt,
+          .received = static_cast<std::int64_t>(received(status)),
+          .rejected = static_cast<std::int64_t>(status.rejected),
+          .backlog_s = backlog_.see(now, watched_.sessions.samples(), archive.samples_committed),
+          .write_failed = failed,
+          .free_gib = free_gib(watched_.db),
+          .clock_step_s = clock_step_s_};
+}
+
+/// What waits to be looked at while the archive makes it wait is not silence.
+void ServiceWatch::note_link(const SpacecraftHealth& link, ServiceState& state) const {
+  if (watched_.taken.size() == 0 || link.link == LinkState::Live) {
+    state.silent_s = link.data_age_s;
+  }
+  const TaiTime heard = later_by_s(*link.last_sample, *link.data_age_s);
+  if (watched_.mode == RunMode::Live) {
+    state.late_s = elapsed_s(heard, wall_);
+  } else {
+    state.pass_t = heard;
+  }
+}
+
+}  // namespace spindrift

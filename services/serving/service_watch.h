@@ -1,0 +1,67 @@
+/// @file
+/// What the conditions of the service look at, gathered once a second.
+
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/supervision/service_conditions.h"
+#include "services/archive/archive.h"
+#include "services/ingest/other_services.h"
+#include "services/ingest/telemetry_subscriber.h"
+#include "services/mission/mission.h"
+#include "services/publisher/link_watch.h"
+#include "services/serving/backlog_watch.h"
+#include "services/serving/session_watch.h"
+
+namespace spindrift {
+
+class ServiceWatch {
+ public:
+  /// All but the missions outlive it.
+  struct Watched {
+    const std::vector<Mission>& missions;
+    RunMode mode;
+    std::filesystem::path db;
+    const Archive& archive;
+    const BoundedQueue<SampleBatch>& taken;
+    const LinkWatch& links;
+    const SessionWatch& sessions;
+    OtherServices& others;
+  };
+
+  explicit ServiceWatch(const Watched& watched);
+
+  using States = std::map<std::string, ServiceState>;
+  /// @param gaps Lasting ones, by source.
+  /// @return by spacecraft, of those of which telemetry has come; Unavailable when Cyclone refuses.
+  Expected<States> look(const TelemetrySubscriberStatus& status,
+                        const std::map<std::string, std::uint64_t>& gaps);
+
+  /// Wall clock of the last look, which does not go back.
+  TaiTime t() const { return t_; }
+
+ private:
+  using Instant = std::chrono::steady_clock::time_point;
+
+  void note_time(Instant now);
+  ServiceState state_of_service(const TelemetrySubscriberStatus& status, Instant now);
+  void note_link(const SpacecraftHealth& link, ServiceState& state) const;
+
+  Watched watched_;
+  BacklogWatch backlog_;
+  std::map<std::string, std::map<std::string, TaiTime>> data_until_;  ///< By spacecraft.
+  std::optional<Instant> last_;
+  TaiTime wall_ = {};
+  TaiTime t_ = {};
+  double clock_step_s_ = 0.0;
+  std::uint64_t failures_ = 0;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,104 @@
+#include "services/alerts/alert_desk.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/support/test_paths.h"
+
+namespace spindrift::alert_desk_test {
+
+TaiTime at(double t_s) { return shifted(tai_from_ns(1'795'143'637'000'000'000), t_s); }
+
+ArchiveBatch batch_of_run() { return {.run_id = "run", .spacecraft_id = "SPINNER"}; }
+
+ArchiveBatch beginning() {
+  ArchiveBatch batch = batch_of_run();
+  batch.start.emplace().mode = RunMode::Live;
+  return batch;
+}
+
+std::vector<std::string> changes_in(const ArchiveBatch& batch) {
+  std::vector<std::string> changes;
+  for (const Product& product : batch.products) {
+    const auto& alert = std::get<Alert>(product);
+    changes.push_back(alert.key + " " + std::string{name_of(alert.state)});
+  }
+  return changes;
+}
+
+/// Of a service that runs.
+struct Served {
+  AlertDesk desk{{load_mission(recorded_passes() / "nominal" / "mission.toml").value()},
+                 RunMode::Live};
+
+  Served() {
+    ArchiveBatch start = beginning();
+    desk.see(start);
+    desk.note_stored({&start, 1});
+  }
+  std::vector<ArchiveBatch> silent(double t_s, double silent_s) {
+    return desk.see({{"SPINNER", {.t = at(t_s), .pass_t = at(t_s), .silent_s = silent_s}}},
+                    at(t_s));
+  }
+};
+
+using Changes = std::vector<std::string>;
+
+TEST(AlertDesk, GivesWhatTheServiceRaisesAndClears) {
+  Served served;
+  EXPECT_TRUE(served.silent(1.0, 0.1).empty());
+  const auto raised = served.silent(2.0, 6.0);
+  ASSERT_EQ(raised.size(), 1U);
+  EXPECT_EQ(raised[0].run_id, "run");
+  EXPECT_EQ(changes_in(raised[0]), Changes{"link.silent active"});
+  EXPECT_TRUE(served.silent(3.0, 7.0).empty());
+  ASSERT_EQ(served.desk.open().size(), 1U);
+  EXPECT_EQ(changes_in(served.silent(4.0, 0.1).at(0)), Changes{"link.silent cleared"});
+}
+
+TEST(AlertDesk, GivesNothingOfARunThatIsNotStored) {
+  AlertDesk desk{{load_mission(recorded_passes() / "nominal" / "mission.toml").value()},
+                 RunMode::Live};
+  ArchiveBatch start = beginning();
+  desk.see(start);
+  const std::map<std::string, ServiceState> silent{
+      {"SPINNER", {.t = at(1.0), .pass_t = at(1.0), .silent_s = 6.0}}};
+  EXPECT_TRUE(desk.see(silent, at(1.0)).empty());
+  desk.note_stored({&start, 1});
+  EXPECT_EQ(desk.see(silent, at(1.0)).size(), 1U);
+}
+
+TEST(AlertDesk, GivesAgainWhatWasTakenBackAndOnce) {
+  Served served;
+  const auto raised = served.silent(2.0, 6.0);
+  served.desk.take_back(raised.at(0));
+  ArchiveBatch next = batch_of_run();
+  served.desk.see(next);
+  EXPECT_EQ(changes_in(next), Changes{"link.silent active"});
+  EXPECT_TRUE(served.silent(3.0, 7.0).empty());
+  served.desk.take_back(next);
+  EXPECT_EQ(changes_in(served.silent(4.0, 0.1).at(0)),
+            (Changes{"link.silent active", "link.silent cleared"}));
+}
+
+TEST(AlertDesk, EndsAShelvingWithoutTelemetry) {
+  Served served;
+  const auto raised = served.silent(2.0, 6.0);
+  const std::string id = std::get<Alert>(raised.at(0).products.at(0)).alert_id;
+  ASSERT_TRUE(served.desk.shelve(id, at(3.0), at(10.0), "shift", "later"));
+  EXPECT_TRUE(served.desk.see({}, at(9.0)).empty());
+  EXPECT_EQ(changes_in(served.desk.see({}, at(10.0)).at(0)), Changes{"link.silent active"});
+}
+
+TEST(AlertDesk, GoesOnWithOpenAlertsOfBefore) {
+  Served before;
+  const auto raised = before.silent(2.0, 6.0);
+  Served restarted;
+  restarted.desk.take_up("SPINNER", "run", std::get<Alert>(raised.at(0).products.at(0)));
+  EXPECT_TRUE(restarted.silent(-3600.0, 6.0).empty());
+  EXPECT_EQ(changes_in(restarted.silent(-3599.0, 0.1).at(0)), Changes{"link.silent cleared"});
+}
+
+}  // namespace spindrift::alert_desk_test
