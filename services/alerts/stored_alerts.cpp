@@ -23,21 +23,23 @@ class NamedRow {
 
 }  // namespace
 
+std::vector<StoredAlert> alerts_in(SQLite::Database& archive) {
+  SQLite::Statement query{archive,
+                          "SELECT alert.*, run.mode FROM alert JOIN run USING (run_id)"
+                          " ORDER BY raised_tai_ns, alert_id"};
+  std::vector<StoredAlert> alerts;
+  while (query.executeStep()) {
+    const NamedRow row{query};
+    alerts.push_back({.run_id = row.text("run_id"),
+                      .spacecraft = row.text("spacecraft_id"),
+                      .of_service = row.text("mode") != "process",
+                      .alert = ProductKind<Alert>::from_row(row)});
+  }
+  return alerts;
+}
+
 Expected<std::vector<StoredAlert>> find_alerts(const std::filesystem::path& archive) {
-  return read_archive(archive, [&](SQLite::Database& database) {
-    SQLite::Statement query{database,
-                            "SELECT alert.*, run.mode FROM alert JOIN run USING (run_id)"
-                            " ORDER BY raised_tai_ns, alert_id"};
-    std::vector<StoredAlert> alerts;
-    while (query.executeStep()) {
-      const NamedRow row{query};
-      alerts.push_back({.run_id = row.text("run_id"),
-                        .spacecraft = row.text("spacecraft_id"),
-                        .of_service = row.text("mode") != "process",
-                        .alert = ProductKind<Alert>::from_row(row)});
-    }
-    return alerts;
-  });
+  return read_archive(archive, &alerts_in);
 }
 
 }  // namespace spindrift

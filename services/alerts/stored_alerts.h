@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <SQLiteCpp/Database.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -19,7 +21,10 @@ struct StoredAlert {
   Alert alert;      ///< Without its last change.
 };
 
-/// In the order in which they were raised. @return As find_stored_passes.
+/// In the order in which they were raised.
+std::vector<StoredAlert> alerts_in(SQLite::Database& archive);
+
+/// Likewise. @return As find_stored_passes.
 Expected<std::vector<StoredAlert>> find_alerts(const std::filesystem::path& archive);
 
 }  // namespace spindrift

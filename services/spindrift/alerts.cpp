@@ -2,9 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -13,20 +18,38 @@
 #include "services/alerts/alert_json.h"
 #include "services/alerts/operator_word.h"
 #include "services/alerts/stored_alerts.h"
+#include "services/archive/connection.h"
 #include "services/clock/wall_clock.h"
 #include "services/products/products.h"
 #include "services/requests/request_client.h"
+#include "services/serving/stop_signal.h"
 #include "services/spindrift/outcome.h"
 #include "services/words/json_line.h"
 
 namespace spindrift {
 namespace {
 
+constexpr std::chrono::milliseconds kPoll{100};
+
 std::string to_text(const StoredAlert& stored) {
   const Alert& alert = stored.alert;
   return fmt::format("{} {} {} {} {} since {}: {}\n", alert.alert_id, stored.spacecraft,
                      name_of(alert.severity), name_of(alert.state), alert.key,
                      format_utc(alert.raised), alert.message);
+}
+
+/// Whose revision is another one than was told. @param first Of those that are over nothing is.
+void tell_changes(const std::vector<StoredAlert>& alerts, bool json, bool first,
+                  std::map<std::string, std::int64_t>& told) {
+  for (const StoredAlert& stored : alerts) {
+    const std::int64_t revision = stored.alert.revision;
+    std::int64_t& before = told.try_emplace(stored.alert.alert_id, 0).first->second;
+    const bool is_over = first && stored.alert.state == AlertState::Cleared;
+    if (std::exchange(before, revision) != revision && !is_over) {
+      fmt::print("{}", json ? json_line(alert_json(stored.spacecraft, stored.run_id, stored.alert))
+                            : to_text(stored));
+    }
+  }
 }
 
 std::string done_text(const ArchiveBatch& batch) {
@@ -78,6 +101,27 @@ Expected<void> list_alerts(const AlertsOptions& options) {
       fmt::print("{}", json_line({{"alerts", std::move(all)}}));
     }
   });
+}
+
+Expected<void> follow_alerts(const AlertsOptions& options) {
+  StopSignal signal;
+  std::atomic<bool> stopped = false;
+  signal.on_stop([&] { stopped = true; });
+  const auto follow = [&](SQLite::Database& archive) {
+    std::map<std::string, std::int64_t> told;  // Revisions.
+    std::optional<int> seen;
+    bool is_read = true;
+    for (; is_read && !stopped; std::this_thread::sleep_for(kPoll)) {
+      const int commits = archive.execAndGet("PRAGMA data_version").getInt();
+      if (commits != seen) {
+        tell_changes(alerts_in(archive), options.json, !seen, told);
+        is_read = std::fflush(stdout) == 0;
+        seen = commits;
+      }
+    }
+    return is_read;
+  };
+  return read_archive(options.db, follow).map([](bool /*is_read*/) {});
 }
 
 Expected<void> change_alert(const AlertsOptions& options) {

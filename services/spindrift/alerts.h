@@ -16,6 +16,7 @@ namespace spindrift {
 struct AlertsOptions {
   std::filesystem::path db;
   bool json = false;
+  bool follow = false;
   std::string alert_id = {};  ///< Of ack and shelve, as what follows.
   std::string by = {};
   std::string note = {};
@@ -26,6 +27,10 @@ inline constexpr std::string_view kAlertRequest = "alert";
 
 /// Prints those that are open, and with `json` all, in one object.
 Expected<void> list_alerts(const AlertsOptions& options);
+
+/// Prints those that are open, then each change as it is stored, a line each, until SIGINT or
+/// SIGTERM, or nobody reads.
+Expected<void> follow_alerts(const AlertsOptions& options);
 
 /// Acknowledges or shelves one: by the service that holds the archive, else here.
 Expected<void> change_alert(const AlertsOptions& options);

@@ -314,6 +314,8 @@ void add_alerts(CLI::App& app, Request& request) {
   command.add_option("--db", options.db, "Archive")->check(check_path);
   command.add_flag("--json", options.json,
                    "Print all alerts, those that are over too, as one JSON object");
+  command.add_flag("--follow", options.follow,
+                   "Go on and print each change, with --json as one JSON object a line");
   command.require_subcommand(0, 1);
   add_alert_change(command, request, "ack", "Acknowledge an open alert");
   add_alert_change(command, request, "shelve", "Silence an open alert for a while");
@@ -322,7 +324,9 @@ void add_alerts(CLI::App& app, Request& request) {
       throw CLI::RequiredError{"--db"};
     }
     if (!request.run) {
-      request.run = [&] { return list_alerts(request.alerts); };
+      request.run = [&] {
+        return request.alerts.follow ? follow_alerts(request.alerts) : list_alerts(request.alerts);
+      };
     }
   });
 }

@@ -3,14 +3,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/support/archive_rows.h"
+#include "tests/support/eventually.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_files.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_of.h"
 
 namespace spindrift::alerts_test {
 
@@ -90,6 +95,31 @@ TEST(Alerts, AreListedAndAcknowledgedByTheirId) {
                     "SELECT from_state, to_state, by, note FROM alert_transition"
                     " ORDER BY t_tai_ns DESC LIMIT 1"),
             std::vector<std::string>{"active|acknowledged|shift|seen|"});
+}
+
+TEST(Alerts, AreFollowedUntilASignal) {
+  const OffTarget pass;
+  process(pass);
+  const std::string row = rows_of(pass.db, "SELECT alert_id FROM alert").front();
+  const std::string id = row.substr(0, row.size() - 1);
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "out").string();
+  Program follow{{"alerts", "--db", pass.db.string(), "--follow", "--json"}, 0, out};
+  const auto lines = [&] {
+    std::vector<std::string> states;
+    std::istringstream text{text_of(out)};
+    for (std::string line; std::getline(text, line);) {
+      states.push_back(nlohmann::json::parse(line)["state"]);
+    }
+    return states;
+  };
+  ASSERT_TRUE(eventually([&] { return lines().size() == 1; })) << follow.log();
+  Program ack{{"alerts", "--db", pass.db.string(), "ack", id, "--by", "shift", "--note", "seen"}};
+  ASSERT_EQ(ack.exit_status(), 0) << ack.log();
+  ASSERT_TRUE(eventually([&] { return lines().size() == 2; })) << follow.log();
+  EXPECT_THAT(lines(), ElementsAre("active", "acknowledged"));
+  follow.signal(SIGTERM);
+  EXPECT_EQ(follow.exit_status(), 0) << follow.log();
 }
 
 }  // namespace spindrift::alerts_test
