@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
@@ -13,6 +15,7 @@ namespace {
 // One answer that is off may be the noise of its sigma.
 constexpr Holding kSeveralAnswers{.raise_s = 10.0, .clear_s = 10.0};
 constexpr double kApartAtMost_s = 60.0;  // Answers that are compared.
+constexpr double kRpmPerRad_s = 30.0 / std::numbers::pi;
 
 constexpr Holding as_long_again(double held_s) { return {.raise_s = held_s, .clear_s = held_s}; }
 
@@ -42,7 +45,7 @@ SpinConditions::SpinConditions(const SpinConfig& config, Orbit orbit, const Aler
       disagree_{AlertCode::SpinDisagree, "sigma", kSeveralAnswers},
       off_target_{AlertCode::SpinOffTarget, "deg", kSeveralAnswers},
       nutation_{AlertCode::SpinNutation, "deg"},
-      rate_{AlertCode::SpinRate, "rad/s", kSeveralAnswers},
+      rate_{AlertCode::SpinRate, "rpm", kSeveralAnswers},
       lost_{AlertCode::AttitudeLost, "s"} {}
 
 ConditionChanges SpinConditions::see(const PulseUse& use) {
@@ -119,9 +122,10 @@ void SpinConditions::see_target(const SpinEstimate& estimate, ConditionChanges& 
                        .sigma = sigma_deg}),
       changes);
   if (const auto& rate = target_->rate) {
-    add(rate_.see(estimate.t, {.value = std::abs(estimate.spin_rate_rad_s - rate->rad_s),
-                               .limit = rate->tolerance_rad_s,
-                               .sigma = estimate.spin_rate_sigma_rad_s}),
+    add(rate_.see(estimate.t,
+                  {.value = kRpmPerRad_s * std::abs(estimate.spin_rate_rad_s - rate->rad_s),
+                   .limit = kRpmPerRad_s * rate->tolerance_rad_s,
+                   .sigma = kRpmPerRad_s * estimate.spin_rate_sigma_rad_s}),
         changes);
   }
 }
@@ -144,13 +148,31 @@ ConditionChanges SpinConditions::see(const BatchSolution& solution) {
   if (const auto& search = solution.nutation) {
     const auto& found = search->found;
     add(nutation_.see(solution.estimate.t,
-                      {.value = found ? found->half_angle_rad.value * kDegPerRad : 0.0,
-                       .limit = limits_.nutation_deg,
-                       .sigma = found ? std::optional{found->half_angle_rad.sigma * kDegPerRad}
-                                      : std::nullopt}),
+                      found ? reading_of(found->half_angle_rad)
+                            : ConditionWatch::Reading{.value = 0.0, .limit = limits_.nutation_deg}),
         changes);
   }
   return changes;
+}
+
+/// Against its limit; where it has grown, against what it was.
+ConditionWatch::Reading SpinConditions::reading_of(const Estimated& half_angle_rad) {
+  ConditionWatch::Reading reading{.value = half_angle_rad.value * kDegPerRad,
+                                  .limit = limits_.nutation_deg,
+                                  .sigma = half_angle_rad.sigma * kDegPerRad};
+  if (least_nutation_rad_) {
+    const double grown_deg =
+        kDegPerRad *
+        (least_nutation_rad_->value +
+         kContradictionSigmas * std::hypot(least_nutation_rad_->sigma, half_angle_rad.sigma));
+    if (reading.value >= grown_deg) {
+      reading.limit = std::min(reading.limit, grown_deg);
+    }
+  }
+  if (!least_nutation_rad_ || half_angle_rad.value < least_nutation_rad_->value) {
+    least_nutation_rad_ = half_angle_rad;
+  }
+  return reading;
 }
 
 }  // namespace spindrift

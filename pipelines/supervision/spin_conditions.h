@@ -35,6 +35,7 @@ class SpinConditions {
   void see_in_force(const SpinEstimate& estimate, ConditionChanges& changes);
   void see_target(const SpinEstimate& estimate, ConditionChanges& changes);
   void see_disagreement(ConditionChanges& changes);
+  ConditionWatch::Reading reading_of(const Estimated& half_angle_rad);
 
   AlertLimits limits_;
   std::optional<SpinTarget> target_;
@@ -56,6 +57,7 @@ class SpinConditions {
   std::optional<TaiTime> first_;            ///< Estimate.
   std::optional<SpinEstimate> mean_;
   std::optional<SpinEstimate> sequential_;
+  std::optional<Estimated> least_nutation_rad_;  ///< Half-angle, of those found.
 };
 
 }  // namespace spindrift

@@ -194,6 +194,49 @@ TEST(SpinConditions, RaiseSharesOfTheLastHundredRevolutions) {
   EXPECT_EQ(pass.raised, (Keys{"spin.period", "spin.rejection"}));
 }
 
+BatchSolution solution(double t_s, std::optional<double> half_angle_deg) {
+  BatchSolution solution{};
+  solution.estimate.t = at(t_s);
+  solution.nutation.emplace();
+  if (half_angle_deg) {
+    solution.nutation->found.emplace().half_angle_rad = {.value = *half_angle_deg * kRadPerDeg,
+                                                         .sigma = 0.002 * kRadPerDeg};
+  }
+  return solution;
+}
+
+TEST(SpinConditions, RaiseANutationThatIsWideOrGrows) {
+  Supervised pass;
+  pass.see(solution(0.0, std::nullopt));
+  pass.see(solution(60.0, 0.1));
+  pass.see(solution(120.0, 0.11));
+  EXPECT_EQ(pass.raised, Keys{});
+  pass.see(solution(180.0, 0.12));
+  EXPECT_EQ(pass.raised, Keys{"spin.nutation"});
+  pass.see(solution(240.0, 0.1));
+  EXPECT_EQ(pass.raised, Keys{});
+  pass.see(solution(300.0, 0.6));
+  EXPECT_EQ(pass.raised, Keys{"spin.nutation"});
+}
+
+TEST(SpinConditions, GiveARateInRpm) {
+  SpinConditions conditions{
+      config(), orbit(), AlertLimits{},
+      SpinTarget{.axis_icrf = kAxis,
+                 .rate = SpinTarget::Rate{.rad_s = 5.0, .tolerance_rad_s = 0.1}}};
+  std::optional<ConditionChange> raised;
+  for (int t_s = 0; t_s < 20; ++t_s) {
+    for (const ConditionChange& change : conditions.see(estimate(t_s, Quality::Ok))) {
+      raised = change.change == Change::Raised ? std::optional{change} : raised;
+    }
+  }
+  ASSERT_TRUE(raised);
+  EXPECT_EQ(raised->code, AlertCode::SpinRate);
+  EXPECT_EQ(raised->evidence.unit, "rpm");
+  EXPECT_NEAR(raised->evidence.value, 9.5493, 1e-4);
+  EXPECT_NEAR(raised->evidence.limit, 0.95493, 1e-5);
+}
+
 TEST(SpinConditions, RaiseInterferenceWhileItLasts) {
   Supervised pass;
   give_edges(pass, 0, std::nullopt, Rejection::Interference);
