@@ -451,6 +451,10 @@ CREATE TABLE attitude (
     OR quality = 'LOST'),
   reasons      TEXT NOT NULL,  -- as in spin_estimate
   status       TEXT NOT NULL,
+  -- Of the samples that the filter accepted since its estimate before: the sum of their normalised squared
+  -- innovations, a chi-square of innovation_freedom degrees of freedom when all is well. NULL: of no filter
+  squared_innovations REAL,
+  innovation_freedom  INTEGER,
   PRIMARY KEY (run_id, t_tai_ns, source)
 ) STRICT, WITHOUT ROWID;
 

@@ -31,6 +31,7 @@ enum class AlertCode {
   SpinNutation,
   SpinRate,
   AttitudeLost,
+  AttitudeDiverged,
   ReconstructionLauncher,
   ArchiveBacklog,
   ArchiveWrite,
@@ -42,15 +43,20 @@ inline constexpr int kAlertCodes = static_cast<int>(AlertCode::DataOutdated) + 1
 
 constexpr std::string_view name_of(AlertCode code) {
   constexpr std::array<std::string_view, kAlertCodes> kNames = {
-      "link.silent",       "link.late",       "link.ahead",
-      "link.gap",          "link.rejected",   "link.repeated",
-      "link.restarted",    "service.twice",   "channel.silent",
-      "spin.interference", "spin.period",     "spin.rejection",
-      "spin.ambiguous",    "spin.doubtful",   "spin.sigma",
-      "spin.disagree",     "spin.off_target", "spin.nutation",
-      "spin.rate",         "attitude.lost",   "reconstruction.launcher",
-      "archive.backlog",   "archive.write",   "archive.disk",
-      "clock.jump",        "data.outdated"};
+      "link.silent",       "link.late",
+      "link.ahead",        "link.gap",
+      "link.rejected",     "link.repeated",
+      "link.restarted",    "service.twice",
+      "channel.silent",    "spin.interference",
+      "spin.period",       "spin.rejection",
+      "spin.ambiguous",    "spin.doubtful",
+      "spin.sigma",        "spin.disagree",
+      "spin.off_target",   "spin.nutation",
+      "spin.rate",         "attitude.lost",
+      "attitude.diverged", "reconstruction.launcher",
+      "archive.backlog",   "archive.write",
+      "archive.disk",      "clock.jump",
+      "data.outdated"};
   return kNames.at(static_cast<std::size_t>(code));
 }
 

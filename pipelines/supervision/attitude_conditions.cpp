@@ -1,24 +1,83 @@
 #include "pipelines/supervision/attitude_conditions.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <utility>
+#include <variant>
+
+#include "pipelines/statistics/distributions.h"
 
 namespace spindrift {
 namespace {
+
+constexpr double kBetweenJudgements_s = 1.0;
 
 ConditionChanges changes_of(std::optional<ConditionChange> change) {
   return change ? ConditionChanges{std::move(*change)} : ConditionChanges{};
 }
 
+/// At this instant: star fixes overruled what was given before.
+bool begins_anew(const AttitudeEstimate& estimate) {
+  const auto& reasons = estimate.assessment.reasons;
+  return std::any_of(reasons.begin(), reasons.end(), [&](const Reason& reason) {
+    return reason.code == ReasonCode::Since &&
+           std::get<std::int64_t>(reason.values.front().value) == tai_ns(estimate.t);
+  });
+}
+
+/// How much of all chi-squares is nearer to the middle, in percent.
+double percent_nearer(const Innovations& innovations) {
+  const double tail =
+      chi_square_tail(innovations.squared, static_cast<double>(innovations.freedom));
+  return 100.0 * (1.0 - 2.0 * std::min(tail, 1.0 - tail));
+}
+
 }  // namespace
 
-AttitudeConditions::AttitudeConditions(const AlertLimits& limits)
+AttitudeConditions::AttitudeConditions(const AlertLimits& limits, std::optional<Orbit> orbit)
     : launcher_percent_{limits.launcher_percent},
+      diverged_percent_{limits.diverged_percent},
+      diverged_s_{limits.diverged_s},
+      kinds_{std::move(orbit), limits.silent_s},
+      // Of a band that one minute in a thousand leaves, two in a row do not by chance.
+      diverged_{AlertCode::AttitudeDiverged,
+                "% of chi-square",
+                {.raise_s = limits.diverged_s, .clear_s = limits.diverged_s}},
       lost_{AlertCode::AttitudeLost, "s"},
       launcher_{AlertCode::ReconstructionLauncher, "% of chi-square"} {}
 
 ConditionChanges AttitudeConditions::see(const AttitudeEstimate& estimate) {
-  return changes_of(lost_.see(estimate.t, estimate.assessment.quality == Quality::Lost));
+  ConditionChanges changes;
+  add(lost_.see(estimate.t, estimate.assessment.quality == Quality::Lost || begins_anew(estimate)),
+      changes);
+  add(see_innovations(estimate), changes);
+  return changes;
+}
+
+std::optional<ConditionChange> AttitudeConditions::see_innovations(
+    const AttitudeEstimate& estimate) {
+  if (estimate.assessment.quality == Quality::Lost) {
+    recent_.clear();
+    return std::nullopt;
+  }
+  recent_.push_back({.t = estimate.t, .innovations = estimate.innovations});
+  const bool is_whole = seconds_between(recent_.front().t, estimate.t) >= diverged_s_;
+  while (seconds_between(recent_.front().t, estimate.t) >= diverged_s_) {
+    recent_.pop_front();
+  }
+  if (!is_whole || (judged_ && seconds_between(*judged_, estimate.t) < kBetweenJudgements_s)) {
+    return std::nullopt;
+  }
+  judged_ = estimate.t;
+  Innovations sum;
+  for (const Recent& one : recent_) {
+    sum.squared += one.innovations.squared;
+    sum.freedom += one.innovations.freedom;
+  }
+  return sum.freedom == 0 ? std::nullopt
+                          : diverged_.see(estimate.t, {.value = percent_nearer(sum),
+                                                       .limit = diverged_percent_});
 }
 
 ConditionChanges AttitudeConditions::see(const ReconstructedSeparation& separation) {

@@ -20,7 +20,7 @@ std::optional<ConditionChange> ConditionWatch::see_least(TaiTime t, const Readin
 
 std::optional<ConditionChange> ConditionWatch::judge(TaiTime t, const Reading& reading,
                                                      bool is_there, bool is_gone) {
-  if ((last_ && t <= *last_) || (!is_there && !is_gone)) {
+  if (!is_there && !is_gone) {
     return std::nullopt;
   }
   return settle(t, is_there ? Change::Raised : Change::Cleared,
@@ -33,9 +33,6 @@ std::optional<ConditionChange> ConditionWatch::judge(TaiTime t, const Reading& r
 }
 
 std::optional<ConditionChange> ConditionWatch::see(TaiTime t, bool is_there) {
-  if (last_ && t <= *last_) {
-    return std::nullopt;
-  }
   auto change =
       settle(t, is_there ? Change::Raised : Change::Cleared,
              {.value = 0.0, .limit = holding_.raise_s, .unit = "s", .since = t, .last = t});
@@ -46,6 +43,9 @@ std::optional<ConditionChange> ConditionWatch::see(TaiTime t, bool is_there) {
 }
 
 std::optional<ConditionChange> ConditionWatch::settle(TaiTime t, Change now, Evidence evidence) {
+  if (last_ && (t < *last_ || (t == *last_ && now == Change::Cleared))) {
+    return std::nullopt;
+  }
   last_ = t;
   if (coming_ != now) {
     coming_ = now;

@@ -62,7 +62,8 @@ class ConditionWatch {
     double limit;
     std::optional<double> sigma = {};
   };
-  /// @param t A reading that is not later than the one before is not looked at.
+  /// @param t A reading that is earlier than the one before is not looked at. Of two at one time
+  /// the later tells what is wrong: it may take the other's place.
   std::optional<ConditionChange> see(TaiTime t, const Reading& reading);
 
   /// Of what must not be less than its limit.

@@ -287,6 +287,8 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
   }
   filter_->update(observed);
   innovations.accepted(squared_innovation, freedom);
+  since_given_.squared += squared_innovation;
+  since_given_.freedom += freedom;
   note_accepted(kind, t);
   rejected_in_a_row_ = 0;
   if (!is_checked_) {
@@ -321,6 +323,7 @@ void AttitudeEstimator::begin(const UncertainAttitude& attitude, Products& out) 
   carried_.forget();
   rejected_stars_.forget();
   innovations_ = {};
+  since_given_ = {};
   rejected_in_a_row_ = 0;
   checked_.setZero();
   is_checked_ = false;
@@ -364,7 +367,8 @@ void AttitudeEstimator::give(Products& out) {
                             .q_icrf_body = filter_->q_icrf_body(),
                             .rate_body_rad_s = std::nullopt,
                             .covariance_rad2 = excess_noise() * filter_->attitude_covariance_rad2(),
-                            .assessment = assess()};
+                            .assessment = assess(),
+                            .innovations = std::exchange(since_given_, {})};
   if (rate_rad_s_ && !gyro_is_out()) {
     estimate.rate_body_rad_s = *rate_rad_s_ - filter_->bias_rad_s();
   }

@@ -141,6 +141,7 @@ class AttitudeEstimator {
   std::optional<TaiTime> since_;
   bool began_anew_ = false;
   std::optional<TaiTime> given_;  ///< The last estimate.
+  Innovations since_given_;       ///< Since that.
 };
 
 }  // namespace spindrift

@@ -61,6 +61,12 @@ std::string_view name_of(AttitudeSource source);
 /// An attitude with a larger sigma is open: DOUBTFUL.
 inline constexpr double kOpenAttitude_rad = 10.0 * kRadPerDeg;
 
+/// Of the samples that the filter accepted, what they differed from where it had them.
+struct Innovations {
+  double squared = 0.0;      ///< Normalised, their sum: a chi-square when all is well.
+  std::int64_t freedom = 0;  ///< Of so many degrees of freedom.
+};
+
 struct AttitudeEstimate {
   TaiTime t;
   Eigen::Quaterniond q_icrf_body;
@@ -68,6 +74,7 @@ struct AttitudeEstimate {
   Eigen::Matrix3d covariance_rad2;                 ///< Of a small turn, body axes.
   Assessment assessment;
   AttitudeSource source = AttitudeSource::Mekf;
+  Innovations innovations = {};  ///< Since the estimate before.
 
   double sigma_rad() const;  ///< Root of the trace.
 };

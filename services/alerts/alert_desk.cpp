@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -37,6 +39,36 @@ Occurrence occurrence_of(const ConditionChange& change, const std::string& run_i
           .evidence = evidence_json(change.evidence, mission.sha256)};
 }
 
+/// The sensor of a three-axis spacecraft that gives such values.
+template <class Value>
+constexpr std::optional<SampleKind> sample_kind() {
+  if constexpr (std::is_same_v<Value, GyroSample>) {
+    return SampleKind::Gyro;
+  } else if constexpr (std::is_same_v<Value, StarFix>) {
+    return SampleKind::Star;
+  } else if constexpr (std::is_same_v<Value, SunDirection>) {
+    return SampleKind::Sun;
+  } else if constexpr (std::is_same_v<Value, MagneticField>) {
+    return SampleKind::Magnetometer;
+  } else {
+    return std::nullopt;
+  }
+}
+
+/// Samples that are left out have a negative arrival, and tell nothing of when it is.
+ConditionChanges changes_by(AttitudeConditions& conditions, const TelemetrySamples& samples) {
+  ConditionChanges all;
+  in_order_of_arrival(samples, [&]<class Value>(const TelemetrySample<Value>& sample) {
+    if constexpr (sample_kind<Value>().has_value()) {
+      if (sample.arrival >= 0) {
+        ConditionChanges changes = conditions.see(*sample_kind<Value>(), sample.value.t);
+        std::move(changes.begin(), changes.end(), std::back_inserter(all));
+      }
+    }
+  });
+  return all;
+}
+
 std::optional<Alert> settle(AlertBook& book, Change change, const Occurrence& occurrence) {
   return change == Change::Raised ? book.raise(occurrence) : book.clear(occurrence);
 }
@@ -62,7 +94,7 @@ AlertDesk::Conditions AlertDesk::conditions_of(const Mission& mission) {
   if (const SpinConfig* const spin = mission.spin()) {
     return SpinConditions{*spin, *mission.orbit, mission.alerts, mission.target};
   }
-  return AttitudeConditions{mission.alerts};
+  return AttitudeConditions{mission.alerts, mission.orbit};
 }
 
 void AlertDesk::take_up(const std::string& spacecraft, const std::string& run_id,
@@ -89,16 +121,18 @@ void AlertDesk::see(ArchiveBatch& batch) {
   if (supervised.run_id != batch.run_id) {
     return;
   }
-  std::vector<Alert> alerts = changed_by(batch.products, desk);
-  append(std::exchange(desk.taken_back, {}), batch.products);
-  append(std::move(alerts), batch.products);
+  std::vector<Alert> alerts = changed_by(batch, desk);
+  std::move(alerts.begin(), alerts.end(), std::back_inserter(desk.waiting));
+  if (count_of(batch.samples) == 0) {
+    append(std::exchange(desk.waiting, {}), batch.products);
+  }
 }
 
 void AlertDesk::take_back(const ArchiveBatch& batch) {
   const std::lock_guard lock{mutex_};
   for (const Product& product : batch.products) {
     if (const auto* const alert = std::get_if<Alert>(&product)) {
-      desks_[batch.spacecraft_id].taken_back.push_back(*alert);
+      desks_[batch.spacecraft_id].waiting.push_back(*alert);
     }
   }
 }
@@ -123,7 +157,7 @@ std::vector<ArchiveBatch> AlertDesk::see(const std::map<std::string, ServiceStat
       continue;
     }
     ArchiveBatch batch{.run_id = desk.supervised->stored_run, .spacecraft_id = spacecraft};
-    append(std::exchange(desk.taken_back, {}), batch.products);
+    append(std::exchange(desk.waiting, {}), batch.products);
     if (const auto state = states.find(spacecraft); state != states.end()) {
       append(changed_by(state->second, desk), batch.products);
     }
@@ -150,12 +184,10 @@ std::vector<Alert> AlertDesk::changed_by(const ServiceState& state, Desk& desk) 
   return alerts;
 }
 
-std::vector<Alert> AlertDesk::changed_by(const std::vector<Product>& products, Desk& desk) {
+std::vector<Alert> AlertDesk::changed_by(const ArchiveBatch& batch, Desk& desk) {
   Supervised& supervised = *desk.supervised;
   std::vector<Alert> alerts;
-  for (const Product& product : products) {
-    const auto changes = std::visit(
-        [&](auto& conditions) { return changes_by(conditions, product); }, supervised.conditions);
+  const auto settle_all = [&](const ConditionChanges& changes) {
     for (const ConditionChange& change : changes) {
       if (auto alert = settle(desk.book, change.change,
                               occurrence_of(change, supervised.run_id, supervised.mission))) {
@@ -163,6 +195,13 @@ std::vector<Alert> AlertDesk::changed_by(const std::vector<Product>& products, D
         alerts.push_back(*std::move(alert));
       }
     }
+  };
+  if (auto* const attitude = std::get_if<AttitudeConditions>(&supervised.conditions)) {
+    settle_all(changes_by(*attitude, batch.samples));
+  }
+  for (const Product& product : batch.products) {
+    settle_all(std::visit([&](auto& conditions) { return changes_by(conditions, product); },
+                          supervised.conditions));
   }
   return alerts;
 }

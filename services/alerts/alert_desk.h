@@ -37,8 +37,9 @@ class AlertDesk {
   /// An alert of before, as the archive has it, in the order in which they were raised.
   void take_up(const std::string& spacecraft, const std::string& run_id, const Alert& alert);
 
-  /// Adds to `batch` the alerts that its products raise and clear, in the order of computing; and
-  /// those that were taken back.
+  /// Of the samples and products of `batch` the alerts that they raise and clear, in the order of
+  /// computing. They are added to it or, since products would hold samples back, to the next batch
+  /// without samples; as what was taken back is.
   void see(ArchiveBatch& batch);
 
   /// What was added to a batch, or given for one, that is not stored now: of the next one again.
@@ -72,13 +73,13 @@ class AlertDesk {
   struct Desk {
     std::optional<Supervised> supervised = {};
     AlertBook book = {};
-    std::vector<Alert> taken_back = {};  ///< Changes that are in the book and in no batch.
+    std::vector<Alert> waiting = {};  ///< Changes that are in the book and in no batch.
     std::map<std::string, std::string> run_of =
         {};  ///< By open alert, of those taken up and raised.
   };
 
   static Conditions conditions_of(const Mission& mission);
-  static std::vector<Alert> changed_by(const std::vector<Product>& products, Desk& desk);
+  static std::vector<Alert> changed_by(const ArchiveBatch& batch, Desk& desk);
   static std::vector<Alert> changed_by(const ServiceState& state, Desk& desk);
   template <class Do>
   Expected<ArchiveBatch> with_alert(const std::string& alert_id, const Do& act);

@@ -53,7 +53,11 @@ struct AttitudeTable {
           "reasons",
           [](const AttitudeEstimate& one) { return to_json_text(one.assessment.reasons); }},
       ProductColumn{"status",
-                    [](const AttitudeEstimate& one) { return sentence_of(one.assessment); }}};
+                    [](const AttitudeEstimate& one) { return sentence_of(one.assessment); }},
+      ProductColumn{"squared_innovations",
+                    [](const AttitudeEstimate& one) { return one.innovations.squared; }},
+      ProductColumn{"innovation_freedom",
+                    [](const AttitudeEstimate& one) { return one.innovations.freedom; }}};
 };
 
 template <>
@@ -80,7 +84,9 @@ struct ProductKind<AttitudeEstimate> {
         .covariance_rad2 = sigma_rad * sigma_rad / 3.0 * Eigen::Matrix3d::Identity(),
         .assessment = {.quality = named(row.text("quality"), Quality::Lost),
                        .reasons = reasons_of(row.text("reasons"))},
-        .source = named(row.text("source"), AttitudeSource::Sequential)};
+        .source = named(row.text("source"), AttitudeSource::Sequential),
+        .innovations = {.squared = row.real("squared_innovations"),
+                        .freedom = row.integer("innovation_freedom")}};
     if (row.has("rate_x_rad_s")) {
       estimate.rate_body_rad_s = Eigen::Vector3d{row.real("rate_x_rad_s"), row.real("rate_y_rad_s"),
                                                  row.real("rate_z_rad_s")};

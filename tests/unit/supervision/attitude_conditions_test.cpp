@@ -2,6 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/ephemeris/sun.h"
+
 namespace spindrift::attitude_conditions_test {
 
 AttitudeEstimate estimate(double t_s, Quality quality) {
@@ -13,7 +21,7 @@ AttitudeEstimate estimate(double t_s, Quality quality) {
 }
 
 TEST(AttitudeConditions, RaiseThatTheAttitudeIsLostAndClearItWhenItIsBack) {
-  AttitudeConditions conditions{AlertLimits{}};
+  AttitudeConditions conditions{AlertLimits{}, std::nullopt};
   const auto nominal = conditions.see(estimate(0.0, Quality::Ok));
   ASSERT_EQ(nominal.size(), 1U);
   EXPECT_EQ(nominal.front().change, Change::Cleared);
@@ -24,6 +32,98 @@ TEST(AttitudeConditions, RaiseThatTheAttitudeIsLostAndClearItWhenItIsBack) {
   const auto back = conditions.see(estimate(2.0, Quality::Converging));
   ASSERT_EQ(back.size(), 1U);
   EXPECT_EQ(back.front().change, Change::Cleared);
+}
+
+TEST(AttitudeConditions, RaiseThatStarFixesOverruleTheAttitude) {
+  AttitudeConditions conditions{AlertLimits{}, std::nullopt};
+  AttitudeEstimate anew = estimate(1.0, Quality::Converging);
+  anew.assessment.reasons = {{ReasonCode::Since, {{"since_tai_ns", tai_ns(anew.t)}}}};
+  ASSERT_EQ(conditions.see(anew).size(), 1U);
+  anew.t += std::chrono::seconds{1};
+  const auto later = conditions.see(anew);
+  ASSERT_EQ(later.size(), 1U);
+  EXPECT_EQ(later.front().change, Change::Cleared);
+}
+
+TaiTime at(double t_s) { return shifted(tai_from_ns(1'795'143'637'000'000'000), t_s); }
+
+/// Ten estimates a second with such a mean square of the innovations in five degrees of freedom.
+/// @return the last change that is about divergence.
+std::optional<ConditionChange> last_change(AttitudeConditions& conditions, double from_s,
+                                           double to_s, double mean_square) {
+  std::optional<ConditionChange> last;
+  for (double t_s = from_s; t_s < to_s; t_s += 0.1) {
+    AttitudeEstimate one = estimate(t_s, Quality::Ok);
+    one.innovations = {.squared = 5.0 * mean_square, .freedom = 5};
+    for (const ConditionChange& change : conditions.see(one)) {
+      if (change.code == AlertCode::AttitudeDiverged) {
+        last = change;
+      }
+    }
+  }
+  return last;
+}
+
+TEST(AttitudeConditions, RaiseInnovationsThatAreTooLargeOrTooSmallForTwoMinutes) {
+  for (const double mean_square : {0.8, 1.2}) {
+    AttitudeConditions conditions{AlertLimits{}, std::nullopt};
+    EXPECT_EQ(last_change(conditions, 0.0, 200.0, 1.0)->change, Change::Cleared);
+    EXPECT_FALSE(last_change(conditions, 200.0, 260.0, mean_square));
+    const auto raised = last_change(conditions, 260.0, 320.0, mean_square);
+    ASSERT_TRUE(raised);
+    EXPECT_EQ(raised->change, Change::Raised);
+    EXPECT_EQ(last_change(conditions, 320.0, 500.0, 1.0)->change, Change::Cleared);
+  }
+}
+
+TEST(AttitudeConditions, JudgeNoInnovationsWhereThereAreNone) {
+  AttitudeConditions conditions{AlertLimits{}, std::nullopt};
+  for (double t_s = 0.0; t_s < 300.0; t_s += 0.1) {
+    for (const ConditionChange& change : conditions.see(estimate(t_s, Quality::Ok))) {
+      EXPECT_NE(change.code, AlertCode::AttitudeDiverged);
+    }
+  }
+}
+
+/// Keys of what is raised and not cleared, of samples that come once a second.
+std::set<std::string> raised_by(AttitudeConditions& conditions, std::vector<SampleKind> kinds,
+                                int from_s, int to_s) {
+  std::set<std::string> raised;
+  for (int t_s = from_s; t_s < to_s; ++t_s) {
+    for (const SampleKind kind : kinds) {
+      for (const ConditionChange& change : conditions.see(kind, at(t_s))) {
+        const std::string key = alert_key(change.code, change.about);
+        change.change == Change::Raised ? (void)raised.insert(key) : (void)raised.erase(key);
+      }
+    }
+  }
+  return raised;
+}
+
+using Keys = std::set<std::string>;
+using enum SampleKind;
+
+TEST(AttitudeConditions, RaiseASensorThatGivesNothingWhileOthersDo) {
+  AttitudeConditions conditions{AlertLimits{}, std::nullopt};
+  EXPECT_EQ(raised_by(conditions, {Gyro, Star, OrbitState}, 0, 10), Keys{});
+  EXPECT_EQ(raised_by(conditions, {Gyro}, 10, 14), Keys{});
+  EXPECT_EQ(raised_by(conditions, {Gyro}, 14, 20), Keys{"channel.silent:star"});
+  const auto back = conditions.see(Star, at(20.5));
+  ASSERT_EQ(back.size(), 1U);
+  EXPECT_EQ(back.front().change, Change::Cleared);
+}
+
+TEST(AttitudeConditions, ExpectNoSunThatTheEarthHides) {
+  const Eigen::Vector3d to_sun = geometric_sun_icrf_km(at(0)).normalized();
+  const Eigen::Vector3d across = to_sun.unitOrthogonal();
+  const auto orbit = KeplerOrbit::through(
+      at(0), {.position_icrf_km = -7000.0 * to_sun, .velocity_icrf_km_s = 7.5 * across});
+  AttitudeConditions hidden{AlertLimits{}, Orbit{orbit.value()}};
+  EXPECT_EQ(raised_by(hidden, {Gyro, Sun}, 0, 10), Keys{});
+  EXPECT_EQ(raised_by(hidden, {Gyro}, 10, 60), Keys{});
+  AttitudeConditions unknown{AlertLimits{}, std::nullopt};
+  EXPECT_EQ(raised_by(unknown, {Gyro, Sun}, 0, 10), Keys{});
+  EXPECT_EQ(raised_by(unknown, {Gyro}, 10, 60), Keys{"channel.silent:sun"});
 }
 
 }  // namespace spindrift::attitude_conditions_test

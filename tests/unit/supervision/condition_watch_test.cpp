@@ -59,11 +59,15 @@ TEST(ConditionWatch, SaysOnceWhatWasNotThereToBeginWith) {
   EXPECT_FALSE(watch.see(at(1), false));
 }
 
-TEST(ConditionWatch, DoesNotLookAtWhatIsNotLater) {
+TEST(ConditionWatch, DoesNotLookAtWhatIsEarlier) {
   ConditionWatch watch = a_watch();
   ASSERT_TRUE(watch.see(at(1), false));
-  EXPECT_FALSE(watch.see(at(1), true));
   EXPECT_FALSE(watch.see(at(0), true));
+  const auto raised = watch.see(at(1), true);
+  ASSERT_TRUE(raised);
+  EXPECT_EQ(raised->change, Change::Raised);
+  EXPECT_FALSE(watch.see(at(1), false));
+  EXPECT_TRUE(watch.see(at(2), false));
 }
 
 }  // namespace spindrift::condition_watch_test

@@ -1,0 +1,51 @@
+#include "pipelines/supervision/kind_presence.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "pipelines/ephemeris/shadow.h"
+#include "pipelines/time/time_span.h"
+
+namespace spindrift {
+
+KindPresence::KindPresence(std::optional<Orbit> orbit, double silent_s)
+    : orbit_{std::move(orbit)}, silent_s_{silent_s} {
+  for (const SampleKind kind :
+       {SampleKind::Gyro, SampleKind::Star, SampleKind::Sun, SampleKind::Magnetometer}) {
+    channels_.push_back(
+        {.kind = kind,
+         .watch = ConditionWatch{AlertCode::ChannelSilent, "s", {}, std::string{name_of(kind)}}});
+  }
+}
+
+ConditionChanges KindPresence::see(SampleKind kind, TaiTime t) {
+  newest_ = std::max(newest_, t);
+  ConditionChanges changes;
+  for (Channel& channel : channels_) {
+    if (channel.kind == kind) {
+      channel.last = std::max(channel.last.value_or(t), t);
+    }
+    // Asked early, so that a Sun that comes out again has half its time to be seen.
+    if (channel.last && elapsed_s(*channel.last, newest_) >= 0.5 * silent_s_ &&
+        is_hidden(channel.kind, newest_)) {
+      channel.last = newest_;
+    } else if (channel.last) {
+      add(channel.watch.see(newest_,
+                            {.value = elapsed_s(*channel.last, newest_), .limit = silent_s_}),
+          changes);
+    }
+  }
+  return changes;
+}
+
+bool KindPresence::is_hidden(SampleKind kind, TaiTime t) {
+  if (kind != SampleKind::Sun || !orbit_) {
+    return false;
+  }
+  const auto spacecraft = orbit_->at(t);
+  return spacecraft &&
+         is_in_shadow(spacecraft->position_icrf_km, sun_.direction_icrf(t, *spacecraft));
+}
+
+}  // namespace spindrift
