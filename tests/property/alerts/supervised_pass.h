@@ -1,0 +1,222 @@
+/// @file
+/// Simulated passes as a service sees them: samples in, alerts out, without bus, archive and clock.
+
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "services/alerts/alert_desk.h"
+#include "services/ingest/gap_watch.h"
+#include "services/ingest/sequence_tracker.h"
+#include "services/processor/processor.h"
+#include "services/scenario/pass_files.h"
+#include "services/scenario/scenario.h"
+#include "services/scenario/simulated_pass.h"
+#include "services/serving/session_watch.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_paths.h"
+#include "tests/support/text_of.h"
+
+namespace spindrift::testing {
+
+using AnySample = TelemetryKinds::Of<std::variant, TelemetrySample>;
+
+inline TaiTime& time_of(AnySample& sample) {
+  return std::visit([](auto& is) -> TaiTime& { return is.value.t; }, sample);
+}
+
+/// A sample, and when it comes.
+struct Sent {
+  TaiTime came;
+  AnySample sample;
+};
+
+struct Flight {
+  Mission mission;
+  std::vector<Sent> sent;  ///< In order of time, by one source; they come when they are.
+};
+
+/// Each sample of a topic is the next of its session.
+inline void number(std::vector<Sent>& sent) {
+  std::map<std::size_t, std::uint64_t> next;
+  for (Sent& one : sent) {
+    std::visit([&](auto& is) { is.origin.seq = next[one.sample.index()]++; }, one.sample);
+  }
+}
+
+inline Flight flown(const std::string& scenario_text, const std::string& more_of_mission = "") {
+  const TemporaryFolder folder;
+  const auto scenario = load_scenario(folder.write("scenario.toml", scenario_text)).value();
+  const SimulatedPass pass = simulated_pass(scenario).value();
+  const auto written = folder.path() / "pass";
+  write_pass(written, scenario, pass).value();
+  const auto path = written / "mission.toml";
+  Flight flight{.mission = mission_of(path, text_of(path) + more_of_mission).value(), .sent = {}};
+  in_order_of_arrival(pass.telemetry, [&]<class Value>(const Arrived<Value>& arrived) {
+    flight.sent.push_back(
+        {.came = arrived.value.t,
+         .sample = TelemetrySample<Value>{.spacecraft = scenario.spacecraft_id,
+                                          .origin = {.source = "front-end", .session = 1, .seq = 0},
+                                          .value = arrived.value,
+                                          .arrival = 0}});
+  });
+  std::stable_sort(flight.sent.begin(), flight.sent.end(),
+                   [](const Sent& a, const Sent& b) { return a.came < b.came; });
+  number(flight.sent);
+  return flight;
+}
+
+/// What was raised first under each key.
+struct Raised {
+  AlertSeverity severity;
+  TaiTime t;
+};
+using RaisedByKey = std::map<std::string, Raised>;
+
+class SupervisedPass {
+ public:
+  SupervisedPass(const Mission& mission, RunMode mode)
+      : id_{mission.spacecraft_id},
+        processor_{Processor::make({mission}, {.mode = mode, .telemetry = {"simulated"}}).value()},
+        desk_{{mission}, mode} {
+    see(processor_.begin());
+  }
+
+  /// As `process` does.
+  RaisedByKey process(const std::vector<Sent>& sent) {
+    SampleBatch batch;
+    std::int64_t arrival = 0;
+    for (const Sent& one : sent) {
+      add(one, arrival++, batch);
+    }
+    see(processor_.take(std::move(batch)));
+    see(processor_.finish());
+    return raised_;
+  }
+
+  /// As `serve` does, which looks once a second, and a while longer.
+  RaisedByKey serve(const std::vector<Sent>& sent) {
+    constexpr int kLonger_s = 15;
+    const TaiTime start = sent.front().came;
+    auto next = sent.begin();
+    for (int second = 1; next != sent.end() || second <= end_s_ + kLonger_s; ++second) {
+      const TaiTime now = shifted(start, second);
+      SampleBatch batch;
+      for (std::int64_t arrival = 0; next != sent.end() && next->came < now; ++next) {
+        add(*next, arrival++, batch);
+        note(*next);
+        end_s_ = second;
+      }
+      take(std::move(batch), now, second);
+      supervise(now);
+    }
+    return raised_;
+  }
+
+ private:
+  void add(const Sent& one, std::int64_t arrival, SampleBatch& batch) {
+    std::visit(
+        [&]<class Value>(TelemetrySample<Value> sample) {
+          sample.arrival = arrival;
+          batch.samples.of<Value>().push_back(std::move(sample));
+        },
+        one.sample);
+  }
+
+  void note(const Sent& one) {
+    std::visit(
+        [&](const auto& sample) {
+          tracker_.record(sample.origin, sample.spacecraft, one.sample.index());
+          last_came_ = one.came;
+          late_s_ = seconds_between(sample.value.t, one.came);
+        },
+        one.sample);
+  }
+
+  void take(SampleBatch batch, TaiTime now, int second) {
+    const Moment moment{.now = std::chrono::steady_clock::time_point{std::chrono::seconds{second}},
+                        .host = now};
+    Routed routed = size_of(batch) > 0 ? processor_.route(std::move(batch), moment)
+                                       : processor_.fall_silent({id_}, moment);
+    for (const ArchiveBatch& samples : routed.samples) {
+      sessions_.note(samples);
+    }
+    see(std::move(routed.samples));
+    for (const PassInput& work : routed.work) {
+      see(processor_.compute(work));
+      for (BackgroundTask& task : processor_.take_background_tasks(work)) {
+        if (auto products = task.solve()) {
+          task.batch.products = *std::move(products);
+          see({std::move(task.batch)});
+        }
+      }
+    }
+  }
+
+  void supervise(TaiTime now) {
+    ServiceState state{.t = now,
+                       .pass_t = now,
+                       .silent_s = seconds_between(last_came_, now),
+                       .late_s = late_s_,
+                       .sources = sessions_.report(id_)};
+    for (const auto& [source, missing] : gaps_.beat(tracker_.by_source())) {
+      state.sources[source].missing = static_cast<std::int64_t>(missing);
+    }
+    for (const ArchiveBatch& batch : desk_.see({{id_, state}}, now)) {
+      note_alerts(batch);
+    }
+  }
+
+  void see(std::vector<ArchiveBatch> batches) {
+    for (ArchiveBatch& batch : batches) {
+      desk_.see(batch);
+      desk_.note_stored({&batch, 1});
+      note_alerts(batch);
+    }
+  }
+
+  void note_alerts(const ArchiveBatch& batch) {
+    for (const Product& product : batch.products) {
+      const auto* const alert = std::get_if<Alert>(&product);
+      if (alert != nullptr && !alert->from) {
+        raised_.try_emplace(alert->key, Raised{.severity = alert->severity, .t = alert->raised});
+      }
+    }
+  }
+
+  std::string id_;
+  Processor processor_;
+  AlertDesk desk_;
+  SequenceTracker tracker_;
+  GapWatch gaps_;
+  SessionWatch sessions_;
+  TaiTime last_came_ = {};
+  double late_s_ = 0.0;
+  int end_s_ = 0;
+  RaisedByKey raised_;
+};
+
+/// Where it first stands.
+inline std::string with(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+/// deploy/scenarios/separation.toml without faults, and with star fixes from two minutes on.
+inline std::string three_axis_text() {
+  std::string text = text_of(scenarios() / "separation.toml");
+  text = text.substr(0, text.find("[faults]"));
+  text = with(text, "duration_s = 309.0", "duration_s = 600.0");
+  return with(text, "first_star_fix_s = 300.0", "first_star_fix_s = 120.0");
+}
+
+}  // namespace spindrift::testing
