@@ -56,12 +56,15 @@ constexpr std::optional<SampleKind> sample_kind() {
 }
 
 /// Samples that are left out have a negative arrival, and tell nothing of when it is.
-ConditionChanges changes_by(AttitudeConditions& conditions, const TelemetrySamples& samples) {
+/// @param samples TelemetrySamples or TelemetryValues.
+template <class Samples>
+ConditionChanges changes_by_samples(AttitudeConditions& conditions, const Samples& samples) {
   ConditionChanges all;
-  in_order_of_arrival(samples, [&]<class Value>(const TelemetrySample<Value>& sample) {
-    if constexpr (sample_kind<Value>().has_value()) {
+  in_order_of_arrival(samples, [&](const auto& sample) {
+    constexpr auto kKind = sample_kind<std::remove_cvref_t<decltype(sample.value)>>();
+    if constexpr (kKind.has_value()) {
       if (sample.arrival >= 0) {
-        ConditionChanges changes = conditions.see(*sample_kind<Value>(), sample.value.t);
+        ConditionChanges changes = conditions.see(*kKind, sample.value.t);
         std::move(changes.begin(), changes.end(), std::back_inserter(all));
       }
     }
@@ -128,6 +131,21 @@ void AlertDesk::see(ArchiveBatch& batch) {
   }
 }
 
+void AlertDesk::go_on(const std::string& spacecraft, const std::string& run_id,
+                      const TelemetryValues& samples) {
+  const std::lock_guard lock{mutex_};
+  const auto desk = desks_.find(spacecraft);
+  if (desk == desks_.end() || !desk->second.supervised ||
+      desk->second.supervised->run_id != run_id) {
+    return;
+  }
+  if (auto* const attitude =
+          std::get_if<AttitudeConditions>(&desk->second.supervised->conditions)) {
+    std::vector<Alert> alerts = settled(changes_by_samples(*attitude, samples), desk->second);
+    std::move(alerts.begin(), alerts.end(), std::back_inserter(desk->second.waiting));
+  }
+}
+
 void AlertDesk::take_back(const ArchiveBatch& batch) {
   const std::lock_guard lock{mutex_};
   for (const Product& product : batch.products) {
@@ -186,22 +204,29 @@ std::vector<Alert> AlertDesk::changed_by(const ServiceState& state, Desk& desk) 
 
 std::vector<Alert> AlertDesk::changed_by(const ArchiveBatch& batch, Desk& desk) {
   Supervised& supervised = *desk.supervised;
-  std::vector<Alert> alerts;
-  const auto settle_all = [&](const ConditionChanges& changes) {
-    for (const ConditionChange& change : changes) {
-      if (auto alert = settle(desk.book, change.change,
-                              occurrence_of(change, supervised.run_id, supervised.mission))) {
-        desk.run_of.try_emplace(alert->alert_id, supervised.run_id);
-        alerts.push_back(*std::move(alert));
-      }
-    }
+  ConditionChanges all;
+  const auto add_all = [&](ConditionChanges changes) {
+    std::move(changes.begin(), changes.end(), std::back_inserter(all));
   };
   if (auto* const attitude = std::get_if<AttitudeConditions>(&supervised.conditions)) {
-    settle_all(changes_by(*attitude, batch.samples));
+    add_all(changes_by_samples(*attitude, batch.samples));
   }
   for (const Product& product : batch.products) {
-    settle_all(std::visit([&](auto& conditions) { return changes_by(conditions, product); },
-                          supervised.conditions));
+    add_all(std::visit([&](auto& conditions) { return changes_by(conditions, product); },
+                       supervised.conditions));
+  }
+  return settled(all, desk);
+}
+
+std::vector<Alert> AlertDesk::settled(const ConditionChanges& changes, Desk& desk) {
+  const Supervised& supervised = *desk.supervised;
+  std::vector<Alert> alerts;
+  for (const ConditionChange& change : changes) {
+    if (auto alert = settle(desk.book, change.change,
+                            occurrence_of(change, supervised.run_id, supervised.mission))) {
+      desk.run_of.try_emplace(alert->alert_id, supervised.run_id);
+      alerts.push_back(*std::move(alert));
+    }
   }
   return alerts;
 }

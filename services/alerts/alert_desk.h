@@ -42,6 +42,11 @@ class AlertDesk {
   /// without samples; as what was taken back is.
   void see(ArchiveBatch& batch);
 
+  /// Samples of before a restart, which do not come again. After the batch that says that the run
+  /// goes on.
+  void go_on(const std::string& spacecraft, const std::string& run_id,
+             const TelemetryValues& samples);
+
   /// What was added to a batch, or given for one, that is not stored now: of the next one again.
   void take_back(const ArchiveBatch& batch);
   /// Runs that have begun: nothing is given for a run that is not stored.
@@ -81,6 +86,7 @@ class AlertDesk {
   static Conditions conditions_of(const Mission& mission);
   static std::vector<Alert> changed_by(const ArchiveBatch& batch, Desk& desk);
   static std::vector<Alert> changed_by(const ServiceState& state, Desk& desk);
+  static std::vector<Alert> settled(const ConditionChanges& changes, Desk& desk);
   template <class Do>
   Expected<ArchiveBatch> with_alert(const std::string& alert_id, const Do& act);
 

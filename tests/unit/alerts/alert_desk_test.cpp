@@ -101,4 +101,61 @@ TEST(AlertDesk, GoesOnWithOpenAlertsOfBefore) {
   EXPECT_EQ(changes_in(restarted.silent(-3599.0, 0.1).at(0)), Changes{"link.silent cleared"});
 }
 
+/// Of a three-axis spacecraft: gyro samples once a second, and star fixes until the tenth.
+ArchiveBatch samples_until(int end_s) {
+  ArchiveBatch batch{.run_id = "run", .spacecraft_id = "LEOSAT"};
+  std::int64_t arrival = 0;
+  for (int t_s = 0; t_s < end_s; ++t_s) {
+    batch.samples.of<GyroSample>().push_back(
+        {.spacecraft = "LEOSAT", .origin = {}, .value = {.t = at(t_s)}, .arrival = arrival++});
+    if (t_s < 10) {
+      batch.samples.of<StarFix>().push_back(
+          {.spacecraft = "LEOSAT", .origin = {}, .value = {.t = at(t_s)}, .arrival = arrival++});
+    }
+  }
+  return batch;
+}
+
+struct ServedThreeAxis {
+  AlertDesk desk{{three_axis_mission()}, RunMode::Live};
+
+  ServedThreeAxis() {
+    ArchiveBatch start{.run_id = "run", .spacecraft_id = "LEOSAT"};
+    start.start.emplace().mode = RunMode::Live;
+    desk.see(start);
+    desk.note_stored({&start, 1});
+  }
+  static Mission three_axis_mission() {
+    Mission mission = load_mission(test_data() / "mission" / "separation.toml").value();
+    mission.spacecraft_id = "LEOSAT";
+    return mission;
+  }
+};
+
+TEST(AlertDesk, KeepsWhatSamplesRaiseForABatchWithoutSamples) {
+  ServedThreeAxis served;
+  ArchiveBatch samples = samples_until(20);
+  served.desk.see(samples);
+  EXPECT_TRUE(samples.products.empty());
+  ArchiveBatch products{.run_id = "run", .spacecraft_id = "LEOSAT"};
+  served.desk.see(products);
+  EXPECT_EQ(changes_in(products), Changes{"channel.silent:star active"});
+}
+
+TEST(AlertDesk, RaisesWhatWasNotStoredBeforeARestartAgainUnderTheSameId) {
+  ServedThreeAxis before;
+  ArchiveBatch samples = samples_until(20);
+  before.desk.see(samples);
+  ServedThreeAxis restarted;
+  TelemetryValues again;
+  samples.samples.for_each([&]<class Value>(const SamplesOfKind<Value>& of_kind) {
+    for (const auto& sample : of_kind) {
+      again.of<Value>().push_back({.arrival = sample.arrival, .value = sample.value});
+    }
+  });
+  restarted.desk.go_on("LEOSAT", "run", again);
+  ASSERT_EQ(restarted.desk.open().size(), 1U);
+  EXPECT_EQ(restarted.desk.open()[0].alert.alert_id, before.desk.open().at(0).alert.alert_id);
+}
+
 }  // namespace spindrift::alert_desk_test
