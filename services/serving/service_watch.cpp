@@ -61,7 +61,7 @@ Expected<ServiceWatch::States> ServiceWatch::look(
     const TelemetrySubscriberStatus& status, const std::map<std::string, std::uint64_t>& gaps) {
   const Instant now = std::chrono::steady_clock::now();
   note_time(now);
-  const auto others = watched_.others.look(now);
+  const auto others = watched_.clocks.look().and_then([&] { return watched_.others.look(now); });
   if (!others) {
     return Unexpected{others.error()};
   }
@@ -114,14 +114,18 @@ ServiceState ServiceWatch::state_of_service(const TelemetrySubscriberStatus& sta
           .clock_step_s = clock_step_s_};
 }
 
-/// What waits to be looked at while the archive makes it wait is not silence.
+/// What waits to be looked at while the archive makes it wait is not silence. The telemetry of a
+/// rehearsal goes by the clock that it tells, that of another replay by its own.
 void ServiceWatch::note_link(const SpacecraftHealth& link, ServiceState& state) const {
   if (watched_.taken.size() == 0 || link.link == LinkState::Live) {
     state.silent_s = link.data_age_s;
   }
   const TaiTime heard = later_by_s(*link.last_sample, *link.data_age_s);
-  if (watched_.mode == RunMode::Live) {
-    state.late_s = elapsed_s(heard, wall_);
+  const auto rehearsal = watched_.clocks.offset(link.spacecraft);
+  if (rehearsal || watched_.mode == RunMode::Live) {
+    const auto offset = rehearsal.value_or(std::chrono::nanoseconds{0});
+    state.late_s = elapsed_s(heard, later_by(wall_, -offset));
+    state.pass_t = later_by(t_, -offset);
   } else {
     state.pass_t = heard;
   }

@@ -14,6 +14,7 @@
 #include "pipelines/supervision/service_conditions.h"
 #include "services/archive/archive.h"
 #include "services/ingest/other_services.h"
+#include "services/ingest/rehearsal_clocks.h"
 #include "services/ingest/telemetry_subscriber.h"
 #include "services/mission/mission.h"
 #include "services/publisher/link_watch.h"
@@ -34,6 +35,7 @@ class ServiceWatch {
     const LinkWatch& links;
     const SessionWatch& sessions;
     OtherServices& others;
+    RehearsalClocks& clocks;
   };
 
   explicit ServiceWatch(const Watched& watched);

@@ -31,6 +31,7 @@
 #include "services/bus/participant.h"
 #include "services/clock/wall_clock.h"
 #include "services/ingest/other_services.h"
+#include "services/ingest/rehearsal_clocks.h"
 #include "services/ingest/telemetry_subscriber.h"
 #include "services/mission/mission.h"
 #include "services/processor/problems.h"
@@ -101,6 +102,20 @@ std::string service_name() {
     host = {"unknown"};
   }
   return fmt::format("spindrift {}:{}", host.data(), ::getpid());
+}
+
+/// What others on the bus say beside telemetry.
+struct Told {
+  OtherServices others;
+  RehearsalClocks clocks;
+};
+
+Expected<Told> listen(const bus::Participant& participant) {
+  return OtherServices::create(participant, service_name()).and_then([&](OtherServices&& others) {
+    return RehearsalClocks::create(participant).map([&](RehearsalClocks&& clocks) {
+      return Told{.others = std::move(others), .clocks = std::move(clocks)};
+    });
+  });
 }
 
 /// What came, for those who watch the link.
@@ -272,21 +287,23 @@ Expected<void> how_taking_ended(const TelemetrySubscriber& subscriber) {
   return {};
 }
 
-/// Of what was stored before a restart.
-void note_sessions(const std::vector<PassInput>& again, const LastOrigins& last_origins,
-                   const Processor& processor, SessionWatch& sessions) {
-  std::map<std::size_t, TaiTime> newest;
+/// What was stored before a restart, for those who watch what comes.
+void note_stored(const std::vector<PassInput>& again, const LastOrigins& last_origins,
+                 const Processor& processor, SessionWatch& sessions, AlertDesk& desk) {
+  const auto spacecraft = processor.spacecraft();
+  std::map<std::string, TaiTime> newest;
   for (const PassInput& input : again) {
+    const std::string& id = spacecraft.at(input.spacecraft);
     input.values.for_each([&](const auto& of_kind) {
       for (const auto& arrived : of_kind) {
-        TaiTime& last = newest.try_emplace(input.spacecraft, arrived.value.t).first->second;
+        TaiTime& last = newest.try_emplace(id, arrived.value.t).first->second;
         last = std::max(last, arrived.value.t);
       }
     });
+    desk.go_on(id, input.run_id, input.values);
   }
-  const auto spacecraft = processor.spacecraft();
-  for (const auto& [index, t] : newest) {
-    sessions.go_on(spacecraft.at(index), last_origins, t);
+  for (const auto& [id, t] : newest) {
+    sessions.go_on(id, last_origins, t);
   }
 }
 
@@ -294,7 +311,7 @@ void note_sessions(const std::vector<PassInput>& again, const LastOrigins& last_
 Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins,
                    const ServeOptions& options, const std::vector<Mission>& missions,
                    const bus::Participant& participant, const ResultPublisher& publisher,
-                   OtherServices& others, Processor& processor, Archive& archive, AlertDesk& desk,
+                   Told& told, Processor& processor, Archive& archive, AlertDesk& desk,
                    Announcer& announcer, Problems& problems, ConsoleFeed* feed,
                    StopSignal& stop_signal, ThreadFailures& failures) {
   BoundedQueue<SampleBatch> queue{kSamplesTaken, [](const SampleBatch& taken) {
@@ -310,7 +327,7 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
   }
   TelemetrySubscriber& subscriber = **started;
   Heard heard{.links = LinkWatch{processor.spacecraft()}, .sessions = {}};
-  note_sessions(again, last_origins, processor, heard.sessions);
+  note_stored(again, last_origins, processor, heard.sessions, desk);
   Patience patience;
   stop_signal.on_stop([&] {
     spdlog::info("stopping");
@@ -332,7 +349,8 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
                           .taken = queue,
                           .links = heard.links,
                           .sessions = heard.sessions,
-                          .others = others}};
+                          .others = told.others,
+                          .clocks = told.clocks}};
     const Heartbeat heartbeat{{.subscriber = subscriber,
                                .taken = queue,
                                .work = work,
@@ -500,9 +518,9 @@ Expected<void> serve(const ServeOptions& options) {
   if (!publisher) {
     return Unexpected{publisher.error()};
   }
-  auto others = OtherServices::create(*participant, service_name());
-  if (!others) {
-    return Unexpected{others.error()};
+  auto told = listen(*participant);
+  if (!told) {
+    return Unexpected{told.error()};
   }
   ThreadFailures failures;
   Problems problems;
@@ -534,7 +552,7 @@ Expected<void> serve(const ServeOptions& options) {
             return Expected<void>{Unexpected{console.error()}};
           }
           return run(std::move(stored.routed.work), stored.last_origins, options, *missions,
-                     *participant, *publisher, *others, *processor, archive, desk, announcer,
+                     *participant, *publisher, *told, *processor, archive, desk, announcer,
                      problems, feed.get(), stop_signal, failures);
         });
   });

@@ -161,6 +161,23 @@ TEST(ServeAlerts, OfAnArchiveThatFailsArePublishedAtOnceAndStoredAfterwards) {
   EXPECT_EQ(archive.service->stop_when_computed(), 0) << archive.service->log();
 }
 
+TEST(ServeAlerts, DoNotTakeARehearsalForLateTelemetry) {
+  Service service{"nominal"};
+  ASSERT_TRUE(service.ready()) << service.log();
+  {
+    const Program rehearsal{{"replay", "--now", "--mission", service.mission(), "--telemetry",
+                             (kPasses / "nominal").string(), "--domain",
+                             std::to_string(service.bus().domain), "--partition",
+                             service.bus().partition}};
+    ASSERT_TRUE(eventually([&] {
+      return number_of(service.db(), "SELECT count(*) FROM spin_fix") > 8;
+    })) << service.log()
+        << rehearsal.log();
+  }
+  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM alert WHERE key = 'link.late'"), 0);
+  EXPECT_EQ(service.stop_when_computed(), 0) << service.log();
+}
+
 TEST(ServeAlerts, SayThatAnotherServicePublishesTheSameSpacecraft) {
   Watched twice{"service.twice"};
   const TemporaryFolder folder;
