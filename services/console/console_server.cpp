@@ -120,9 +120,9 @@ class ConsoleServer::Loop {
     look();
     thread_ = std::thread{[this] {
       let_samples_come_first();
-      const auto ended = contained("console", [this] { context_.run(); });
-      if (!ended) {
-        spdlog::error("the console has ended: {}", ended.error().message);
+      const auto run = [this] { return contained("console", [this] { context_.run(); }); };
+      for (auto ended = run(); !ended; ended = run()) {
+        spdlog::error("the console goes on after a failure: {}", ended.error().message);
       }
     }};
   }
@@ -257,6 +257,7 @@ class ConsoleServer::Loop {
   void look() {
     timer_.expires_after(kLook);
     timer_.async_wait([this](Failed /*never*/) {
+      look();
       if (++looks_ % kLooksAPulseBatch == 0) {
         feed_.tell_pulses();
       }
@@ -267,7 +268,6 @@ class ConsoleServer::Loop {
       for (const Shared& viewer : std::set<Shared>{viewers_}) {
         tell(viewer);
       }
-      look();
     });
   }
 
