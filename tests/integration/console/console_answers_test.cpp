@@ -29,6 +29,19 @@ TEST_F(ConsoleAnswers, StateOfEverything) {
   EXPECT_EQ(state["service"]["version"], "0.1.0");
 }
 
+TEST_F(ConsoleAnswers, ThePageWithoutAddressesOfOthers) {
+  const HttpReply page = client_->get("/");
+  EXPECT_EQ(page.result_int(), 200U);
+  EXPECT_EQ(page["Content-Type"], "text/html; charset=utf-8");
+  EXPECT_EQ(client_->get("/index.html").body(), page.body());
+  EXPECT_EQ(client_->get("/style.css")["Content-Type"], "text/css; charset=utf-8");
+  const HttpReply script = client_->get("/app.js");
+  EXPECT_EQ(script["Content-Type"], "text/javascript; charset=utf-8");
+  for (const std::string& text : {page.body(), script.body()}) {
+    EXPECT_THAT(text, Not(HasSubstr("://")));
+  }
+}
+
 TEST_F(ConsoleAnswers, WithAPolicyThatAllowsNothingFromElsewhere) {
   for (const char* const target : {"/healthz", "/api/v1/state", "/nothing"}) {
     const HttpReply reply = client_->get(target);
