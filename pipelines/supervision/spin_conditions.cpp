@@ -48,6 +48,10 @@ SpinConditions::SpinConditions(const SpinConfig& config, Orbit orbit, const Aler
       rate_{AlertCode::SpinRate, "rpm", kSeveralAnswers},
       lost_{AlertCode::AttitudeLost, "s"} {}
 
+void SpinConditions::set_target(TaiTime t, const Eigen::Vector3d& axis_icrf) {
+  targets_.emplace(t, axis_icrf);
+}
+
 ConditionChanges SpinConditions::see(const PulseUse& use) {
   std::optional<AxisSeen> axis;
   if (const auto& answer = sequential_ ? sequential_ : mean_;
@@ -101,6 +105,10 @@ ConditionChanges SpinConditions::see(const SpinEstimate& estimate) {
 }
 
 void SpinConditions::see_in_force(const SpinEstimate& estimate, ConditionChanges& changes) {
+  const auto later = targets_.upper_bound(estimate.t);
+  for (auto due = targets_.begin(); due != later; due = targets_.erase(due)) {
+    target_ = SpinTarget{.axis_icrf = due->second, .rate = target_ ? target_->rate : std::nullopt};
+  }
   const Quality quality = estimate.assessment.quality;
   add(ambiguous_.see(estimate.t, quality == Quality::Ambiguous), changes);
   add(doubtful_.see(estimate.t, quality == Quality::Doubtful), changes);

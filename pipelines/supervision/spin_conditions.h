@@ -25,6 +25,11 @@ class SpinConditions {
   SpinConditions(const SpinConfig& config, Orbit orbit, const AlertLimits& limits,
                  std::optional<SpinTarget> target);
 
+  /// For estimates from `t` on; the rate stays as it was.
+  void set_target(TaiTime t, const Eigen::Vector3d& axis_icrf);
+  /// Of the last estimate.
+  const std::optional<SpinTarget>& target() const { return target_; }
+
   ConditionChanges see(const PulseUse& use);
   ConditionChanges see(const RevolutionProduct& revolution);
   ConditionChanges see(const SpinMeasurement& measurement);
@@ -39,6 +44,7 @@ class SpinConditions {
 
   AlertLimits limits_;
   std::optional<SpinTarget> target_;
+  std::multimap<TaiTime, Eigen::Vector3d> targets_;  ///< To come: axes.
   ChannelPresence channels_;
   RecentShare irrational_;
   RecentShare left_out_;

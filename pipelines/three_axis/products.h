@@ -29,6 +29,7 @@ enum class SampleRejection {
   Late,        ///< Arrived after its time had been processed.
   OutOfTime,   ///< Far from all others in time, by a clock that nothing else agrees with.
   NoSensor,    ///< The mission file has no such sensor.
+  Operator,    ///< An operator has left it out.
   Saturated,   ///< Of the gyro: beyond its range.
   Frozen,      ///< Of the gyro: the same numbers as too many before it.
   Outlier,     ///< Of the gyro: off from its neighbours.

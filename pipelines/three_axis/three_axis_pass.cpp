@@ -41,6 +41,10 @@ ThreeAxisOutput ThreeAxisPass::take(const OrderedSample& sample) {
   return out;
 }
 
+void ThreeAxisPass::act(TaiTime t, const AttitudeAction& action) {
+  std::visit([&](const auto& what) { excluded_.add(t, what); }, action);
+}
+
 ThreeAxisOutput ThreeAxisPass::fall_silent() {
   ThreeAxisOutput out;
   compute(window_.fall_silent(), out);
@@ -72,7 +76,11 @@ ThreeAxisOutput ThreeAxisPass::finish() {
 
 void ThreeAxisPass::compute(const std::vector<OrderedSample>& in_order, ThreeAxisOutput& out) {
   for (const OrderedSample& sample : in_order) {
-    std::visit([&](const auto& is) { compute(is, out); }, sample.is);
+    if (excluded_.hold(sample.t, sample.kind())) {
+      leave_out(sample, SampleRejection::Operator, out);
+    } else {
+      std::visit([&](const auto& is) { compute(is, out); }, sample.is);
+    }
   }
 }
 

@@ -19,10 +19,12 @@
 #include <variant>
 #include <vector>
 
+#include "pipelines/exclusions/exclusions.h"
 #include "pipelines/core/notice.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/ephemeris/timed_orbit_state.h"
+#include "pipelines/three_axis/attitude_action.h"
 #include "pipelines/three_axis/attitude_estimator.h"
 #include "pipelines/three_axis/config.h"
 #include "pipelines/three_axis/products.h"
@@ -62,6 +64,9 @@ class ThreeAxisPass {
   ThreeAxisOutput push(const SunDirection& sun) { return take({sun.t, sun}); }
   ThreeAxisOutput push(const TimedOrbitState& state) { return take({state.t, state}); }
 
+  /// An operator's word on telemetry from `t` on: on what is not computed yet.
+  void act(TaiTime t, const AttitudeAction& action);
+
   /// Nothing comes for now: what is held back for the order of time is computed, and what comes
   /// from before that later is late.
   ThreeAxisOutput fall_silent();
@@ -89,6 +94,7 @@ class ThreeAxisPass {
   ApparentSun sun_;
   BasicReorderWindow<OrderedSample> window_;
   AttitudeEstimator estimator_;
+  Exclusions<SampleKind> excluded_;
   std::set<NoticeCode> said_;
 };
 

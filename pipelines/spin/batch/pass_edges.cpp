@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -23,6 +24,7 @@ bool is_bad(Rejection rejection) {
     case Late:
     case OutOfTime:
     case Interference:
+    case Operator:
     case Phase:
     case NoSensor:
     case NoOrbit:
@@ -46,8 +48,34 @@ void PassEdges::note(const SpinProduct& product) {
   std::visit([this](const auto& value) { take(value); }, product);
 }
 
+void PassEdges::act(TaiTime t, const SpinAction& action) {
+  std::visit(
+      [&](const auto& what) {
+        if constexpr (requires { excluded_.add(t, what); }) {
+          excluded_.add(t, what);
+          std::erase_if(edges_, [this](const PassEdge& edge) {
+            return excluded_.hold(edge.pulse.t, edge.pulse.channel);
+          });
+        } else if constexpr (std::is_same_v<std::decay_t<decltype(what)>, MarkManoeuvre>) {
+          manoeuvres_.insert(t);
+        }
+      },
+      action);
+}
+
+void PassEdges::forget_before(TaiTime t) {
+  std::erase_if(edges_, [t](const PassEdge& edge) { return edge.pulse.t < t; });
+  mean_.reset();
+  sequential_.reset();
+  last_fix_.reset();
+}
+
 void PassEdges::take(const PulseUse& use) {
-  if (use.revolution && !(use.rejected_by && is_bad(*use.rejected_by))) {
+  while (use.revolution && !manoeuvres_.empty() && *manoeuvres_.begin() <= use.pulse.t) {
+    forget_before(manoeuvres_.extract(manoeuvres_.begin()).value());
+  }
+  if (use.revolution && !(use.rejected_by && is_bad(*use.rejected_by)) &&
+      !excluded_.hold(use.pulse.t, use.pulse.channel)) {
     edges_.push_back({.pulse = use.pulse, .revolution = *use.revolution});
     last_revolution_ = std::max(last_revolution_, *use.revolution);
     if (edges_.size() == kMost + kMost / 8) {

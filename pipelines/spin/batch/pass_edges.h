@@ -5,18 +5,25 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <vector>
 
+#include "pipelines/exclusions/exclusions.h"
 #include "pipelines/spin/batch/pass_model.h"
 #include "pipelines/spin/batch/starting_axes.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/products.h"
+#include "pipelines/spin/types/spin_action.h"
 
 namespace spindrift {
 
 class PassEdges {
  public:
   void note(const SpinProduct& product);
+
+  /// An operator's word on telemetry from `t` on: what it leaves out is forgotten, and at the first
+  /// edge behind a manoeuvre all before it.
+  void act(TaiTime t, const SpinAction& action);
 
   /// A day of six edges a turn at 100 rpm: memory is not for ever. Of more they are the last.
   static constexpr std::size_t kMost = 900'000;
@@ -45,7 +52,11 @@ class PassEdges {
   template <class Other>
   void take(const Other& /*product*/) {}
 
+  void forget_before(TaiTime t);
+
   std::vector<PassEdge> edges_;
+  Exclusions<PulseChannel> excluded_;
+  std::set<TaiTime> manoeuvres_;  ///< To come.
   std::int64_t last_revolution_ = 0;
   bool forgot_some_ = false;
   std::optional<SpinEstimate> mean_;

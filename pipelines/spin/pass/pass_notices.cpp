@@ -20,8 +20,8 @@ constexpr std::int64_t kFewestToJudge = 100;
 /// It is the edges themselves, or what the mission says of them, that does not fit.
 bool is_of_the_edge(Rejection rejection) {
   return rejection != Rejection::Late && rejection != Rejection::OutOfTime &&
-         rejection != Rejection::Interference && rejection != Rejection::NoSensor &&
-         rejection != Rejection::NoOrbit;
+         rejection != Rejection::Interference && rejection != Rejection::Operator &&
+         rejection != Rejection::NoSensor && rejection != Rejection::NoOrbit;
 }
 
 NamedValue at(TaiTime t) { return {"t_tai_ns", tai_ns(t)}; }
@@ -126,6 +126,13 @@ void PassNotices::fix_contradicts_itself() { say_once({NoticeCode::FixContradict
 void PassNotices::prior_contradicted(TaiTime t) {
   prior_contradicted_ = true;
   say_first(NoticeCode::PriorContradicted, {NoticeCode::PriorContradicted, {at(t)}});
+}
+
+void PassNotices::prior_set(const SpinPrior& prior) {
+  config_.prior = prior;
+  prior_verdict_.reset();
+  prior_contradicted_ = false;
+  said_.erase(NoticeCode::PriorContradicted);
 }
 
 /// A prior that has nothing to choose may be wrong as well.

@@ -54,6 +54,8 @@ class PassNotices {
   void silent_where_it_must_see(Side side);
   void fix_contradicts_itself();
   void prior_contradicted(TaiTime t);
+  /// By an operator: what was said of the one before is no word on it.
+  void prior_set(const SpinPrior& prior);
   void axis_moved(TaiTime t, double apart_rad);
   /// By `sequential`.
   void estimated(const SpinEstimate& estimate);

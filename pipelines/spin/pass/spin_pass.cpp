@@ -78,6 +78,18 @@ SpinOutput SpinPass::push(const CodedFrame& frame) {
   return out;
 }
 
+void SpinPass::act(TaiTime t, const SpinAction& action) {
+  std::visit(
+      [&](const auto& what) {
+        if constexpr (requires { excluded_.add(t, what); }) {
+          excluded_.add(t, what);
+        } else {
+          to_do_.emplace(t, what);
+        }
+      },
+      action);
+}
+
 SpinOutput SpinPass::fall_silent() {
   SpinOutput out;
   for (const CodedFrame& due : frames_.fall_silent()) {
@@ -162,7 +174,11 @@ void SpinPass::leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& 
 
 void SpinPass::sort_out(const std::vector<Pulse>& in_time, SpinOutput& out) {
   for (const Pulse& pulse : in_time) {
-    associate(interference_.push(pulse), out);
+    if (excluded_.hold(pulse.t, pulse.channel)) {
+      leave_out(pulse, Rejection::Operator, out);
+    } else {
+      associate(interference_.push(pulse), out);
+    }
   }
 }
 
@@ -187,6 +203,7 @@ void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
                       .measured = measure(config_, revolution),
                       .sun_earth = {},
                       .residuals = {}};
+  expect_no_silence(candidate);
   if (const auto sun_earth = sun_earth_.sun_earth(candidate.measured, revolution.t_start)) {
     candidate.sun_earth = *sun_earth;
   } else {
@@ -208,6 +225,17 @@ void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
     recent_.pop_front();
   }
   predict_anew_where_better_known();
+}
+
+/// Of a beam that an operator has left out.
+void SpinPass::expect_no_silence(Candidate& candidate) const {
+  for (const Side side : kSides) {
+    const TaiTime t = candidate.revolution.t_start;
+    if (excluded_.hold(t, kInChannels.at(index_of(side))) ||
+        excluded_.hold(t, kOutChannels.at(index_of(side)))) {
+      candidate.measured.silent.at(index_of(side)) = false;
+    }
+  }
 }
 
 void SpinPass::settle_first(SpinOutput& out) {
@@ -297,6 +325,7 @@ std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate) {
     notices_.without_fix(revolution.number, found.error().why);
     return {};
   }
+  choose_root(revolution.t_start, *found);
   auto fixes = disambiguator_.settle(revolution.number, revolution.t_start, candidate.measured,
                                      *candidate.sun_earth, *found, established_axis());
   for (SpinFix& fix : fixes) {
@@ -321,8 +350,10 @@ void SpinPass::say_why_not_accepted(const SpinFix& fix) {
 
 void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   const Revolution& revolution = candidate.revolution;
-  const std::vector<SpinFix> fixes = find_fixes(candidate);
   const bool had_mean = mean_.count() > 0;
+  first_axis_ = first_axis_.value_or(revolution.t_start);
+  do_what_is_due(revolution.t_start);
+  const std::vector<SpinFix> fixes = find_fixes(candidate);
   std::optional<SpinEstimate> sequential;
   if (const auto sky = sun_earth_.sky(revolution.t_start)) {
     sequential = sequential_.update(
@@ -355,6 +386,67 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
     notices_.estimated(*sequential);
     out.products.emplace_back(std::move(*sequential));
   }
+}
+
+void SpinPass::do_what_is_due(TaiTime t) {
+  const auto later = to_do_.upper_bound(t);
+  for (auto due = to_do_.begin(); due != later; due = to_do_.erase(due)) {
+    std::visit([&](const auto& action) { apply(t, action); }, due->second);
+  }
+}
+
+void SpinPass::apply(TaiTime /*t*/, const ChooseRoot& action) { root_to_choose_ = action; }
+
+/// A prior that only chooses: a third of the way to the next candidate is its sigma. Candidates
+/// that noise does not tell apart are no choice.
+void SpinPass::choose_root(TaiTime t, const AxisCandidates& found) {
+  if (!root_to_choose_ || found.told_apart || found.candidates.size() < 2) {
+    return;
+  }
+  std::vector<AxisCandidate> candidates = found.candidates;
+  const auto is_nearer_to = [](const Eigen::Vector3d& axis_icrf) {
+    return [&axis_icrf](const AxisCandidate& a, const AxisCandidate& b) {
+      return angle_between_rad(axis_icrf, a.axis_icrf) < angle_between_rad(axis_icrf, b.axis_icrf);
+    };
+  };
+  const auto chosen = std::min_element(candidates.begin(), candidates.end(),
+                                       is_nearer_to(root_to_choose_->axis_icrf));
+  const AxisCandidate root = *chosen;
+  candidates.erase(chosen);
+  const auto next =
+      std::min_element(candidates.begin(), candidates.end(), is_nearer_to(root.axis_icrf));
+  const double sigma_rad = angle_between_rad(root.axis_icrf, next->axis_icrf) / kPriorSigmas;
+  if (sigma_rad > std::sqrt(root.covariance_rad2.trace())) {
+    apply(t, SetPrior{{.axis_icrf = root.axis_icrf, .sigma_rad = sigma_rad}});
+  }
+}
+
+/// What the pass has shown of the axis stands, unless it contradicts the prior.
+void SpinPass::apply(TaiTime t, const SetPrior& action) {
+  const SpinPrior& prior = action.prior;
+  const auto shown = established_axis();
+  const bool contradicted =
+      sequential_.prior_refuted() ||
+      (shown && angle_between_rad(shown->axis_icrf, prior.axis_icrf) >
+                    kContradictionSigmas * std::hypot(shown->sigma_rad, prior.sigma_rad));
+  config_.prior = prior;
+  notices_.prior_set(prior);
+  root_to_choose_.reset();
+  if (contradicted) {
+    apply(t, MarkManoeuvre{});
+  } else {
+    disambiguator_ = Disambiguator{config_};
+  }
+}
+
+/// Before the first revolution there is nothing to forget.
+void SpinPass::apply(TaiTime t, const MarkManoeuvre& /*action*/) {
+  if (t == first_axis_) {
+    return;
+  }
+  begin_anew(t);
+  sequential_ = SequentialEstimator{config_};
+  restarts_handled_ = 0;
 }
 
 void SpinPass::forget_prior(TaiTime t) {

@@ -10,19 +10,25 @@
 /// The first revolutions are held back until there are enough of them to tell an outlier from a
 /// level (kFirstRevolutions); from then on each is settled as it closes. When the axis has moved,
 /// screening and mean begin anew.
+///
+/// What an operator says of telemetry from an instant on applies to edges, and to revolutions that
+/// begin, from then on and that are not computed yet.
 
 #pragma once
 
 #include <cstddef>
 #include <deque>
+#include <map>
 #include <optional>
 #include <vector>
 
 #include "pipelines/core/notice.h"
 #include "pipelines/ephemeris/orbit.h"
+#include "pipelines/exclusions/exclusions.h"
 #include "pipelines/spin/association/association.h"
 #include "pipelines/spin/disambiguation/disambiguation.h"
 #include "pipelines/spin/disambiguation/revolution_consistency.h"
+#include "pipelines/spin/fix/axis_candidates.h"
 #include "pipelines/spin/mean/mean_axis.h"
 #include "pipelines/spin/mean/mean_estimator.h"
 #include "pipelines/spin/measurement/measurement.h"
@@ -35,6 +41,7 @@
 #include "pipelines/spin/types/coded_frame.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/products.h"
+#include "pipelines/spin/types/spin_action.h"
 
 namespace spindrift {
 
@@ -54,6 +61,9 @@ class SpinPass {
   /// The same edges, timed on board.
   SpinOutput push(const CodedFrame& frame);
 
+  /// An operator's word on telemetry from `t` on.
+  void act(TaiTime t, const SpinAction& action);
+
   /// Nothing comes for now: what is held back for the order of time is computed, and what comes
   /// from before that later is late. The open revolution stays open, and edges that the next ones
   /// may spoil stay held.
@@ -61,6 +71,9 @@ class SpinPass {
 
   /// The pass has ended: settles all that is still held.
   SpinOutput finish();
+
+  /// In force now.
+  const std::optional<SpinPrior>& prior() const { return config_.prior; }
 
  private:
   /// A revolution with all that is needed to settle it.
@@ -89,6 +102,14 @@ class SpinPass {
   std::optional<KnownAxis> established_axis() const;
   bool recent_fixes_left_the_mean_for(const Eigen::Vector3d& axis_icrf) const;
   void start_again_where_moved(const SpinEstimate& sequential);
+  void expect_no_silence(Candidate& candidate) const;
+  void do_what_is_due(TaiTime t);
+  void apply(TaiTime t, const ChooseRoot& action);
+  void apply(TaiTime t, const SetPrior& action);
+  void apply(TaiTime t, const MarkManoeuvre& action);
+  template <class Other>
+  void apply(TaiTime /*t*/, const Other& /*of edges, or of none*/) {}
+  void choose_root(TaiTime t, const AxisCandidates& candidates);
   void forget_prior(TaiTime t);
   void begin_anew(TaiTime t);
   static void leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out);
@@ -118,6 +139,11 @@ class SpinPass {
   RevolutionConsistency consistency_;
   SequentialEstimator sequential_;
   int restarts_handled_ = 0;
+
+  Exclusions<PulseChannel> excluded_;
+  std::multimap<TaiTime, SpinAction> to_do_;  ///< With the revolutions from then on.
+  std::optional<ChooseRoot> root_to_choose_;  ///< When there are several.
+  std::optional<TaiTime> first_axis_;         ///< The revolution that was asked for one first.
 };
 
 }  // namespace spindrift

@@ -34,6 +34,7 @@ enum class Rejection {
   Late,          ///< Arrived after its time had been processed.
   OutOfTime,     ///< Far from all others in time, by a clock that nothing else agrees with.
   Interference,  ///< An edge of another channel is so near that both are spoilt.
+  Operator,      ///< An operator has left it out.
   Phase,     ///< Not where the edges of its channel lie; of a measurement: rests on such an edge.
   Geometry,  ///< The measurement has no meaning (chord of a whole turn, slit lag out of range).
   NoSensor,  ///< The mission file has no such sensor.

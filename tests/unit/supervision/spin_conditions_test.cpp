@@ -138,6 +138,18 @@ TEST(SpinConditions, RaiseAnAxisAndARateAwayFromTheirTarget) {
   EXPECT_EQ(pass.raised, (Keys{"spin.off_target", "spin.rate"}));
 }
 
+TEST(SpinConditions, HoldTheAxisAgainstTheTargetThatAnOperatorSets) {
+  Supervised pass;
+  pass.conditions.set_target(at(20.0), Eigen::Vector3d::UnitX());
+  give_estimates(pass, Quality::Ok, 0.1, 0.0, 0.0, 20.0);
+  EXPECT_FALSE(pass.conditions.target());
+  give_estimates(pass, Quality::Ok, 0.1, 0.0, 20.0, 40.0);
+  EXPECT_EQ(pass.raised, Keys{"spin.off_target"});
+  pass.conditions.set_target(at(0.0), kAxis);
+  give_estimates(pass, Quality::Ok, 0.1, 0.0, 40.0, 60.0);
+  EXPECT_EQ(pass.raised, Keys{});
+}
+
 TEST(SpinConditions, RaiseThatTheEstimatorsDiffer) {
   Supervised pass;
   for (double t_s = 0.0; t_s < 20.0; t_s += 1.0) {

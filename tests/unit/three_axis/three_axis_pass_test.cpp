@@ -107,6 +107,22 @@ TEST_F(ThreeAxisPassTest, LateSamplesAreLeftOutAndSaidOnce) {
   EXPECT_EQ(pass_.sensors().at(index_of(SampleKind::Star)).rejected, 2);
 }
 
+TEST_F(ThreeAxisPassTest, LeavesOutTheSensorThatAnOperatorExcludes) {
+  pass_.act(at_s(10.0), ExcludeChannel<SampleKind>{SampleKind::Star});
+  pass_.act(at_s(0.0),
+            ExcludeSegment<SampleKind>{.from = at_s(5.0), .to = at_s(7.0), .channel = {}});
+  for (int second = 0; second < 20; ++second) {
+    add(pass_.push(sensors_.star(second)));
+    add(pass_.push(sensors_.gyro(second)));
+  }
+  add(pass_.finish());
+  for (const RejectedSample& sample : rejected()) {
+    EXPECT_EQ(sample.rejected_by, SampleRejection::Operator);
+    EXPECT_TRUE(sample.t < at_s(7.0) || sample.kind == SampleKind::Star);
+  }
+  EXPECT_THAT(rejected(), SizeIs(2 + 2 + 10));
+}
+
 TEST_F(ThreeAxisPassTest, RepeatedSamplesChangeNothing) {
   ThreeAxisPass once{config_, std::nullopt};
   ThreeAxisPass twice{config_, std::nullopt};

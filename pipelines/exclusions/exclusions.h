@@ -1,0 +1,51 @@
+/// @file
+/// What an operator has left out so far.
+
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <vector>
+
+#include "pipelines/exclusions/channel_actions.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+template <class Channel>
+class Exclusions {
+ public:
+  /// @name What is said of telemetry from `from` on
+  /// @{
+  void add(TaiTime from, const ExcludeChannel<Channel>& action) {
+    is_out_[action.channel].insert_or_assign(from, true);
+  }
+  void add(TaiTime from, const IncludeChannel<Channel>& action) {
+    is_out_[action.channel].insert_or_assign(from, false);
+  }
+  void add(TaiTime from, const ExcludeSegment<Channel>& action) {
+    segments_.push_back(action);
+    segments_.back().from = std::max(from, action.from);
+  }
+  /// @}
+
+  bool hold(TaiTime t, Channel channel) const {
+    const auto said = is_out_.find(channel);
+    if (said != is_out_.end()) {
+      const auto later = said->second.upper_bound(t);
+      if (later != said->second.begin() && std::prev(later)->second) {
+        return true;
+      }
+    }
+    return std::any_of(segments_.begin(), segments_.end(), [&](const auto& segment) {
+      return segment.from <= t && t < segment.to && segment.channel.value_or(channel) == channel;
+    });
+  }
+
+ private:
+  std::map<Channel, std::map<TaiTime, bool>> is_out_;  ///< From when on, until the next.
+  std::vector<ExcludeSegment<Channel>> segments_;
+};
+
+}  // namespace spindrift
