@@ -167,6 +167,23 @@ CREATE TABLE stream_silence (
   PRIMARY KEY (run_id, arrival)
 ) STRICT, WITHOUT ROWID;
 
+-- What an operator said of the telemetry from t_tai_ns on: input, which holds for the run that took it and
+-- all later ones of its mode. arrival: its place among the samples of that run, which are before and behind it.
+CREATE TABLE operator_action (
+  action_id     TEXT PRIMARY KEY,
+  spacecraft_id TEXT NOT NULL REFERENCES spacecraft,
+  run_id        TEXT NOT NULL REFERENCES run,
+  arrival       INTEGER NOT NULL,
+  t_tai_ns      INTEGER NOT NULL,
+  made_utc      TEXT NOT NULL,
+  by            TEXT NOT NULL CHECK (by <> ''),
+  action        TEXT NOT NULL CHECK (action IN (
+    'exclude_channel', 'include_channel', 'exclude_segment', 'choose_root', 'set_prior', 'mark_manoeuvre',
+    'set_target')),
+  arguments     TEXT NOT NULL,  -- JSON: an object
+  note          TEXT NOT NULL
+) STRICT, WITHOUT ROWID;
+
 -- What came in and what became of it, by run.
 
 -- Rows that could not be read or are impossible. Of a source on the bus the first 20 in a minute; the rest
@@ -204,6 +221,7 @@ INSERT INTO rejection VALUES
   ('late', 'it arrived after its time had been processed'),
   ('out_of_time', 'far from all others in time: a sender''s clock is wrong'),
   ('interference', 'an edge of another channel was, or is expected, so near that both may be spoilt'),
+  ('operator', 'an operator left it out: operator_action'),
   ('phase', 'not where the edges of its channel lie, or the measurement rests on such an edge'),
   ('geometry', 'the measurement has no meaning: a chord of a whole turn, a slit lag out of range'),
   ('no_sensor', 'the mission file describes no such sensor'),
@@ -513,17 +531,6 @@ CREATE TABLE reconstruction_event (
   bound_deg            REAL,
   PRIMARY KEY (run_id, method, event)
 ) STRICT, WITHOUT ROWID;
-
--- What an operator asked for: input, stored like telemetry, so that a replay repeats it.
-CREATE TABLE operator_action (
-  action_id     TEXT PRIMARY KEY NOT NULL,
-  spacecraft_id TEXT NOT NULL REFERENCES spacecraft,
-  t_tai_ns      INTEGER NOT NULL,  -- telemetry time from which it applies
-  made_utc      TEXT NOT NULL,
-  by            TEXT NOT NULL,
-  action        TEXT NOT NULL,
-  arguments     TEXT NOT NULL  -- JSON: an object
-) STRICT;
 
 -- key: what the alert is about; one alert per key is open at a time. run_id: of the run that raised or last
 -- changed it. count: the how manyth of its key. Rows are replaced by higher revisions only.

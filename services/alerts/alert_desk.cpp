@@ -82,6 +82,16 @@ void append(std::vector<Alert> alerts, std::vector<Product>& products) {
   }
 }
 
+template <class Conditions>
+void set_target(Conditions& conditions, const OperatorAction& action) {
+  const auto* const does = std::get_if<SpinAction>(&action.does);
+  const auto* const target = does == nullptr ? nullptr : std::get_if<SetTarget>(does);
+  auto* const spin = std::get_if<SpinConditions>(&conditions);
+  if (target != nullptr && spin != nullptr) {
+    spin->set_target(action.t.value(), target->axis_icrf);
+  }
+}
+
 }  // namespace
 
 AlertDesk::AlertDesk(const std::vector<Mission>& missions, RunMode mode) : mode_{mode} {
@@ -123,6 +133,9 @@ void AlertDesk::see(ArchiveBatch& batch) {
   }
   if (supervised.run_id != batch.run_id) {
     return;
+  }
+  for (const OperatorAction& action : batch.actions) {
+    set_target(supervised.conditions, action);
   }
   std::vector<Alert> alerts = changed_by(batch, desk);
   std::move(alerts.begin(), alerts.end(), std::back_inserter(desk.waiting));
@@ -229,6 +242,16 @@ std::vector<Alert> AlertDesk::settled(const ConditionChanges& changes, Desk& des
     }
   }
   return alerts;
+}
+
+std::optional<SpinTarget> AlertDesk::target_of(const std::string& spacecraft) const {
+  const std::lock_guard lock{mutex_};
+  const auto found = desks_.find(spacecraft);
+  if (found == desks_.end() || !found->second.supervised) {
+    return std::nullopt;
+  }
+  const auto* const spin = std::get_if<SpinConditions>(&found->second.supervised->conditions);
+  return spin == nullptr ? std::nullopt : spin->target();
 }
 
 std::vector<OpenAlert> AlertDesk::open() const {

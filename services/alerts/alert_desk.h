@@ -57,6 +57,9 @@ class AlertDesk {
   /// @return what is to be stored.
   std::vector<ArchiveBatch> see(const std::map<std::string, ServiceState>& states, TaiTime now);
 
+  /// Where the axis should be now; empty: nobody has said, or it is no spinner.
+  std::optional<SpinTarget> target_of(const std::string& spacecraft) const;
+
   /// Of all spacecraft.
   std::vector<OpenAlert> open() const;
 

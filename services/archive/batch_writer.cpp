@@ -71,6 +71,10 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                     "UPDATE run SET first_tai_ns = min(ifnull(first_tai_ns, ?1), ?1)"
                     " WHERE run_id = ?2"},
       samples_{insert_statements(database)},
+      operator_action_{database,
+                       "INSERT INTO operator_action (action_id, spacecraft_id, run_id, arrival,"
+                       " t_tai_ns, made_utc, by, action, arguments, note)"
+                       " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING"},
       stream_silence_{database, "INSERT INTO stream_silence (run_id, arrival) VALUES (?, ?)"},
       rejected_input_{database,
                       "INSERT INTO rejected_input (run_id, source, session, line, reason, samples)"
@@ -119,6 +123,9 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
           Came::Before);
     }
   });
+  for (const OperatorAction& action : batch.actions) {
+    insert(batch.run_id, action);
+  }
   for (const std::int64_t arrival : batch.silences) {
     execute(stream_silence_, batch.run_id, arrival);
   }
@@ -168,6 +175,12 @@ void BatchWriter::insert(const std::string& run_id, const TelemetrySample<Value>
                 column.of(sample.value)...);
       },
       Telemetry<Value>::kColumns);
+}
+
+void BatchWriter::insert(const std::string& run_id, const OperatorAction& action) {
+  execute(operator_action_, action.action_id, action.spacecraft, run_id, action.arrival,
+          tai_ns(action.t.value()), action.made_utc, action.by, action.action, action.arguments,
+          action.note);
 }
 
 void BatchWriter::insert(const std::string& run_id, const RejectedInput& rejected) {

@@ -35,6 +35,7 @@ class BatchWriter {
   enum class Came { Now, Before };
   template <class Value>
   void insert(const std::string& run_id, const TelemetrySample<Value>& sample, Came came);
+  void insert(const std::string& run_id, const OperatorAction& action);
   void insert(const std::string& run_id, const RejectedInput& rejected);
   void insert(const std::string& run_id, const SourceCount& count);
   void insert_latest_counts(std::span<const ArchiveBatch> batches);
@@ -47,6 +48,7 @@ class BatchWriter {
   SQLite::Statement run_unfinished_;
   SQLite::Statement run_earliest_;
   std::vector<SQLite::Statement> samples_;  ///< In the order of the list of kinds.
+  SQLite::Statement operator_action_;
   SQLite::Statement stream_silence_;
   SQLite::Statement rejected_input_;
   SQLite::Statement source_count_;

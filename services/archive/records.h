@@ -14,6 +14,7 @@
 #include "services/mission/spacecraft_kind.h"
 #include "services/products/products.h"
 #include "services/telemetry/by_kind.h"
+#include "services/telemetry/operator_action.h"
 #include "services/telemetry/rejected_input.h"
 
 namespace spindrift {
@@ -69,6 +70,7 @@ struct ArchiveBatch {
   std::optional<TaiTime> earliest = {};  ///< A sample of it is earlier than the run's earliest.
   /// With their order of arrival in the run; negative: the run leaves the sample out.
   TelemetrySamples samples = {};
+  std::vector<OperatorAction> actions = {};  ///< Of this run, or still in force; likewise.
   TelemetryValues moved = {};  ///< Stored already, and now of the run in this order of arrival.
   std::vector<std::int64_t> silences = {};  ///< Each before the sample of that arrival.
   std::vector<RejectedInput> rejected = {};
@@ -81,7 +83,7 @@ struct ArchiveBatch {
 inline std::size_t row_count(const ArchiveBatch& batch) {
   return count_of(batch.samples) + count_of(batch.moved) + batch.rejected.size() +
          batch.products.size() + batch.source_counts.size() + batch.silences.size() +
-         (batch.start ? 1 : 0) + (batch.finished_utc ? 1 : 0);
+         batch.actions.size() + (batch.start ? 1 : 0) + (batch.finished_utc ? 1 : 0);
 }
 
 }  // namespace spindrift

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "services/archive/connection.h"
+#include "services/archive/stored_pass.h"
 #include "services/products/named.h"
 #include "services/units/degrees.h"
 
@@ -54,10 +55,17 @@ PulseUse use_of(SQLite::Statement& row) {
   return use;
 }
 
+void read_actions(SQLite::Database& database, StoredEdges& stored) {
+  for (const OperatorAction& action : read_actions_of_run(database, stored.run_id)) {
+    stored.pass.act(action.t.value(), std::get<SpinAction>(action.does));
+  }
+}
+
+/// In order of time.
 void read_uses(SQLite::Database& database, StoredEdges& stored) {
   SQLite::Statement query{database,
                           "SELECT t_tai_ns, channel, revolution, rejected_by FROM pulse_use"
-                          " WHERE run_id = ? AND revolution IS NOT NULL"};
+                          " WHERE run_id = ? AND revolution IS NOT NULL ORDER BY t_tai_ns"};
   query.bind(1, stored.run_id);
   while (query.executeStep()) {
     stored.pass.note(SpinProduct{use_of(query)});
@@ -121,6 +129,7 @@ Expected<StoredEdges> read_edges(const std::filesystem::path& archive,
   const auto read = read_archive(archive, [&](SQLite::Database& database) {
     std::optional<StoredEdges> stored = find_run(database, spacecraft_id, run_id);
     if (stored) {
+      read_actions(database, *stored);
       read_uses(database, *stored);
       read_estimate(database, SpinEstimator::Mean, *stored);
       read_estimate(database, SpinEstimator::Sequential, *stored);

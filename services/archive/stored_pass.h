@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <SQLiteCpp/Database.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -55,6 +57,17 @@ struct StoredPass {
 Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path& archive,
                                                      const std::string& spacecraft_id,
                                                      const RunStart& start);
+
+/// What operators have said of the telemetry of a spacecraft to runs of the mode of `start`, in
+/// order of arrival. What is of another kind of spacecraft is left out: the mission has changed.
+/// @return as find_stored_passes.
+Expected<std::vector<OperatorAction>> find_stored_actions(const std::filesystem::path& archive,
+                                                          const std::string& spacecraft_id,
+                                                          const RunStart& start);
+
+/// To the run of a spinner and those before it, likewise. @throws SQLite::Exception
+std::vector<OperatorAction> read_actions_of_run(SQLite::Database& database,
+                                                const std::string& run_id);
 
 /// Edges in the run's pulses and coded frames, each sample once. Of the newest runs: a sample
 /// belongs to the run that took it last.

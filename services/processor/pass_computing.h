@@ -41,7 +41,7 @@ void say(const std::string& spacecraft_id, const std::vector<Notice>& notices);
 /// Samples into the pass of a run, what it makes of them into batches for the archive. What throws
 /// meanwhile becomes a RunFault, and nothing more is computed of the run.
 /// @tparam Pass Has `push` for the values that it knows, `fall_silent` and `finish`, each with an
-///              output of `products` and `notices`.
+///              output of `products` and `notices`, and `act` for the actions of its kind.
 template <class Pass>
 class PassComputing {
  public:
@@ -82,7 +82,7 @@ class PassComputing {
     return batch;
   }
 
-  /// @param note Is shown every output, stored or not.
+  /// @param note Is shown every output, stored or not, and every action that it asks for.
   template <class Note>
   std::vector<ArchiveBatch> compute(const PassInput& input, const Note& note) {
     Computed computed;
@@ -114,20 +114,40 @@ class PassComputing {
 
   template <class Note>
   void compute(const PassInput& input, const Note& note, Computed& computed) {
-    const auto take = [&]<class Value>(const Arrived<Value>& arrived) {
-      // Of the other kinds of telemetry it knows nothing.
-      if constexpr (requires { pass_.push(arrived.value); }) {
-        reached_ = arrived.value.t;
-        Output output = pass_.push(arrived.value);
-        see(output, note);
-        keep(std::move(output), arrived.value.t, computed);
-      }
-    };
-    in_order_of_arrival(input.values, input.silences, take, [&](std::int64_t /*place*/) {
-      Output output = pass_.fall_silent();
+    in_order_of_arrival(
+        input.values, input.silences, input.actions,
+        [&](const auto& arrived) { take(arrived, note, computed); },
+        [&](std::int64_t /*place*/) {
+          Output output = pass_.fall_silent();
+          see(output, note);
+          keep(std::move(output), std::nullopt, computed);
+        });
+  }
+
+  template <class Value, class Note>
+  void take(const Arrived<Value>& arrived, const Note& note, Computed& computed) {
+    // Of the other kinds of telemetry it knows nothing.
+    if constexpr (requires { pass_.push(arrived.value); }) {
+      reached_ = arrived.value.t;
+      Output output = pass_.push(arrived.value);
       see(output, note);
-      keep(std::move(output), std::nullopt, computed);
-    });
+      keep(std::move(output), arrived.value.t, computed);
+    }
+  }
+
+  /// It makes something of samples to come only.
+  template <class Note>
+  void take(const OperatorAction& action, const Note& note, Computed& /*computed*/) {
+    std::visit(
+        [&](const auto& does) {
+          if constexpr (requires { pass_.act(action.t.value(), does); }) {
+            pass_.act(action.t.value(), does);
+          }
+        },
+        action.does);
+    if constexpr (requires { note(action); }) {
+      note(action);
+    }
   }
 
   template <class Note>

@@ -104,7 +104,7 @@ Expected<void> Processor::arrive_after(const std::filesystem::path& archive) {
 std::vector<ArchiveBatch> Processor::begin() {
   std::vector<ArchiveBatch> batches;
   for (SpacecraftRun& run : runs_) {
-    batches.push_back(run.begin());
+    append(batches, run.begin().batches);
   }
   return batches;
 }
@@ -112,6 +112,11 @@ std::vector<ArchiveBatch> Processor::begin() {
 Expected<GoneOn> Processor::go_on(const std::filesystem::path& archive, const Moment& moment) {
   GoneOn gone_on;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
+    auto actions = find_stored_actions(archive, runs_[i].spacecraft_id(), runs_[i].start());
+    if (!actions) {
+      return Unexpected{actions.error()};
+    }
+    runs_[i].take_up(*std::move(actions));
     const auto stored = find_stored_passes(archive, runs_[i].spacecraft_id(), runs_[i].start());
     if (!stored) {
       return Unexpected{stored.error()};
@@ -129,7 +134,7 @@ Expected<GoneOn> Processor::go_on(const std::filesystem::path& archive, const Mo
             fmt::format("{}: a new run begins: {}: {}", runs_[i].spacecraft_id(), runs_[i].run_id(),
                         why));
       }
-      gone_on.routed.samples.push_back(runs_[i].begin());
+      add(runs_[i].begin(), gone_on.routed);
     } else {
       go_on(i, *stored, moment, gone_on);
     }
@@ -176,6 +181,11 @@ Routed Processor::route(SampleBatch samples, const Moment& moment) {
     count_other(spacecraft, count);
   }
   samples.samples.for_each([&](auto& of_kind) { distribute(of_kind, by_run); });
+  for (OperatorAction& action : samples.actions) {
+    if (const auto known = index_of_.find(action.spacecraft); known != index_of_.end()) {
+      by_run[known->second].actions.push_back(std::move(action));
+    }
+  }
   Routed routed;
   for (auto& [run, of_run] : by_run) {
     add(runs_.at(run).take(std::move(of_run), moment), routed);

@@ -10,12 +10,12 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
-#include <random>
 #include <string_view>
 #include <utility>
 
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
+#include "services/clock/unique_id.h"
 #include "services/clock/wall_clock.h"
 #include "services/processor/version.h"
 #include "services/standard_error/warning.h"
@@ -27,19 +27,6 @@ namespace {
 constexpr std::int64_t kArrivalsOfARun = 1'000'000'000'000;
 // So many are worked on before anybody looks whether there is time for more.
 constexpr std::size_t kSamplesPerInput = 1024;
-
-/// Unique over all archives that may ever be merged: the seconds of its start and fifty random
-/// bits, five a character. Short, since every row of a run bears it.
-std::string new_run_id() {
-  constexpr std::string_view kDigits = "0123456789abcdefghjkmnpqrstvwxyz";
-  std::random_device random;
-  std::string id;
-  for (int shift = 30; shift >= 0; shift -= 5) {
-    id += kDigits[(static_cast<std::uint64_t>(tai_ns(tai_now())) / 1'000'000'000U >> shift) % 32U];
-  }
-  std::generate_n(std::back_inserter(id), 10, [&] { return kDigits[random() % 32U]; });
-  return id;
-}
 
 SequenceCounts counts_of(const SourceCount& count) {
   return {.received = static_cast<std::uint64_t>(count.received),
@@ -90,7 +77,7 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
              // Sets runs of different archives apart, should they be merged. Order does not rest on
              // the clock: arrive_after.
              .first_arrival = tai_ns(tai_now())},
-      run_id_{new_run_id()},
+      run_id_{unique_id()},
       next_arrival_{start_.first_arrival},
       silent_before_{next_arrival_},
       tables_{mission.tables},
@@ -110,9 +97,10 @@ ArchiveBatch SpacecraftRun::batch() const {
   return batch;
 }
 
-ArchiveBatch SpacecraftRun::begin() {
-  ArchiveBatch first = batch();
-  first.start = start_;
+SpacecraftRun::Taken SpacecraftRun::begin() {
+  Taken first = nothing_taken();
+  first.batches.front().start = start_;
+  repeat_actions_before(start_.first_arrival, first);
   return first;
 }
 
@@ -174,13 +162,26 @@ void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken&
   out.batches.push_back(batch());
   out.batches.back().continuation = Continuation{.t = TaiTime::max()};
   out.inputs.push_back({.spacecraft = index_, .run_id = run_id_});
+  repeat_actions_before(stored.first_arrival, out);
+  std::vector<OperatorAction> of_this_run;
+  std::copy_if(actions_.begin(), actions_.end(), std::back_inserter(of_this_run),
+               [&](const OperatorAction& action) {
+                 return action.arrival >= stored.first_arrival &&
+                        (!stored.next_arrival || action.arrival < *stored.next_arrival);
+               });
+  std::vector<OperatorAction>& told = out.batches.back().actions;
+  told.insert(told.end(), of_this_run.begin(), of_this_run.end());
   in_order_of_arrival(
-      stored.values, stored.silences,
-      [&](const auto& arrived) {
+      stored.values, stored.silences, of_this_run,
+      [&]<class Element>(const Element& arrived) {
         next_arrival_ = std::max(next_arrival_, arrived.arrival + 1);
-        received_.count(arrived.value);
-        sources_.restore(arrived.value.t, moment);
-        place(arrived, out);
+        if constexpr (std::is_same_v<Element, OperatorAction>) {
+          hand_on(arrived, out.inputs);
+        } else {
+          received_.count(arrived.value);
+          sources_.restore(arrived.value.t, moment);
+          place(arrived, out);
+        }
       },
       [&](std::int64_t arrival) { hand_on_silence(arrival, out.inputs); });
 }
@@ -189,6 +190,9 @@ SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples, const Moment& mome
   tell_undescribed(samples.samples);
   Taken out = nothing_taken();
   in_order_of_arrival(samples.samples, [&](auto& sample) { sort(std::move(sample), moment, out); });
+  for (OperatorAction& action : samples.actions) {
+    accept(std::move(action), out);
+  }
   decide(moment, out);
   tell_both();
   for (const RejectedInput& rejected : samples.rejected) {
@@ -290,7 +294,33 @@ void SpacecraftRun::hand_on_silence(std::int64_t arrival, std::vector<PassInput>
   silent_before_ = arrival;
   // Samples that came again have an arrival and are not stored: the next one is behind them.
   next_arrival_ = std::max(next_arrival_, arrival);
-  inputs.back().silences.push_back(static_cast<std::int64_t>(sample_count(inputs.back())));
+  inputs.back().silences.push_back(next_place(inputs.back()));
+}
+
+void SpacecraftRun::hand_on(OperatorAction action, std::vector<PassInput>& inputs) const {
+  action.arrival = next_place(inputs.back());
+  inputs.back().actions.push_back(std::move(action));
+}
+
+/// Without a time of its own it is of now, as far as telemetry has come.
+void SpacecraftRun::accept(OperatorAction&& action, Taken& out) {
+  action.t = action.t ? *action.t : watch_.reached().value_or(tai_now());
+  action.arrival = next_arrival_++;
+  spdlog::info("{}: {} from {} on, by {}: {} {} {}", spacecraft_id_, action.action,
+               format_utc(*action.t), action.by, action.arguments, action.note, action.action_id);
+  hand_on(action, out.inputs);
+  out.batches.back().actions.push_back(action);
+  actions_.push_back(std::move(action));
+}
+
+/// To the run that begins in `out`; they apply to its telemetry as to what came before.
+void SpacecraftRun::repeat_actions_before(std::int64_t first_arrival, Taken& out) {
+  for (const OperatorAction& action : actions_) {
+    if (action.arrival < first_arrival) {
+      hand_on(action, out.inputs);
+      out.batches.back().actions.push_back(action);
+    }
+  }
 }
 
 void SpacecraftRun::note_earliest(ArchiveBatch& batch) {
@@ -439,7 +469,7 @@ void SpacecraftRun::hand_on(const Value& value, std::vector<PassInput>& inputs) 
   if (sample_count(inputs.back()) >= kSamplesPerInput) {
     inputs.push_back({.spacecraft = index_, .run_id = run_id_});
   }
-  const auto place = static_cast<std::int64_t>(sample_count(inputs.back()));
+  const std::int64_t place = next_place(inputs.back());
   inputs.back().values.of<Value>().push_back({.arrival = place, .value = value});
 }
 
@@ -454,9 +484,10 @@ void SpacecraftRun::begin_new_pass(const TelemetryValues& its_first, Taken& out)
 
   start_.started_utc = utc_now();
   start_.first_arrival = next_arrival_;
-  run_id_ = new_run_id();
-  out.batches.push_back(begin());
-  out.inputs.push_back({.spacecraft = index_, .run_id = run_id_});
+  run_id_ = unique_id();
+  Taken first = begin();
+  std::move(first.batches.begin(), first.batches.end(), std::back_inserter(out.batches));
+  std::move(first.inputs.begin(), first.inputs.end(), std::back_inserter(out.inputs));
   received_ = {};
   earliest_.reset();
   stored_earliest_.reset();

@@ -73,8 +73,8 @@ class SpacecraftRun {
   /// The archive holds a run that began so: what a new one takes is later than all of that run.
   void arrive_after(std::int64_t first_arrival);
 
-  /// The run itself, before its first sample.
-  ArchiveBatch begin();
+  /// What operators have said to runs of the same mode, in order of arrival: those to come obey it.
+  void take_up(std::vector<OperatorAction> actions) { actions_ = std::move(actions); }
 
   struct Taken {
     std::vector<ArchiveBatch> batches;
@@ -82,6 +82,9 @@ class SpacecraftRun {
     /// Of `go_on`, run by run: how far its pass has come, see PassWatch.
     std::vector<std::optional<TaiTime>> reached = {};
   };
+  /// The run itself, before its first sample.
+  Taken begin();
+
   Taken take(SampleBatch samples, const Moment& moment);
 
   /// Nothing came for a while: a silence among the samples. None when none has come since the last.
@@ -124,7 +127,10 @@ class SpacecraftRun {
   void place(const Arrived<Value>& arrived, Taken& out);
   template <class Value>
   void hand_on(const Value& value, std::vector<PassInput>& inputs) const;
+  void hand_on(OperatorAction action, std::vector<PassInput>& inputs) const;
   void hand_on_silence(std::int64_t arrival, std::vector<PassInput>& inputs);
+  void accept(OperatorAction&& action, Taken& out);
+  void repeat_actions_before(std::int64_t first_arrival, Taken& out);
   void release_held(std::vector<PassInput>& inputs);
   void begin_new_pass(const TelemetryValues& its_first, Taken& out);
   void tell_both();
@@ -155,6 +161,7 @@ class SpacecraftRun {
   PassWatch watch_;
   std::optional<StoredSamples> stored_;  ///< After a restart, until the pass has gone on.
   TelemetryValues held_;                 ///< Until the pass is known.
+  std::vector<OperatorAction> actions_;  ///< To this run and those before it, in order of arrival.
 };
 
 }  // namespace spindrift

@@ -18,8 +18,11 @@ namespace {
 
 constexpr std::chrono::minutes kBetweenBatches{1};
 
-Expected<BatchSolution> solve_edges(const SpinConfig& config, const Orbit& orbit, PassEdges edges) {
-  const auto starts = edges.starts(config.prior);
+/// @param prior In the place of the mission's.
+Expected<BatchSolution> solve_edges(SpinConfig config, const Orbit& orbit, PassEdges edges,
+                                    const std::optional<SpinPrior>& prior) {
+  config.prior = prior;
+  const auto starts = edges.starts(prior);
   return spindrift::solve_batch(config, orbit, std::move(edges).edges(), starts);
 }
 
@@ -59,7 +62,7 @@ std::vector<ArchiveBatch> SpinRun::compute(const PassInput& input) {
     end_run(batches);
     begin(input.run_id);
   }
-  auto computed = computing_.compute(input, [this](const SpinOutput& output) { note(output); });
+  auto computed = computing_.compute(input, [this](const auto& made) { note(made); });
   std::move(computed.begin(), computed.end(), std::back_inserter(batches));
   return batches;
 }
@@ -74,8 +77,10 @@ void SpinRun::note_time(TaiTime t) {
     const auto last = edges_.last();
     // Its last edge names a solution: one a minute, and one only.
     if (last && last != last_batch_ && !is_stored(*last)) {
-      due_.push_back(
-          {.batch = computing_.batch(), .solve = [this, edges = edges_] { return solve(edges); }});
+      due_.push_back({.batch = computing_.batch(),
+                      .solve = [this, edges = edges_, prior = computing_.pass().prior()] {
+                        return solve(edges, prior);
+                      }});
     }
     last_batch_ = last;
   }
@@ -91,10 +96,11 @@ bool SpinRun::is_stored(TaiTime batch) const {
 
 std::vector<BackgroundTask> SpinRun::take_background_tasks() { return std::exchange(due_, {}); }
 
-Expected<std::vector<Product>> SpinRun::solve(const PassEdges& edges) const {
+Expected<std::vector<Product>> SpinRun::solve(const PassEdges& edges,
+                                              const std::optional<SpinPrior>& prior) const {
   return solved_or_fault(
       computing_.spacecraft_id(), "batch solution", edges.last().value_or(TaiTime{}),
-      [&] { return solve_edges(config_, orbit_, edges).and_then(&products_of); });
+      [&] { return solve_edges(config_, orbit_, edges, prior).and_then(&products_of); });
 }
 
 /// What was still held. Then the last batch solution is due, whatever became due before.
@@ -117,7 +123,7 @@ ArchiveBatch SpinRun::finish() {
   ArchiveBatch last = computing_.batch();
   settle(last.products);
   if (!computing_.failed()) {
-    if (auto products = solve(std::exchange(edges_, {}))) {
+    if (auto products = solve(std::exchange(edges_, {}), computing_.pass().prior())) {
       summary_.count_solution(*products);
       std::move(products->begin(), products->end(), std::back_inserter(last.products));
     } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {
@@ -143,8 +149,9 @@ void SpinRun::end_run(std::vector<ArchiveBatch>& batches) {
   settle(held.products);
   BackgroundTask last{
       .batch = computing_.batch(),
-      .solve = [this, failed = computing_.failed(), edges = std::exchange(edges_, {})] {
-        return failed ? std::vector<Product>{} : solve(edges);
+      .solve = [this, failed = computing_.failed(), edges = std::exchange(edges_, {}),
+                prior = computing_.pass().prior()] {
+        return failed ? std::vector<Product>{} : solve(edges, prior);
       }};
   last.batch.finished_utc = utc_now();
   last.summary = &finished_.emplace_back(std::move(summary_));
@@ -165,6 +172,12 @@ void SpinRun::note(const SpinOutput& output) {
     if (const auto* estimate = std::get_if<SpinEstimate>(&product)) {
       note_time(estimate->t);
     }
+  }
+}
+
+void SpinRun::note(const OperatorAction& action) {
+  if (const auto* const does = std::get_if<SpinAction>(&action.does)) {
+    edges_.act(action.t.value(), *does);
   }
 }
 

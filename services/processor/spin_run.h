@@ -51,11 +51,13 @@ class SpinRun {
  private:
   void begin(const std::string& run_id);
   void note(const SpinOutput& output);
+  void note(const OperatorAction& action);
   void note_time(TaiTime t);
   bool is_stored(TaiTime batch) const;
   void settle(std::vector<Product>& products);
   void end_run(std::vector<ArchiveBatch>& batches);
-  Expected<std::vector<Product>> solve(const PassEdges& edges) const;
+  Expected<std::vector<Product>> solve(const PassEdges& edges,
+                                       const std::optional<SpinPrior>& prior) const;
 
   SpinConfig config_;
   Orbit orbit_;

@@ -47,6 +47,7 @@ void ThreeAxisRun::begin(const std::string& run_id) {
   summary_.run_id = run_id;
   summary_.spacecraft_id = computing_.spacecraft_id();
   summary_.kind = SpacecraftKind::ThreeAxis;
+  excluded_ = {};
   if (separation_) {
     record_.emplace(ReconstructionRequest{.sensors = config_,
                                           .times = separation_->times,
@@ -82,13 +83,26 @@ void ThreeAxisRun::record(const PassInput& input) {
   if (!record_) {
     return;
   }
-  in_order_of_arrival(input.values, [this](const auto& arrived) {
-    if constexpr (requires { record_->push(arrived.value); }) {
-      if (record_->push(arrived.value) && plan_ == SolvingPlan::Meanwhile) {
-        hand_out_solutions();
-      }
+  in_order_of_arrival(
+      input.values, {}, input.actions, [this](const auto& arrived) { record(arrived); },
+      [](std::int64_t /*silence*/) {});
+}
+
+template <class Value>
+void ThreeAxisRun::record(const Arrived<Value>& arrived) {
+  if constexpr (requires { record_->push(arrived.value); }) {
+    const OrderedSample sample{arrived.value.t, arrived.value};
+    if (!excluded_.hold(sample.t, sample.kind()) && record_->push(arrived.value) &&
+        plan_ == SolvingPlan::Meanwhile) {
+      hand_out_solutions();
     }
-  });
+  }
+}
+
+void ThreeAxisRun::record(const OperatorAction& action) {
+  if (const auto* const does = std::get_if<AttitudeAction>(&action.does)) {
+    std::visit([&](const auto& what) { excluded_.add(action.t.value(), what); }, *does);
+  }
 }
 
 void ThreeAxisRun::hand_out_solutions() {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/exclusions/exclusions.h"
 #include "pipelines/reconstruction/separation_record.h"
 #include "pipelines/three_axis/three_axis_pass.h"
 #include "services/archive/records.h"
@@ -37,6 +38,9 @@ class ThreeAxisRun {
   RunSummary summary() const;
   void note(const ThreeAxisOutput& output);
   void record(const PassInput& input);
+  template <class Value>
+  void record(const Arrived<Value>& arrived);
+  void record(const OperatorAction& action);
   void hand_out_solutions();
   BackgroundTask solving(std::shared_ptr<const ReconstructionRequest> request,
                          std::optional<ReconstructionMethod> method) const;
@@ -53,6 +57,7 @@ class ThreeAxisRun {
   PassComputing<ThreeAxisPass> computing_;
   SolvingPlan plan_;
   std::optional<SeparationRecord> record_;  ///< Where the mission tells of a separation.
+  Exclusions<SampleKind> excluded_;         ///< From it.
   std::vector<BackgroundTask> due_;
 };
 

@@ -139,6 +139,30 @@ void in_order_of_arrival(All&& all, const std::vector<std::int64_t>& silences, S
   }
 }
 
+/// The same with more elements among them, as an operator's actions are.
+/// @param more In order of `arrival`, which none of them has in common with one of `all`.
+template <class All, class More, class See, class FallSilent>
+void in_order_of_arrival(All&& all, const std::vector<std::int64_t>& silences, const More& more,
+                         See&& see, FallSilent&& fall_silent) {
+  auto next = more.begin();
+  const auto see_those_before = [&](std::int64_t arrival) {
+    for (; next != more.end() && next->arrival < arrival; ++next) {
+      see(*next);
+    }
+  };
+  in_order_of_arrival(
+      all, silences,
+      [&](auto& element) {
+        see_those_before(element.arrival);
+        see(element);
+      },
+      [&](std::int64_t arrival) {
+        see_those_before(arrival);
+        fall_silent(arrival);
+      });
+  see_those_before(std::numeric_limits<std::int64_t>::max());
+}
+
 /// Where a sample stands among all of its spacecraft: the natural key of what is stored, and the
 /// order in which equal times are given from files.
 struct TelemetryOrder {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "services/telemetry/by_kind.h"
+#include "services/telemetry/operator_action.h"
 #include "services/telemetry/other_spacecraft.h"
 #include "services/telemetry/rejected_input.h"
 #include "services/telemetry/sequence_counts.h"
@@ -18,6 +19,7 @@ namespace spindrift {
 /// Samples in order of arrival; all batches together are everything that arrived.
 struct SampleBatch {
   TelemetrySamples samples = {};
+  std::vector<OperatorAction> actions = {};  ///< Behind the samples, in order.
   std::vector<RejectedInput> rejected = {};
   /// From the bus, which does not hand these samples over. Of a file they stand among `samples`.
   OtherSpacecraft others = {};
@@ -25,9 +27,9 @@ struct SampleBatch {
   std::map<std::string, SequenceCounts> counts = {};
 };
 
-/// Samples and rejected input.
+/// Samples, actions and rejected input.
 inline std::size_t size_of(const SampleBatch& batch) {
-  return count_of(batch.samples) + batch.rejected.size();
+  return count_of(batch.samples) + batch.actions.size() + batch.rejected.size();
 }
 
 /// Whether nothing at all came, not even to be counted.

@@ -99,6 +99,18 @@ TEST_F(SeparationRunTest, AtTheEndBothAreMadeOfAllSamples) {
   }
 }
 
+TEST_F(SeparationRunTest, RestsOnNothingThatAnOperatorHasLeftOut) {
+  ThreeAxisRun run = this->run(SolvingPlan::AtTheEnd);
+  OperatorAction no_sun{};
+  no_sun.t = TaiTime{};
+  no_sun.does = AttitudeAction{ExcludeChannel<SampleKind>{SampleKind::Sun}};
+  run.compute({.spacecraft = 0, .run_id = "run-1", .actions = {no_sun}});
+  run.compute(whole_pass());
+  run.finish();
+  EXPECT_EQ(run.summaries().front().reconstructions.front()->samples,
+            static_cast<std::int64_t>(sample_count(whole_pass()) - flight_.sun.size()));
+}
+
 TEST_F(SeparationRunTest, AnotherRunIsFinishedBehindItsSolutions) {
   ThreeAxisRun run = this->run(SolvingPlan::Meanwhile);
   run.compute(whole_pass());

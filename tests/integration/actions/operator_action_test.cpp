@@ -1,0 +1,203 @@
+// An operator's actions among the samples, in the archive, and after a restart.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/actions/parse_action.h"
+#include "services/alerts/alert_desk.h"
+#include "services/archive/stored_edges.h"
+#include "services/mission/mission.h"
+#include "services/processor/processor.h"
+#include "services/telemetry_files/telemetry_files.h"
+#include "services/telemetry_files/telemetry_stream.h"
+#include "tests/integration/archive_fixture.h"
+#include "tests/support/archive_rows.h"
+#include "tests/support/samples.h"
+#include "tests/support/test_paths.h"
+
+namespace spindrift::operator_action_test {
+
+using nlohmann::json;
+
+const std::filesystem::path kPass = recorded_passes() / "nominal";
+constexpr std::size_t kActed = 240;
+constexpr std::size_t kStopped = 420;
+constexpr std::size_t kAll = 600;
+
+Mission mission() { return load_mission(kPass / "mission.toml").value(); }
+
+Processor new_processor(const std::string& partition = "live", RunMode mode = RunMode::Live) {
+  return Processor::make({mission()},
+                         {.mode = mode, .telemetry = {"DDS domain 0, partition " + partition}})
+      .value();
+}
+
+SampleBatch batch_of(json action) {
+  action["spacecraft"] = "SPINNER";
+  action["by"] = "shift";
+  SampleBatch batch;
+  batch.actions.push_back(parse_action(action, {{"SPINNER", SpacecraftKind::Spin}}).value());
+  return batch;
+}
+
+const json kNoNorthIn{{"action", "exclude_channel"}, {"channel", "north_in"}};
+
+using Samples = std::vector<TelemetrySample<Pulse>>;
+
+Samples edges() {
+  const std::vector<TelemetryFile> files{{.path = kPass / "pulses.csv", .kind = Kind<Pulse>{}}};
+  auto stream = TelemetryStream::open(files, "SPINNER").value();
+  Samples all;
+  while (all.size() < kAll) {
+    const auto next = stream.next().value();
+    const Samples& some = next.samples.of<Pulse>();
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  all.resize(kAll);
+  return all;
+}
+
+void submit(Archive& archive, std::vector<ArchiveBatch> batches) {
+  for (ArchiveBatch& batch : batches) {
+    ASSERT_TRUE(archive.submit(std::move(batch)));
+  }
+}
+
+void work(Processor& processor, Routed routed, Archive& archive) {
+  submit(archive, std::move(routed.samples));
+  for (const PassInput& input : routed.work) {
+    submit(archive, processor.compute(input));
+  }
+}
+
+/// A service that takes these edges, and behind the first `kActed` of the pass what is said.
+struct Serving {
+  std::filesystem::path db;
+  std::string partition = "live";
+  RunMode mode = RunMode::Live;
+
+  void receive(std::size_t from, std::size_t to, const std::vector<json>& said,
+               bool finishes = false) const {
+    ASSERT_TRUE(Archive::open(db, {}).value()->close());
+    const Samples all = edges();
+    Processor processor = new_processor(partition, mode);
+    ASSERT_TRUE(processor.arrive_after(db));
+    auto stored = processor.go_on(db);
+    ASSERT_TRUE(stored) << stored.error().message;
+    auto gone_on = *std::move(stored);
+    const auto archive = Archive::open(db, {}).value();
+    work(processor, std::move(gone_on.routed), *archive);
+    const auto take = [&](std::size_t first, std::size_t last) {
+      const auto place = [&](std::size_t i) {
+        return all.begin() + static_cast<std::ptrdiff_t>(i);
+      };
+      work(processor,
+           processor.route(testing::batch_of_samples<Pulse>(Samples(place(first), place(last)))),
+           *archive);
+    };
+    const std::size_t middle = from < kActed && kActed < to ? kActed : to;
+    take(from, middle);
+    for (const json& action : said) {
+      work(processor, processor.route(batch_of(action)), *archive);
+    }
+    take(middle, to);
+    if (finishes) {
+      submit(*archive, processor.finish());
+    }
+    EXPECT_TRUE(archive->close());
+  }
+};
+
+struct OperatorActions : testing::ArchiveFixture {
+  Serving live() const { return {.db = path()}; }
+  std::int64_t left_out() const {
+    return number("SELECT count(*) FROM pulse_use WHERE rejected_by = 'operator'");
+  }
+};
+
+TEST_F(OperatorActions, AreStoredAmongTheSamplesWithTheTimeThatTelemetryHadReached) {
+  live().receive(0, kAll, {kNoNorthIn}, true);
+  EXPECT_EQ(rows_of(path(), "SELECT by, action, arguments, note FROM operator_action"),
+            std::vector<std::string>{R"(shift|exclude_channel|{"channel":"north_in"}||)"});
+  EXPECT_EQ(
+      number("SELECT count(*) FROM pulse WHERE arrival < (SELECT arrival FROM operator_action)"),
+      kActed);
+  EXPECT_EQ(number("SELECT t_tai_ns = (SELECT max(t_tai_ns) FROM pulse WHERE pulse.arrival <"
+                   " operator_action.arrival) FROM operator_action"),
+            1);
+  EXPECT_EQ(left_out(), number("SELECT count(*) FROM pulse WHERE channel = 'north_in' AND t_tai_ns"
+                               " >= (SELECT t_tai_ns FROM operator_action)"));
+  EXPECT_GT(left_out(), 50);
+}
+
+TEST_F(OperatorActions, AreRepeatedByARestartToTheBit) {
+  const std::vector<json> said{
+      kNoNorthIn,
+      {{"action", "set_prior"}, {"ra_deg", 100.0}, {"dec_deg", -55.0}, {"sigma_deg", 1.0}},
+      {{"action", "mark_manoeuvre"}}};
+  live().receive(0, kStopped, said);
+  const auto before = product_rows(path());
+  live().receive(kStopped, kStopped, {});
+  EXPECT_EQ(product_rows(path()), before);
+  live().receive(kStopped, kAll, {}, true);
+
+  const Serving whole{.db = directory() / "whole.db"};
+  whole.receive(0, kAll, said, true);
+  EXPECT_EQ(product_rows(path()), product_rows(whole.db));
+  EXPECT_EQ(number("SELECT count(*) FROM operator_action"), 3);
+  EXPECT_EQ(number("SELECT count(*) FROM run"), 1);
+}
+
+TEST_F(OperatorActions, AreObeyedByABatchSolutionOfTheStoredRun) {
+  live().receive(0, kAll, {{{"action", "mark_manoeuvre"}}}, true);
+  StoredEdges stored = read_edges(path(), "SPINNER", std::nullopt).value();
+  const auto edges = std::move(stored.pass).edges();
+  ASSERT_FALSE(edges.empty());
+  EXPECT_GE(tai_ns(edges.front().pulse.t), number("SELECT t_tai_ns FROM operator_action"));
+  EXPECT_EQ(number("SELECT edges + outliers FROM spin_batch ORDER BY t_tai_ns DESC LIMIT 1"),
+            static_cast<std::int64_t>(edges.size()));
+}
+
+TEST_F(OperatorActions, HoldForLaterRunsOfTheSameMode) {
+  live().receive(0, kStopped, {kNoNorthIn});
+  const std::int64_t of_first = left_out();
+  Serving{.db = path(), .partition = "replay", .mode = RunMode::Replay}.receive(kStopped, kAll, {},
+                                                                                true);
+  EXPECT_EQ(left_out(), of_first);
+  Serving{.db = path(), .partition = "live-2"}.receive(kStopped, kAll, {}, true);
+  EXPECT_EQ(number("SELECT count(*) FROM run"), 3);
+  EXPECT_GT(left_out(), of_first);
+}
+
+TEST_F(OperatorActions, SetTheTargetOfSupervisionAlsoAfterARestart) {
+  const json target{{"action", "set_target"}, {"ra_deg", 90.0}, {"dec_deg", 0.0}};
+  live().receive(0, kStopped, {target});
+  AlertDesk desk{{mission()}, RunMode::Live};
+  Processor processor = new_processor();
+  auto gone_on = processor.go_on(path()).value();
+  std::int64_t raised = 0;
+  const auto see = [&](std::vector<ArchiveBatch> batches) {
+    for (ArchiveBatch& batch : batches) {
+      desk.see(batch, TaiTime{});
+      for (const Product& product : batch.products) {
+        const auto* const alert = std::get_if<Alert>(&product);
+        raised += alert != nullptr && alert->key == "spin.off_target" &&
+                          alert->state == AlertState::Active
+                      ? 1
+                      : 0;
+      }
+    }
+  };
+  see(std::move(gone_on.routed.samples));
+  for (const PassInput& input : gone_on.routed.work) {
+    see(processor.compute(input));
+  }
+  EXPECT_EQ(raised, 1);
+  EXPECT_TRUE(desk.target_of("SPINNER"));
+}
+
+}  // namespace spindrift::operator_action_test

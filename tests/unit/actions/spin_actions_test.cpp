@@ -1,0 +1,275 @@
+// What a pass of a spinner makes of an operator's actions.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "pipelines/frames/angle.h"
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/batch/batch_estimator.h"
+#include "pipelines/spin/batch/pass_edges.h"
+#include "pipelines/spin/pass/spin_pass.h"
+#include "tests/support/observed_spin.h"
+#include "tests/support/product_text.h"
+#include "tests/support/spinning_body.h"
+
+namespace spindrift::spin_actions_test {
+
+using testing::all_of;
+
+TaiTime at(double t_s) { return shifted(testing::kTransferStart, t_s); }
+
+/// Said before the edges of `said_s` come.
+struct Said {
+  double said_s;
+  double from_s;
+  SpinAction action;
+};
+
+struct Passed {
+  SpinOutput output;
+  PassEdges edges;
+  std::optional<SpinPrior> prior;
+};
+
+Passed run(const SpinConfig& config, const Orbit& orbit, const std::vector<Pulse>& pulses,
+           const std::vector<Said>& words) {
+  SpinPass pass{config, orbit};
+  Passed passed;
+  const auto note = [&](SpinOutput output) {
+    for (SpinProduct& product : output.products) {
+      passed.edges.note(product);
+      passed.output.products.push_back(std::move(product));
+    }
+  };
+  auto next = words.begin();
+  for (const Pulse& pulse : pulses) {
+    for (; next != words.end() && at(next->said_s) <= pulse.t; ++next) {
+      pass.act(at(next->from_s), next->action);
+      passed.edges.act(at(next->from_s), next->action);
+    }
+    note(pass.push(pulse));
+  }
+  note(pass.finish());
+  passed.prior = pass.prior();
+  return passed;
+}
+
+struct Scene {
+  Orbit orbit = testing::transfer_orbit();
+  testing::SunEarthEphemeris around =
+      testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  std::mt19937_64 rng{27};
+  testing::SpinningBody body = testing::random_body(around, 3.0 * kRadPerDeg, rng);
+
+  std::vector<Pulse> seen(const testing::SpinningBody& of, double from_s, double to_s) {
+    return testing::pulses_from(testing::edges_between(of, around, from_s, to_s),
+                                testing::kTransferStart, of.config.noise, rng);
+  }
+};
+
+bool is_left_out(const PulseUse& use) { return use.rejected_by == Rejection::Operator; }
+
+TEST(SpinActions, LeaveOutAChannelFromThenOnUntilItIsTakenInAgain) {
+  Scene scene;
+  const auto pulses = scene.seen(scene.body, 0.0, 120.0);
+  const auto channel = PulseChannel::NorthIn;
+  const Passed passed = run(scene.body.config, scene.orbit, pulses,
+                            {{.said_s = 0.0, .from_s = 40.0, .action = ExcludeChannel{channel}},
+                             {.said_s = 60.0, .from_s = 80.0, .action = IncludeChannel{channel}}});
+  std::size_t left_out = 0;
+  for (const PulseUse& use : all_of<PulseUse>(passed.output)) {
+    const bool is_meant =
+        use.pulse.channel == channel && use.pulse.t >= at(40.0) && use.pulse.t < at(80.0);
+    EXPECT_EQ(is_left_out(use), is_meant);
+    left_out += is_meant ? 1 : 0;
+  }
+  EXPECT_GE(left_out, 37U);
+  const SpinEstimate last = testing::last_estimate(passed.output, SpinEstimator::Sequential);
+  EXPECT_TRUE(is_unopposed(last.assessment.quality));
+}
+
+TEST(SpinActions, LeaveOutASegmentOfAllChannelsAndForgetItsEdges) {
+  Scene scene;
+  const auto pulses = scene.seen(scene.body, 0.0, 120.0);
+  const Passed passed = run(
+      scene.body.config, scene.orbit, pulses,
+      {{.said_s = 60.0,
+        .from_s = 0.0,
+        .action = ExcludeSegment<PulseChannel>{.from = at(30.0), .to = at(90.0), .channel = {}}}});
+  for (const PulseUse& use : all_of<PulseUse>(passed.output)) {
+    if (use.pulse.t >= at(60.0)) {
+      EXPECT_EQ(is_left_out(use), use.pulse.t < at(90.0));
+    } else if (use.pulse.t < at(58.0)) {
+      EXPECT_FALSE(is_left_out(use));  // What is computed stays.
+    }
+  }
+  PassEdges edges = passed.edges;
+  const auto kept = std::move(edges).edges();
+  EXPECT_GT(kept.size(), 300U);
+  EXPECT_TRUE(std::none_of(kept.begin(), kept.end(), [](const PassEdge& edge) {
+    return edge.pulse.t >= at(30.0) && edge.pulse.t < at(90.0);
+  }));
+}
+
+TEST(SpinActions, ABeamThatIsLeftOutIsNotSilent) {
+  Scene scene;
+  scene.body.config.north->healthy = true;
+  const auto pulses = scene.seen(scene.body, 0.0, 100.0);
+  const Passed passed =
+      run(scene.body.config, scene.orbit, pulses,
+          {{.said_s = 0.0, .from_s = 30.0, .action = ExcludeChannel{PulseChannel::NorthIn}},
+           {.said_s = 0.0, .from_s = 30.0, .action = ExcludeChannel{PulseChannel::NorthOut}}});
+  for (const SpinFix& fix : all_of<SpinFix>(passed.output)) {
+    EXPECT_TRUE(fix.accepted || fix.resolution == Resolution::Ambiguous) << fix.revolution;
+  }
+}
+
+/// Of sun slit 1 and the south beam: two axes keep fitting all edges alike.
+struct TwoRoots {
+  Orbit orbit = testing::transfer_orbit();
+  testing::SpinningBody body;
+  std::vector<Pulse> pulses;
+
+  TwoRoots() {
+    std::mt19937_64 rng{2};
+    const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+    body = testing::random_body(around, 3.0 * kRadPerDeg, rng);
+    auto edges = testing::edges_between(body, around, 0.0, 200.0);
+    std::erase_if(edges, [](const auto& edge) {
+      return edge.channel == PulseChannel::Sun2 || edge.channel == PulseChannel::NorthIn ||
+             edge.channel == PulseChannel::NorthOut;
+    });
+    pulses = testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng);
+  }
+
+  /// The one that the true axis is not.
+  Eigen::Vector3d false_root() const {
+    const SpinFix fix = all_of<SpinFix>(run(body.config, orbit, pulses, {}).output).back();
+    std::vector<Eigen::Vector3d> roots{fix.axis_icrf};
+    for (const SpinAlternate& alternate : fix.alternates) {
+      roots.push_back(alternate.axis_icrf);
+    }
+    return *std::max_element(roots.begin(), roots.end(), [&](const auto& a, const auto& b) {
+      return angle_between_rad(a, body.axis_icrf) < angle_between_rad(b, body.axis_icrf);
+    });
+  }
+};
+
+double error_deg(const SpinEstimate& estimate, const Eigen::Vector3d& axis_icrf) {
+  return angle_between_rad(estimate.axis_icrf, axis_icrf) * kDegPerRad;
+}
+
+Passed with_root(const TwoRoots& pass, const Eigen::Vector3d& root) {
+  // Some degrees beside it: only which of the two is nearer counts.
+  const Eigen::Vector3d near = Eigen::AngleAxisd{2.0 * kRadPerDeg, root.unitOrthogonal()} * root;
+  return run(pass.body.config, pass.orbit, pass.pulses,
+             {{.said_s = 100.0, .from_s = 100.0, .action = ChooseRoot{near}}});
+}
+
+TEST(SpinActions, AChosenRootSettlesAnAmbiguousPassForAllEstimators) {
+  const TwoRoots pass;
+  Passed passed = with_root(pass, pass.body.axis_icrf);
+  const auto fixes = all_of<SpinFix>(passed.output);
+  EXPECT_EQ(fixes.front().resolution, Resolution::Ambiguous);
+  EXPECT_EQ(fixes.back().resolution, Resolution::Prior);
+  for (const auto estimator : {SpinEstimator::Mean, SpinEstimator::Sequential}) {
+    const SpinEstimate last = testing::last_estimate(passed.output, estimator);
+    EXPECT_TRUE(is_unopposed(last.assessment.quality));
+    EXPECT_LT(error_deg(last, pass.body.axis_icrf), 1.0);
+  }
+  SpinConfig config = pass.body.config;
+  config.prior = passed.prior;
+  const auto starts = passed.edges.starts(config.prior);
+  const auto edges = std::move(passed.edges).edges();
+  const auto batch = solve_batch(config, pass.orbit, edges, starts).value();
+  EXPECT_LT(error_deg(batch.estimate, pass.body.axis_icrf), 1.0);
+  EXPECT_NE(batch.estimate.assessment.quality, Quality::Ambiguous);
+}
+
+TEST(SpinActions, AChosenRootThatTheEdgesContradictIsGivenUp) {
+  const TwoRoots pass;
+  const Passed passed = with_root(pass, pass.false_root());
+  const auto fixes = all_of<SpinFix>(passed.output);
+  EXPECT_TRUE(std::any_of(fixes.begin(), fixes.end(),
+                          [](const SpinFix& fix) { return fix.resolution == Resolution::Prior; }));
+  EXPECT_FALSE(passed.prior);
+  EXPECT_EQ(fixes.back().resolution, Resolution::Ambiguous);
+}
+
+TEST(SpinActions, APriorAgainstWhatThePassHasSettledBeginsAnew) {
+  const TwoRoots pass;
+  const auto prior = [](const Eigen::Vector3d& axis_icrf) {
+    return SetPrior{{.axis_icrf = axis_icrf, .sigma_rad = 2.0 * kRadPerDeg}};
+  };
+  const Passed passed =
+      run(pass.body.config, pass.orbit, pass.pulses,
+          {{.said_s = 0.0, .from_s = 0.0, .action = prior(pass.false_root())},
+           {.said_s = 80.0, .from_s = 100.0, .action = prior(pass.body.axis_icrf)}});
+  bool was_false = false;
+  for (const SpinEstimate& estimate : all_of<SpinEstimate>(passed.output)) {
+    if (estimate.t < at(100.0)) {
+      was_false = was_false || error_deg(estimate, pass.body.axis_icrf) > 5.0;
+    }
+  }
+  EXPECT_TRUE(was_false);
+  const SpinEstimate last = testing::last_estimate(passed.output, SpinEstimator::Sequential);
+  EXPECT_LT(error_deg(last, pass.body.axis_icrf), 3.0);
+}
+
+TEST(SpinActions, BehindAMarkedManoeuvreNoEstimateHoldsTheAxisOfBefore) {
+  Scene scene;
+  testing::SpinningBody after = scene.body;
+  after.axis_icrf =
+      Eigen::AngleAxisd{1.0 * kRadPerDeg, scene.around.earth_icrf_km(100.0).normalized()} *
+      scene.body.axis_icrf;
+  std::vector<Pulse> pulses = scene.seen(scene.body, 0.0, 100.0);
+  const std::vector<Pulse> later = scene.seen(after, 100.0, 160.0);
+  pulses.insert(pulses.end(), later.begin(), later.end());
+  std::sort(pulses.begin(), pulses.end());
+  const auto worst_sigmas = [&](const std::vector<Said>& words) {
+    double worst = 0.0;
+    for (const SpinEstimate& estimate :
+         all_of<SpinEstimate>(run(scene.body.config, scene.orbit, pulses, words).output)) {
+      if (estimate.t > at(104.0)) {
+        worst = std::max(worst, error_deg(estimate, after.axis_icrf) * kRadPerDeg /
+                                    testing::sigma_rad(estimate));
+      }
+    }
+    return worst;
+  };
+  EXPECT_GT(worst_sigmas({}), 8.0);
+  EXPECT_LT(worst_sigmas({{.said_s = 90.0, .from_s = 100.0, .action = MarkManoeuvre{}}}), 4.0);
+}
+
+TEST(SpinActions, AManoeuvreBeforeThePassChangesNothing) {
+  Scene scene;
+  const auto pulses = scene.seen(scene.body, 10.0, 60.0);
+  const auto texts_with = [&](const std::vector<Said>& words) {
+    return testing::texts_of(run(scene.body.config, scene.orbit, pulses, words).output);
+  };
+  EXPECT_EQ(texts_with({{.said_s = 0.0, .from_s = 0.0, .action = MarkManoeuvre{}}}),
+            texts_with({}));
+}
+
+TEST(SpinActions, BatchForgetsWhatIsBeforeAManoeuvreOnceAnEdgeIsBehindIt) {
+  PassEdges edges;
+  const auto see = [&](double t_s) {
+    edges.note(PulseUse{.pulse = {.t = at(t_s), .channel = PulseChannel::Sun1},
+                        .revolution = static_cast<std::int64_t>(t_s),
+                        .rejected_by = {}});
+  };
+  see(1.0);
+  edges.act(at(10.0), MarkManoeuvre{});
+  see(2.0);
+  EXPECT_EQ((PassEdges{edges}.edges().size()), 2U);
+  see(11.0);
+  see(12.0);
+  EXPECT_EQ((PassEdges{edges}.edges().size()), 2U);
+}
+
+}  // namespace spindrift::spin_actions_test
