@@ -19,11 +19,11 @@
 #include <variant>
 #include <vector>
 
-#include "pipelines/exclusions/exclusions.h"
 #include "pipelines/core/notice.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/ephemeris/timed_orbit_state.h"
+#include "pipelines/exclusions/exclusions.h"
 #include "pipelines/three_axis/attitude_action.h"
 #include "pipelines/three_axis/attitude_estimator.h"
 #include "pipelines/three_axis/config.h"

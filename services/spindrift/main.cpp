@@ -32,6 +32,7 @@
 #include "services/processor/version.h"
 #include "services/progress/progress_bar.h"
 #include "services/serving/background_solving.h"
+#include "services/spindrift/act.h"
 #include "services/spindrift/alerts.h"
 #include "services/spindrift/batch.h"
 #include "services/spindrift/doctor.h"
@@ -68,6 +69,7 @@ struct Request {
   spindrift::GeometryOptions geometry;
   spindrift::ReconstructOptions reconstruct;
   spindrift::AlertsOptions alerts;
+  spindrift::ActOptions act;
   std::function<Expected<void>()> run;
   int status = EXIT_SUCCESS;  ///< Of a run that came to its end.
 };
@@ -331,6 +333,32 @@ void add_alerts(CLI::App& app, Request& request) {
   });
 }
 
+void add_act(CLI::App& app, Request& request) {
+  spindrift::ActOptions& options = request.act;
+  CLI::App& command = *app.add_subcommand(
+      "act", "Tell the running service what to make of a spacecraft's telemetry");
+  command.add_option("--db", options.db, "Archive of the service")->check(check_path)->required();
+  command.add_option("--spacecraft", options.spacecraft, "Whose telemetry")->required();
+  command
+      .add_option("--action", options.action,
+                  "exclude_channel, include_channel, exclude_segment, choose_root, set_prior, "
+                  "mark_manoeuvre or set_target")
+      ->required();
+  command.add_option("--by", options.by, "Who says so")->required();
+  command.add_option("--note", options.note, "Why");
+  command.add_option("--at", options.at,
+                     "UTC from which it applies; without it as far as "
+                     "telemetry has come");
+  command.add_option("--channel", options.channel, "Channel, or gyro, star, sun");
+  command.add_option("--ra", options.ra_deg, "Right ascension, deg, ICRF");
+  command.add_option("--dec", options.dec_deg, "Declination, deg");
+  command.add_option("--sigma", options.sigma_deg, "One standard deviation, deg");
+  command.add_option("--from", options.from, "Beginning of a segment, UTC");
+  command.add_option("--to", options.to, "End of a segment, UTC");
+  command.add_flag("--json", options.json, "Print one JSON object");
+  command.callback([&] { request.run = [&] { return act(request.act); }; });
+}
+
 std::string subcommands_of(const CLI::App& app) {
   std::string names;
   for (const CLI::App* const command : app.get_subcommands({})) {
@@ -379,6 +407,7 @@ int run(int argc, char** argv) {
   add_geometry(app, request);
   add_reconstruct(app, request);
   add_alerts(app, request);
+  add_act(app, request);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

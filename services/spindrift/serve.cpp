@@ -41,6 +41,7 @@
 #include "services/publisher/result_publisher.h"
 #include "services/queue/contained.h"
 #include "services/requests/request_server.h"
+#include "services/serving/action_inbox.h"
 #include "services/serving/alert_outbox.h"
 #include "services/serving/background_solving.h"
 #include "services/serving/computing.h"
@@ -50,6 +51,7 @@
 #include "services/serving/session_watch.h"
 #include "services/serving/stop_signal.h"
 #include "services/serving/thread_failures.h"
+#include "services/spindrift/act.h"
 #include "services/spindrift/alerts.h"
 #include "services/spindrift/announcer.h"
 #include "services/spindrift/comparison_notice.h"
@@ -94,6 +96,14 @@ Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::
 
 RunMode mode_of(const ServeOptions& options) {
   return options.partition == "replay" ? RunMode::Replay : RunMode::Live;
+}
+
+KnownSpacecraft kinds_of(const std::vector<Mission>& missions) {
+  KnownSpacecraft known;
+  for (const Mission& mission : missions) {
+    known.emplace(mission.spacecraft_id, mission.kind());
+  }
+  return known;
 }
 
 std::string service_name() {
@@ -307,16 +317,18 @@ void note_stored(const std::vector<PassInput>& again, const LastOrigins& last_or
   }
 }
 
+std::size_t taken_size(const SampleBatch& taken) {
+  return std::max<std::size_t>(size_of(taken), 1);
+}
+
 /// From "ready" until a signal, or a failure, and everything taken is with the archive.
+/// @param queue Of what is taken.
 Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins,
-                   const ServeOptions& options, const std::vector<Mission>& missions,
-                   const bus::Participant& participant, const ResultPublisher& publisher,
-                   Told& told, Processor& processor, Archive& archive, AlertDesk& desk,
-                   Announcer& announcer, Problems& problems, ConsoleFeed* feed,
-                   StopSignal& stop_signal, ThreadFailures& failures) {
-  BoundedQueue<SampleBatch> queue{kSamplesTaken, [](const SampleBatch& taken) {
-                                    return std::max<std::size_t>(size_of(taken), 1);
-                                  }};
+                   BoundedQueue<SampleBatch>& queue, const ServeOptions& options,
+                   const std::vector<Mission>& missions, const bus::Participant& participant,
+                   const ResultPublisher& publisher, Told& told, Processor& processor,
+                   Archive& archive, AlertDesk& desk, Announcer& announcer, Problems& problems,
+                   ConsoleFeed* feed, StopSignal& stop_signal, ThreadFailures& failures) {
   BoundedQueue<PassInput> work{kSamplesToCompute,
                                [](const PassInput& input) { return sample_count(input); }};
   const auto spacecraft = processor.spacecraft();
@@ -379,21 +391,26 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
 
 /// What other programs ask while this one holds the archive. Where they cannot it is said.
 Expected<std::unique_ptr<RequestServer>> answer_requests(const std::filesystem::path& db,
-                                                         Archive& archive, AlertDesk& desk) {
+                                                         Archive& archive, AlertDesk& desk,
+                                                         ActionInbox& inbox) {
   auto server = RequestServer::start(db, [&](const nlohmann::json& request) {
     let_samples_come_first();
     const std::string what = request.value("do", "");
     if (what == kAlertRequest) {
       return answer_alert(request, desk, archive);
     }
+    if (what == kActionRequest) {
+      return answer_action(request, inbox);
+    }
     return what == kReconstructRequest
                ? answer_reconstruct(request, db, archive)
-               : nlohmann::json{{"error", "not known here: do = reconstruct, alert are"}};
+               : nlohmann::json{{"error", "not known here: do = reconstruct, alert, action are"}};
   });
   if (!server) {
     warn("no_requests", {{"why", server.error().message}},
-         fmt::format("`reconstruct` and `alerts ack` have to wait until this service ends: {}",
-                     server.error().message));
+         fmt::format(
+             "`reconstruct`, `alerts ack` and `act` have to wait until this service ends: {}",
+             server.error().message));
   }
   return server;
 }
@@ -546,12 +563,14 @@ Expected<void> serve(const ServeOptions& options) {
         .and_then([&] { return submit_all(archive, std::move(stored.routed.samples)); })
         .and_then([&] { return archive.flush(); })
         .and_then([&] {
-          const auto requests = answer_requests(options.db, archive, desk);
+          BoundedQueue<SampleBatch> taken{kSamplesTaken, &taken_size};
+          ActionInbox inbox{kinds_of(*missions), taken};
+          const auto requests = answer_requests(options.db, archive, desk, inbox);
           const auto console = start_console(options, feed.get(), desk, archive);
           if (!console) {
             return Expected<void>{Unexpected{console.error()}};
           }
-          return run(std::move(stored.routed.work), stored.last_origins, options, *missions,
+          return run(std::move(stored.routed.work), stored.last_origins, taken, options, *missions,
                      *participant, *publisher, *told, *processor, archive, desk, announcer,
                      problems, feed.get(), stop_signal, failures);
         });
