@@ -64,6 +64,14 @@ nlohmann::json json_of(const SeriesPoint& point) {
   return json;
 }
 
+HttpResponse unauthorized() {
+  HttpResponse response =
+      refusal(http::status::unauthorized,
+              "no token, or a wrong one: it stands in the archive's path plus .token");
+  response.set(http::field::www_authenticate, "Bearer");
+  return response;
+}
+
 }  // namespace
 
 ConsoleAnswers::ConsoleAnswers(const Service& service, std::filesystem::path db, std::string token,
@@ -136,6 +144,9 @@ Answer ConsoleAnswers::routed(const HttpRequest& request, const ViewerCounts& vi
   if (const auto get = gets_.find(target->path); get != gets_.end()) {
     return request.method() == http::verb::get ? get->second(request, *target, viewers)
                                                : not_allowed("GET");
+  }
+  if (target->path == "/api/v1/actions") {
+    return request.method() == http::verb::post ? act(request) : not_allowed("POST");
   }
   if (const auto path = alert_path(target->path)) {
     return request.method() == http::verb::post ? change_alert(request, *path)
@@ -223,15 +234,35 @@ HttpResponse ConsoleAnswers::read_series(const std::string& run_id, const Quanti
   return json_answer(http::status::ok, {{"points", std::move(kept)}});
 }
 
-Answer ConsoleAnswers::change_alert(const HttpRequest& request, const AlertPath& path) {
+bool ConsoleAnswers::has_token(const HttpRequest& request) const {
   constexpr std::string_view kScheme = "Bearer ";
   const std::string_view given = view(request[http::field::authorization]);
-  if (!given.starts_with(kScheme) || !is_same_token(token_, given.substr(kScheme.size()))) {
-    HttpResponse response =
-        refusal(http::status::unauthorized,
-                "no token, or a wrong one: it stands in the archive's path plus .token");
-    response.set(http::field::www_authenticate, "Bearer");
-    return response;
+  return given.starts_with(kScheme) && is_same_token(token_, given.substr(kScheme.size()));
+}
+
+Answer ConsoleAnswers::act(const HttpRequest& request) const {
+  if (!has_token(request)) {
+    return unauthorized();
+  }
+  auto action = nlohmann::json::parse(request.body().text, nullptr, false);
+  if (!action.is_object()) {
+    return refusal(http::status::bad_request,
+                   "the body must be a JSON object with spacecraft, by, action and its arguments");
+  }
+  return StoringAnswer{[this, action = std::move(action)] {
+    const auto taken = service_.act(action);
+    if (taken) {
+      return json_answer(http::status::accepted, {{"action_id", *taken}});
+    }
+    return taken.error().code == ErrorCode::InvalidInput
+               ? bad_request(taken.error())
+               : refusal(http::status::service_unavailable, taken.error().message);
+  }};
+}
+
+Answer ConsoleAnswers::change_alert(const HttpRequest& request, const AlertPath& path) {
+  if (!has_token(request)) {
+    return unauthorized();
   }
   const auto open = service_.desk.open();
   if (std::none_of(open.begin(), open.end(),
@@ -264,6 +295,9 @@ void ConsoleAnswers::read_verdicts() {
         archive_.read([&](SQLite::Database& archive) { return verdict_of(archive, run_id); });
     if (verdict) {
       service_.feed.put_verdict(spacecraft, run_id, *std::move(verdict));
+    }
+    if (const auto target = service_.desk.target_of(spacecraft)) {
+      service_.feed.put_target(spacecraft, *target);
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <variant>
@@ -47,6 +48,9 @@ class ConsoleAnswers {
     ConsoleFeed& feed;
     AlertDesk& desk;
     Archive& archive;
+    /// Takes an operator's action, which it may wait for. @return its id; InvalidInput for a bad
+    /// one.
+    std::function<Expected<std::string>(const nlohmann::json&)> act;
   };
   /// @param hosts By which browsers call it, as in `Host` without the port, in small letters.
   ConsoleAnswers(const Service& service, std::filesystem::path db, std::string token,
@@ -71,6 +75,8 @@ class ConsoleAnswers {
   Answer series(const RequestTarget& target);
   HttpResponse read_series(const std::string& run_id, const Quantity& quantity, const Span& span,
                            std::size_t points);
+  bool has_token(const HttpRequest& request) const;
+  Answer act(const HttpRequest& request) const;
   Answer change_alert(const HttpRequest& request, const AlertPath& path);
   HttpResponse change_alert(const OperatorWord& word);
 

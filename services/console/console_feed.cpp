@@ -117,6 +117,11 @@ void ConsoleFeed::put_verdict(const std::string& spacecraft, const std::string& 
   }
 }
 
+void ConsoleFeed::put_target(const std::string& spacecraft, const SpinTarget& target) {
+  const std::lock_guard lock{mutex_};
+  shown_.at(spacecraft).take(target);
+}
+
 void ConsoleFeed::tell_state() {
   const std::lock_guard lock{mutex_};
   ring_.add("state", state_now());

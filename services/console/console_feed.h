@@ -45,6 +45,8 @@ class ConsoleFeed {
   /// The archive's verdict on the run in force.
   void put_verdict(const std::string& spacecraft, const std::string& run_id,
                    nlohmann::json verdict);
+  /// Where the axis of a spinner should be.
+  void put_target(const std::string& spacecraft, const SpinTarget& target);
   /// Tells viewers the state of now.
   void tell_state();
   void tell_pulses();

@@ -53,7 +53,8 @@ nlohmann::json prior_of(const Mission& mission) {
 
 }  // namespace
 
-ShownSpacecraft::ShownSpacecraft(const Mission& mission) : mission_{mission} {
+ShownSpacecraft::ShownSpacecraft(const Mission& mission)
+    : mission_{mission}, target_{mission.target} {
   take(SpacecraftHealth{.spacecraft = mission.spacecraft_id, .link = LinkState::Waiting});
 }
 
@@ -161,7 +162,7 @@ nlohmann::json ShownSpacecraft::state() {
   nlohmann::json state{{"kind", name_of(mission_.kind())}};
   if (mission_.spin() != nullptr) {
     state["prior"] = prior_of(mission_);
-    state["target"] = mission_.target ? place_json(mission_.target->axis_icrf) : nullptr;
+    state["target"] = target_ ? place_json(target_->axis_icrf) : nullptr;
   }
   state.update(link_);
   state.update(answers_);
@@ -188,11 +189,11 @@ void ShownSpacecraft::add_sky(nlohmann::json& state) {
 }
 
 void ShownSpacecraft::add_to_target(nlohmann::json& state) const {
-  if (mission_.target && state.contains("ra_deg")) {
+  if (target_ && state.contains("ra_deg")) {
     const Eigen::Vector3d axis_icrf =
         direction_icrf({.ra_rad = state["ra_deg"].get<double>() * kRadPerDeg,
                         .dec_rad = state["dec_deg"].get<double>() * kRadPerDeg});
-    state["to_target_deg"] = degrees(angle_between_rad(axis_icrf, mission_.target->axis_icrf));
+    state["to_target_deg"] = degrees(angle_between_rad(axis_icrf, target_->axis_icrf));
   }
 }
 

@@ -40,6 +40,7 @@ class ShownSpacecraft {
   void take(const SpacecraftHealth& health);
   /// The archive's, of the run.
   void take_verdict(nlohmann::json verdict) { verdict_ = std::move(verdict); }
+  void take(const SpinTarget& target) { target_ = target; }
 
   /// As in /api/v1/state.
   nlohmann::json state();
@@ -52,6 +53,7 @@ class ShownSpacecraft {
   std::optional<double> phase_deg(TaiTime t) const;
 
   const Mission& mission_;
+  std::optional<SpinTarget> target_;
   std::string run_id_;
   nlohmann::json link_ = nlohmann::json::object();
   nlohmann::json answers_ = nlohmann::json::object();

@@ -566,7 +566,7 @@ Expected<void> serve(const ServeOptions& options) {
           BoundedQueue<SampleBatch> taken{kSamplesTaken, &taken_size};
           ActionInbox inbox{kinds_of(*missions), taken};
           const auto requests = answer_requests(options.db, archive, desk, inbox);
-          const auto console = start_console(options, feed.get(), desk, archive);
+          const auto console = start_console(options, feed.get(), desk, archive, inbox);
           if (!console) {
             return Expected<void>{Unexpected{console.error()}};
           }

@@ -21,13 +21,16 @@ std::unique_ptr<ConsoleFeed> make_console_feed(const ServeOptions& options,
 
 Expected<std::unique_ptr<ConsoleServer>> start_console(const ServeOptions& options,
                                                        ConsoleFeed* feed, AlertDesk& desk,
-                                                       Archive& archive) {
+                                                       Archive& archive, ActionInbox& inbox) {
   if (feed == nullptr) {
     return nullptr;
   }
   auto console = ConsoleServer::start(
       {.address = options.console, .names = options.console_hosts, .db = options.db},
-      {.feed = *feed, .desk = desk, .archive = archive});
+      {.feed = *feed,
+       .desk = desk,
+       .archive = archive,
+       .act = [&inbox](const nlohmann::json& action) { return inbox.take(action); }});
   if (console) {
     spdlog::info("console {}", (*console)->url());
   }

@@ -13,6 +13,7 @@
 #include "services/console/console_feed.h"
 #include "services/console/console_server.h"
 #include "services/mission/mission.h"
+#include "services/serving/action_inbox.h"
 #include "services/spindrift/serve.h"
 
 namespace spindrift {
@@ -25,6 +26,6 @@ std::unique_ptr<ConsoleFeed> make_console_feed(const ServeOptions& options,
 /// Says where it is. Null where `feed` is. All of them outlive it. @return As ConsoleServer::start.
 Expected<std::unique_ptr<ConsoleServer>> start_console(const ServeOptions& options,
                                                        ConsoleFeed* feed, AlertDesk& desk,
-                                                       Archive& archive);
+                                                       Archive& archive, ActionInbox& inbox);
 
 }  // namespace spindrift

@@ -85,7 +85,7 @@ TEST_F(ConsoleAnswers, ToItsOwnNamesOnly) {
 
 TEST_F(ConsoleAnswers, TellWhatIsNotThereFromWhatIsNotAllowed) {
   for (const char* const target :
-       {"/nothing", "/../etc/passwd", "/%2e%2e/etc/passwd", "/api/v1/actions", "/api/v1/state/",
+       {"/nothing", "/../etc/passwd", "/%2e%2e/etc/passwd", "/api/v1/state/",
         "/api/v1/quantities?spacecraft=OTHER", "/api/v1/alerts/"}) {
     EXPECT_EQ(client_->get(target).result_int(), 404U) << target;
     EXPECT_TRUE(client_->get_json(target)["error"].is_string()) << target;
@@ -204,6 +204,22 @@ TEST_F(ConsoleAnswers, MetricsForPrometheus) {
                                       "severity=\"warning\",state=\"active\"} 1"));
   EXPECT_THAT(reply.body(), HasSubstr("spindrift_commit_seconds{quantile=\"0.99\"}"));
   EXPECT_THAT(reply.body(), HasSubstr("spindrift_viewers_dropped_total 0"));
+}
+
+TEST_F(ConsoleAnswers, TakesAnActionOfWhoeverHasTheToken) {
+  const std::string kActions = "/api/v1/actions";
+  const std::string action = R"({"spacecraft":"SPINNER","by":"me","action":"mark_manoeuvre"})";
+  EXPECT_EQ(client_->get(kActions).result_int(), 405U);
+  EXPECT_EQ(client_->post(kActions, action, "wrong").result_int(), 401U);
+  EXPECT_EQ(client_->post(kActions, "[]", token()).result_int(), 400U);
+  const HttpReply refused = client_->post(kActions, R"({"by":"me"})", token());
+  EXPECT_EQ(refused.result_int(), 400U);
+  EXPECT_THAT(refused.body(), HasSubstr("action: is missing"));
+  EXPECT_TRUE(acts_.empty());
+  const HttpReply taken = client_->post(kActions, action, token());
+  EXPECT_EQ(taken.result_int(), 202U);
+  EXPECT_EQ(nlohmann::json::parse(taken.body()), nlohmann::json({{"action_id", "act-1"}}));
+  EXPECT_THAT(acts_, ElementsAre(nlohmann::json::parse(action)));
 }
 
 }  // namespace

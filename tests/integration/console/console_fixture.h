@@ -45,8 +45,11 @@ class ConsoleFixture : public testing::ArchiveFixture {
     EXPECT_TRUE(archive_->submit(run));
     EXPECT_TRUE(archive_->flush());
     desk_.take_up("SPINNER", kRun, alert());
-    auto server = ConsoleServer::start({.address = "127.0.0.1:0", .names = {"Ship"}, .db = path()},
-                                       {.feed = feed_, .desk = desk_, .archive = *archive_});
+    auto server = ConsoleServer::start(
+        {.address = "127.0.0.1:0", .names = {"Ship"}, .db = path()},
+        {.feed = feed_, .desk = desk_, .archive = *archive_, .act = [this](const auto& action) {
+           return act(action);
+         }});
     EXPECT_TRUE(server) << server.error().message;
     server_ = *std::move(server);
     client_.emplace(server_->url());
@@ -74,6 +77,15 @@ class ConsoleFixture : public testing::ArchiveFixture {
     }
   }
 
+  /// Takes what names an action.
+  Expected<std::string> act(const nlohmann::json& action) {
+    if (!action.contains("action")) {
+      return Unexpected{{ErrorCode::InvalidInput, "action: is missing"}};
+    }
+    acts_.push_back(action);
+    return "act-1";
+  }
+
   std::string token() const {
     const std::string line = text_of(path().string() + ".token");
     return line.substr(0, line.size() - 1);
@@ -83,6 +95,7 @@ class ConsoleFixture : public testing::ArchiveFixture {
   ConsoleFeed feed_{missions_, {{"name", "test"}, {"version", "0.1.0"}, {"mode", "live"}}};
   std::unique_ptr<Archive> archive_;
   AlertDesk desk_;
+  std::vector<nlohmann::json> acts_;
   std::unique_ptr<ConsoleServer> server_;
   std::optional<HttpClient> client_;
 };
