@@ -50,7 +50,7 @@ class ConsoleAnswers {
     Archive& archive;
     /// Takes an operator's action, which it may wait for. @return its id; InvalidInput for a bad
     /// one.
-    std::function<Expected<std::string>(const nlohmann::json&)> act;
+    std::function<Expected<std::string>(const nlohmann::json&)> act = {};
   };
   /// @param hosts By which browsers call it, as in `Host` without the port, in small letters.
   ConsoleAnswers(const Service& service, std::filesystem::path db, std::string token,

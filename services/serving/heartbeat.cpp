@@ -12,6 +12,7 @@
 
 #include "services/clock/wall_clock.h"
 #include "services/queue/contained.h"
+#include "services/serving/service_manager.h"
 
 namespace spindrift {
 namespace {
@@ -66,6 +67,7 @@ void Heartbeat::beat() {
   note_storing(watched_.archive.statistics().failure);
   publish_health(*status);
   if (status->taking) {
+    tell_manager_alive();
     supervise(*status);
   }
   if (!status->taking && !status->failure.empty() && !std::exchange(failed_, true)) {

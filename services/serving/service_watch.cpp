@@ -74,7 +74,6 @@ Expected<ServiceWatch::States> ServiceWatch::look(
     ServiceState state = of_service;
     note_link(link, state);
     state.is_twice = others->contains(link.spacecraft);
-    state.data_until = data_until_.at(link.spacecraft);
     state.sources = watched_.sessions.report(link.spacecraft);
     for (const auto& [source, missing] : gaps) {
       state.sources[source].missing = static_cast<std::int64_t>(missing);
@@ -115,7 +114,8 @@ ServiceState ServiceWatch::state_of_service(const TelemetrySubscriberStatus& sta
 }
 
 /// What waits to be looked at while the archive makes it wait is not silence. The telemetry of a
-/// rehearsal goes by the clock that it tells, that of another replay by its own.
+/// rehearsal goes by the clock that it tells, that of another replay by its own: for that nobody
+/// gets newer data.
 void ServiceWatch::note_link(const SpacecraftHealth& link, ServiceState& state) const {
   if (watched_.taken.size() == 0 || link.link == LinkState::Live) {
     state.silent_s = link.data_age_s;
@@ -126,6 +126,7 @@ void ServiceWatch::note_link(const SpacecraftHealth& link, ServiceState& state) 
     const auto offset = rehearsal.value_or(std::chrono::nanoseconds{0});
     state.late_s = elapsed_s(heard, later_by(wall_, -offset));
     state.pass_t = later_by(t_, -offset);
+    state.data_until = data_until_.at(link.spacecraft);
   } else {
     state.pass_t = heard;
   }

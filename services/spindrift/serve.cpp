@@ -47,6 +47,7 @@
 #include "services/serving/computing.h"
 #include "services/serving/heartbeat.h"
 #include "services/serving/patience.h"
+#include "services/serving/service_manager.h"
 #include "services/serving/service_watch.h"
 #include "services/serving/session_watch.h"
 #include "services/serving/stop_signal.h"
@@ -342,6 +343,7 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
   note_stored(again, last_origins, processor, heard.sessions, desk);
   Patience patience;
   stop_signal.on_stop([&] {
+    tell_manager_stopping();
     spdlog::info("stopping");
     patience.stopping = true;
     failures.note(contained("stopping", [&] { subscriber.stop(); }));
@@ -380,6 +382,7 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
                                      }
                                    }},
                               failures};
+    tell_manager_ready();
     spdlog::info("ready");
     route_and_compute(std::move(again), queue, work, processor, archive, patience, heard, problems,
                       failures);

@@ -1,5 +1,5 @@
 // The open alerts, most severe first.
-import { byId, clock, duration, element, sign } from './text.js';
+import { byId, clock, element, sign } from './text.js';
 import { ask } from './hand.js';
 
 const order = ['critical', 'warning', 'info'];
@@ -16,12 +16,11 @@ function evidenceOf(alert) {
 function made(alert, utcOf) {
   const [icon, colour] = sign(alert.severity);
   const article = element('article', undefined, colour);
-  const { value, limit, unit = '', since_tai_ns } = evidenceOf(alert);
+  const { since_tai_ns } = evidenceOf(alert);
   article.append(
-    element('strong', `${icon} ${alert.severity.toUpperCase()} ${alert.key}`),
+    element('strong', `${icon} ${alert.severity.toUpperCase()} ${alert.spacecraft} ${alert.key}`),
     element('p', alert.message),
-    element('p', `${alert.state} since ${clock(utcOf(since_tai_ns ?? alert.raised_tai_ns))}`
-      + (value === undefined ? '' : `, value ${value} ${unit}, limit ${limit ?? '–'} ${unit}`)));
+    element('p', `${alert.state} since ${clock(utcOf(since_tai_ns ?? alert.raised_tai_ns))}`));
   for (const [verb, word] of [['ack', 'Acknowledge'], ['shelve', 'Shelve']]) {
     if (verb === 'ack' && alert.state !== 'active') continue;
     const button = element('button', word);

@@ -1,8 +1,8 @@
 // What the operator must see at a glance, whatever else is on the page.
 import { byId, duration, element, number, sigma, sign } from './text.js';
 
-const figures = ['UTC', 'Data age', 'Mode', 'Link', 'Spin rate', 'Axis RA / Dec', '1 σ', 'Case', 'Dual solution', 'Attitude 1 σ'];
-const ofSpin = ['Spin rate', 'Axis RA / Dec', '1 σ', 'Case', 'Dual solution'];
+const figures = ['UTC', 'Data age', 'Mode', 'Link', 'Spin rate', 'Axis RA / Dec', '1 σ', 'Case, dual solution', 'Attitude 1 σ'];
+const ofSpin = ['Spin rate', 'Axis RA / Dec', '1 σ', 'Case, dual solution'];
 const settled = { GEOMETRY: 'by geometry', CONSTRAINT: 'by constraint', PRIOR: 'by prior', DISPERSION: 'by dispersion',
   AMBIGUOUS: '⇄ NOT settled' };
 const places = new Map();
@@ -39,8 +39,8 @@ export function drawHeader(craft, service, since_s, stale) {
   put('Axis RA / Dec', `${number(craft.ra_deg, 3, '°')} / ${number(craft.dec_deg, 3, '°')}`);
   put('1 σ', sigma(craft.sigma_deg));
   put('Attitude 1 σ', sigma(craft.sigma_deg));
-  put('Case', Number.isFinite(craft.geometry_case) ? `${craft.geometry_case}` : '–');
-  put('Dual solution', settled[craft.resolution] ?? '–', craft.resolution === 'AMBIGUOUS' ? 'warn' : '');
+  put('Case, dual solution', Number.isFinite(craft.geometry_case) ? `${craft.geometry_case}, ${settled[craft.resolution] ?? '–'}` : '–',
+    craft.resolution === 'AMBIGUOUS' ? 'warn' : '');
   const quality = craft.quality ?? 'WAITING';
   const [mark, tone] = sign(craft.quality);
   const verdict = `${mark} ${quality}`;

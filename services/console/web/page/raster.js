@@ -38,7 +38,7 @@ export class Raster {
     }
     this.drawn = [];
     if (!Number.isFinite(last)) {
-      pen.fillText('no edges yet', left + 10, 40);
+      pen.fillText('no edges since the page was opened', left + 10, 40);
       return;
     }
     for (const part of [0, 0.5, 1]) {
