@@ -78,7 +78,7 @@ void SpinRun::note_time(TaiTime t) {
     // Its last edge names a solution: one a minute, and one only.
     if (last && last != last_batch_ && !is_stored(*last)) {
       due_.push_back({.batch = computing_.batch(),
-                      .solve = [this, edges = edges_, prior = computing_.pass().prior()] {
+                      .solve = [this, edges = edges_, prior = computing_.pass().told_prior()] {
                         return solve(edges, prior);
                       }});
     }
@@ -123,7 +123,7 @@ ArchiveBatch SpinRun::finish() {
   ArchiveBatch last = computing_.batch();
   settle(last.products);
   if (!computing_.failed()) {
-    if (auto products = solve(std::exchange(edges_, {}), computing_.pass().prior())) {
+    if (auto products = solve(std::exchange(edges_, {}), computing_.pass().told_prior())) {
       summary_.count_solution(*products);
       std::move(products->begin(), products->end(), std::back_inserter(last.products));
     } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {
@@ -150,7 +150,7 @@ void SpinRun::end_run(std::vector<ArchiveBatch>& batches) {
   BackgroundTask last{
       .batch = computing_.batch(),
       .solve = [this, failed = computing_.failed(), edges = std::exchange(edges_, {}),
-                prior = computing_.pass().prior()] {
+                prior = computing_.pass().told_prior()] {
         return failed ? std::vector<Product>{} : solve(edges, prior);
       }};
   last.batch.finished_utc = utc_now();

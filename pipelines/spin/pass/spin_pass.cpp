@@ -36,6 +36,7 @@ Eigen::Vector3d median_axis(const std::vector<Eigen::Vector3d>& axes) {
 
 SpinPass::SpinPass(const SpinConfig& config, Orbit orbit)
     : config_{config},
+      told_prior_{config.prior},
       notices_{config},
       sun_earth_{std::move(orbit), config.horizon.co2_altitude_km},
       interference_{config.screening.interference_s},
@@ -429,7 +430,7 @@ void SpinPass::apply(TaiTime t, const SetPrior& action) {
       sequential_.prior_refuted() ||
       (shown && angle_between_rad(shown->axis_icrf, prior.axis_icrf) >
                     kContradictionSigmas * std::hypot(shown->sigma_rad, prior.sigma_rad));
-  config_.prior = prior;
+  config_.prior = told_prior_ = prior;
   notices_.prior_set(prior);
   root_to_choose_.reset();
   if (contradicted) {

@@ -72,8 +72,9 @@ class SpinPass {
   /// The pass has ended: settles all that is still held.
   SpinOutput finish();
 
-  /// In force now.
-  const std::optional<SpinPrior>& prior() const { return config_.prior; }
+  /// As the mission or an operator has told it, whatever the pass made of it: `batch` judges it
+  /// anew.
+  const std::optional<SpinPrior>& told_prior() const { return told_prior_; }
 
  private:
   /// A revolution with all that is needed to settle it.
@@ -115,6 +116,7 @@ class SpinPass {
   static void leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out);
 
   SpinConfig config_;
+  std::optional<SpinPrior> told_prior_;
   PassNotices notices_;
   SunEarthEphemeris sun_earth_;
   FrameReorderWindow frames_;

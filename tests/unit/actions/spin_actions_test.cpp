@@ -55,7 +55,7 @@ Passed run(const SpinConfig& config, const Orbit& orbit, const std::vector<Pulse
     note(pass.push(pulse));
   }
   note(pass.finish());
-  passed.prior = pass.prior();
+  passed.prior = pass.told_prior();
   return passed;
 }
 
