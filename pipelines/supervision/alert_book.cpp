@@ -42,13 +42,11 @@ const Alert& change(Alert& alert, AlertState to, TaiTime t, std::string_view by,
 
 }  // namespace
 
-void AlertBook::take_up(Alert alert) {
+void AlertBook::take_up(const std::string& run_id, Alert alert) {
   const TaiTime settled = alert.cleared.value_or(alert.raised);
   const std::string key = alert.key;
-  const auto entry = by_key_.find(key);
-  if (entry == by_key_.end() || entry->second.last.raised < alert.raised) {
-    by_key_.insert_or_assign(key, Entry{.last = std::move(alert), .settled = settled});
-  }
+  by_key_.insert_or_assign(key,
+                           Entry{.last = std::move(alert), .run_id = run_id, .settled = settled});
 }
 
 TaiTime AlertBook::after(const std::string& key, TaiTime t) const {
@@ -58,8 +56,8 @@ TaiTime AlertBook::after(const std::string& key, TaiTime t) const {
 
 std::optional<Alert> AlertBook::raise(const Occurrence& occurrence) {
   const auto entry = by_key_.find(occurrence.key);
-  const bool is_known = entry != by_key_.end();
-  if (is_known && (is_open(entry->second.last) || occurrence.t <= entry->second.settled)) {
+  const bool was_before = entry != by_key_.end();
+  if (was_before && (is_open(entry->second.last) || is_known(entry->second, occurrence))) {
     return std::nullopt;
   }
   Alert alert{.alert_id = id_of(occurrence),
@@ -67,22 +65,23 @@ std::optional<Alert> AlertBook::raise(const Occurrence& occurrence) {
               .severity = occurrence.severity,
               .raised = occurrence.t,
               .updated = occurrence.t,
-              .count = is_known ? entry->second.last.count + 1 : 1,
+              .count = was_before ? entry->second.last.count + 1 : 1,
               .message = occurrence.message,
               .evidence = occurrence.evidence,
               .by = std::string{kService}};
-  by_key_.insert_or_assign(alert.key, Entry{.last = alert, .settled = occurrence.t});
+  by_key_.insert_or_assign(
+      alert.key, Entry{.last = alert, .run_id = occurrence.run_id, .settled = occurrence.t});
   return alert;
 }
 
 std::optional<Alert> AlertBook::clear(const Occurrence& occurrence) {
   const auto entry = by_key_.find(occurrence.key);
   if (entry == by_key_.end() || !is_open(entry->second.last) ||
-      occurrence.t <= entry->second.settled) {
+      is_known(entry->second, occurrence)) {
     return std::nullopt;
   }
   entry->second.settled = occurrence.t;
-  entry->second.last.cleared = occurrence.t;
+  entry->second.last.cleared = std::max(occurrence.t, entry->second.last.raised);
   return change(entry->second.last, AlertState::Cleared, occurrence.t, kService,
                 occurrence.message);
 }

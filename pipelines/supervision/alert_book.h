@@ -25,11 +25,12 @@ struct Occurrence {
 
 /// Active -> acknowledged -> cleared; active or acknowledged -> shelved -> active. Cleared is
 /// final: the next occurrence has another id. What is not later than the last change that the
-/// condition of a key made is known already: a restarted service computes its last minutes again.
+/// condition of a key made in the same run is known already: a restarted service computes its last
+/// minutes again. Another run may be of earlier telemetry.
 class AlertBook {
  public:
-  /// An alert of before, as it was last.
-  void take_up(Alert alert);
+  /// An alert of before, as it was last. In their order: of a key the last counts.
+  void take_up(const std::string& run_id, Alert alert);
 
   /// `t`, or a moment after the last change that the condition of a key made: of a condition that
   /// nobody computes again, and whose clock may be set back.
@@ -55,8 +56,13 @@ class AlertBook {
 
   struct Entry {
     Alert last;
-    TaiTime settled;  ///< When the condition changed last.
+    std::string run_id;  ///< That raised it.
+    TaiTime settled;     ///< When the condition changed last.
   };
+  static bool is_known(const Entry& entry, const Occurrence& occurrence) {
+    return entry.run_id == occurrence.run_id && occurrence.t <= entry.settled;
+  }
+
   std::map<std::string, Entry> by_key_;
 };
 

@@ -115,7 +115,7 @@ void AlertDesk::take_up(const std::string& spacecraft, const std::string& run_id
   const std::lock_guard lock{mutex_};
   Desk& desk = desks_[spacecraft];
   desk.run_of.insert_or_assign(alert.alert_id, run_id);
-  desk.book.take_up(alert);
+  desk.book.take_up(run_id, alert);
 }
 
 void AlertDesk::see(ArchiveBatch& batch) {

@@ -5,6 +5,7 @@
 
 #include "services/archive/connection.h"
 #include "services/products/alert.h"
+#include "services/products/named.h"
 
 namespace spindrift {
 namespace {
@@ -26,13 +27,13 @@ class NamedRow {
 std::vector<StoredAlert> alerts_in(SQLite::Database& archive) {
   SQLite::Statement query{archive,
                           "SELECT alert.*, run.mode FROM alert JOIN run USING (run_id)"
-                          " ORDER BY raised_tai_ns, alert_id"};
+                          " ORDER BY run.first_arrival, raised_tai_ns, alert_id"};
   std::vector<StoredAlert> alerts;
   while (query.executeStep()) {
     const NamedRow row{query};
     alerts.push_back({.run_id = row.text("run_id"),
                       .spacecraft = row.text("spacecraft_id"),
-                      .of_service = row.text("mode") != "process",
+                      .mode = named(row.text("mode"), RunMode::Replay),
                       .alert = ProductKind<Alert>::from_row(row)});
   }
   return alerts;

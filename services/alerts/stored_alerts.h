@@ -11,17 +11,18 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/supervision/alert.h"
+#include "services/archive/records.h"
 
 namespace spindrift {
 
 struct StoredAlert {
   std::string run_id;
   std::string spacecraft;
-  bool of_service;  ///< Of a live run or a replay.
-  Alert alert;      ///< Without its last change.
+  RunMode mode;  ///< Of its run.
+  Alert alert;   ///< Without its last change.
 };
 
-/// In the order in which they were raised.
+/// Of each run in the order in which they were raised, run by run.
 std::vector<StoredAlert> alerts_in(SQLite::Database& archive);
 
 /// Likewise. @return As find_stored_passes.

@@ -105,9 +105,12 @@ Expected<void> Archive::submit(ArchiveBatch batch) {
     if (state_ != State::Accepting) {
       return refusal();
     }
-    ++submitted_batches_;
   }
   options_.on_submit(batch);
+  {
+    const std::lock_guard lock{mutex_};
+    ++submitted_batches_;
+  }
   if (!queue_.push(std::move(batch))) {  // Left as it was.
     options_.on_refused(batch);
     const std::lock_guard lock{mutex_};

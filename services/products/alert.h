@@ -65,8 +65,11 @@ struct ProductKind<Alert> {
   static constexpr const char* kTopic = "spindrift/alert";
   static constexpr bool is_announced(const Alert& /*alert*/) { return true; }
   static std::string_view instance(const Alert& alert) { return alert.key; }
-  /// Revisions of one alert are fewer than the nanoseconds to the next.
-  static std::int64_t number(const Alert& alert) { return tai_ns(alert.raised) + alert.revision; }
+  /// Whatever the time: a later run may be of earlier telemetry. Revisions are fewer than a
+  /// million.
+  static std::int64_t number(const Alert& alert) {
+    return alert.count * 1'000'000 + alert.revision;
+  }
   static constexpr bool is_settled(const Alert& /*alert*/) { return true; }
 
   /// Without its last change.

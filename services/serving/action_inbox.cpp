@@ -5,6 +5,12 @@ namespace spindrift {
 Expected<std::string> ActionInbox::take(const nlohmann::json& request) {
   return parse_action(request, known_)
       .and_then([&](const OperatorAction& action) -> Expected<std::string> {
+        if (const auto failure = archive_.statistics().failure) {
+          return Unexpected{{ErrorCode::Unavailable,
+                             "the archive does not store, so that the action would be lost: say "
+                             "it again when it does: " +
+                                 failure->message}};
+        }
         SampleBatch batch;
         batch.actions.push_back(action);
         if (!taken_.push(std::move(batch))) {

@@ -392,6 +392,17 @@ Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins
   return failures.first().and_then([&] { return taking; });
 }
 
+/// Of a queue that nobody empties any more. Whoever said them takes them for taken.
+void tell_actions_left(BoundedQueue<SampleBatch>& taken) {
+  taken.close();
+  while (const auto batch = taken.take()) {
+    for (const OperatorAction& action : batch->actions) {
+      spdlog::error("{}: {} of {} ({}) is not stored and not done: say it again", action.spacecraft,
+                    action.action, shown(action.by), action.action_id);
+    }
+  }
+}
+
 /// What other programs ask while this one holds the archive. Where they cannot it is said.
 Expected<std::unique_ptr<RequestServer>> answer_requests(const std::filesystem::path& db,
                                                          Archive& archive, AlertDesk& desk,
@@ -493,11 +504,13 @@ Expected<void> note_announced(const std::filesystem::path& db,
   return {};
 }
 
-/// Those of runs of services, before anything is computed.
-Expected<void> take_up_alerts(const std::filesystem::path& db, AlertDesk& desk, ConsoleFeed* feed) {
+/// Those of the runs of such services, before anything is computed: what a rehearsal has left open
+/// must not wake anybody.
+Expected<void> take_up_alerts(const std::filesystem::path& db, RunMode mode, AlertDesk& desk,
+                              ConsoleFeed* feed) {
   return find_alerts(db).map([&](const std::vector<StoredAlert>& alerts) {
     for (const StoredAlert& stored : alerts) {
-      if (stored.of_service) {
+      if (stored.mode == mode) {
         desk.take_up(stored.spacecraft, stored.run_id, stored.alert);
         if (feed != nullptr) {
           feed->put(stored);
@@ -558,24 +571,29 @@ Expected<void> serve(const ServeOptions& options) {
   Archive& archive = **opened;
   spdlog::info("archive {}", options.db.string());
 
-  auto gone_on = processor->arrive_after(options.db)
-                     .and_then([&] { return take_up_alerts(options.db, desk, feed.get()); })
-                     .and_then([&] { return processor->go_on(options.db, moment_of(*processor)); });
+  auto gone_on =
+      processor->arrive_after(options.db)
+          .and_then([&] { return take_up_alerts(options.db, mode_of(options), desk, feed.get()); })
+          .and_then([&] { return processor->go_on(options.db, moment_of(*processor)); });
   const auto done = std::move(gone_on).and_then([&](GoneOn stored) {
     return note_announced(options.db, stored.routed.samples, announcer)
         .and_then([&] { return submit_all(archive, std::move(stored.routed.samples)); })
         .and_then([&] { return archive.flush(); })
         .and_then([&] {
           BoundedQueue<SampleBatch> taken{kSamplesTaken, &taken_size};
-          ActionInbox inbox{kinds_of(*missions), taken};
+          ActionInbox inbox{kinds_of(*missions), archive, taken};
           const auto requests = answer_requests(options.db, archive, desk, inbox);
           const auto console = start_console(options, feed.get(), desk, archive, inbox);
           if (!console) {
             return Expected<void>{Unexpected{console.error()}};
           }
-          return run(std::move(stored.routed.work), stored.last_origins, taken, options, *missions,
-                     *participant, *publisher, *told, *processor, archive, desk, announcer,
-                     problems, feed.get(), stop_signal, failures);
+          auto ran = run(std::move(stored.routed.work), stored.last_origins, taken, options,
+                         *missions, *participant, *publisher, *told, *processor, archive, desk,
+                         announcer, problems, feed.get(), stop_signal, failures);
+          tell_actions_left(taken);
+          // Who asks and waits for the archive gets his answer, so that the servers can end.
+          static_cast<void>(archive.close());
+          return ran;
         });
   });
   if (auto outcome = outcome_of(done, archive.close()); !outcome) {

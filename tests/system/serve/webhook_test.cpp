@@ -91,8 +91,10 @@ struct Told {
   Told(const std::string& url, const std::string& partition) : service{arguments(url, partition)} {}
 
   std::vector<std::string> arguments(const std::string& url, const std::string& partition) {
-    std::ofstream{pass.folder.path() / "mission.toml", std::ios::app}
-        << "\n[spin.target]\nra_deg = 10.0\ndec_deg = 20.0\n";
+    const auto mission = pass.folder.path() / "mission.toml";
+    if (text_of(mission).find("[spin.target]") == std::string::npos) {
+      std::ofstream{mission, std::ios::app} << "\n[spin.target]\nra_deg = 10.0\ndec_deg = 20.0\n";
+    }
     bus.partition = partition;
     return {"serve",
             "--mission",
@@ -143,6 +145,32 @@ TEST(Webhook, IsToldNothingOfARehearsal) {
   told.service.signal(SIGTERM);
   EXPECT_EQ(told.service.exit_status(), 0);
   EXPECT_TRUE(receiver.alerts().empty());
+}
+
+TEST(Webhook, IsNotToldWhatARehearsalHasLeftOpen) {
+  const Receiver receiver;
+  Told rehearsal{receiver.url(), "replay"};
+  ASSERT_TRUE(rehearsal.service.says("ready")) << rehearsal.service.log();
+  rehearsal.send_pass();
+  rehearsal.service.signal(SIGTERM);
+  ASSERT_EQ(rehearsal.service.exit_status(), 0);
+  ASSERT_GT(number_of(rehearsal.db, "SELECT count(*) FROM alert WHERE state <> 'cleared'"), 0);
+
+  std::vector<std::string> live = rehearsal.arguments(receiver.url(), "live");
+  Program service{live};
+  ASSERT_TRUE(service.says("ready")) << service.log();
+  FrontEnd front_end{rehearsal.bus, "SPINNER", pulses_of("nominal")};
+  ASSERT_TRUE(front_end.send_until(1.0));
+  // Its own, raised anew.
+  EXPECT_TRUE(eventually([&] { return tells_off_target(receiver); })) << service.log();
+  for (const nlohmann::json& alert : receiver.alerts()) {
+    EXPECT_EQ(
+        rows_of(rehearsal.db, "SELECT mode FROM alert JOIN run USING (run_id) WHERE alert_id = '" +
+                                  alert["annotations"]["alert_id"].get<std::string>() + "'"),
+        std::vector<std::string>{"live|"});
+  }
+  service.signal(SIGTERM);
+  EXPECT_EQ(service.exit_status(), 0);
 }
 
 TEST(Webhook, ThatRefusesIsSaidAndHoldsNobodyUp) {

@@ -140,7 +140,7 @@ TEST_F(Feed, ShowsAlertsUntilTheyAreCleared) {
               .raised = kT,
               .message = "large",
               .evidence = R"({"value":2})"};
-  feed_->put({.run_id = "run", .spacecraft = "SPINNER", .of_service = true, .alert = alert});
+  feed_->put({.run_id = "run", .spacecraft = "SPINNER", .mode = RunMode::Live, .alert = alert});
   ASSERT_EQ(feed_->state()["alerts"].size(), 1U);
   EXPECT_EQ(feed_->state()["alerts"][0]["evidence"]["value"], 2);
   EXPECT_THAT(events(), Not(HasSubstr("event: alert")));

@@ -47,16 +47,50 @@ TEST(AlertBook, KnowsWhatIsComputedAgain) {
   RaisedBook once;
   const Alert cleared = once.book.clear(occurrence(3)).value();
   AlertBook restarted;
-  restarted.take_up(cleared);
+  restarted.take_up("run-1", cleared);
   EXPECT_FALSE(restarted.raise(occurrence(1)));
   EXPECT_FALSE(restarted.clear(occurrence(3)));
   EXPECT_TRUE(restarted.raise(occurrence(5)));
 
   AlertBook open;
-  open.take_up(RaisedBook{}.book.open().front());
+  open.take_up("run-1", RaisedBook{}.book.open().front());
   EXPECT_FALSE(open.clear(occurrence(0)));
   EXPECT_FALSE(open.raise(occurrence(1)));
   EXPECT_TRUE(open.clear(occurrence(2)));
+}
+
+TEST(AlertBook, RaisesAndClearsInALaterRunOfEarlierTelemetry) {
+  const auto later_run = [](double t_s) {
+    Occurrence one = occurrence(t_s);
+    one.run_id = "run-2";
+    return one;
+  };
+  RaisedBook open;
+  EXPECT_FALSE(open.book.raise(later_run(-100)));
+  const auto cleared = open.book.clear(later_run(-90));
+  ASSERT_TRUE(cleared);
+  EXPECT_EQ(cleared->cleared, cleared->raised);
+
+  RaisedBook over;
+  ASSERT_TRUE(over.book.clear(occurrence(3)));
+  const auto raised = over.book.raise(later_run(-100));
+  ASSERT_TRUE(raised);
+  EXPECT_EQ(raised->count, 2);
+  EXPECT_FALSE(over.book.clear(later_run(-100)));
+  EXPECT_TRUE(over.book.clear(later_run(-90)));
+}
+
+TEST(AlertBook, TakesUpTheLastOfAKeyWhateverItsTime) {
+  RaisedBook first;
+  const Alert cleared = first.book.clear(occurrence(3)).value();
+  Alert later = RaisedBook{}.book.open().front();
+  later.alert_id = "later";
+  later.raised = at(-100);
+  AlertBook restarted;
+  restarted.take_up("run-1", cleared);
+  restarted.take_up("run-2", later);
+  ASSERT_EQ(restarted.open().size(), 1U);
+  EXPECT_EQ(restarted.open().front().alert_id, "later");
 }
 
 TEST(AlertBook, SaysWhenAChangeIsNewWhateverTheClock) {
