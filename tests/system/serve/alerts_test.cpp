@@ -91,7 +91,7 @@ struct Watched {
 
   explicit Watched(std::string of_key) : key{std::move(of_key)} {
     std::ofstream{copy.folder.path() / "mission.toml", std::ios::app}
-        << "\n[alerts.\"link.silent\"]\nseconds = 1.0\n";
+        << "\n[alerts.\"link.silent\"]\nseconds = 3.0\n";
     service.emplace(copy.folder.path().string());
     participant.emplace(bus::Participant::create(service->bus()).value());
     reader.emplace(bus::Reader<spindrift_Alert>::create(*participant, product_topic<Alert>(),
@@ -135,7 +135,8 @@ TEST(ServeAlerts, OfSilenceGoOnOverARestartUntilTelemetryIsBack) {
   link.service->start();
   ASSERT_TRUE(link.service->ready()) << link.service->log();
   ASSERT_TRUE(link.front_end->send_until(0.2));
-  EXPECT_TRUE(link.is_published("cleared 2")) << link.service->log();
+  ASSERT_TRUE(link.is_published("cleared 2"))
+      << ::testing::PrintToString(link.changes) << link.service->log();
   const auto cleared = std::find(link.changes.begin(), link.changes.end(), "cleared 2");
   EXPECT_THAT(
       std::vector(link.ids.begin(), link.ids.begin() + (cleared - link.changes.begin()) + 1),
