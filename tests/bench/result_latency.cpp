@@ -1,9 +1,9 @@
 /// @file
 /// How long it takes from the write of the sample that brings a result out to the result, committed
 /// and published, at a running `spindrift serve`: a fix of a spinner, an attitude of a three-axis
-/// spacecraft.
+/// spacecraft, or with `alerts` an alert that is raised.
 ///
-///     result_latency MISSION.toml TELEMETRY SPACECRAFT SPEED [DOMAIN]
+///     result_latency MISSION.toml TELEMETRY SPACECRAFT SPEED [DOMAIN [alerts]]
 ///
 /// The same pass goes out as SPACECRAFT spacecraft named LOAD-0, LOAD-1, ..., one after the other,
 /// SPEED times faster than it was. Which sample brings out which result, the pipeline itself tells
@@ -16,16 +16,20 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <map>
 #include <span>
 #include <string>
 #include <thread>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "pipelines/spin/pass/spin_pass.h"
+#include "pipelines/supervision/attitude_conditions.h"
+#include "pipelines/supervision/spin_conditions.h"
 #include "pipelines/three_axis/three_axis_pass.h"
 #include "services/bus/participant.h"
 #include "services/bus/reader.h"
@@ -43,28 +47,68 @@ using std::chrono::steady_clock;
 using bench::AnySample;
 using bench::or_exit;
 
-/// Time of a result, and the sample that brings it out.
-template <class Result, class Pass>
-std::map<TaiTime, std::size_t> bringing_out(Pass pass, const std::vector<AnySample>& samples) {
-  std::map<TaiTime, std::size_t> bringing;
+/// What a result is known by among those of its spacecraft, in all passes that are sent.
+std::string identity(TaiTime t) { return std::to_string(tai_ns(t)); }
+std::string identity(TaiTime raised, const std::string& key, std::uint32_t revision) {
+  return fmt::format("{} {} {}", tai_ns(raised), key, revision);
+}
+
+template <class Message>
+std::string identity_of(const Message& result, std::chrono::nanoseconds delay) {
+  return identity(tai_from_ns(result.t_tai_ns) - delay);
+}
+std::string identity_of(const spindrift_Alert& alert, std::chrono::nanoseconds delay) {
+  return identity(tai_from_ns(alert.raised_tai_ns) - delay, alert.dedupe_key, alert.revision);
+}
+
+/// A result, and the sample that brings it out.
+using Bringing = std::map<std::string, std::size_t>;
+
+/// @param note Called with a product and the sample that brings it out, in order.
+template <class Pass, class Note>
+void for_each_product(Pass pass, const std::vector<AnySample>& samples, const Note& note) {
   const auto push = [&](std::size_t i, const auto& value) {
     if constexpr (requires { pass.push(value); }) {
       for (const auto& product : pass.push(value).products) {
-        if (const auto* result = std::get_if<Result>(&product)) {
-          bringing.emplace(result->t, i);
-        }
+        std::visit([&](const auto& of_kind) { note(of_kind, i); }, product);
       }
     }
   };
   for (std::size_t i = 0; i < samples.size(); ++i) {
     std::visit([&](const auto& sample) { push(i, sample.value); }, samples[i]);
   }
+}
+
+template <class Result, class Pass>
+Bringing bringing_out(const Pass& pass, const std::vector<AnySample>& samples) {
+  Bringing bringing;
+  for_each_product(pass, samples, [&](const auto& product, std::size_t i) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(product)>, Result>) {
+      bringing.emplace(identity(product.t), i);
+    }
+  });
+  return bringing;
+}
+
+/// Of the alerts that the products raise.
+template <class Pass, class Conditions>
+Bringing raising(const Pass& pass, const std::vector<AnySample>& samples, Conditions conditions) {
+  Bringing bringing;
+  for_each_product(pass, samples, [&](const auto& product, std::size_t i) {
+    if constexpr (requires { conditions.see(product); }) {
+      for (const ConditionChange& change : conditions.see(product)) {
+        if (change.change == Change::Raised) {
+          bringing.emplace(identity(change.t, alert_key(change.code, change.about), 1), i);
+        }
+      }
+    }
+  });
   return bringing;
 }
 
 struct Seen {
   std::size_t spacecraft;
-  TaiTime t;
+  std::string identity;
   steady_clock::time_point at;
 };
 
@@ -75,6 +119,15 @@ double at_share(std::vector<double>& values, double share) {
   return values[std::min(place, values.size() - 1)];
 }
 
+/// The passes begin one after the other, all within ten seconds, since each settles its first ten
+/// revolutions at once. At any time the load has all phases, and as in a pass what is sent together
+/// was measured together.
+std::chrono::nanoseconds delay(std::size_t spacecraft) {
+  // No part of a turn.
+  constexpr std::chrono::nanoseconds kApart{100'700'000};
+  return spacecraft * kApart;
+}
+
 /// Notes every result as it arrives, until stopped.
 template <class Message>
 void listen(const bus::Reader<Message>& reader, const bus::WaitSet& waitset,
@@ -82,8 +135,9 @@ void listen(const bus::Reader<Message>& reader, const bus::WaitSet& waitset,
   while (or_exit(waitset.wait())) {
     or_exit(reader.take([&](const Message& result) {
       const std::string name{result.spacecraft};
-      seen.push_back({.spacecraft = std::stoul(name.substr(name.find('-') + 1)),
-                      .t = tai_from_ns(result.t_tai_ns),
+      const std::size_t spacecraft = std::stoul(name.substr(name.find('-') + 1));
+      seen.push_back({.spacecraft = spacecraft,
+                      .identity = identity_of(result, delay(spacecraft)),
                       .at = steady_clock::now()});
     }));
   }
@@ -97,15 +151,6 @@ struct Event {
 
 TaiTime time_of(const AnySample& sample) {
   return std::visit([](const auto& is) { return is.value.t; }, sample);
-}
-
-/// The passes begin one after the other, all within ten seconds, since each settles its first ten
-/// revolutions at once. At any time the load has all phases, and as in a pass what is sent together
-/// was measured together.
-std::chrono::nanoseconds delay(std::size_t spacecraft) {
-  // No part of a turn.
-  constexpr std::chrono::nanoseconds kApart{100'700'000};
-  return spacecraft * kApart;
 }
 
 std::vector<Event> events(const std::vector<AnySample>& samples, std::size_t spacecraft,
@@ -146,11 +191,16 @@ Publishers publishers_for(const bus::Participant& participant,
   return publishers;
 }
 
-template <class Result, class Pass>
-void run(const Pass& pass, const std::vector<AnySample>& samples, std::size_t spacecraft,
-         double speed, std::uint32_t domain) {
-  const std::map<TaiTime, std::size_t> bringing = bringing_out<Result>(pass, samples);
+/// How often, and how fast, the pass is sent.
+struct Load {
+  std::size_t spacecraft;
+  double speed;
+  std::uint32_t domain;
+};
 
+template <class Result>
+void run(const Bringing& bringing, const std::vector<AnySample>& samples, const Load& load) {
+  const auto [spacecraft, speed, domain] = load;
   const auto participant = or_exit(bus::Participant::create({.domain = domain}));
   const auto reader = or_exit(bus::Reader<typename ProductMessage<Result>::Type>::create(
       participant, product_topic<Result>(), bus::results_qos()));
@@ -187,8 +237,7 @@ void run(const Pass& pass, const std::vector<AnySample>& samples, std::size_t sp
   std::vector<double> taken_us;
   std::map<std::chrono::seconds, std::vector<double>> of_second_us;
   for (const Seen& result : seen) {
-    const TaiTime t = result.t - delay(result.spacecraft);
-    if (const auto sample = bringing.find(t); sample != bringing.end()) {
+    if (const auto sample = bringing.find(result.identity); sample != bringing.end()) {
       const auto from = written[result.spacecraft][sample->second];
       taken_us.push_back(std::chrono::duration<double, std::micro>(result.at - from).count());
       of_second_us[std::chrono::floor<std::chrono::seconds>(from - start)].push_back(
@@ -208,15 +257,28 @@ void run(const Pass& pass, const std::vector<AnySample>& samples, std::size_t sp
              at_share(p99_of_seconds_us, 0.5));
 }
 
-void run(const std::string& mission_file, const std::string& telemetry, std::size_t spacecraft,
-         double speed, std::uint32_t domain) {
+template <class Result, class Pass, class Conditions>
+void run(const Pass& pass, const Conditions& conditions, const std::vector<AnySample>& samples,
+         const Load& load, bool is_of_alerts) {
+  if (is_of_alerts) {
+    run<Alert>(raising(pass, samples, conditions), samples, load);
+  } else {
+    run<Result>(bringing_out<Result>(pass, samples), samples, load);
+  }
+}
+
+void run(const std::string& mission_file, const std::string& telemetry, const Load& load,
+         bool is_of_alerts) {
   const Mission mission = or_exit(load_mission(mission_file));
   const std::vector<AnySample> samples = bench::read_samples(telemetry, mission.spacecraft_id);
   if (const SpinConfig* const spin = mission.spin()) {
-    run<SpinFix>(SpinPass{*spin, *mission.orbit}, samples, spacecraft, speed, domain);
+    run<SpinFix>(SpinPass{*spin, *mission.orbit},
+                 SpinConditions{*spin, *mission.orbit, mission.alerts, mission.target}, samples,
+                 load, is_of_alerts);
   } else {
     run<AttitudeEstimate>(ThreeAxisPass{std::get<ThreeAxisConfig>(mission.config), mission.orbit},
-                          samples, spacecraft, speed, domain);
+                          AttitudeConditions{mission.alerts, mission.orbit}, samples, load,
+                          is_of_alerts);
   }
 }
 
@@ -225,11 +287,17 @@ void run(const std::string& mission_file, const std::string& telemetry, std::siz
 
 int main(int argc, char** argv) {
   const std::span<char*> arguments{argv, static_cast<std::size_t>(argc)};
-  if (arguments.size() < 5) {
-    fmt::print(stderr, "usage: result_latency MISSION.toml TELEMETRY SPACECRAFT SPEED [DOMAIN]\n");
+  const bool is_of_alerts = arguments.size() == 7 && std::string{arguments[6]} == "alerts";
+  if (arguments.size() < 5 || arguments.size() > (is_of_alerts ? 7U : 6U)) {
+    fmt::print(stderr,
+               "usage: result_latency MISSION.toml TELEMETRY SPACECRAFT SPEED [DOMAIN [alerts]]\n");
     return 2;
   }
-  spindrift::run(arguments[1], arguments[2], std::stoul(arguments[3]), std::stod(arguments[4]),
-                 arguments.size() > 5 ? static_cast<std::uint32_t>(std::stoul(arguments[5])) : 0);
+  spindrift::run(
+      arguments[1], arguments[2],
+      {.spacecraft = std::stoul(arguments[3]),
+       .speed = std::stod(arguments[4]),
+       .domain = arguments.size() > 5 ? static_cast<std::uint32_t>(std::stoul(arguments[5])) : 0},
+      is_of_alerts);
   return 0;
 }
