@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pipelines/ground_model/silence.h"
+#include "pipelines/ground_model/link/silence.h"
 #include "services/toml_schema/scalar.h"
 #include "services/toml_schema/values.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "pipelines/ground_model/coded_telemetry.h"
+#include "pipelines/ground_model/link/coded_telemetry.h"
 #include "services/progress/progress_bar.h"
 #include "services/scenario/spin_truth.h"
 

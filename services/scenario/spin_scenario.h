@@ -4,8 +4,8 @@
 
 #pragma once
 
-#include "pipelines/ground_model/pulse_link.h"
-#include "pipelines/ground_model/spin_edges.h"
+#include "pipelines/ground_model/link/pulse_link.h"
+#include "pipelines/ground_model/sensors/spin_edges.h"
 #include "pipelines/time/tai_time.h"
 #include "services/toml_schema/document.h"
 #include "services/toml_schema/scalar.h"

@@ -8,8 +8,8 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
-#include "pipelines/ground_model/pulse_link.h"
-#include "pipelines/ground_model/spin_edges.h"
+#include "pipelines/ground_model/link/pulse_link.h"
+#include "pipelines/ground_model/sensors/spin_edges.h"
 
 namespace spindrift {
 

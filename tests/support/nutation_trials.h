@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "pipelines/ground_model/spin_motion.h"
+#include "pipelines/ground_model/dynamics/spin_motion.h"
 #include "pipelines/spin/nutation/nutation.h"
 #include "tests/support/uniform_spin_residuals.h"
 

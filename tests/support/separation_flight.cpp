@@ -5,9 +5,9 @@
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
-#include "pipelines/ground_model/chance.h"
-#include "pipelines/ground_model/separation_motion.h"
-#include "pipelines/ground_model/three_axis_telemetry.h"
+#include "pipelines/ground_model/link/chance.h"
+#include "pipelines/ground_model/link/three_axis_telemetry.h"
+#include "pipelines/ground_model/separation/separation_motion.h"
 
 namespace spindrift::testing {
 namespace {

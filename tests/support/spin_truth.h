@@ -4,7 +4,7 @@
 #pragma once
 
 #include "pipelines/ephemeris/earth_pole.h"
-#include "pipelines/ground_model/spin_edges.h"
+#include "pipelines/ground_model/sensors/spin_edges.h"
 #include "tests/support/observed_spin.h"
 
 namespace spindrift::testing {

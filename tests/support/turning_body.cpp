@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "pipelines/ground_model/three_axis_reading.h"
+#include "pipelines/ground_model/sensors/three_axis_reading.h"
 
 namespace spindrift::testing {
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "pipelines/ground_model/spin_edges.h"
+#include "pipelines/ground_model/sensors/spin_edges.h"
 #include "pipelines/spin/nutation/uniform_spin_residual.h"
 #include "pipelines/spin/types/config.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/ground_model/spin_edges.h"
+#include "pipelines/ground_model/sensors/spin_edges.h"
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "tests/support/spin_truth.h"
 

@@ -1,4 +1,4 @@
-#include "pipelines/ground_model/coded_telemetry.h"
+#include "pipelines/ground_model/link/coded_telemetry.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

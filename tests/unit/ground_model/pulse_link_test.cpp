@@ -1,4 +1,4 @@
-#include "pipelines/ground_model/pulse_link.h"
+#include "pipelines/ground_model/link/pulse_link.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
-#include "pipelines/ground_model/rigid_body.h"
+#include "pipelines/ground_model/dynamics/rigid_body.h"
 
 #include <gtest/gtest.h>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
-#include "pipelines/ground_model/body_motion.h"
+#include "pipelines/ground_model/dynamics/body_motion.h"
 
 namespace spindrift::rigid_body_test {
 

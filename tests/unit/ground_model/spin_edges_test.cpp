@@ -1,4 +1,4 @@
-#include "pipelines/ground_model/spin_edges.h"
+#include "pipelines/ground_model/sensors/spin_edges.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 /// How the body turns, against Euler's equations integrated in small steps.
 
-#include "pipelines/ground_model/spin_motion.h"
+#include "pipelines/ground_model/dynamics/spin_motion.h"
 
 #include <gtest/gtest.h>
 

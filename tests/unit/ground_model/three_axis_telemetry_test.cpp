@@ -1,4 +1,4 @@
-#include "pipelines/ground_model/three_axis_telemetry.h"
+#include "pipelines/ground_model/link/three_axis_telemetry.h"
 
 #include <gtest/gtest.h>
 

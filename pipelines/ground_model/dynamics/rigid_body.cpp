@@ -1,4 +1,4 @@
-#include "pipelines/ground_model/rigid_body.h"
+#include "pipelines/ground_model/dynamics/rigid_body.h"
 
 namespace spindrift {
 namespace {

@@ -11,9 +11,9 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
-#include "pipelines/ground_model/body_motion.h"
-#include "pipelines/ground_model/chance.h"
-#include "pipelines/ground_model/silence.h"
+#include "pipelines/ground_model/dynamics/body_motion.h"
+#include "pipelines/ground_model/link/chance.h"
+#include "pipelines/ground_model/link/silence.h"
 #include "pipelines/three_axis/samples.h"
 #include "pipelines/time/tai_time.h"
 

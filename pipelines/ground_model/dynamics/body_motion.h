@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "pipelines/ground_model/rigid_body.h"
+#include "pipelines/ground_model/dynamics/rigid_body.h"
 
 namespace spindrift {
 

@@ -11,8 +11,8 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/frames/euler312.h"
-#include "pipelines/ground_model/separation_motion.h"
-#include "pipelines/ground_model/three_axis_telemetry.h"
+#include "pipelines/ground_model/link/three_axis_telemetry.h"
+#include "pipelines/ground_model/separation/separation_motion.h"
 
 namespace spindrift {
 

@@ -1,4 +1,4 @@
-#include "pipelines/ground_model/flown_separation.h"
+#include "pipelines/ground_model/separation/flown_separation.h"
 
 #include <utility>
 

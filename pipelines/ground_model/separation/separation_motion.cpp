@@ -1,4 +1,4 @@
-#include "pipelines/ground_model/separation_motion.h"
+#include "pipelines/ground_model/separation/separation_motion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "pipelines/ground_model/silence.h"
-#include "pipelines/ground_model/spin_edges.h"
+#include "pipelines/ground_model/link/silence.h"
+#include "pipelines/ground_model/sensors/spin_edges.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/pulse.h"
 #include "pipelines/time/tai_time.h"

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "pipelines/ground_model/pulse_link.h"
+#include "pipelines/ground_model/link/pulse_link.h"
 #include "pipelines/spin/types/coded_frame.h"
 
 namespace spindrift {

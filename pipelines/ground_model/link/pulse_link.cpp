@@ -1,11 +1,11 @@
-#include "pipelines/ground_model/pulse_link.h"
+#include "pipelines/ground_model/link/pulse_link.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
-#include "pipelines/ground_model/chance.h"
+#include "pipelines/ground_model/link/chance.h"
 
 namespace spindrift {
 namespace {

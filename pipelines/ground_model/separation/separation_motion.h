@@ -10,7 +10,7 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/frames/body_state.h"
-#include "pipelines/ground_model/body_motion.h"
+#include "pipelines/ground_model/dynamics/body_motion.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {

@@ -24,7 +24,7 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/ephemeris/sun.h"
-#include "pipelines/ground_model/spin_motion.h"
+#include "pipelines/ground_model/dynamics/spin_motion.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/pulse.h"
 #include "pipelines/time/tai_time.h"

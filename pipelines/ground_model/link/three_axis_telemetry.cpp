@@ -1,4 +1,4 @@
-#include "pipelines/ground_model/three_axis_telemetry.h"
+#include "pipelines/ground_model/link/three_axis_telemetry.h"
 
 #include <cmath>
 #include <utility>
@@ -7,7 +7,7 @@
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
-#include "pipelines/ground_model/three_axis_reading.h"
+#include "pipelines/ground_model/sensors/three_axis_reading.h"
 
 namespace spindrift {
 namespace {
