@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "pipelines/core/shown.h"
+#include "pipelines/frames/inertia.h"
 #include "pipelines/time/utc.h"
 #include "services/telemetry/spacecraft_id.h"
 #include "services/toml_schema/toml_scalar.h"
@@ -20,8 +20,7 @@
 namespace spindrift {
 namespace {
 
-constexpr double kUnitTolerance = 1e-4;      // What a person rounds away when typing 0.7071.
-constexpr double kSymmetryTolerance = 1e-9;  // Relative to the largest moment.
+constexpr double kUnitTolerance = 1e-4;  // What a person rounds away when typing 0.7071.
 
 double as_number(const Scalar& value) {
   const auto* const integer = std::get_if<std::int64_t>(&value);
@@ -82,17 +81,6 @@ bool is_unit_quaternion(const std::vector<double>& q) {
          kUnitTolerance;
 }
 
-bool is_inertia(const std::vector<double>& kg_m2) {
-  const Eigen::Matrix3d inertia{Eigen::Map<const Eigen::Matrix3d>{kg_m2.data()}};
-  const double scale = inertia.cwiseAbs().maxCoeff();
-  if (!((inertia - inertia.transpose()).cwiseAbs().maxCoeff() <= kSymmetryTolerance * scale)) {
-    return false;
-  }
-  const Eigen::Vector3d moments =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>{inertia, Eigen::EigenvaluesOnly}.eigenvalues();
-  return moments[0] > 0.0 && moments[2] <= (moments[0] + moments[1]) * (1.0 + kSymmetryTolerance);
-}
-
 std::string form_text(const KeyRule& rule) {
   if (!rule.form) {
     return "";
@@ -114,7 +102,8 @@ std::optional<std::string> array_objection(const KeyRule& rule, const toml::node
   const auto numbers = elements(rule, value, 0);
   const bool good = !numbers.empty() &&
                     (rule.form != ValueForm::UnitQuaternion || is_unit_quaternion(numbers)) &&
-                    (rule.form != ValueForm::Inertia || is_inertia(numbers));
+                    (rule.form != ValueForm::Inertia ||
+                     is_inertia(Eigen::Map<const Eigen::Matrix3d>{numbers.data()}));
   return good ? std::nullopt : std::optional{"must be " + allowed_by(rule)};
 }
 
