@@ -1,5 +1,5 @@
 /// @file
-/// The Earth's figure, WGS-84 (NIMA TR8350.2).
+/// The Earth's figure and how fast it turns, WGS-84 (NIMA TR8350.2).
 
 #pragma once
 
@@ -7,5 +7,6 @@ namespace spindrift::wgs84 {
 
 inline constexpr double kEquatorialRadius_km = 6378.137;
 inline constexpr double kPolarRadius_km = 6356.752314245;
+inline constexpr double kTurning_rad_s = 7.292115e-5;
 
 }  // namespace spindrift::wgs84

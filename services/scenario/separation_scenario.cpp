@@ -97,9 +97,13 @@ void check_relays(TomlDocument& document) {
   if (!torque_nm || !dead_band_deg_s || !kg_m2) {
     return;
   }
+  const auto body = RigidBody::make(Eigen::Map<const Eigen::Matrix3d>{kg_m2->data()});
+  if (!body) {
+    return;
+  }
   const double change_deg_s =
-      RigidBody{Eigen::Map<const Eigen::Matrix3d>{kg_m2->data()}}
-          .acceleration_rad_s2(Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(*torque_nm))
+      body->acceleration_rad_s2(Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(*torque_nm),
+                                Eigen::Vector3d::Zero())
           .cwiseAbs()
           .maxCoeff() *
       kControlStep_s * kDegPerRad;

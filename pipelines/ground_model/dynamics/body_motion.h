@@ -4,7 +4,6 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -17,29 +16,31 @@ class BodyMotion {
   BodyMotion(const RigidBody& body, const BodyState& start, double step_s)
       : body_{body}, step_s_{step_s}, states_{start} {}
 
-  /// On by a step. @param torque_body_nm Even in body axes.
-  void step(const Eigen::Vector3d& torque_body_nm) {
-    states_.push_back(body_.after(states_.back(), torque_body_nm, step_s_));
-    torques_body_nm_.push_back(torque_body_nm);
+  /// On by a step.
+  void step(const BodyTorques& torques) {
+    states_.push_back(body_.after(states_.back(), torques, step_s_));
+    torques_.push_back(torques);
   }
 
   const RigidBody& body() const { return body_; }
   const BodyState& last() const { return states_.back(); }
-  double end_s() const { return step_s_ * static_cast<double>(torques_body_nm_.size()); }
+  double step_s() const { return step_s_; }
+  double end_s() const { return step_s_ * static_cast<double>(torques_.size()); }
 
-  /// @param t_s Behind the start; from the end on it is the last.
+  /// @param t_s Before the start it is what led there under the first torques; from the end on it
+  ///            is the last.
   BodyState at(double t_s) const {
-    const auto step = static_cast<std::size_t>(t_s / step_s_);
-    return step < torques_body_nm_.size() ? body_.after(states_[step], torques_body_nm_[step],
-                                                        t_s - step_s_ * static_cast<double>(step))
-                                          : states_.back();
+    const std::size_t step = t_s > 0.0 ? static_cast<std::size_t>(t_s / step_s_) : 0;
+    return step < torques_.size() ? body_.after(states_[step], torques_[step],
+                                                t_s - step_s_ * static_cast<double>(step))
+                                  : states_.back();
   }
 
  private:
   RigidBody body_;
   double step_s_;
   std::vector<BodyState> states_;
-  std::vector<Eigen::Vector3d> torques_body_nm_;  ///< Behind each state but the last.
+  std::vector<BodyTorques> torques_;  ///< Behind each state but the last.
 };
 
 }  // namespace spindrift

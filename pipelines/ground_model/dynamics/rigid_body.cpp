@@ -1,19 +1,31 @@
 #include "pipelines/ground_model/dynamics/rigid_body.h"
 
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+
+#include "pipelines/frames/inertia.h"
+
 namespace spindrift {
 namespace {
 
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
 struct Change {
   Eigen::Vector4d q_icrf_body;  ///< x, y, z, w.
-  Eigen::Vector3d rate_rad_s2;
+  Vector3d rate_rad_s2;
 };
 
-Change change_of(const RigidBody& body, const BodyState& state,
-                 const Eigen::Vector3d& torque_body_nm) {
+/// @param t_s Behind the start of the step.
+Change change_of(const RigidBody& body, const BodyState& state, const BodyTorques& torques,
+                 double t_s) {
   Eigen::Quaterniond rate{0.0, 0.0, 0.0, 0.0};
   rate.vec() = 0.5 * state.rate_body_rad_s;
   return {.q_icrf_body = (state.q_icrf_body * rate).coeffs(),
-          .rate_rad_s2 = body.acceleration_rad_s2(state.rate_body_rad_s, torque_body_nm)};
+          .rate_rad_s2 = body.acceleration_rad_s2(state.rate_body_rad_s,
+                                                  torques.external_nm + torques.wheels_nm,
+                                                  torques.wheels_nms - t_s * torques.wheels_nm)};
 }
 
 BodyState changed(const BodyState& state, const Change& change, double step_s) {
@@ -24,12 +36,25 @@ BodyState changed(const BodyState& state, const Change& change, double step_s) {
 
 }  // namespace
 
-BodyState RigidBody::after(const BodyState& state, const Eigen::Vector3d& torque_body_nm,
+Expected<RigidBody> RigidBody::make(const Matrix3d& inertia_kg_m2) {
+  if (!is_inertia(inertia_kg_m2)) {
+    const Vector3d moments = inertia_kg_m2.selfadjointView<Eigen::Lower>().eigenvalues();
+    return Unexpected{
+        {ErrorCode::InvalidConfiguration,
+         fmt::format("an inertia with the principal moments {:.6g}, {:.6g} and {:.6g} kg m2: must "
+                     "be symmetric, each moment positive and not above the sum of the others",
+                     moments[0], moments[1], moments[2])}};
+  }
+  return RigidBody{inertia_kg_m2};
+}
+
+BodyState RigidBody::after(const BodyState& state, const BodyTorques& torques,
                            double step_s) const {
-  const Change first = change_of(*this, state, torque_body_nm);
-  const Change second = change_of(*this, changed(state, first, 0.5 * step_s), torque_body_nm);
-  const Change third = change_of(*this, changed(state, second, 0.5 * step_s), torque_body_nm);
-  const Change fourth = change_of(*this, changed(state, third, step_s), torque_body_nm);
+  const double half_s = 0.5 * step_s;
+  const Change first = change_of(*this, state, torques, 0.0);
+  const Change second = change_of(*this, changed(state, first, half_s), torques, half_s);
+  const Change third = change_of(*this, changed(state, second, half_s), torques, half_s);
+  const Change fourth = change_of(*this, changed(state, third, step_s), torques, step_s);
   const Change mean = {
       .q_icrf_body = (first.q_icrf_body + 2.0 * (second.q_icrf_body + third.q_icrf_body) +
                       fourth.q_icrf_body) /

@@ -44,15 +44,19 @@ Vector3d acquisition_torque_nm(const SimpleControl& control, const BodyMotion& m
 Expected<BodyMotion> separation_motion(const SeparationTruth& truth, const Orbit& orbit) {
   // Tells instants that are multiples of the step from the steps before.
   constexpr double kRounding_s = 1e-6;
-  BodyMotion motion{RigidBody{truth.inertia_kg_m2}, truth.at_separation, kControlStep_s};
+  const auto body = RigidBody::make(truth.inertia_kg_m2);
+  if (!body) {
+    return Unexpected{body.error()};
+  }
+  BodyMotion motion{*body, truth.at_separation, kControlStep_s};
   ApparentSun sun;
   const auto steps = static_cast<std::int64_t>(std::ceil(truth.phases.end_s / kControlStep_s));
   for (std::int64_t i = 0; i < steps; ++i) {
     const double t_s = kControlStep_s * static_cast<double>(i) + kRounding_s;
     if (t_s < truth.phases.control_on_s) {
-      motion.step(Vector3d::Zero());
+      motion.step({});
     } else if (t_s < truth.phases.acquisition_s) {
-      motion.step(relay_torque_nm(truth.control, motion.last().rate_body_rad_s));
+      motion.step({.external_nm = relay_torque_nm(truth.control, motion.last().rate_body_rad_s)});
     } else {
       const TaiTime t = shifted(truth.separation, t_s);
       const auto spacecraft = orbit.at(t);
@@ -61,7 +65,7 @@ Expected<BodyMotion> separation_motion(const SeparationTruth& truth, const Orbit
       }
       const Vector3d sun_body =
           motion.last().q_icrf_body.conjugate() * sun.direction_icrf(t, *spacecraft);
-      motion.step(acquisition_torque_nm(truth.control, motion, sun_body));
+      motion.step({.external_nm = acquisition_torque_nm(truth.control, motion, sun_body)});
     }
   }
   return motion;

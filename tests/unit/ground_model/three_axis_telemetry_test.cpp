@@ -35,9 +35,9 @@ const Orbit kOrbit = orbit_at(0.0);
 BodyMotion turning() {
   const BodyState start{.q_icrf_body = quaternion_by({1.0, 0.4, -2.0}),
                         .rate_body_rad_s = {0.01, 0.0, 0.0}};
-  BodyMotion motion{RigidBody{Vector3d{1.0, 2.0, 2.5}.asDiagonal()}, start, 0.5};
+  BodyMotion motion{RigidBody::make(Vector3d{1.0, 2.0, 2.5}.asDiagonal()).value(), start, 0.5};
   for (int i = 0; i < 1000; ++i) {
-    motion.step(Vector3d::Zero());
+    motion.step({});
   }
   return motion;
 }
