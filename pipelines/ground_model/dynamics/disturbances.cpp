@@ -35,9 +35,9 @@ Vector3d force_icrf_n(const Drag& drag, const OrbitState& spacecraft) {
 
 }  // namespace
 
-Vector3d torque_body_nm(const Disturbances& disturbances, const Eigen::Matrix3d& inertia_kg_m2,
-                        const Surroundings& surroundings, const Eigen::Quaterniond& q_icrf_body,
-                        double t_s) {
+Vector3d disturbance_body_nm(const Disturbances& disturbances, const Eigen::Matrix3d& inertia_kg_m2,
+                             const Surroundings& surroundings,
+                             const Eigen::Quaterniond& q_icrf_body, double t_s) {
   const PeriodicTorque& periodic = disturbances.periodic;
   const Eigen::Matrix3d R_body_icrf = q_icrf_body.toRotationMatrix().transpose();
   Vector3d torque_nm =

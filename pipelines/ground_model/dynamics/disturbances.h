@@ -52,9 +52,9 @@ struct Surroundings {
 };
 
 /// @param surroundings Off the Earth's centre where there is gravity gradient or drag.
-Eigen::Vector3d torque_body_nm(const Disturbances& disturbances,
-                               const Eigen::Matrix3d& inertia_kg_m2,
-                               const Surroundings& surroundings,
-                               const Eigen::Quaterniond& q_icrf_body, double t_s);
+Eigen::Vector3d disturbance_body_nm(const Disturbances& disturbances,
+                                    const Eigen::Matrix3d& inertia_kg_m2,
+                                    const Surroundings& surroundings,
+                                    const Eigen::Quaterniond& q_icrf_body, double t_s);
 
 }  // namespace spindrift

@@ -28,15 +28,15 @@ Surroundings after(double t_s) {
 }
 
 TEST(Disturbances, AreNoneWhereNoneIsSaid) {
-  EXPECT_EQ(torque_body_nm({}, kInertia_kg_m2, {}, Eigen::Quaterniond::Identity(), 3.0),
+  EXPECT_EQ(disturbance_body_nm({}, kInertia_kg_m2, {}, Eigen::Quaterniond::Identity(), 3.0),
             Vector3d::Zero());
 }
 
 TEST(Disturbances, TurnTheSlightlyLeaningBodyUprightByGravityGradient) {
   constexpr double kLean_rad = 0.01;
   const Disturbances gravity{.gravity_gradient = true};
-  const Vector3d torque_nm = torque_body_nm(gravity, kInertia_kg_m2, after(0.0),
-                                            quaternion_by({0.0, 0.0, kLean_rad}), 0.0);
+  const Vector3d torque_nm = disturbance_body_nm(gravity, kInertia_kg_m2, after(0.0),
+                                                 quaternion_by({0.0, 0.0, kLean_rad}), 0.0);
   const double expected_nm =
       -3.0 * kRate_rad_s * kRate_rad_s * (100.0 - 80.0) * std::sin(kLean_rad) * std::cos(kLean_rad);
   EXPECT_LT((torque_nm - Vector3d{0.0, 0.0, expected_nm}).norm(), 1e-12 * std::abs(expected_nm));
@@ -57,8 +57,8 @@ TEST(Disturbances, LetTheBodyLibrateAsAnOrbitingPendulum) {
         rotation_vector_of(quaternion_by({0.0, 0.0, -kRate_rad_s * t_s}) * body.last().q_icrf_body)
             .z();
     ASSERT_NEAR(lean_rad, kAtFirst_rad * std::cos(expected_rad_s * t_s), 2e-6) << t_s;
-    body.step({.external_nm = torque_body_nm({.gravity_gradient = true}, kInertia_kg_m2, after(t_s),
-                                             body.last().q_icrf_body, t_s)});
+    body.step({.external_nm = disturbance_body_nm({.gravity_gradient = true}, kInertia_kg_m2,
+                                                  after(t_s), body.last().q_icrf_body, t_s)});
   }
 }
 
@@ -68,7 +68,7 @@ TEST(Disturbances, DragTheCentreOfPressureAgainstTheAir) {
                                        .coefficient = 2.2,
                                        .centre_of_pressure_body_m = {0.1, 0.0, 0.0}}};
   const Vector3d torque_nm =
-      torque_body_nm(drag, kInertia_kg_m2, after(0.0), Eigen::Quaterniond::Identity(), 0.0);
+      disturbance_body_nm(drag, kInertia_kg_m2, after(0.0), Eigen::Quaterniond::Identity(), 0.0);
   const double speed_m_s = 1000.0 * kRadius_km * (kRate_rad_s - wgs84::kTurning_rad_s);
   const double force_n = 0.5 * 1e-12 * 2.0 * 2.2 * speed_m_s * speed_m_s;
   EXPECT_LT((torque_nm - Vector3d{0.0, 0.0, -0.1 * force_n}).norm(), 1e-12 * force_n);
@@ -82,7 +82,8 @@ TEST(Disturbances, FindThinnerAirAScaleHeightHigher) {
                                          .area_m2 = 2.0,
                                          .coefficient = 2.2,
                                          .centre_of_pressure_body_m = {0.1, 0.0, 0.0}}};
-    return torque_body_nm(drag, kInertia_kg_m2, after(0.0), Eigen::Quaterniond::Identity(), 0.0)
+    return disturbance_body_nm(drag, kInertia_kg_m2, after(0.0), Eigen::Quaterniond::Identity(),
+                               0.0)
         .norm();
   };
   EXPECT_NEAR(drag_at(560.0) / drag_at(500.0), std::exp(1.0), 1e-12);
@@ -91,7 +92,8 @@ TEST(Disturbances, FindThinnerAirAScaleHeightHigher) {
 TEST(Disturbances, TurnTheDipoleToTheField) {
   const Disturbances dipole{.dipole_body_a_m2 = {0.5, 0.0, 0.0}};
   const Eigen::Quaterniond q_icrf_body = quaternion_by({0.0, 0.0, kQuarter_rad});
-  const Vector3d torque_nm = torque_body_nm(dipole, kInertia_kg_m2, after(0.0), q_icrf_body, 0.0);
+  const Vector3d torque_nm =
+      disturbance_body_nm(dipole, kInertia_kg_m2, after(0.0), q_icrf_body, 0.0);
   EXPECT_LT((torque_nm - Vector3d{0.0, -0.5 * 30e-6, 0.0}).norm(), 1e-18);
 }
 
@@ -101,7 +103,7 @@ TEST(Disturbances, AreConstantAndSwingWithTheOrbit) {
       .periodic = {
           .amplitude_body_nm = {0.0, 1e-5, 0.0}, .rate_rad_s = kRate_rad_s, .phase_rad = 0.5}};
   const Vector3d torque_nm =
-      torque_body_nm(both, kInertia_kg_m2, {}, quaternion_by({1.0, 0.0, 0.0}), 700.0);
+      disturbance_body_nm(both, kInertia_kg_m2, {}, quaternion_by({1.0, 0.0, 0.0}), 700.0);
   EXPECT_LT((torque_nm - Vector3d{5e-5, 1e-5 * std::sin(700.0 * kRate_rad_s + 0.5), 0.0}).norm(),
             1e-18);
 }

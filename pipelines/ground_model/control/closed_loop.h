@@ -1,0 +1,80 @@
+/// @file
+/// A body, what turns it, and what disturbs it, at their own rates: the laws ask for a torque once
+/// a period, the body goes on in steps of it.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+#include <variant>
+
+#include "pipelines/frames/rotation_vector.h"
+#include "pipelines/ground_model/control/control_laws.h"
+#include "pipelines/ground_model/control/thrusters.h"
+#include "pipelines/ground_model/control/wheels.h"
+#include "pipelines/ground_model/dynamics/disturbances.h"
+#include "pipelines/ground_model/dynamics/rigid_body.h"
+
+namespace spindrift {
+
+using Actuators = std::variant<Thrusters, Wheels>;
+
+/// @tparam Body BodyMotion, where what was flown is asked for later, or SteppedBody.
+template <class Body>
+class ClosedLoop {
+ public:
+  /// @param steps In a period; at least one.
+  ClosedLoop(Body body, const Actuators& actuators, const Disturbances& disturbances, int steps)
+      : body_{std::move(body)}, actuators_{actuators}, disturbances_{disturbances}, steps_{steps} {}
+
+  const Body& body() const& { return body_; }
+  Body body() && { return std::move(body_); }
+  const Actuators& actuators() const { return actuators_; }
+  double period_s() const { return steps_ * body_.step_s(); }
+  /// Behind the start, where the next period begins.
+  double t_s() const { return static_cast<double>(periods_) * period_s(); }
+
+  /// What sensors without errors measure now.
+  Measured measured(const Eigen::Vector3d& sun_icrf) const {
+    const BodyState& now = body_.last();
+    return {
+        .q_icrf_body = now.q_icrf_body,
+        .rate_body_rad_s = now.rate_body_rad_s,
+        .momentum_body_nms = body_.body().inertia_kg_m2() * now.rate_body_rad_s + wheels_body_nms(),
+        .sun_body = now.q_icrf_body.conjugate() * sun_icrf};
+  }
+
+  Eigen::Vector3d wheels_body_nms() const {
+    return std::visit([](const auto& is) { return is.momentum_body_nms(); }, actuators_);
+  }
+
+  /// On by a period. @param torque_body_nm What the law asks for.
+  void fly(const Eigen::Vector3d& torque_body_nm, const Surroundings& surroundings) {
+    std::visit([&](auto& is) { is.command(torque_body_nm, period_s()); }, actuators_);
+    for (int i = 0; i < steps_; ++i) {
+      BodyTorques torques =
+          std::visit([&](auto& is) { return is.step(body_.step_s()); }, actuators_);
+      torques.external_nm += disturbance_now_nm(surroundings, t_s() + (i + 0.5) * body_.step_s());
+      body_.step(torques);
+    }
+    ++periods_;
+  }
+
+ private:
+  /// As the body stands in the middle of the step.
+  Eigen::Vector3d disturbance_now_nm(const Surroundings& surroundings, double middle_s) const {
+    const BodyState& now = body_.last();
+    const Eigen::Quaterniond q_icrf_body =
+        now.q_icrf_body * quaternion_by(0.5 * body_.step_s() * now.rate_body_rad_s);
+    return disturbance_body_nm(disturbances_, body_.body().inertia_kg_m2(), surroundings,
+                               q_icrf_body, middle_s);
+  }
+
+  Body body_;
+  Actuators actuators_;
+  Disturbances disturbances_;
+  int steps_;
+  std::int64_t periods_ = 0;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,58 @@
+#include "pipelines/ground_model/control/wheels.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+
+#include "pipelines/ground_model/control/saturation.h"
+
+namespace spindrift {
+
+Wheels::Wheels(const WheelDesign& design)
+    : design_{design},
+      axes_body_{design.axes_body.colwise().normalized()},
+      shares_{axes_body_.completeOrthogonalDecomposition().pseudoInverse()},
+      momenta_nms_{WheelVector::Zero(design.axes_body.cols())},
+      told_rad_s_{momenta_nms_},
+      torques_nm_{momenta_nms_} {}
+
+Expected<Wheels> Wheels::make(const WheelDesign& design) {
+  constexpr double kFlat = 1e-6;
+  // Written so that NaN fails.
+  if (!(design.inertia_kg_m2 > 0.0 && design.torque_nm_most > 0.0 &&
+        design.speed_rad_s_most > 0.0)) {
+    return Unexpected{
+        {ErrorCode::InvalidConfiguration,
+         fmt::format("wheels of {} kg m2, at most {} N m and {} rad/s: must be above 0",
+                     design.inertia_kg_m2, design.torque_nm_most, design.speed_rad_s_most)}};
+  }
+  const Eigen::Matrix3Xd axes = design.axes_body.colwise().normalized();
+  const Eigen::Vector3d spread =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>{axes * axes.transpose()}.eigenvalues();
+  if (!(spread[0] > kFlat)) {
+    return Unexpected{
+        {ErrorCode::InvalidConfiguration,
+         fmt::format("the axes of {} wheels do not span space (least spread {:.3g}): there is a "
+                     "direction about which they give no torque",
+                     axes.cols(), spread[0])}};
+  }
+  return Wheels{design};
+}
+
+void Wheels::command(const Eigen::Vector3d& torque_body_nm, double period_s) {
+  const WheelVector wanted_nm =
+      within_largest(WheelVector{shares_ * torque_body_nm}, design_.torque_nm_most);
+  told_rad_s_ = ((momenta_nms_ - period_s * wanted_nm) / design_.inertia_kg_m2)
+                    .cwiseMin(design_.speed_rad_s_most)
+                    .cwiseMax(-design_.speed_rad_s_most);
+  torques_nm_ = (momenta_nms_ - design_.inertia_kg_m2 * told_rad_s_) / period_s;
+}
+
+BodyTorques Wheels::step(double step_s) {
+  const BodyTorques torques{.wheels_nm = axes_body_ * torques_nm_,
+                            .wheels_nms = axes_body_ * momenta_nms_};
+  momenta_nms_ -= step_s * torques_nm_;
+  return torques;
+}
+
+}  // namespace spindrift
