@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -40,9 +41,12 @@ SeparationTruth truth_of(const TomlValues& values, const Eigen::Matrix3d& inerti
                                                                   .psi_rad = angles_rad[2]}),
                             .rate_body_rad_s = radians_vector(values, "attitude.rate_deg_s")},
           .inertia_kg_m2 = inertia_kg_m2,
-          .control = {.torque_nm = number(values, "control.torque_nm"),
+          .control = {.thrusters = {.torque_nm = number(values, "control.torque_nm"),
+                                    .shortest_s = number(values, "control.shortest_pulse_s"),
+                                    .longest_s = number(values, "control.longest_pulse_s")},
                       .dead_band_rad_s = radians(values, "control.dead_band_deg_s"),
-                      .slew_rad_s = radians(values, "control.slew_deg_s")},
+                      .slew_rad_s = radians(values, "control.slew_deg_s"),
+                      .period_s = number(values, "control.period_s")},
           .phases = {.control_on_s = number(values, "separation.control_on_s"),
                      .acquisition_s = number(values, "separation.acquisition_s"),
                      .end_s = number(values, "pass.duration_s")}};
@@ -93,10 +97,13 @@ void check_star_fix(TomlDocument& document) {
 void check_relays(TomlDocument& document) {
   const auto torque_nm = value_if<double>(document.values, "control.torque_nm");
   const auto dead_band_deg_s = value_if<double>(document.values, "control.dead_band_deg_s");
+  const auto period_s = value_if<double>(document.values, "control.period_s");
+  const auto longest_s = value_if<double>(document.values, "control.longest_pulse_s");
   const auto kg_m2 = value_if<std::vector<double>>(document.values, "three_axis.inertia.kg_m2");
-  if (!torque_nm || !dead_band_deg_s || !kg_m2) {
+  if (!torque_nm || !dead_band_deg_s || !period_s || !longest_s || !kg_m2) {
     return;
   }
+  const double on_s = std::min(*period_s, *longest_s);
   const auto body = RigidBody::make(Eigen::Map<const Eigen::Matrix3d>{kg_m2->data()});
   if (!body) {
     return;
@@ -106,13 +113,13 @@ void check_relays(TomlDocument& document) {
                                 Eigen::Vector3d::Zero())
           .cwiseAbs()
           .maxCoeff() *
-      kControlStep_s * kDegPerRad;
+      on_s * kDegPerRad;
   if (!(change_deg_s <= *dead_band_deg_s)) {
     add_problem(
         document, "control.torque_nm",
         fmt::format("control.torque_nm = {}: changes the rate by {:.3g} deg/s in {} s: must "
                     "not change it by more than control.dead_band_deg_s = {}",
-                    *torque_nm, change_deg_s, kControlStep_s, *dead_band_deg_s));
+                    *torque_nm, change_deg_s, on_s, *dead_band_deg_s));
   }
 }
 

@@ -46,7 +46,7 @@ SeparationTruth truth_of(const FlightPlan& plan, Chance& chance) {
           .at_separation = {.q_icrf_body = quaternion_by(turn_rad),
                             .rate_body_rad_s = rate_deg_s * kRadPerDeg},
           .inertia_kg_m2 = kMoments_kg_m2.asDiagonal(),
-          .control = {.torque_nm = 0.08,
+          .control = {.thrusters = {.torque_nm = 0.08, .shortest_s = 0.01, .longest_s = 1.0},
                       .dead_band_rad_s = 0.03 * kRadPerDeg,
                       .slew_rad_s = 0.5 * kRadPerDeg},
           .phases = {.control_on_s = plan.control_on_s,

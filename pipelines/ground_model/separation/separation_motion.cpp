@@ -1,74 +1,78 @@
 #include "pipelines/ground_model/separation/separation_motion.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <utility>
 
 #include "pipelines/ephemeris/sun.h"
+#include "pipelines/ground_model/control/attitude_control.h"
+#include "pipelines/ground_model/control/closed_loop.h"
+#include "pipelines/ground_model/dynamics/coarse_step.h"
 
 namespace spindrift {
 namespace {
 
-using Eigen::Vector3d;
+struct Flight {
+  ClosedLoop<BodyMotion> loop;
+  AttitudeControl control;
+};
 
-Vector3d relay_torque_nm(const SimpleControl& control, const Vector3d& rate_rad_s) {
-  return rate_rad_s.unaryExpr([&](double w_rad_s) {
-    return std::abs(w_rad_s) > control.dead_band_rad_s ? -std::copysign(control.torque_nm, w_rad_s)
-                                                       : 0.0;
-  });
+/// Without torque a body turns at most this much faster than it does now.
+double fastest_rad_s(const SeparationTruth& truth) {
+  const Eigen::Vector3d moments = truth.inertia_kg_m2.selfadjointView<Eigen::Lower>().eigenvalues();
+  return truth.at_separation.rate_body_rad_s.norm() * std::sqrt(moments[2] / moments[0]);
 }
 
-/// The rate that turns -Z to the Sun by the short way: the slower the nearer, the fastest where the
-/// Sun is behind.
-Vector3d wanted_rate_rad_s(const SimpleControl& control, const Vector3d& sun_body) {
-  constexpr double kPerRadian_1_s = 0.03;
-  const Vector3d across = -Vector3d::UnitZ().cross(sun_body);
-  if (sun_body.z() < 0.0) {
-    const Vector3d rate_rad_s = kPerRadian_1_s * across;
-    return rate_rad_s * std::min(1.0, control.slew_rad_s / std::max(rate_rad_s.norm(), 1e-12));
+Expected<Flight> flight_of(const SeparationTruth& truth) {
+  constexpr double kLongestStep_s = 0.05;
+  const SeparationControl& control = truth.control;
+  const int steps = static_cast<int>(std::ceil(control.period_s / kLongestStep_s));
+  const double step_s = control.period_s / steps;
+  const auto body = RigidBody::make(truth.inertia_kg_m2);
+  if (!body) {
+    return Unexpected{body.error()};
   }
-  // With the Sun right behind any axis is as good.
-  return control.slew_rad_s * (across + 1e-3 * Vector3d::UnitX()).normalized();
-}
-
-Vector3d acquisition_torque_nm(const SimpleControl& control, const BodyMotion& motion,
-                               const Vector3d& sun_body) {
-  constexpr double kPerSecond = 0.1;
-  const Vector3d off_rad_s = wanted_rate_rad_s(control, sun_body) - motion.last().rate_body_rad_s;
-  const Vector3d torque_nm = motion.body().inertia_kg_m2() * (kPerSecond * off_rad_s);
-  return torque_nm.cwiseMax(-control.torque_nm).cwiseMin(control.torque_nm);
+  if (const auto fine = check_step(step_s, fastest_rad_s(truth)); !fine) {
+    return Unexpected{fine.error()};
+  }
+  const auto thrusters = Thrusters::make(control.thrusters);
+  if (!thrusters) {
+    return Unexpected{thrusters.error()};
+  }
+  return AttitudeControl::make({.control_on_s = truth.phases.control_on_s,
+                                .damped_rad_s = 0.0,
+                                .pointing_at_s = truth.phases.acquisition_s},
+                               RelayDamping{.torque_nm = control.thrusters.torque_nm,
+                                            .dead_band_rad_s = control.dead_band_rad_s},
+                               SunAcquisition{.inertia_kg_m2 = truth.inertia_kg_m2,
+                                              .torque_nm_most = control.thrusters.torque_nm,
+                                              .slew_rad_s = control.slew_rad_s,
+                                              .period_s = control.period_s})
+      .map([&](AttitudeControl&& laws) {
+        return Flight{
+            .loop = {BodyMotion{*body, truth.at_separation, step_s}, *thrusters, {}, steps},
+            .control = std::move(laws)};
+      });
 }
 
 }  // namespace
 
 Expected<BodyMotion> separation_motion(const SeparationTruth& truth, const Orbit& orbit) {
-  // Tells instants that are multiples of the step from the steps before.
-  constexpr double kRounding_s = 1e-6;
-  const auto body = RigidBody::make(truth.inertia_kg_m2);
-  if (!body) {
-    return Unexpected{body.error()};
+  auto flight = flight_of(truth);
+  if (!flight) {
+    return Unexpected{flight.error()};
   }
-  BodyMotion motion{*body, truth.at_separation, kControlStep_s};
+  auto& [loop, control] = *flight;
   ApparentSun sun;
-  const auto steps = static_cast<std::int64_t>(std::ceil(truth.phases.end_s / kControlStep_s));
-  for (std::int64_t i = 0; i < steps; ++i) {
-    const double t_s = kControlStep_s * static_cast<double>(i) + kRounding_s;
-    if (t_s < truth.phases.control_on_s) {
-      motion.step({});
-    } else if (t_s < truth.phases.acquisition_s) {
-      motion.step({.external_nm = relay_torque_nm(truth.control, motion.last().rate_body_rad_s)});
-    } else {
-      const TaiTime t = shifted(truth.separation, t_s);
-      const auto spacecraft = orbit.at(t);
-      if (!spacecraft) {
-        return Unexpected{spacecraft.error()};
-      }
-      const Vector3d sun_body =
-          motion.last().q_icrf_body.conjugate() * sun.direction_icrf(t, *spacecraft);
-      motion.step({.external_nm = acquisition_torque_nm(truth.control, motion, sun_body)});
+  while (loop.t_s() < truth.phases.end_s) {
+    const TaiTime t = shifted(truth.separation, loop.t_s());
+    const auto spacecraft = orbit.at(t);
+    if (!spacecraft) {
+      return Unexpected{spacecraft.error()};
     }
+    const Measured measured = loop.measured(sun.direction_icrf(t, *spacecraft));
+    loop.fly(control.torque_body_nm(loop.t_s(), measured), {.spacecraft = *spacecraft});
   }
-  return motion;
+  return std::move(loop).body();
 }
 
 }  // namespace spindrift

@@ -1,4 +1,4 @@
-// The figures of seed 004 that the ground model must reach.
+// The figures of seeds 000 and 004 that the ground model must reach.
 
 #include "pipelines/ground_model/control/closed_loop.h"
 
@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/frames/celestial.h"
+#include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/control/attitude_control.h"
 #include "pipelines/ground_model/control/control_period.h"
 #include "pipelines/ground_model/dynamics/stepped_body.h"
@@ -150,6 +152,44 @@ TEST(ClosedLoop, KeepsTheMomentumOfBodyAndWheels) {
     loop.fly(control.torque_body_nm(loop.t_s(), loop.measured(Vector3d::UnitX())), {});
   }
   EXPECT_LT((momentum_icrf_nms() - at_first_nms).norm(), 1e-10 * at_first_nms.norm());
+}
+
+/// Of seed 000: relays damp its rates, then it looks for the Sun by itself.
+TEST(ClosedLoop, DampsTheSatelliteOfSeed000In18SecondsAndHoldsMinusZAtTheSun) {
+  const Eigen::Matrix3d inertia_kg_m2 = Vector3d{120.0, 100.0, 140.0}.asDiagonal();
+  const ThrusterDesign thrusters{.torque_nm = 0.07, .shortest_s = 0.01, .longest_s = 1.0};
+  ClosedLoop<SteppedBody> loop{
+      SteppedBody{RigidBody::make(inertia_kg_m2).value(),
+                  {.q_icrf_body = quaternion_by({2.0, -1.0, 0.5}),
+                   .rate_body_rad_s = kRadPerDeg * Vector3d{0.618844, -0.33139, 0.065912}},
+                  0.025},
+      Thrusters::make(thrusters).value(),
+      {},
+      2};
+  const double dead_band_rad_s = 0.03 * kRadPerDeg;
+  AttitudeControl control =
+      AttitudeControl::make(
+          {.control_on_s = 0.0, .damped_rad_s = dead_band_rad_s, .pointing_at_s = 100.0},
+          RelayDamping{.torque_nm = thrusters.torque_nm, .dead_band_rad_s = dead_band_rad_s},
+          SunAcquisition{.inertia_kg_m2 = inertia_kg_m2,
+                         .torque_nm_most = thrusters.torque_nm,
+                         .slew_rad_s = 0.5 * kRadPerDeg,
+                         .period_s = loop.period_s()})
+          .value();
+  double damped_s = 0.0;
+  double most_off_deg = 0.0;
+  while (loop.t_s() < 1200.0) {
+    const Measured measured = loop.measured(Vector3d{0.6, -0.48, 0.64});
+    loop.fly(control.torque_body_nm(loop.t_s(), measured), {});
+    if (control.mode() != ControlMode::Pointing) {
+      damped_s = loop.t_s();
+    } else if (loop.t_s() > 600.0) {
+      most_off_deg =
+          std::max(most_off_deg, degrees(angle_between_rad(-Vector3d::UnitZ(), measured.sun_body)));
+    }
+  }
+  EXPECT_NEAR(damped_s, 18.0, 0.5);
+  EXPECT_LT(most_off_deg, 0.2);
 }
 
 TEST(ControlPeriod, IsSaidToBeTooLongForItsLoop) {

@@ -1,5 +1,6 @@
 #include "pipelines/ground_model/separation/separation_motion.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "pipelines/ephemeris/sun.h"
@@ -11,6 +12,7 @@
 namespace spindrift::separation_motion_test {
 
 using Eigen::Vector3d;
+using ::testing::HasSubstr;
 
 constexpr TaiTime kSeparation = tai_from_ns(1'772'337'637'000'000'000);
 
@@ -29,7 +31,7 @@ SeparationTruth truth_at(const SeparationPhases& phases) {
           .at_separation = {.q_icrf_body = quaternion_by({2.0, -1.0, 0.5}),
                             .rate_body_rad_s = kRadPerDeg * Vector3d{0.618844, -0.33139, 0.065912}},
           .inertia_kg_m2 = Vector3d{120.0, 100.0, 140.0}.asDiagonal(),
-          .control = {.torque_nm = 0.07,
+          .control = {.thrusters = {.torque_nm = 0.07, .shortest_s = 0.01, .longest_s = 1.0},
                       .dead_band_rad_s = 0.03 * kRadPerDeg,
                       .slew_rad_s = 0.5 * kRadPerDeg},
           .phases = phases};
@@ -84,6 +86,35 @@ TEST(SeparationMotion, TurnsNoFasterThanItMay) {
   for (double t_s = 20.0; t_s < 300.0; ++t_s) {
     EXPECT_LT(degrees(motion.at(t_s).rate_body_rad_s.norm()), 0.52);
   }
+}
+
+TEST(SeparationMotion, AcquiresTheSunByPulsesOfAPeriodOfASecond) {
+  SeparationTruth truth = truth_at({.control_on_s = 0.0, .acquisition_s = 20.0, .end_s = 700.0});
+  truth.control.period_s = 1.0;
+  truth.control.thrusters = {.torque_nm = 0.02, .shortest_s = 0.05, .longest_s = 0.8};
+  const BodyMotion motion = separation_motion(truth, kOrbit).value();
+  EXPECT_LT(motion.step_s(), 0.051);
+  EXPECT_LT(sun_off_deg(motion, 600.0), 0.5);
+  EXPECT_LT(sun_off_deg(motion, 700.0), 0.5);
+}
+
+TEST(SeparationMotion, RefusesWhatCannotBe) {
+  const SeparationPhases phases{.control_on_s = 10.0, .acquisition_s = 20.0, .end_s = 30.0};
+  const auto error_of = [](const SeparationTruth& truth) {
+    return separation_motion(truth, kOrbit).error();
+  };
+  SeparationTruth truth = truth_at(phases);
+  truth.inertia_kg_m2(0, 0) = 300.0;
+  EXPECT_THAT(error_of(truth).message, HasSubstr("not above the sum of the others"));
+  truth = truth_at(phases);
+  truth.phases.acquisition_s = 5.0;
+  EXPECT_EQ(error_of(truth).code, ErrorCode::InvalidConfiguration);
+  truth = truth_at(phases);
+  truth.control.thrusters.shortest_s = 0.0;
+  EXPECT_THAT(error_of(truth).message, HasSubstr("thrusters of 0.07 N m"));
+  truth = truth_at(phases);
+  truth.at_separation.rate_body_rad_s = {0.0, 0.0, 3.0};
+  EXPECT_THAT(error_of(truth).message, HasSubstr("too coarse for a body that turns by"));
 }
 
 }  // namespace spindrift::separation_motion_test

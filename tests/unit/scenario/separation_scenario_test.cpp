@@ -184,6 +184,14 @@ TEST(SeparationScenario, ReportsMistakesAtOnce) {
   }
 }
 
+TEST(SeparationScenario, RefusesPulsesOutOfOrder) {
+  EXPECT_THAT(
+      error_of(replaced(kWhole, "torque_nm = 0.07",
+                        "torque_nm = 0.07\nshortest_pulse_s = 0.1\nlongest_pulse_s = 0.08")),
+      AllOf(HasSubstr("control.period_s = 0.05: must not be below shortest_pulse_s = 0.1"),
+            HasSubstr("longest_pulse_s = 0.08: must not be below shortest_pulse_s = 0.1")));
+}
+
 TEST(SeparationScenario, RefusesThrustersThatThrowTheBodyAcrossTheDeadBand) {
   EXPECT_THAT(error_of(replaced(kWhole, "torque_nm = 0.07", "torque_nm = 2")),
               HasSubstr("control.torque_nm = 2: changes the rate by 0.0573 deg/s in 0.05 s: must "
