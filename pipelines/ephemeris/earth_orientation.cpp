@@ -3,10 +3,12 @@
 #include <erfa.h>
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <vector>
 
 #include "pipelines/ephemeris/terrestrial_time.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift {
@@ -29,6 +31,18 @@ Eigen::Quaterniond earth_orientation(TaiTime t) {
   eraC2t06a(kTaiEpoch_jd, tt_days(t), kTaiEpoch_jd, ut_days, 0.0, 0.0, itrf_from_icrf);
   const Eigen::Matrix3d R_itrf_icrf = Eigen::Map<const RowMajor>{&itrf_from_icrf[0][0]};
   return Eigen::Quaterniond{R_itrf_icrf.transpose()};
+}
+
+Eigen::Quaterniond TurningEarth::orientation(TaiTime t) {
+  // A turn and so many more parts of one each day of UT1 (IERS Conventions 2010, eq. 5.15).
+  constexpr double kRate_rad_s = kTurn_rad * 1.00273781191135448 / ERFA_DAYSEC;
+  const auto hour = std::chrono::floor<std::chrono::hours>(t);
+  if (hour_ != hour.time_since_epoch().count()) {
+    q_icrf_at_hour_ = earth_orientation(hour);
+    hour_ = hour.time_since_epoch().count();
+  }
+  return q_icrf_at_hour_ *
+         Eigen::AngleAxisd{kRate_rad_s * seconds_between(hour, t), Eigen::Vector3d::UnitZ()};
 }
 
 }  // namespace spindrift

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
 
 #include "pipelines/time/tai_time.h"
 
@@ -15,5 +17,19 @@ namespace spindrift {
 /// motion, at most 0.6 arcsec, is left out.
 /// @return q_icrf_itrf, from the Earth's axes to ICRF.
 Eigen::Quaterniond earth_orientation(TaiTime t);
+
+/// The same to 0.02 arcsec, and to 15 arcsec within the hour of a leap second, but cheap.
+///
+/// Turns the axes of the last hour of TAI about the Earth's own: keeps that hour, which changes
+/// speed, never a bit of the result.
+class TurningEarth {
+ public:
+  /// @return q_icrf_itrf.
+  Eigen::Quaterniond orientation(TaiTime t);
+
+ private:
+  std::optional<std::int64_t> hour_;  ///< Of TAI since 1970; empty: none yet.
+  Eigen::Quaterniond q_icrf_at_hour_;
+};
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// The frames of a launch: north-east-down at the site, and the launch inertial frame.
+/// The launch inertial frame.
 
 #pragma once
 
@@ -14,9 +14,6 @@ struct LaunchSite {
   double latitude_rad;   ///< Geodetic, north positive: of the ellipsoid's normal.
   double longitude_rad;  ///< East positive.
 };
-
-/// @return q_itrf_ned, to the Earth's axes.
-Eigen::Quaterniond north_east_down(const LaunchSite& site);
 
 struct Launch {
   LaunchSite site;

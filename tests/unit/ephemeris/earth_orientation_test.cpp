@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/frames/rotation_vector.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift::earth_orientation_test {
@@ -38,6 +39,25 @@ TEST(EarthOrientation, TurnsOnceASiderealDayAcrossALeapSecond) {
   // Earth rotation angle (IERS Conventions 2010, eq. 5.15) a UT1 day: one turn and so many more.
   constexpr double kMore_rad = 0.00273781191135448 * kTurn_rad;
   EXPECT_NEAR(Eigen::AngleAxisd{turned}.angle(), kMore_rad, 1e-6);
+}
+
+TEST(TurningEarth, IsTheExactOrientation) {
+  constexpr double k20Mas_rad = 0.02 / 3600.0 * kRadPerDeg;
+  TurningEarth earth;
+  const TaiTime start = parse_utc("2026-03-01T00:00:00").value();
+  for (double t_s = -90'000.0; t_s < 90'000.0; t_s += 777.7) {
+    const TaiTime t = shifted(start, t_s);
+    EXPECT_LT(angle_between_rad(earth.orientation(t), earth_orientation(t)), k20Mas_rad) << t_s;
+  }
+}
+
+TEST(TurningEarth, IsTheSameBitForBitWhateverWasAskedBefore) {
+  const TaiTime t = parse_utc("2026-03-01T03:45:12.5").value();
+  TurningEarth fresh;
+  TurningEarth used;
+  static_cast<void>(used.orientation(shifted(t, -600.0)));
+  static_cast<void>(used.orientation(shifted(t, 86'400.0)));
+  EXPECT_EQ(used.orientation(t).coeffs(), fresh.orientation(t).coeffs());
 }
 
 }  // namespace spindrift::earth_orientation_test

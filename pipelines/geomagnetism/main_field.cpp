@@ -1,0 +1,131 @@
+#include "pipelines/geomagnetism/main_field.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace spindrift {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t kRow = kHighestDegree + 2;
+
+/// Of the recursion: V_nm = by_z z V_n-1,m - by_square V_n-2,m.
+struct Steps {
+  std::array<std::array<double, kRow>, kRow> by_z{};
+  std::array<std::array<double, kRow>, kRow> by_square{};
+};
+
+constexpr Steps kSteps = [] {
+  Steps steps;
+  for (std::size_t n = 1; n < kRow; ++n) {
+    for (std::size_t m = 0; m < n; ++m) {
+      const auto rest = static_cast<double>(n - m);
+      steps.by_z[n][m] = static_cast<double>(2 * n - 1) / rest;
+      steps.by_square[n][m] = static_cast<double>(n + m - 1) / rest;
+    }
+  }
+  return steps;
+}();
+
+/// V_nm + i W_nm of one degree n: the solid harmonics (a/r)^(n+1) P_nm(sin b) e^(i m l), P_nm
+/// without normalisation; 0 where m is n + 1, not set beyond.
+struct Harmonics {
+  std::array<double, kRow + 1> v;
+  std::array<double, kRow + 1> w;
+};
+
+/// Degree n, from the two below. @param scaled (a/r^2) times the position. @param square (a/r)^2.
+void find_degree(std::size_t n, const Vector3d& scaled, double square,
+                 const Harmonics& second_below, const Harmonics& below, Harmonics& here) {
+  for (std::size_t m = 0; m < n; ++m) {
+    const double by_z = kSteps.by_z[n][m] * scaled.z();
+    const double by_square = kSteps.by_square[n][m] * square;
+    here.v[m] = by_z * below.v[m] - by_square * second_below.v[m];
+    here.w[m] = by_z * below.w[m] - by_square * second_below.w[m];
+  }
+  const auto odd = static_cast<double>(2 * n - 1);
+  here.v[n] = odd * (scaled.x() * below.v[n - 1] - scaled.y() * below.w[n - 1]);
+  here.w[n] = odd * (scaled.x() * below.w[n - 1] + scaled.y() * below.v[n - 1]);
+  here.v[n + 1] = 0.0;
+  here.w[n + 1] = 0.0;
+}
+
+/// What the coefficients of degree n add, from the harmonics of degree n + 1.
+void add_degree(std::size_t n, const Harmonics& above, const GaussCoefficients& coefficients,
+                Vector3d& field_nt) {
+  const double* const g = &coefficients.g_nt[n * (n + 1) / 2];
+  const double* const h = &coefficients.h_nt[n * (n + 1) / 2];
+  const auto& [v, w] = above;
+  double x = 2.0 * g[0] * v[1];
+  double y = 2.0 * g[0] * w[1];
+  double z = static_cast<double>(n + 1) * g[0] * v[0];
+  for (std::size_t m = 1; m <= n; ++m) {
+    const auto rest = static_cast<double>(n - m + 1);
+    const double down = rest * (rest + 1.0);
+    x += g[m] * (v[m + 1] - down * v[m - 1]) + h[m] * (w[m + 1] - down * w[m - 1]);
+    y += g[m] * (w[m + 1] + down * w[m - 1]) - h[m] * (v[m + 1] + down * v[m - 1]);
+    z += rest * (g[m] * v[m] + h[m] * w[m]);
+  }
+  field_nt += Vector3d{0.5 * x, 0.5 * y, z};
+}
+
+/// Schmidt's factors, sqrt(2 (n - m)! / (n + m)!) and 1 for m = 0.
+const std::array<double, GaussCoefficients::kCount>& normalisations() {
+  static const auto kFactors = [] {
+    std::array<double, GaussCoefficients::kCount> factors{};
+    for (int n = 0; n <= kHighestDegree; ++n) {
+      double square = 2.0;
+      factors.at(GaussCoefficients::index(n, 0)) = 1.0;
+      for (int m = 1; m <= n; ++m) {
+        square /= (n - m + 1) * (n + m);
+        factors.at(GaussCoefficients::index(n, m)) = std::sqrt(square);
+      }
+    }
+    return factors;
+  }();
+  return kFactors;
+}
+
+}  // namespace
+
+MainField::MainField(const GaussCoefficients& coefficients, int degree) : degree_{degree} {
+  const auto& factors = normalisations();
+  for (std::size_t i = 0; i < GaussCoefficients::kCount; ++i) {
+    unnormalised_.g_nt[i] = factors[i] * coefficients.g_nt[i];
+    unnormalised_.h_nt[i] = factors[i] * coefficients.h_nt[i];
+  }
+}
+
+Expected<Vector3d> MainField::at(const Vector3d& position_itrf_km) const {
+  const double distance_km = position_itrf_km.norm();
+  if (!(distance_km >= kCoreRadius_km && std::isfinite(distance_km))) {
+    return Unexpected{{ErrorCode::InvalidInput,
+                       fmt::format("{:.6g} km from the Earth's centre: the field is known from {} "
+                                   "km outwards, where its sources end",
+                                   distance_km, kCoreRadius_km)}};
+  }
+  const double scale = kFieldRadius_km / (distance_km * distance_km);
+  const Vector3d scaled = scale * position_itrf_km;
+  std::array<Harmonics, kRow + 1> of;  // Of degree -1, which is 0, and so on.
+  of[0].v[0] = of[0].w[0] = 0.0;
+  of[1].v = {kFieldRadius_km / distance_km, 0.0};
+  of[1].w = {0.0, 0.0};
+  Vector3d field_nt = Vector3d::Zero();
+  for (std::size_t n = 1; n <= static_cast<std::size_t>(degree_) + 1; ++n) {
+    find_degree(n, scaled, scale * kFieldRadius_km, of[n - 1], of[n], of[n + 1]);
+    add_degree(n - 1, of[n + 1], unnormalised_, field_nt);
+  }
+  return field_nt;
+}
+
+Expected<Vector3d> MainField::ned_at(const LocalFrame& frame) const {
+  return at(frame.origin_itrf_km).map([&](const Vector3d& field_nt) -> Vector3d {
+    return frame.q_itrf_ned.conjugate() * field_nt;
+  });
+}
+
+}  // namespace spindrift

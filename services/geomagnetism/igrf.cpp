@@ -1,0 +1,12 @@
+#include "services/geomagnetism/igrf.h"
+
+#include "pipelines/geomagnetism/shc.h"
+
+namespace spindrift {
+namespace embedded {
+extern const char* const kIgrf14;
+}
+
+Expected<MainFieldModel> igrf() { return parse_shc(embedded::kIgrf14); }
+
+}  // namespace spindrift
