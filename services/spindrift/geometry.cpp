@@ -21,6 +21,7 @@
 #include "services/plot/scale.h"
 #include "services/scenario/output_file.h"
 #include "services/spindrift/orbit_notice.h"
+#include "services/spindrift/refused.h"
 #include "services/spindrift/utc_option.h"
 #include "services/standard_error/warning.h"
 #include "services/units/degrees.h"
@@ -36,21 +37,17 @@ constexpr double kLongest_s = 7.0 * 86'400.0;
 // So many steps make curves smooth.
 constexpr double kPlotSteps = 480.0;
 
-Unexpected refused(std::string message) {
-  return Unexpected{{ErrorCode::InvalidConfiguration, std::move(message)}};
-}
-
 /// Collects what is wrong, one a line.
-struct Problems {
+struct Refusals {
   std::string text;
   void add(const std::string& problem) { text += (text.empty() ? "" : "\n") + problem; }
 };
 
 std::optional<TaiTime> utc_of(std::string_view option, const std::string& text,
-                              Problems& problems) {
+                              Refusals& refusals) {
   const auto t = utc_option(option, text);
   if (!t) {
-    problems.add(t.error().message);
+    refusals.add(t.error().message);
     return std::nullopt;
   }
   return *t;
@@ -65,69 +62,69 @@ std::optional<double> number_of(std::string_view text) {
 }
 
 /// Written so that NaN fails.
-Eigen::Vector3d axis_of(const std::string& text, Problems& problems) {
+Eigen::Vector3d axis_of(const std::string& text, Refusals& refusals) {
   const std::size_t comma = std::min(text.find(','), text.size());
   const auto ra_deg = number_of(std::string_view{text}.substr(0, comma));
   const auto dec_deg = number_of(std::string_view{text}.substr(std::min(comma + 1, text.size())));
   if (!ra_deg || !dec_deg) {
-    problems.add(fmt::format("--attitude {}: must read RA,DEC in deg, as 100.5,-55", text));
+    refusals.add(fmt::format("--attitude {}: must read RA,DEC in deg, as 100.5,-55", text));
     return Eigen::Vector3d::UnitZ();
   }
   if (!(std::abs(*ra_deg) <= 360.0)) {
-    problems.add(fmt::format("--attitude {}: RA must lie in [-360, 360] deg", text));
+    refusals.add(fmt::format("--attitude {}: RA must lie in [-360, 360] deg", text));
   }
   if (!(std::abs(*dec_deg) <= 90.0)) {
-    problems.add(fmt::format("--attitude {}: DEC must lie in [-90, 90] deg", text));
+    refusals.add(fmt::format("--attitude {}: DEC must lie in [-90, 90] deg", text));
   }
   return direction_icrf({.ra_rad = *ra_deg / kDegPerRad, .dec_rad = *dec_deg / kDegPerRad});
 }
 
-void check_span(const GeometryOptions& options, double span_s, Problems& problems) {
+void check_span(const GeometryOptions& options, double span_s, Refusals& refusals) {
   if (!(span_s > 0.0)) {
-    problems.add(fmt::format("--from {} must lie before --to {}", options.from, options.to));
+    refusals.add(fmt::format("--from {} must lie before --to {}", options.from, options.to));
   } else if (span_s > kLongest_s) {
-    problems.add(fmt::format("--from {} --to {}: {:.1f} days; at most {:.0f}", options.from,
+    refusals.add(fmt::format("--from {} --to {}: {:.1f} days; at most {:.0f}", options.from,
                              options.to, span_s / 86'400.0, kLongest_s / 86'400.0));
   }
 }
 
-void check_step(double step_s, double span_s, Problems& problems) {
+void check_step(double step_s, double span_s, Refusals& refusals) {
   if (!(step_s > 0.0 && std::isfinite(step_s))) {
-    problems.add(fmt::format("--step {}: must be above 0 s", step_s));
+    refusals.add(fmt::format("--step {}: must be above 0 s", step_s));
   } else if (span_s / step_s > kMostRows) {
-    problems.add(fmt::format("--step {}: makes {:.0f} rows; at most {:.0f}", step_s,
+    refusals.add(fmt::format("--step {}: makes {:.0f} rows; at most {:.0f}", step_s,
                              span_s / step_s, kMostRows));
   }
 }
 
-void check_rate(double rate_rpm, Problems& problems) {
+void check_rate(double rate_rpm, Refusals& refusals) {
   if (!(rate_rpm >= kSlowestSpin_rpm && rate_rpm <= kFastestSpin_rpm)) {
-    problems.add(fmt::format("--rpm {}: must lie in [{}, {}]", rate_rpm, kSlowestSpin_rpm,
+    refusals.add(fmt::format("--rpm {}: must lie in [{}, {}]", rate_rpm, kSlowestSpin_rpm,
                              kFastestSpin_rpm));
   }
 }
 
 Expected<PassRequest> request_of(const GeometryOptions& options) {
-  Problems problems;
-  const auto from = utc_of("--from", options.from, problems);
-  const auto to = utc_of("--to", options.to, problems);
+  Refusals refusals;
+  const auto from = utc_of("--from", options.from, refusals);
+  const auto to = utc_of("--to", options.to, refusals);
   const double rate_rpm = options.rate_rpm.value_or(kUsualRate_rpm);
-  check_rate(rate_rpm, problems);
+  check_rate(rate_rpm, refusals);
   PassRequest request{.from = {},
                       .to = {},
                       .step_s = 0.0,
-                      .axis_icrf = axis_of(options.attitude, problems),
+                      .axis_icrf = axis_of(options.attitude, refusals),
                       .rate_rad_s = rate_rpm / kRpmPerRad_s};
   if (from && to) {
     const double span_s = elapsed_s(*from, *to);
     request.from = *from;
     request.to = *to;
     request.step_s = options.step_s.value_or(plot::time_step_s(span_s / kRows));
-    check_span(options, span_s, problems);
-    check_step(request.step_s, span_s, problems);
+    check_span(options, span_s, refusals);
+    check_step(request.step_s, span_s, refusals);
   }
-  if (!problems.text.empty()) {
-    return refused(problems.text);
+  if (!refusals.text.empty()) {
+    return refused(refusals.text);
   }
   return request;
 }

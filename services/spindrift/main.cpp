@@ -36,6 +36,7 @@
 #include "services/spindrift/alerts.h"
 #include "services/spindrift/batch.h"
 #include "services/spindrift/doctor.h"
+#include "services/spindrift/geomag.h"
 #include "services/spindrift/geometry.h"
 #include "services/spindrift/process.h"
 #include "services/spindrift/reconstruct.h"
@@ -66,6 +67,7 @@ struct Request {
   spindrift::ReplayOptions replay;
   spindrift::SimulateOptions simulate;
   spindrift::DoctorOptions doctor;
+  spindrift::GeomagFieldOptions geomag_field;
   spindrift::GeometryOptions geometry;
   spindrift::ReconstructOptions reconstruct;
   spindrift::AlertsOptions alerts;
@@ -247,6 +249,22 @@ void add_doctor(CLI::App& app, Request& request) {
   });
 }
 
+void add_geomag(CLI::App& app, Request& request) {
+  spindrift::GeomagFieldOptions& options = request.geomag_field;
+  CLI::App& geomag = *app.add_subcommand("geomag", "The Earth's main magnetic field, IGRF-14");
+  geomag.require_subcommand(1);
+  CLI::App& command = *geomag.add_subcommand("field", "The field at points, as CSV");
+  command.add_option("--date", options.year, "Year with decimals, 1900 to 2030: 2026.5")
+      ->required();
+  command
+      .add_option("--points", options.points,
+                  "CSV file: lat_deg,lon_deg,height_km, geodetic WGS-84")
+      ->check(check_path)
+      ->required();
+  command.add_flag("--json", options.json, "Print one JSON object");
+  command.callback([&] { request.run = [&] { return geomag_field(request.geomag_field); }; });
+}
+
 void add_geometry(CLI::App& app, Request& request) {
   spindrift::GeometryOptions& options = request.geometry;
   CLI::App& command = *app.add_subcommand(
@@ -404,6 +422,7 @@ int run(int argc, char** argv) {
   add_replay(app, request);
   add_simulate(app, request);
   add_doctor(app, request);
+  add_geomag(app, request);
   add_geometry(app, request);
   add_reconstruct(app, request);
   add_alerts(app, request);

@@ -23,16 +23,13 @@
 #include "services/separation/separation_text.h"
 #include "services/spindrift/orbit_notice.h"
 #include "services/spindrift/outcome.h"
+#include "services/spindrift/refused.h"
 #include "services/spindrift/telemetry_input.h"
 #include "services/standard_error/warning.h"
 #include "services/words/json_line.h"
 
 namespace spindrift {
 namespace {
-
-Unexpected refused(std::string message) {
-  return Unexpected{{ErrorCode::InvalidConfiguration, std::move(message)}};
-}
 
 /// That of the newest run in the archive. Its orbit file lies where the run had it, or beside the
 /// archive, which may have come from elsewhere.
