@@ -9,6 +9,7 @@
 #include "pipelines/time/utc.h"
 #include "services/alerts/alert_json.h"
 #include "services/clock/wall_clock.h"
+#include "services/console/go_no_go.h"
 
 namespace spindrift {
 namespace {
@@ -143,6 +144,10 @@ nlohmann::json ConsoleFeed::state() {
 
 std::string ConsoleFeed::trouble() const {
   const std::lock_guard lock{mutex_};
+  return trouble_now();
+}
+
+std::string ConsoleFeed::trouble_now() const {
   if (!last_health_) {
     return {};  // It begins.
   }
@@ -194,11 +199,15 @@ nlohmann::json ConsoleFeed::state_now() {
                        {"service", service_},
                        {"alerts", nlohmann::json::array()},
                        {"spacecraft", nlohmann::json::object()}};
+  std::map<std::string, nlohmann::json> alerts_of;
   for (const auto& [place, alert] : alerts_) {
     state["alerts"].push_back(alert);
+    alerts_of[place.first].push_back(alert);
   }
   for (auto& [spacecraft, shown] : shown_) {
-    state["spacecraft"][spacecraft] = shown.state();
+    nlohmann::json one = shown.state();
+    one["go"] = go_no_go(one, alerts_of[spacecraft], trouble_now(), shown.limits());
+    state["spacecraft"][spacecraft] = std::move(one);
   }
   return state;
 }

@@ -69,6 +69,7 @@ class ConsoleFeed {
   nlohmann::json put_alert(const std::string& spacecraft, const std::string& run_id,
                            const Alert& alert);
   nlohmann::json state_now();
+  std::string trouble_now() const;
 
   mutable std::mutex mutex_;
   nlohmann::json service_;

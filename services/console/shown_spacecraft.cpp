@@ -22,6 +22,7 @@ namespace {
 constexpr std::size_t kMostEdgesAtOnce = 1000;
 // More than those edges are of.
 constexpr std::size_t kTurnsKept = 256;
+constexpr std::size_t kActionsKept = 5;
 
 std::string_view name_of(LinkState link) {
   constexpr std::array<std::string_view, 3> kNames = {"waiting", "live", "stale"};
@@ -39,6 +40,27 @@ nlohmann::json answer_json(const Estimate& estimate) {
   nlohmann::json row = json_of(estimate);
   row["reasons"] = nlohmann::json::parse(to_json_text(estimate.assessment.reasons));
   return row;
+}
+
+/// As the archive has it, but the arguments an object.
+nlohmann::json action_json(const OperatorAction& action) {
+  nlohmann::json row{{"action_id", action.action_id},
+                     {"made_utc", action.made_utc},
+                     {"by", action.by},
+                     {"action", action.action},
+                     {"arguments", nlohmann::json::parse(action.arguments, nullptr, false)},
+                     {"note", action.note}};
+  if (action.t) {
+    row["t_tai_ns"] = tai_ns(*action.t);
+  }
+  return row;
+}
+
+template <class Value>
+void keep_last(std::size_t most, std::deque<Value>& values) {
+  while (values.size() > most) {
+    values.pop_front();
+  }
 }
 
 nlohmann::json prior_of(const Mission& mission) {
@@ -65,6 +87,7 @@ void ShownSpacecraft::show(const std::string& run_id) {
     verdict_ = nlohmann::json::object();
     periods_s_.clear();
     edges_.clear();
+    actions_.clear();
     bound_deg_.reset();
   }
 }
@@ -128,9 +151,9 @@ void ShownSpacecraft::take_details(const ArchiveBatch& stored) {
       bound_deg_ = {(*batch)->estimate.t, (*batch)->bound_rad * kDegPerRad};
     }
   }
-  while (edges_.size() > kMostEdgesAtOnce) {
-    edges_.pop_front();
-  }
+  actions_.insert(actions_.end(), stored.actions.begin(), stored.actions.end());
+  keep_last(kActionsKept, actions_);
+  keep_last(kMostEdgesAtOnce, edges_);
   while (periods_s_.size() > kTurnsKept) {
     periods_s_.erase(periods_s_.begin());
   }
@@ -167,6 +190,10 @@ nlohmann::json ShownSpacecraft::state() {
   state.update(link_);
   state.update(answers_);
   state.update(verdict_);
+  state["actions"] = nlohmann::json::array();
+  for (const OperatorAction& action : actions_) {
+    state["actions"].push_back(action_json(action));
+  }
   add_sky(state);
   add_to_target(state);
   return state;

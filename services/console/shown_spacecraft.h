@@ -42,8 +42,9 @@ class ShownSpacecraft {
   void take_verdict(nlohmann::json verdict) { verdict_ = std::move(verdict); }
   void take(const SpinTarget& target) { target_ = target; }
 
-  /// As in /api/v1/state.
+  /// As in /api/v1/state, but whether it is go.
   nlohmann::json state();
+  const AlertLimits& limits() const { return mission_.alerts; }
   /// Edges since the last time, with their spin phase where that is known.
   nlohmann::json take_pulses();
 
@@ -61,6 +62,7 @@ class ShownSpacecraft {
   std::optional<TaiTime> last_sample_;
   std::map<TaiTime, double> periods_s_;                  ///< Of the last turns, by their sun1.
   std::deque<PulseUse> edges_;                           ///< That viewers were not told yet.
+  std::deque<OperatorAction> actions_;                   ///< The last ones.
   std::optional<std::pair<TaiTime, double>> bound_deg_;  ///< Of the last batch solution.
   ApparentSun sun_;
 };

@@ -12,6 +12,7 @@
 #include "services/publisher/telemetry_publisher.h"
 #include "services/publisher/to_idl.h"
 #include "tests/support/bus_fixture.h"
+#include "tests/support/some_health.h"
 
 namespace spindrift::publisher_test {
 
@@ -64,15 +65,9 @@ SpinEstimate an_estimate() {
 }
 
 Health a_health() {
-  return {.t = tai_from_ns(kTestTime_tai_ns),
-          .samples_received = 6,
-          .samples_committed = 5,
-          .gaps = 4,
-          .duplicates = 3,
-          .queue_depth = 2,
-          .commit_p99_ms = 1.5,
-          .status = "ok",
-          .message = {}};
+  Health health = testing::some_health();
+  health.t = tai_from_ns(kTestTime_tai_ns);
+  return health;
 }
 
 TEST(ResultPublisher, PublishesAFixInDegrees) {

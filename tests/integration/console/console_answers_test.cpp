@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tests/integration/console/console_fixture.h"
+#include "tests/support/some_health.h"
 
 namespace spindrift::console_answers_test {
 namespace {
@@ -54,16 +55,7 @@ TEST_F(ConsoleAnswers, WithAPolicyThatAllowsNothingFromElsewhere) {
 
 TEST_F(ConsoleAnswers, HealthWithTheReasonThatItFails) {
   EXPECT_EQ(client_->get_json("/healthz")["status"], "ok");
-  feed_.put(Health{.t = {},
-                   .samples_received = 0,
-                   .samples_committed = 0,
-                   .gaps = 0,
-                   .duplicates = 0,
-                   .queue_depth = 0,
-                   .commit_p99_ms = 0.0,
-                   .status = "not storing: disk full",
-                   .message = "",
-                   .works = false});
+  feed_.put(testing::failing_health());
   const HttpReply reply = client_->get("/healthz");
   EXPECT_EQ(reply.result_int(), 503U);
   EXPECT_THAT(reply.body(), HasSubstr("disk full"));

@@ -11,6 +11,7 @@
 
 #include "tests/integration/console/console_fixture.h"
 #include "tests/support/eventually.h"
+#include "tests/support/some_health.h"
 
 namespace spindrift::console_test {
 namespace {
@@ -75,17 +76,10 @@ TEST_F(Console, DropsAViewerThatReadsNoMoreAndTellsTheOthersOn) {
   EventViewer good = client_->watch();
   good.until("event: state\n");
   std::string told;
-  const std::string large(512 * 1024, 'x');
+  Health health = testing::some_health();
+  health.message = std::string(512 * 1024, 'x');
   EXPECT_TRUE(eventually([&] {
-    feed_.put(Health{.t = {},
-                     .samples_received = 0,
-                     .samples_committed = 0,
-                     .gaps = 0,
-                     .duplicates = 0,
-                     .queue_depth = 0,
-                     .commit_p99_ms = 0.0,
-                     .status = "ok",
-                     .message = large});
+    feed_.put(health);
     told = good.until("event: health\n");
     return client_->get("/metrics").body().find("spindrift_viewers_dropped_total 1\n") !=
            std::string::npos;

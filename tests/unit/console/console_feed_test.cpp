@@ -10,6 +10,7 @@
 #include "services/mission/mission.h"
 #include "services/units/degrees.h"
 #include "tests/support/recorded_files.h"
+#include "tests/support/some_health.h"
 
 namespace spindrift::console_feed_test {
 namespace {
@@ -45,18 +46,10 @@ class Feed : public ::testing::Test {
     feed_->put_details({.run_id = "run", .spacecraft_id = "SPINNER", .products = products});
   }
   void put_link(LinkState link) {
-    feed_->put(
-        Health{.t = kT,
-               .samples_received = 7,
-               .samples_committed = 6,
-               .gaps = 0,
-               .duplicates = 0,
-               .queue_depth = 0,
-               .commit_p99_ms = 0.0,
-               .status = "ok",
-               .message = "",
-               .spacecraft = {
-                   {.spacecraft = "SPINNER", .link = link, .last_sample = kT, .data_age_s = 0.5}}});
+    Health health = testing::some_health();
+    health.spacecraft = {
+        {.spacecraft = "SPINNER", .link = link, .last_sample = kT, .data_age_s = 0.5}};
+    feed_->put(health);
   }
   std::string events() const { return feed_->after(0).text; }
 
@@ -81,7 +74,7 @@ TEST_F(Feed, ShowsLinkSunAndEarthOfTheLastSample) {
   EXPECT_EQ(state["data_age_s"], 0.5);
   EXPECT_TRUE(state["sun_ra_deg"].is_number()) << state;
   EXPECT_TRUE(state["earth_dec_deg"].is_number());
-  EXPECT_EQ(feed_->state()["service"]["samples_received"], 7);
+  EXPECT_EQ(feed_->state()["service"]["samples_received"], 6);
 }
 
 TEST_F(Feed, ShowsTheVerdictOfTheRunInForceAndHowFarTheTargetIs) {
@@ -150,6 +143,48 @@ TEST_F(Feed, ShowsAlertsUntilTheyAreCleared) {
   EXPECT_EQ(feed_->state()["alerts"].size(), 0U);
 }
 
+TEST_F(Feed, IsGoWhenNothingStandsAgainstIt) {
+  put_link(LinkState::Live);
+  put(estimate_at(kT, SpinEstimator::Mean));
+  EXPECT_EQ(shown()["go"]["is_go"], false);
+  feed_->put_verdict("SPINNER", "run", {{"quality", "OK"}, {"sigma_deg", 0.1}});
+  EXPECT_EQ(shown()["go"], (nlohmann::json{{"is_go", true}, {"against", nlohmann::json::array()}}));
+  put(Alert{.alert_id = "00ff",
+            .key = "spin.nutation",
+            .severity = AlertSeverity::Warning,
+            .raised = kT,
+            .message = "large",
+            .evidence = "{}"});
+  EXPECT_EQ(shown()["go"]["against"][0]["text"], "warning spin.nutation, active");
+  feed_->put(testing::failing_health());
+  EXPECT_EQ(shown()["go"]["against"][0]["code"], "service");
+}
+
+TEST_F(Feed, TellsTheLastActionsOfTheRun) {
+  std::vector<OperatorAction> actions;
+  for (int i = 1; i <= 6; ++i) {
+    actions.push_back({.action_id = std::to_string(i),
+                       .spacecraft = "SPINNER",
+                       .t = kT,
+                       .made_utc = "2026-11-25T00:00:00.000Z",
+                       .by = "night shift",
+                       .action = "exclude_channel",
+                       .arguments = R"({"channel":"sun2"})",
+                       .note = "dead",
+                       .does = {}});
+  }
+  put(estimate_at(kT, SpinEstimator::Mean));
+  EXPECT_EQ(shown()["actions"].size(), 0U);
+  feed_->put_details({.run_id = "run", .spacecraft_id = "SPINNER", .actions = actions});
+  ASSERT_EQ(shown()["actions"].size(), 5U);
+  const nlohmann::json last = shown()["actions"].back();
+  EXPECT_EQ(last["action_id"], "6");
+  EXPECT_EQ(last["arguments"]["channel"], "sun2");
+  EXPECT_EQ(last["t_tai_ns"], tai_ns(kT));
+  put(estimate_at(kT, SpinEstimator::Mean), "next run");
+  EXPECT_EQ(shown()["actions"].size(), 0U);
+}
+
 TEST(FeedOfThreeAxes, ShowsAttitudeAndRate) {
   const std::vector<Mission> missions{
       load_mission(test_data() / "three-axis" / "separation" / "mission.toml").value()};
@@ -171,16 +206,7 @@ TEST(FeedOfThreeAxes, ShowsAttitudeAndRate) {
 
 TEST_F(Feed, HasTroubleWhenTheServiceDoesNotWork) {
   EXPECT_EQ(feed_->trouble(), "");
-  feed_->put(Health{.t = kT,
-                    .samples_received = 0,
-                    .samples_committed = 0,
-                    .gaps = 0,
-                    .duplicates = 0,
-                    .queue_depth = 0,
-                    .commit_p99_ms = 0.0,
-                    .status = "not storing: disk full",
-                    .message = "",
-                    .works = false});
+  feed_->put(testing::failing_health());
   EXPECT_EQ(feed_->trouble(), "not storing: disk full");
 }
 
