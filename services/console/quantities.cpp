@@ -30,6 +30,42 @@ Quantity measurement(SpinQuantity of) {
                              name_of(of))};
 }
 
+/// Of an edge that no revolution had a place for by the turn of the edge before it.
+Quantity phase(std::string_view channel) {
+  return {.name = fmt::format("phase_{}", channel),
+          .unit = "deg",
+          .sql = fmt::format(
+              "SELECT t_tai_ns, 360 * (turns - floor(turns)), accepted, rejected_by FROM (SELECT "
+              "edge.t_tai_ns, (edge.t_tai_ns - turn.t_tai_ns) / (1e9 * period_s) AS turns, "
+              "accepted, rejected_by FROM pulse_use AS edge CROSS JOIN revolution AS turn ON "
+              "turn.run_id = edge.run_id AND turn.revolution = coalesce(edge.revolution, (SELECT "
+              "revolution FROM pulse_use AS before WHERE before.run_id = edge.run_id AND "
+              "before.t_tai_ns < edge.t_tai_ns AND before.revolution IS NOT NULL ORDER BY "
+              "before.t_tai_ns DESC LIMIT 1)) WHERE edge.run_id = ?1 AND channel = '{}' AND "
+              "edge.t_tai_ns <= ?2) ORDER BY t_tai_ns DESC",
+              channel)};
+}
+
+/// A chi-square as a normal deviate (Wilson and Hilferty 1931): within 3, whatever its degrees of
+/// freedom, when all is well.
+std::string deviate(std::string_view square, std::string_view freedom) {
+  return fmt::format("(pow({0} / {1}, 1.0 / 3) - 1 + 2.0 / (9 * {1})) * sqrt(9 * {1} / 2.0)",
+                     square, freedom);
+}
+
+Quantity innovation() {
+  return {
+      .name = "innovation",
+      .unit = "sigma",
+      .sql = fmt::format(
+          "SELECT t_tai_ns, {}, 1, NULL FROM attitude WHERE run_id = ?1 AND innovation_freedom "
+          "> 0 AND t_tai_ns <= ?2 UNION ALL SELECT t_tai_ns, {}, 0, rejected_by || ', ' || kind "
+          "FROM rejected_sample WHERE run_id = ?1 AND squared_innovation IS NOT NULL AND "
+          "t_tai_ns <= ?2 ORDER BY t_tai_ns DESC",
+          deviate("squared_innovations", "innovation_freedom"),
+          deviate("squared_innovation", "CASE kind WHEN 'star' THEN 3 ELSE 2 END"))};
+}
+
 Quantity fix(std::string_view column) {
   return {.name = fmt::format("fix_{}", column),
           .unit = "deg",
@@ -45,6 +81,9 @@ std::vector<Quantity> of_spin() {
         SpinQuantity::SouthChord, SpinQuantity::NorthDihedral, SpinQuantity::SouthDihedral,
         SpinQuantity::MixedAzimuth}) {
     all.push_back(measurement(one));
+  }
+  for (const std::string_view channel : kPulseChannelNames) {
+    all.push_back(phase(channel));
   }
   for (const SpinEstimator estimator :
        {SpinEstimator::Mean, SpinEstimator::Sequential, SpinEstimator::Batch}) {
@@ -74,6 +113,7 @@ std::vector<Quantity> of_three_axis() {
   for (const std::string_view column : {"qx", "qy", "qz", "qw"}) {
     all.push_back(quantity(column, "1", "attitude", column, kFiltered));
   }
+  all.push_back(innovation());
   return all;
 }
 
