@@ -25,6 +25,7 @@ async function eventually(holds) {
   }
 }
 
+const shown = async () => (await (await fetch(`${service.url}api/v1/state`)).json()).spacecraft['GMS-5'];
 const stale = () => page.locator('body.stale').waitFor({ timeout: within_ms });
 const fresh = (of = page) => of.locator('body:not(.stale)').waitFor({ timeout: within_ms });
 
@@ -49,7 +50,35 @@ after(async () => {
 test('says nothing good before the first telemetry', async () => {
   await fresh();
   assert.equal(await text('quality'), '○ WAITING');
+  assert.equal(await text('go'), '✖ NO GO');
+  assert.match(await text('against'), /no telemetry has come yet; no answer yet/);
   assert.match(await text('alerts'), /nothing known/);
+});
+
+const fill = async values => {
+  for (const [name, value] of Object.entries(values)) await page.fill(`#${name}`, value);
+};
+
+test('tells what an action does and why it is refused', async () => {
+  await page.click('#act');
+  await page.selectOption('#action', 'exclude_segment');
+  await fill({ from: '1996-01-01 00:00:10', to: '1996-01-01 00:00:00', by: 'night shift', token: service.token() });
+  await page.click('#hand-send');
+  assert.equal(await text('hand-sentence'), 'exclude_segment leaves out all channels from 1996-01-01 00:00:10 to ' +
+    '1996-01-01 00:00:00 UTC, for telemetry of GMS-5 from now on, by night shift. It is stored, and repeated after a restart.');
+  await page.click('#hand-send');
+  await eventually(async () => assert.match(await text('hand-said'), /^Refused \(400\): .*to_tai_ns.*must be later/));
+  await page.click('#hand-cancel');
+});
+
+test('takes an action on telemetry that is to come', async () => {
+  await page.click('#act');
+  await page.selectOption('#action', 'set_target');
+  await fill({ ra_deg: '50', dec_deg: '-80', since: '1996-01-01 00:00:00', note: 'as planned' });
+  await page.press('#since', 'Enter');
+  await page.press('#hand-send', 'Enter');
+  await page.locator('#hand').waitFor({ state: 'hidden' });
+  await eventually(async () => assert.match(await text('actions'), /(sent|00:00:00)set_target/));
 });
 
 test('shows the values of the archive', async () => {
@@ -63,6 +92,43 @@ test('shows the values of the archive', async () => {
     const rate = service.row(`SELECT spin_rate_rpm FROM pass_answer WHERE estimator = '${verdict.estimator}'`);
     assert.ok((await text('figure-spin-rate')).startsWith(rate.spin_rate_rpm.toFixed(4)));
   });
+});
+
+test('shows what an operator did and how far the target is', async () => {
+  await eventually(async () => assert.match(await text('actions'), /✔ 00:00:00set_target ra 50.00°, dec -80.00°night shift: as planned/));
+  await eventually(async () => assert.equal(await text('figure-to-target'), `${(await shown()).to_target_deg.toFixed(2)}°`));
+  assert.equal(service.row("SELECT arguments FROM operator_action WHERE by = 'night shift'").arguments, '{"dec_deg":-80.0,"ra_deg":50.0}');
+});
+
+test('is not go, and says all that stands against it', async () => eventually(async () => {
+  const { is_go, against } = (await shown()).go;
+  assert.ok(!is_go);
+  assert.ok(against.some(({ code }) => code === 'target') && against.some(({ code }) => code === 'link'));
+  assert.equal(await text('go'), '✖ NO GO');
+  const seen = await text('against');
+  for (const one of against.filter(({ code }) => code !== 'link')) assert.ok(seen.includes(one.text), `${one.text} in ${seen}`);
+  assert.match(seen, /no telemetry for/);
+}));
+
+test('shows the edges of before to who comes late', async () => {
+  await page.reload();
+  const raster = page.locator('#raster');
+  await eventually(async () => {
+    const { width, height } = await raster.boundingBox();
+    await page.mouse.move(0, 0);
+    await raster.hover({ position: { x: width - 10, y: height - 22 } });
+    assert.match(await text('raster-said'), /^sun1 \d\d:\d\d:\d\d 0.0° accepted/);
+  });
+});
+
+test('asks for the axis that was pointed at', async () => {
+  const { width, height } = await page.locator('#sky').boundingBox();
+  const { ra_deg, dec_deg } = await shown();
+  await page.locator('#sky').click({ position: {
+    x: 34 + (width - 40) * (1 - ra_deg / 360), y: 6 + (height - 24) * (90 - dec_deg) / 180 } });
+  assert.equal(await page.inputValue('#action'), 'choose_root');
+  assert.equal(Number(await page.inputValue('#ra_deg')), ra_deg);
+  await page.press('#ra_deg', 'Escape');
 });
 
 test('needs no scrolling at 1366x768 and on a tablet', async () => {

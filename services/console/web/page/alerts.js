@@ -1,6 +1,6 @@
 // The open alerts, most severe first.
 import { byId, clock, element, sign } from './text.js';
-import { ask } from './hand.js';
+import { ask, field } from './hand.js';
 
 const order = ['critical', 'warning', 'info'];
 let shown = '';
@@ -13,6 +13,17 @@ function evidenceOf(alert) {
   }
 }
 
+const words = { ack: 'Acknowledge', shelve: 'Shelve' };
+
+function askAlert(alert, verb) {
+  ask({
+    title: `${words[verb]} ${alert.key}`,
+    path: `/api/v1/alerts/${encodeURIComponent(alert.alert_id)}/${verb}`,
+    fields: verb === 'shelve' ? [field('Minutes', 'minutes', { type: 'number', min: 1, max: 1440, value: 15 })] : [],
+    body: ({ minutes, ...said }) => minutes ? { ...said, minutes: Number(minutes) } : said,
+  });
+}
+
 function made(alert, utcOf) {
   const [icon, colour] = sign(alert.severity);
   const article = element('article', undefined, colour);
@@ -21,12 +32,12 @@ function made(alert, utcOf) {
     element('strong', `${icon} ${alert.severity.toUpperCase()} ${alert.spacecraft} ${alert.key}`),
     element('p', alert.message),
     element('p', `${alert.state} since ${clock(utcOf(since_tai_ns ?? alert.raised_tai_ns))}`));
-  for (const [verb, word] of [['ack', 'Acknowledge'], ['shelve', 'Shelve']]) {
+  for (const [verb, word] of Object.entries(words)) {
     if (verb === 'ack' && alert.state !== 'active') continue;
     const button = element('button', word);
     button.setAttribute('aria-label', `${word} ${alert.key}`);
     button.dataset.of = `${verb} ${alert.alert_id}`;
-    button.addEventListener('click', () => ask(alert, verb));
+    button.addEventListener('click', () => askAlert(alert, verb));
     article.append(button);
   }
   return article;

@@ -1,4 +1,5 @@
 // Takes the service's events in, and draws what changed at most ten times a second.
+import { askAction, drawActions } from './actions.js';
 import { drawAlerts } from './alerts.js';
 import { drawAttitude } from './attitude.js';
 import { Convergence } from './convergence.js';
@@ -6,8 +7,9 @@ import { drawHeader } from './header.js';
 import { drawHealth } from './health.js';
 import { Raster } from './raster.js';
 import { Series } from './series.js';
-import { drawSky } from './sky.js';
+import { drawSky, onRoot } from './sky.js';
 import { byId, duration, element } from './text.js';
+import { Trace } from './trace.js';
 
 const stale_after_ms = 3000;
 const redraw_ms = 100;
@@ -18,6 +20,7 @@ const reopen_ms = 2000;
 const raster = new Raster();
 const series = new Series();
 let convergence = null;
+let innovations = null;
 let state = null;
 let shown = '';       // the spacecraft on the page
 let heard_ms = null;  // when the service was last heard
@@ -27,6 +30,7 @@ let dirty = true;
 let lost = false;     // the connection was, and the past is to be filled in again
 
 const utcOf = t_tai_ns => t_tai_ns / 1e9 + offset_s;
+const taiOf = utc_s => (utc_s - offset_s) * 1e9;
 const craft = () => state?.spacecraft?.[shown] ?? {};
 
 function takeState(next) {
@@ -54,15 +58,19 @@ async function show(id) {
   raster.clear();
   convergence?.destroy();
   convergence = new Convergence(craft().kind === 'three_axis' ? ['attitude'] : ['mean', 'sequential', 'batch', 'bound']);
+  innovations?.destroy();
+  innovations = craft().kind === 'three_axis'
+    ? new Trace(byId('innovations'), byId('innovations-note'), id, { name: 'innovation', unit: 'sigma' }, [-3, 3]) : null;
   await series.open(id);
   if (id === shown) backfill();
 }
 
 async function backfill() {
-  const { t_tai_ns } = craft();
+  const { t_tai_ns, kind } = craft();
   if (!t_tai_ns) return;
   try {
-    await convergence.backfill(shown, series.quantities, t_tai_ns);
+    await Promise.all([convergence.backfill(shown, series.quantities, t_tai_ns),
+      kind === 'three_axis' ? undefined : raster.backfill(shown, t_tai_ns)]);
   } catch (error) {
     byId('sigma-note').textContent = `the past is missing: ${error.message}`;
   }
@@ -92,13 +100,16 @@ const handlers = {
   },
 };
 
+// Those that change what draw() takes from the state.
+const drawn = ['state', 'health', 'alert'];
+
 function open() {
   const source = new EventSource('/api/v1/events');
   for (const [name, take] of Object.entries(handlers)) {
     source.addEventListener(name, event => {
       heard_ms = performance.now();
       take(JSON.parse(event.data));
-      dirty = true;
+      dirty ||= drawn.includes(name);
     });
   }
   // The browser opens a broken connection again by itself, but not one that was refused.
@@ -112,9 +123,8 @@ function open() {
 
 // Of the boxes, whose sizes changed.
 function fit() {
-  dirty = true;
-  series.chart?.fit();
-  convergence?.chart.fit();
+  dirty = raster.changed = true;
+  for (const one of [series.trace, convergence, innovations]) one?.chart.fit();
 }
 
 function drawStale() {
@@ -135,15 +145,21 @@ function draw() {
   const stale = drawStale();
   if (!state) return;
   drawHeader(craft(), state.service, (performance.now() - state_ms) / 1e3, stale);
+  const spin = craft().kind !== 'three_axis';
+  if (spin) raster.draw(utcOf);
   if (!dirty) return;
   dirty = false;
   const known = Object.values(state.spacecraft ?? {}).some(one => one.state && one.state !== 'waiting');
   drawAlerts(state.alerts ?? [], known, utcOf);
   drawHealth(state.service, stale);
-  if (craft().kind === 'three_axis') return drawAttitude(craft(), utcOf);
-  raster.draw(utcOf);
-  drawSky(craft());
+  drawActions(craft(), utcOf);
+  if (spin) drawSky(craft());
+  else drawAttitude(craft(), utcOf);
 }
+
+const act = (...chosen) => askAction(shown, craft(), { utcOf, taiOf, now_s: utcOf(craft().t_tai_ns) }, ...chosen);
+byId('act').addEventListener('click', () => act());
+onRoot(craft, axis => act('choose_root', axis));
 
 byId('spacecraft').addEventListener('change', event => show(event.target.value));
 addEventListener('resize', fit);
@@ -152,7 +168,8 @@ setInterval(draw, redraw_ms);
 setInterval(() => { if (!document.hidden) convergence?.draw(utcOf); }, convergence_ms);
 setInterval(() => {
   if (document.hidden || !shown) return;
-  if (series.quantities.length) series.refresh(craft().t_tai_ns, utcOf);
+  innovations?.refresh(craft().t_tai_ns, utcOf);
+  if (series.trace) series.trace.refresh(craft().t_tai_ns, utcOf);
   else series.open(shown);
 }, series_ms);
 open();

@@ -12,19 +12,17 @@ export function euler312([x, y, z, w]) {
   ];
 }
 
-const list = (values, digits, unit) => values.map(value => number(value, digits, unit)).join('  ');
-const quaternionOf = row => row.q_icrf_body ?? [row.qx, row.qy, row.qz, row.qw];
+const list = (values, digits) => values.map(value => number(value, digits)).join('  ');
 
 export function drawAttitude(craft, utcOf) {
   const rows = [];
   if (craft.q_icrf_body) {
-    rows.push(['q x y z w', list(craft.q_icrf_body, 5)], ['Euler 3-1-2: ψ φ θ', list(euler312(craft.q_icrf_body), 3, '°')]);
+    rows.push(['q x y z w', list(craft.q_icrf_body, 5)], ['ψ φ θ (3-1-2), °', list(euler312(craft.q_icrf_body), 3)]);
   }
-  if (craft.rate_deg_s) rows.push(['Rate x y z', list(craft.rate_deg_s, 4, '°/s')]);
+  if (craft.rate_deg_s) rows.push(['Rate x y z, °/s', list(craft.rate_deg_s, 4)]);
   rows.push(['Sigma', sigma(craft.sigma_deg)], ['Source', craft.source ?? craft.estimator ?? '–']);
-  for (const [name, value] of Object.entries(craft.innovations ?? {})) rows.push([`Innovation ${name}`, number(value, 2)]);
   fillTable(byId('attitude'), rows);
   const events = (craft.reconstruction ?? []).map(row => [`${row.event} ${row.method}`, clock(utcOf(row.t_tai_ns)),
-    list(quaternionOf(row), 4), sigma(row.sigma_deg)]);
-  fillTable(byId('events'), events.length ? [['Event', 'UTC', 'q x y z w', 'Sigma'], ...events] : [['no separation reconstructed']]);
+    list([1, 2, 3].map(i => row[`euler312_icrf_deg_${i}`]), 2), sigma(row.sigma_deg)]);
+  fillTable(byId('events'), events.length ? events : [['none reconstructed']]);
 }

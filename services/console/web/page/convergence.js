@@ -1,10 +1,11 @@
 // Sigma of each estimator against time, beside the Cramer-Rao bound of the batch where the archive has one.
 import { Ring } from './ring.js';
 import { Chart, line } from './chart.js';
-import { seriesOf } from './series.js';
+import { seriesOf } from './trace.js';
 import { byId, sigma } from './text.js';
 
 const span_ns = 1800e9;
+const points = 1000;
 // Lines told apart by their dashes, too. Each has a quantity of its own for the past.
 const lines = {
   mean: ['#f2b134', [2, 4]], sequential: ['#7cb9f2', [8, 4]], batch: ['#6fd08c', undefined], bound: ['#a4b0b9', [1, 3]],
@@ -14,13 +15,15 @@ const lines = {
 export class Convergence {
   constructor(names) {
     this.names = names;
-    this.rings = Object.fromEntries(names.map(name => [name, new Ring(2000)]));
+    this.rings = Object.fromEntries(names.map(name => [name, new Ring(points)]));
     this.chart = new Chart(byId('sigma'), names.map(name => line(name, ...lines[name])), { unit: 'deg', logarithmic: true });
   }
 
   push(name, t_tai_ns, sigma_deg) {
-    if (!(sigma_deg > 0)) return;
-    this.rings[name]?.push([t_tai_ns, sigma_deg]);
+    const ring = this.rings[name];
+    // What comes sooner than its share of the span would push the past out.
+    if (!ring || !(sigma_deg > 0) || t_tai_ns - (ring.last?.[0] ?? -Infinity) < span_ns / points) return;
+    ring.push([t_tai_ns, sigma_deg]);
     this.changed = true;
   }
 
@@ -51,7 +54,7 @@ export class Convergence {
     const sorted = [...times.keys()].sort((a, b) => a - b);
     // undefined, unlike null, does not break a line.
     this.chart.draw([sorted.map(utcOf), ...this.names.map((_, i) => sorted.map(t => times.get(t)[i]))]);
-    byId('sigma-note').textContent = this.names.map(name => [name, [...this.rings[name]].at(-1)?.[1]])
+    byId('sigma-note').textContent = this.names.map(name => [name, this.rings[name].last?.[1]])
       .filter(([, last]) => last).map(([name, last]) => `${name} ${sigma(last)}`).join(', ');
   }
 

@@ -1,43 +1,82 @@
-// Acknowledge and shelve: asks who, why and for the token, which stays in this page's memory.
-import { byId } from './text.js';
+// Asks who says so, why, and for the token, which stays in this page's memory, and sends it.
+import { byId, element } from './text.js';
 
-let token = '';
-let send = null;
+let asked = null;
 
-export function ask(alert, verb) {
-  byId('hand-title').textContent = `${verb === 'ack' ? 'Acknowledge' : 'Shelve'} ${alert.key}`;
-  byId('minutes-label').hidden = verb === 'ack';
-  byId('minutes').disabled = verb === 'ack';
-  byId('hand-said').textContent = '';
-  byId('token').value = token;
-  send = () => post(alert, verb);
-  byId('hand').showModal();
-  byId('by').focus();
+export function field(word, name, attributes = {}) {
+  const label = element('label', `${word} `);
+  const input = element(attributes.options ? 'select' : 'input');
+  input.id = input.name = name;
+  const { options = [], ...rest } = attributes;
+  input.append(...options.map(([value, text]) => {
+    const option = element('option', text);
+    option.value = value;
+    return option;
+  }));
+  Object.assign(input, { required: true, autocomplete: 'off', ...rest });
+  label.append(input);
+  return label;
 }
 
-async function post(alert, verb) {
-  const body = { by: byId('by').value, note: byId('note').value };
-  if (verb === 'shelve') body.minutes = Number(byId('minutes').value);
-  token = byId('token').value;
-  let said;
+const values = () => Object.fromEntries(new FormData(byId('hand-form')));
+
+function stage(confirming) {
+  byId('hand-asks').disabled = confirming;
+  byId('hand-back').hidden = !confirming;
+  byId('hand-send').textContent = asked.sentence && !confirming ? 'Review' : 'Send';
+  byId('hand-sentence').textContent = confirming ? asked.sentence(asked.values) : '';
+}
+
+// `path`: where to send to. `fields`: what is asked for besides. `body`: what is sent, of the form's values.
+// `sentence`: what that does, to be confirmed; without it, it is sent at once. `taken`: told the service's answer.
+export function ask(question) {
+  asked = question;
+  byId('hand-title').textContent = question.title;
+  byId('hand-fields').replaceChildren(...question.fields);
+  byId('hand-said').textContent = '';
+  byId('note').value = '';
+  stage(false);
+  byId('hand').showModal();
+  (byId('hand-fields').querySelector('select, input') ?? byId('by')).focus();
+}
+
+// Other fields, of the same question.
+export function askFor(fields) { byId('hand-fields').replaceChildren(...fields); }
+
+async function send({ token, ...said }) {
   try {
-    const answer = await fetch(`/api/v1/alerts/${encodeURIComponent(alert.alert_id)}/${verb}`, {
+    const answer = await fetch(asked.path, {
       method: 'POST',
       headers: { Authorization: `Bearer ${token}`, 'Content-Type': 'application/json' },
-      body: JSON.stringify(body),
+      body: JSON.stringify(asked.body(said)),
     });
-    if (answer.ok) return byId('hand').close();
-    said = answer.status === 401 ? 'Wrong token: nothing was changed.'
-      : `Refused (${answer.status}): ${(await answer.json()).error}`;
-    if (answer.status === 401) token = '';
+    if (answer.ok) {
+      asked.taken?.(await answer.json(), said);
+      byId('hand').close();
+      return '';
+    }
+    if (answer.status !== 401) return `Refused (${answer.status}): ${(await answer.json()).error}`;
+    byId('token').value = '';
+    return 'Wrong token: nothing was changed.';
   } catch (error) {
-    said = `The service gave no answer (${error.message}): it is not known whether anything was changed.`;
+    return `The service gave no answer (${error.message}): it is not known whether anything was changed.`;
   }
-  byId('hand-said').textContent = said;
 }
 
-byId('hand-form').addEventListener('submit', event => {
+byId('hand-form').addEventListener('submit', async event => {
   event.preventDefault();
-  send?.();
+  const confirming = byId('hand-asks').disabled;
+  if (!confirming) asked.values = values();
+  byId('hand-said').textContent = '';
+  if (asked.sentence && !confirming) {
+    stage(true);
+    return byId('hand-send').focus();
+  }
+  byId('hand-send').disabled = true;
+  const said = await send(asked.values);
+  byId('hand-send').disabled = false;
+  if (said) stage(false);
+  byId('hand-said').textContent = said;
 });
+byId('hand-back').addEventListener('click', () => stage(false));
 byId('hand-cancel').addEventListener('click', () => byId('hand').close());

@@ -1,7 +1,7 @@
 // What the operator must see at a glance, whatever else is on the page.
 import { byId, duration, element, number, sigma, sign } from './text.js';
 
-const figures = ['UTC', 'Data age', 'Mode', 'Link', 'Spin rate', 'Axis RA / Dec', '1 σ', 'Case, dual solution', 'Attitude 1 σ'];
+const figures = ['UTC', 'Data age', 'Mode', 'Link', 'Spin rate', 'Axis RA / Dec', '1 σ', 'To target', 'Case, dual solution', 'Attitude 1 σ'];
 const ofSpin = ['Spin rate', 'Axis RA / Dec', '1 σ', 'Case, dual solution'];
 const settled = { GEOMETRY: 'by geometry', CONSTRAINT: 'by constraint', PRIOR: 'by prior', DISPERSION: 'by dispersion',
   AMBIGUOUS: '⇄ NOT settled' };
@@ -16,6 +16,27 @@ for (const name of figures) {
   places.set(name, value);
 }
 
+// Of a name that only some spacecraft have.
+function applies(name, craft) {
+  const spin = craft.kind !== 'three_axis';
+  if (name === 'To target') return Number.isFinite(craft.to_target_deg);
+  return ofSpin.includes(name) ? spin : name !== 'Attitude 1 σ' || !spin;
+}
+
+function say(id, text, className = '') {
+  const place = byId(id);
+  if (place.textContent !== text) place.textContent = text;
+  place.className = className;
+}
+
+// What was go when the service was last heard is not known to be so now.
+function drawGo(go, stale) {
+  const isGo = go?.is_go === true && !stale;
+  say('go', isGo ? '✔ GO' : '✖ NO GO', isGo ? 'good' : 'bad');
+  say('against', stale ? 'no word from the service' : isGo ? 'nothing stands against it'
+    : (go?.against ?? []).map(one => one.text).join('; ') || 'nothing is known yet');
+}
+
 function put(name, text, className = '') {
   const place = places.get(name);
   if (place.textContent !== text) place.textContent = text;
@@ -24,10 +45,7 @@ function put(name, text, className = '') {
 
 // `since_s`: since the service said so. `stale`: too long ago to be called the state of the link.
 export function drawHeader(craft, service, since_s, stale) {
-  const spin = craft.kind !== 'three_axis';
-  for (const [name, place] of places) {
-    place.parentElement.hidden = ofSpin.includes(name) ? !spin : name === 'Attitude 1 σ' ? spin : false;
-  }
+  for (const [name, place] of places) place.parentElement.hidden = !applies(name, craft);
   put('UTC', craft.utc ? craft.utc.replace('T', ' ').replace(/(\.\d+)?Z$/, '') : '–');
   put('Data age', duration(craft.data_age_s + since_s), craft.state === 'stale' ? 'bad' : '');
   put('Mode', service?.mode === 'replay' ? '↻ REPLAY' : service?.mode ? `▶ ${service.mode.toUpperCase()}` : '–',
@@ -38,14 +56,12 @@ export function drawHeader(craft, service, since_s, stale) {
   put('Spin rate', `${number(craft.spin_rate_rpm, 4)} ± ${sigma(craft.sigma_rpm, '')} rpm`);
   put('Axis RA / Dec', `${number(craft.ra_deg, 3, '°')} / ${number(craft.dec_deg, 3, '°')}`);
   put('1 σ', sigma(craft.sigma_deg));
+  put('To target', number(craft.to_target_deg, 2, '°'));
   put('Attitude 1 σ', sigma(craft.sigma_deg));
   put('Case, dual solution', Number.isFinite(craft.geometry_case) ? `${craft.geometry_case}, ${settled[craft.resolution] ?? '–'}` : '–',
     craft.resolution === 'AMBIGUOUS' ? 'warn' : '');
-  const quality = craft.quality ?? 'WAITING';
   const [mark, tone] = sign(craft.quality);
-  const verdict = `${mark} ${quality}`;
-  if (byId('quality').textContent !== verdict) byId('quality').textContent = verdict;
-  byId('quality').className = tone;
-  const why = craft.quality ? [craft.estimator, craft.why].filter(Boolean).join(': ') : 'for the first telemetry';
-  if (byId('why').textContent !== why) byId('why').textContent = why;
+  say('quality', `${mark} ${craft.quality ?? 'WAITING'}`, tone);
+  say('why', craft.quality ? [craft.estimator, craft.why].filter(Boolean).join(': ') : 'for the first telemetry');
+  drawGo(craft.go, stale);
 }

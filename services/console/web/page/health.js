@@ -1,11 +1,11 @@
-import { byId, fillTable, number, sign } from './text.js';
+import { byId, fillTable, number } from './text.js';
 
 const count = value => Number.isFinite(value) ? value.toLocaleString('en-GB') : '–';
 
 export function drawHealth(service, stale) {
   if (!service) return fillTable(byId('health'), [['nothing known yet']]);
   fillTable(byId('health'), [
-    ['Status', stale ? '▲ unknown: no word from the service' : `${sign(service.status)[0]} ${service.status ?? '–'}`],
+    ['Status', stale ? '▲ unknown: no word from the service' : `${service.status === 'ok' ? '✔' : '▲'} ${service.status ?? '–'}`],
     ['Says', service.message || '–'],
     ['Samples received', count(service.samples_received)],
     ['Samples committed', count(service.samples_committed)],

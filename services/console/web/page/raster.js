@@ -2,8 +2,10 @@
 import { Ring } from './ring.js';
 import { begin, colours, cross } from './canvas.js';
 import { byId, clock, number } from './text.js';
+import { seriesOf } from './trace.js';
 
 const shown_s = 300;
+const most = 1000;  // edges of a channel: 200 rpm
 const channels = { sun1: '#f2b134', sun2: '#ffd98a', north_in: '#7cb9f2', north_out: '#b4d7f7', south_in: '#6fd08c',
   south_out: '#b0e8c0' };
 const left = 40;
@@ -18,10 +20,31 @@ export class Raster {
     this.canvas.addEventListener('keydown', event => this.walk(event));
   }
 
-  push(edge) { this.edges.push(edge); }
-  clear() { this.edges.clear(); }
+  push(edge) {
+    this.edges.push(edge);
+    this.changed = true;
+  }
+  clear() {
+    this.edges.clear();
+    this.changed = true;
+  }
+
+  // What came before the page was opened, or while it was cut off.
+  async backfill(spacecraft, t_tai_ns) {
+    const series = await Promise.all(Object.keys(channels).map(async channel => {
+      const { points } = await seriesOf(spacecraft, `phase_${channel}`, t_tai_ns - shown_s * 1e9, t_tai_ns, most);
+      return points.map(({ value, ...edge }) => ({ ...edge, channel, phase_deg: value }));
+    }));
+    const past = series.flat().sort((a, b) => a.t_tai_ns - b.t_tai_ns);
+    const last = past.at(-1)?.t_tai_ns ?? -Infinity;
+    const later = [...this.edges].filter(edge => edge.t_tai_ns > last);
+    this.clear();
+    for (const edge of [...past, ...later]) this.push(edge);
+  }
 
   draw(utcOf) {
+    if (!this.changed) return;
+    this.changed = false;
     const { pen, width, height } = begin(this.canvas);
     const plot = { w: width - left - 8, h: height - bottom - 8 };
     let last = -Infinity;
@@ -38,7 +61,7 @@ export class Raster {
     }
     this.drawn = [];
     if (!Number.isFinite(last)) {
-      pen.fillText('no edges since the page was opened', left + 10, 40);
+      pen.fillText('no edges in the last 5 min', left + 10, 40);
       return;
     }
     for (const part of [0, 0.5, 1]) {

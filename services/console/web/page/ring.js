@@ -6,6 +6,7 @@ export class Ring {
     this.values[this.next] = value;
     this.next = (this.next + 1) % this.size;
   }
+  get last() { return this.values.at(this.next - 1); }
   *[Symbol.iterator]() {
     const { length } = this.values;
     const first = length < this.size ? 0 : this.next;

@@ -1,10 +1,11 @@
 // The sky in right ascension (rising to the left) and declination.
 import { begin, colours, cross } from './canvas.js';
-import { byId, sigma } from './text.js';
+import { byId, number, sigma } from './text.js';
 
 const left = 34;
 const bottom = 18;
 const smallest_px = 9;  // of an ellipse that can be seen
+const near_px = 22;     // for a finger
 
 function place(width, height) {
   return (ra_deg, dec_deg) => [left + (width - left - 6) * (1 - ra_deg / 360), 6 + (height - bottom - 6) * (90 - dec_deg) / 180];
@@ -80,7 +81,29 @@ function drawEllipse(pen, [x, y], craft, estimate, deg_px) {
   return times > 1 ? `, drawn ${Number(times.toPrecision(2))} times its size` : '';
 }
 
+const otherText = byId('other-root');
+const candidates = craft => [[craft.ra_deg, craft.dec_deg], [craft.alternate_ra_deg, craft.alternate_dec_deg]]
+  .filter(place => place.every(Number.isFinite));
+
+// Tells `choose` which of the two axes was pointed at.
+export function onRoot(craft, choose) {
+  byId('sky').addEventListener('click', ({ offsetX, offsetY, target }) => {
+    const at = place(target.clientWidth, target.clientHeight);
+    const near = candidates(craft()).map(one => [one, Math.hypot(at(...one)[0] - offsetX, at(...one)[1] - offsetY)])
+      .filter(([, away]) => away < near_px).sort(([, a], [, b]) => a - b);
+    if (near.length) choose({ ra_deg: near[0][0][0], dec_deg: near[0][0][1] });
+  });
+  otherText.addEventListener('click', () => choose({ ra_deg: craft().alternate_ra_deg, dec_deg: craft().alternate_dec_deg }));
+}
+
+function drawOtherText({ alternate_ra_deg: ra, alternate_dec_deg: dec }) {
+  otherText.hidden = !Number.isFinite(ra);
+  const text = `Choose the other axis, RA ${number(ra, 2, '°')} Dec ${number(dec, 2, '°')}`;
+  if (otherText.textContent !== text) otherText.textContent = text;
+}
+
 export function drawSky(craft) {
+  drawOtherText(craft);
   const { pen, width, height } = begin(byId('sky'));
   const at = place(width, height);
   grid(pen, width, height, at);

@@ -14,8 +14,11 @@ export const number = (value, digits, unit = '') =>
   Number.isFinite(value) ? `${value.toFixed(digits)}${unit}` : '–';
 
 // Two significant digits of a sigma, so that a small one is no zero.
-export const sigma = (value, unit = '°') =>
-  Number.isFinite(value) ? `${value >= 10 ? value.toFixed(0) : Number(value.toPrecision(2))}${unit}` : '–';
+export function sigma(value, unit = '°') {
+  if (!Number.isFinite(value)) return '–';
+  const digits = value >= 10 ? value.toFixed(0) : value < 1e-4 ? value.toExponential(1) : Number(value.toPrecision(2));
+  return `${digits}${unit}`;
+}
 
 export function duration(seconds) {
   if (!Number.isFinite(seconds)) return '–';
