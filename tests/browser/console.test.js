@@ -64,7 +64,7 @@ test('tells what an action does and why it is refused', async () => {
   await page.selectOption('#action', 'exclude_segment');
   await fill({ from: '1996-01-01 00:00:10', to: '1996-01-01 00:00:00', by: 'night shift', token: service.token() });
   await page.click('#hand-send');
-  assert.equal(await text('hand-sentence'), 'exclude_segment leaves out all channels from 1996-01-01 00:00:10 to ' +
+  assert.equal(await text('hand-sentence'), 'Leaves out all channels from 1996-01-01 00:00:10 to ' +
     '1996-01-01 00:00:00 UTC, for telemetry of GMS-5 from now on, by night shift. It is stored, and repeated after a restart.');
   await page.click('#hand-send');
   await eventually(async () => assert.match(await text('hand-said'), /^Refused \(400\): .*to_tai_ns.*must be later/));
@@ -97,7 +97,8 @@ test('shows the values of the archive', async () => {
 test('shows what an operator did and how far the target is', async () => {
   await eventually(async () => assert.match(await text('actions'), /✔ 00:00:00set_target ra 50.00°, dec -80.00°night shift: as planned/));
   await eventually(async () => assert.equal(await text('figure-to-target'), `${(await shown()).to_target_deg.toFixed(2)}°`));
-  assert.equal(service.row("SELECT arguments FROM operator_action WHERE by = 'night shift'").arguments, '{"dec_deg":-80.0,"ra_deg":50.0}');
+  const { action, arguments: stored } = service.row("SELECT * FROM operator_action WHERE by = 'night shift'");
+  assert.deepEqual([action, JSON.parse(stored)], ['set_target', { ra_deg: 50, dec_deg: -80 }]);
 });
 
 test('is not go, and says all that stands against it', async () => eventually(async () => {
@@ -127,9 +128,14 @@ test('asks for the axis that was pointed at', async () => {
   await page.locator('#sky').click({ position: {
     x: 34 + (width - 40) * (1 - ra_deg / 360), y: 6 + (height - 24) * (90 - dec_deg) / 180 } });
   assert.equal(await page.inputValue('#action'), 'choose_root');
-  assert.equal(Number(await page.inputValue('#ra_deg')), ra_deg);
+  assert.equal(await page.inputValue('#ra_deg'), `${Number(ra_deg.toFixed(4))}`);
   await page.press('#ra_deg', 'Escape');
 });
+
+test('names places on the sky wherever they lie together', { timeout: within_ms }, () => page.evaluate(async () => {
+  const { drawSky } = await import('/sky.js');
+  for (let dec = -90; dec <= 90; dec += 0.1) drawSky({ ra_deg: 9, dec_deg: dec, sun_ra_deg: 9, sun_dec_deg: dec });
+}));
 
 test('needs no scrolling at 1366x768 and on a tablet', async () => {
   for (const [width, height] of [[1366, 768], [1024, 768]]) {

@@ -10,7 +10,7 @@ const written = utc_s => Number.isFinite(utc_s) ? new Date(utc_s * 1e3).toISOStr
 const utc = (word, name, utc_s, attributes) =>
   field(`${word}, UTC`, name, { value: written(utc_s), pattern: form, placeholder: 'YYYY-MM-DD hh:mm:ss', ...attributes });
 const degrees = (word, name, value, min, max) =>
-  field(`${word}, deg`, name, { type: 'number', step: 'any', min, max, value: Number.isFinite(value) ? value : '' });
+  field(`${word}, deg`, name, { type: 'number', step: 'any', min, max, value: Number.isFinite(value) ? Number(value.toFixed(4)) : '' });
 const axis = place => [degrees('Right ascension', 'ra_deg', place?.ra_deg, -360, 360), degrees('Declination', 'dec_deg', place?.dec_deg, -90, 90)];
 const channel = (craft, first = []) => field('Channel', 'channel', {
   required: !first.length, options: [...first, ...channels[craft.kind].map(name => [name, name])] });
@@ -21,22 +21,22 @@ const other = craft => Number.isFinite(craft.alternate_ra_deg)
 
 // `place`: the axis that was pointed at, if any was.
 const actions = {
-  exclude_channel: { word: 'Exclude a channel', fields: craft => [channel(craft)], does: said => `leaves channel ${said.channel} out` },
-  include_channel: { word: 'Include a channel again', fields: craft => [channel(craft)], does: said => `uses channel ${said.channel} again` },
+  exclude_channel: { word: 'Exclude a channel', fields: craft => [channel(craft)], does: said => `Leaves channel ${said.channel} out` },
+  include_channel: { word: 'Include a channel again', fields: craft => [channel(craft)], does: said => `Uses channel ${said.channel} again` },
   exclude_segment: {
     word: 'Exclude a segment',
     fields: (craft, place, now_s) => [utc('From', 'from', now_s - 60), utc('To', 'to', now_s), channel(craft, [['', 'all channels']])],
-    does: said => `leaves out ${said.channel ? `channel ${said.channel}` : 'all channels'} from ${said.from} to ${said.to} UTC`,
+    does: said => `Leaves out ${said.channel ? `channel ${said.channel}` : 'all channels'} from ${said.from} to ${said.to} UTC`,
   },
   choose_root: { word: 'Choose the axis of two', of: 'spin', fields: (craft, place) => axis(place ?? other(craft)),
-    does: said => `takes, of two axes that fit, the one near ${at(said)}` },
+    does: said => `Takes, of two axes that fit, the one near ${at(said)}` },
   set_prior: {
     word: 'Set a prior', of: 'spin',
     fields: craft => [...axis(craft.prior), degrees('Sigma', 'sigma_deg', craft.prior?.sigma_deg, 0.001, 180)],
-    does: said => `holds the axis to be at ${at(said)}, sigma ${said.sigma_deg}°`,
+    does: said => `Holds the axis to be at ${at(said)}, sigma ${said.sigma_deg}°`,
   },
-  mark_manoeuvre: { word: 'Mark a manoeuvre', of: 'spin', fields: () => [], does: () => 'lets the axis be new: its sigma opens again' },
-  set_target: { word: 'Set the target axis', of: 'spin', fields: craft => axis(craft.target), does: said => `measures how far the axis is from ${at(said)}` },
+  mark_manoeuvre: { word: 'Mark a manoeuvre', of: 'spin', fields: () => [], does: () => 'Lets the axis be new: its sigma opens again' },
+  set_target: { word: 'Set the target axis', of: 'spin', fields: craft => axis(craft.target), does: said => `Measures how far the axis is from ${at(said)}` },
 };
 
 const numbers = ['ra_deg', 'dec_deg', 'sigma_deg'];
@@ -69,7 +69,7 @@ export function askAction(spacecraft, craft, time, chosen = 'exclude_channel', p
     path: '/api/v1/actions',
     fields: fieldsOf(chosen),
     body: said => bodyOf(said, spacecraft, time.taiOf),
-    sentence: said => `${said.action} ${actions[said.action].does(said)}, for telemetry of ${spacecraft} from ${
+    sentence: said => `${actions[said.action].does(said)}, for telemetry of ${spacecraft} from ${
       said.since ? `${said.since} UTC` : 'now'} on, by ${said.by}. It is stored, and repeated after a restart.`,
     taken: ({ action_id }, said) => sent.set(action_id, said),
   });

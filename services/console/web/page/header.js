@@ -1,8 +1,8 @@
 // What the operator must see at a glance, whatever else is on the page.
 import { byId, duration, element, number, sigma, sign } from './text.js';
 
-const figures = ['UTC', 'Data age', 'Mode', 'Link', 'Spin rate', 'Axis RA / Dec', '1 σ', 'To target', 'Case, dual solution', 'Attitude 1 σ'];
-const ofSpin = ['Spin rate', 'Axis RA / Dec', '1 σ', 'Case, dual solution'];
+const figures = ['UTC', 'Data age', 'Mode', 'Link', 'Spin rate', 'Axis RA / Dec', '1 σ', 'To target'];
+const ofSpin = ['Spin rate', 'Axis RA / Dec'];
 const settled = { GEOMETRY: 'by geometry', CONSTRAINT: 'by constraint', PRIOR: 'by prior', DISPERSION: 'by dispersion',
   AMBIGUOUS: '⇄ NOT settled' };
 const places = new Map();
@@ -16,18 +16,12 @@ for (const name of figures) {
   places.set(name, value);
 }
 
-// Of a name that only some spacecraft have.
-function applies(name, craft) {
-  const spin = craft.kind !== 'three_axis';
-  if (name === 'To target') return Number.isFinite(craft.to_target_deg);
-  return ofSpin.includes(name) ? spin : name !== 'Attitude 1 σ' || !spin;
-}
-
-function say(id, text, className = '') {
-  const place = byId(id);
+function write(place, text, className = '') {
   if (place.textContent !== text) place.textContent = text;
   place.className = className;
 }
+const say = (id, ...what) => write(byId(id), ...what);
+const put = (name, ...what) => write(places.get(name), ...what);
 
 // What was go when the service was last heard is not known to be so now.
 function drawGo(go, stale) {
@@ -37,15 +31,11 @@ function drawGo(go, stale) {
     : (go?.against ?? []).map(one => one.text).join('; ') || 'nothing is known yet');
 }
 
-function put(name, text, className = '') {
-  const place = places.get(name);
-  if (place.textContent !== text) place.textContent = text;
-  place.className = className;
-}
-
 // `since_s`: since the service said so. `stale`: too long ago to be called the state of the link.
 export function drawHeader(craft, service, since_s, stale) {
-  for (const [name, place] of places) place.parentElement.hidden = !applies(name, craft);
+  const spin = craft.kind !== 'three_axis';
+  for (const name of ofSpin) places.get(name).parentElement.hidden = !spin;
+  places.get('To target').parentElement.hidden = !Number.isFinite(craft.to_target_deg);
   put('UTC', craft.utc ? craft.utc.replace('T', ' ').replace(/(\.\d+)?Z$/, '') : '–');
   put('Data age', duration(craft.data_age_s + since_s), craft.state === 'stale' ? 'bad' : '');
   put('Mode', service?.mode === 'replay' ? '↻ REPLAY' : service?.mode ? `▶ ${service.mode.toUpperCase()}` : '–',
@@ -57,11 +47,10 @@ export function drawHeader(craft, service, since_s, stale) {
   put('Axis RA / Dec', `${number(craft.ra_deg, 3, '°')} / ${number(craft.dec_deg, 3, '°')}`);
   put('1 σ', sigma(craft.sigma_deg));
   put('To target', number(craft.to_target_deg, 2, '°'));
-  put('Attitude 1 σ', sigma(craft.sigma_deg));
-  put('Case, dual solution', Number.isFinite(craft.geometry_case) ? `${craft.geometry_case}, ${settled[craft.resolution] ?? '–'}` : '–',
-    craft.resolution === 'AMBIGUOUS' ? 'warn' : '');
   const [mark, tone] = sign(craft.quality);
   say('quality', `${mark} ${craft.quality ?? 'WAITING'}`, tone);
   say('why', craft.quality ? [craft.estimator, craft.why].filter(Boolean).join(': ') : 'for the first telemetry');
+  say('case', Number.isFinite(craft.geometry_case) ? `case ${craft.geometry_case}, dual solution ${settled[craft.resolution] ?? '–'}` : '',
+    craft.resolution === 'AMBIGUOUS' ? 'warn' : 'dim');
   drawGo(craft.go, stale);
 }

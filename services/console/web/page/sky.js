@@ -43,7 +43,7 @@ function grid(pen, width, height, at) {
 function label(pen, width, x, y, word, words) {
   const length = pen.measureText(word).width;
   const from = x + 15 + length > width ? x - 15 - length : x + 15;
-  let at = Math.max(14, y + 5);
+  let at = Math.round(Math.max(14, y + 5));  // Whole, so that a word below another one is exactly so far away.
   const taken = one => from < one.to && from + length > one.from && Math.abs(one.at - at) < 14;
   for (let other = words.find(taken); other; other = words.find(taken)) at = other.at + 14;
   words.push({ from, to: from + length, at });
