@@ -19,57 +19,54 @@ namespace spindrift::rehearsal_test {
 /// Beside a sender on an idle machine it is milliseconds.
 constexpr double kSlack_s = 30.0;
 
-double offset_s(RehearsalClocks& clocks, const std::string& spacecraft) {
-  EXPECT_TRUE(eventually([&] { return clocks.look() && clocks.offset(spacecraft).has_value(); }));
-  const std::chrono::duration<double> offset =
-      clocks.offset(spacecraft).value_or(std::chrono::nanoseconds{0});
-  return offset.count();
-}
+/// A service beside which the clocks of rehearsals are heard.
+class Rehearsal : public ::testing::Test {
+ protected:
+  Rehearsal() { EXPECT_TRUE(service_.ready()); }
 
-TEST(Rehearsal, OfARecordedPassTellsHowFarItIsInThePast) {
-  Service service{"nominal", "replay"};
-  ASSERT_TRUE(service.ready());
-  const auto participant = bus::Participant::create(service.bus());
-  ASSERT_TRUE(participant);
-  auto clocks = RehearsalClocks::create(*participant);
-  ASSERT_TRUE(clocks);
-  Program replay{{"replay", "--now", "--mission", service.mission(), "--telemetry",
-                  (kPasses / "nominal").string(), "--domain",
-                  std::to_string(service.bus().domain)}};
-  const auto first = [&] {
-    return number_of(service.db(), "SELECT ifnull(min(t_tai_ns), 0) FROM pulse");
-  };
+  double offset_s() {
+    EXPECT_TRUE(
+        eventually([&] { return clocks_.look() && clocks_.offset("SPINNER").has_value(); }));
+    const std::chrono::duration<double> offset =
+        clocks_.offset("SPINNER").value_or(std::chrono::nanoseconds{0});
+    return offset.count();
+  }
+  std::string domain() const { return std::to_string(service_.bus().domain); }
+  /// Of the service's archive.
+  std::int64_t number(const std::string& query) { return number_of(service_.db(), query); }
+  void stop(Program& sender) {
+    sender.signal(SIGINT);
+    EXPECT_EQ(sender.exit_status(), 1);
+    EXPECT_EQ(service_.stop(), 0);
+  }
+
+  Service service_{"nominal", "replay"};
+  bus::Participant participant_ = bus::Participant::create(service_.bus()).value();
+  RehearsalClocks clocks_ = RehearsalClocks::create(participant_).value();
+};
+
+TEST_F(Rehearsal, OfARecordedPassTellsHowFarItIsInThePast) {
+  Program replay{{"replay", "--now", "--mission", service_.mission(), "--telemetry",
+                  (kPasses / "nominal").string(), "--domain", domain()}};
+  const auto first = [&] { return number("SELECT ifnull(min(t_tai_ns), 0) FROM pulse"); };
   ASSERT_TRUE(eventually([&] { return first() > 0; })) << replay.log();
-  EXPECT_NEAR(offset_s(*clocks, "SPINNER"), seconds_between(tai_from_ns(first()), tai_now()),
-              kSlack_s);
-  replay.signal(SIGINT);
-  EXPECT_EQ(replay.exit_status(), 1);
-  EXPECT_EQ(service.stop(), 0);
+  EXPECT_NEAR(offset_s(), seconds_between(tai_from_ns(first()), tai_now()), kSlack_s);
+  stop(replay);
 }
 
-TEST(Rehearsal, OfASimulatedPassIsOfThePresent) {
-  Service service{"nominal", "replay"};
-  ASSERT_TRUE(service.ready());
-  const auto participant = bus::Participant::create(service.bus());
-  ASSERT_TRUE(participant);
-  auto clocks = RehearsalClocks::create(*participant);
-  ASSERT_TRUE(clocks);
+TEST_F(Rehearsal, OfASimulatedPassIsOfThePresent) {
   const TaiTime before = tai_now();
   Program simulate{{"simulate", (scenarios() / "gto-nominal.toml").string(), "--publish", "--now",
-                    "--domain", std::to_string(service.bus().domain)}};
-  const auto last = [&] {
-    return number_of(service.db(), "SELECT ifnull(max(t_tai_ns), 0) FROM pulse");
-  };
+                    "--domain", domain()}};
+  const auto last = [&] { return number("SELECT ifnull(max(t_tai_ns), 0) FROM pulse"); };
   ASSERT_TRUE(eventually([&] { return last() > 0; })) << simulate.log();
-  EXPECT_EQ(offset_s(*clocks, "SPINNER"), 0.0);
+  EXPECT_EQ(offset_s(), 0.0);
   EXPECT_GT(tai_from_ns(last()), before);
   EXPECT_LE(tai_from_ns(last()), tai_now());
-  simulate.signal(SIGINT);
-  EXPECT_EQ(simulate.exit_status(), 1);
-  EXPECT_EQ(service.stop(), 0);
+  stop(simulate);
 }
 
-TEST(Rehearsal, IsAtTheSpeedOfTheClock) {
+TEST(RehearsalsCommand, IsAtTheSpeedOfTheClock) {
   Program replay{{"replay", "--now", "--speed", "2", "--mission", "m.toml", "--telemetry", "."}};
   EXPECT_EQ(replay.exit_status(), 2);
   Program simulate{{"simulate", "s.toml", "--out", "x", "--now"}};
