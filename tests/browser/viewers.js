@@ -28,7 +28,7 @@ async function view(number) {
       await json(`api/v1/series?spacecraft=${id}&quantity=${quantity}&from=${BigInt(t - 1800e9)}&to=${BigInt(t)}&points=800`);
       ++asked;
     }
-    await sleep(3000);
+    await sleep(5000);
   }
 }
 

@@ -14,7 +14,7 @@ import { Trace } from './trace.js';
 const stale_after_ms = 3000;
 const redraw_ms = 100;
 const convergence_ms = 1000;
-const series_ms = 3000;
+const series_ms = 5000;  // a pixel of their half an hour
 const reopen_ms = 2000;
 
 const raster = new Raster();

@@ -98,7 +98,7 @@ export function onRoot(craft, choose) {
 
 function drawOtherText({ alternate_ra_deg: ra, alternate_dec_deg: dec }) {
   otherText.hidden = !Number.isFinite(ra);
-  const text = `Choose the other axis, RA ${number(ra, 2, '°')} Dec ${number(dec, 2, '°')}`;
+  const text = `Choose RA ${number(ra, 2, '°')} Dec ${number(dec, 2, '°')}`;
   if (otherText.textContent !== text) otherText.textContent = text;
 }
 
