@@ -22,6 +22,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 
 namespace spindrift {
 
@@ -63,6 +64,8 @@ struct SpinMotion {
     return first_azimuth_rad + (rate_rad_s + 0.5 * rate_drift_rad_s2 * t_s) * t_s;
   }
   double rate_at_rad_s(double t_s) const { return rate_rad_s + rate_drift_rad_s2 * t_s; }
+  /// It turns for ever.
+  static constexpr double end_s() { return std::numeric_limits<double>::infinity(); }
 
   /// How the sensors are tipped: they stand as in an even spin about the third axis of `tipped`,
   /// R_axes_sensors = R_axes_tipped Rz(azimuth). Exactly the identity where nothing wobbles.

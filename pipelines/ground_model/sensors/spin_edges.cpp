@@ -123,7 +123,9 @@ EarthFigure infrared_horizon(const Horizon& horizon, const Eigen::Vector3d& pole
           .pole_icrf = pole_icrf};
 }
 
-SpinEdges::SpinEdges(const SpinTruth& truth, const Orbit& orbit) : truth_{truth}, orbit_{&orbit} {
+template <SpunBody Motion>
+SpinEdges<Motion>::SpinEdges(const SpinTruthOf<Motion>& truth, const Orbit& orbit)
+    : truth_{truth}, orbit_{&orbit} {
   axes_from_icrf_.topRows<2>() = tangent_basis(truth.motion.axis_icrf).transpose();
   axes_from_icrf_.row(2) = truth.motion.axis_icrf.transpose();
   const Eigen::Vector3d pole = axes_from_icrf_ * truth.horizon.pole_icrf;
@@ -133,8 +135,15 @@ SpinEdges::SpinEdges(const SpinTruth& truth, const Orbit& orbit) : truth_{truth}
                         (polar_per_km - equatorial_per_km) * pole * pole.transpose();
 }
 
-Expected<SpinEdges::View> SpinEdges::view(double t_s) {
+template <SpunBody Motion>
+auto SpinEdges<Motion>::view(double t_s) -> Expected<View> {
   const TaiTime t = shifted(truth_.start, t_s);
+  if (t_s > truth_.motion.end_s()) {
+    return Unexpected{
+        {ErrorCode::NoCoverage,
+         fmt::format("the motion of the body ends {} s behind its start: {} is asked for",
+                     truth_.motion.end_s(), format_utc(t))}};
+  }
   return orbit_->at(t).and_then([&](const OrbitState& state) -> Expected<View> {
     const double range_km = state.position_icrf_km.norm();
     if (!(range_km > truth_.horizon.equatorial_km)) {
@@ -153,12 +162,14 @@ Expected<SpinEdges::View> SpinEdges::view(double t_s) {
   });
 }
 
-bool SpinEdges::hides_sun(const View& view) {
+template <SpunBody Motion>
+bool SpinEdges<Motion>::hides_sun(const View& view) {
   return depth(view.squeezed_from_tipped * view.sun_tipped,
                view.squeezed_from_tipped * view.earth_tipped_km) > 0.0;
 }
 
-SpinEdges::Due SpinEdges::sun_due(PulseChannel channel, const View& view) const {
+template <SpunBody Motion>
+auto SpinEdges<Motion>::sun_due(PulseChannel channel, const View& view) const -> Due {
   const Eigen::Vector3d& sun = view.sun_tipped;
   const bool lit = !hides_sun(view);
   if (channel == PulseChannel::Sun1) {
@@ -172,7 +183,8 @@ SpinEdges::Due SpinEdges::sun_due(PulseChannel channel, const View& view) const 
                               : Due{.azimuth_rad = middle_rad, .seen = false};
 }
 
-SpinEdges::Due SpinEdges::earth_due(const TrueInfrared& sensor, bool in, const View& view) {
+template <SpunBody Motion>
+auto SpinEdges<Motion>::earth_due(const TrueInfrared& sensor, bool in, const View& view) -> Due {
   const double earth_rad = azimuth_of(view.earth_tipped_km);
   const Due unseen = {.azimuth_rad = earth_rad + sensor.azimuth_rad, .seen = false};
   const Eigen::Vector3d centre = view.squeezed_from_tipped * view.earth_tipped_km;
@@ -196,7 +208,8 @@ SpinEdges::Due SpinEdges::earth_due(const TrueInfrared& sensor, bool in, const V
                   std::abs(outside_rad - limb_rad) >= kNarrowestHalf_rad};
 }
 
-SpinEdges::Due SpinEdges::due(PulseChannel channel, const View& view) const {
+template <SpunBody Motion>
+auto SpinEdges<Motion>::due(PulseChannel channel, const View& view) const -> Due {
   switch (channel) {
     case PulseChannel::NorthIn:
     case PulseChannel::NorthOut:
@@ -211,7 +224,8 @@ SpinEdges::Due SpinEdges::due(PulseChannel channel, const View& view) const {
 
 /// The crossing within half a turn of the guess, by secants: what the body lags behind is nearly
 /// linear in time. It is wrapped once only: an edge that moves must not lead to another turn's.
-Expected<SpinEdges::Crossing> SpinEdges::crossing_near(PulseChannel channel, double guess_s) {
+template <SpunBody Motion>
+auto SpinEdges<Motion>::crossing_near(PulseChannel channel, double guess_s) -> Expected<Crossing> {
   double t_s = guess_s;
   double slope_rad_s = -truth_.motion.rate_at_rad_s(t_s);
   std::optional<std::pair<double, double>> before;
@@ -239,7 +253,8 @@ Expected<SpinEdges::Crossing> SpinEdges::crossing_near(PulseChannel channel, dou
 }
 
 /// The crossing a turn after the one at `t_s`.
-Expected<SpinEdges::Crossing> SpinEdges::crossing_after(PulseChannel channel, double t_s) {
+template <SpunBody Motion>
+auto SpinEdges<Motion>::crossing_after(PulseChannel channel, double t_s) -> Expected<Crossing> {
   const double guess_s = t_s + kTurn_rad / truth_.motion.rate_at_rad_s(t_s);
   return crossing_near(channel, guess_s).map([&](const Crossing& next) {
     const double turned_rad = truth_.motion.azimuth_rad(next.t_s) - truth_.motion.azimuth_rad(t_s);
@@ -248,7 +263,8 @@ Expected<SpinEdges::Crossing> SpinEdges::crossing_after(PulseChannel channel, do
   });
 }
 
-Expected<void> SpinEdges::start() {
+template <SpunBody Motion>
+Expected<void> SpinEdges<Motion>::start() {
   const auto first = view(0.0);
   if (!first) {
     return Unexpected{first.error()};
@@ -264,7 +280,7 @@ Expected<void> SpinEdges::start() {
     const double ahead_rad = std::remainder(
         due(channel, *first).azimuth_rad - truth_.motion.azimuth_rad(0.0), kTurn_rad);
     const double guess_s =
-        (ahead_rad < 0.0 ? ahead_rad + kTurn_rad : ahead_rad) / truth_.motion.rate_rad_s;
+        (ahead_rad < 0.0 ? ahead_rad + kTurn_rad : ahead_rad) / truth_.motion.rate_at_rad_s(0.0);
     const auto next = crossing_near(channel, guess_s);
     if (!next) {
       return Unexpected{next.error()};
@@ -274,7 +290,9 @@ Expected<void> SpinEdges::start() {
   return {};
 }
 
-Expected<void> SpinEdges::follow(Follower& follower, double end_s, std::vector<TrueEdge>& edges) {
+template <SpunBody Motion>
+Expected<void> SpinEdges<Motion>::follow(Follower& follower, double end_s,
+                                         std::vector<TrueEdge>& edges) {
   while (follower.next.t_s < end_s) {
     const auto [t_s, seen] = follower.next;
     if (t_s >= 0.0) {
@@ -292,7 +310,8 @@ Expected<void> SpinEdges::follow(Follower& follower, double end_s, std::vector<T
   return {};
 }
 
-Expected<std::vector<TrueEdge>> SpinEdges::until(double end_s) {
+template <SpunBody Motion>
+Expected<std::vector<TrueEdge>> SpinEdges<Motion>::until(double end_s) {
   if (followers_.empty()) {
     if (const auto begun = start(); !begun) {
       return Unexpected{begun.error()};
@@ -309,5 +328,8 @@ Expected<std::vector<TrueEdge>> SpinEdges::until(double end_s) {
   });
   return edges;
 }
+
+template class SpinEdges<BodySpin>;
+template class SpinEdges<SpinMotion>;
 
 }  // namespace spindrift

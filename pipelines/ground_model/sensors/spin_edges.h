@@ -17,6 +17,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -24,6 +25,7 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/ephemeris/sun.h"
+#include "pipelines/ground_model/dynamics/body_spin.h"
 #include "pipelines/ground_model/dynamics/spin_motion.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/pulse.h"
@@ -49,15 +51,27 @@ struct EarthFigure {
 /// half axes longer by the altitude.
 EarthFigure infrared_horizon(const Horizon& horizon, const Eigen::Vector3d& pole_icrf);
 
+/// A body that spins about an axis at rest, and what leans away from it: SpinMotion or BodySpin.
+template <class Motion>
+concept SpunBody = requires(const Motion& motion, double t_s) {
+  {Eigen::Vector3d{motion.axis_icrf}};
+  { motion.azimuth_rad(t_s) } -> std::same_as<double>;
+  { motion.rate_at_rad_s(t_s) } -> std::same_as<double>;
+  { motion.R_axes_tipped(t_s) } -> std::same_as<Eigen::Matrix3d>;
+  { motion.end_s() } -> std::same_as<double>;
+};
+
 /// What there is, as opposed to what the mission file says of it.
-struct SpinTruth {
+template <SpunBody Motion>
+struct SpinTruthOf {
   TaiTime start;
-  SpinMotion motion;
+  Motion motion;
   SunSensor sun_sensor;
   std::optional<TrueInfrared> north;
   std::optional<TrueInfrared> south;
   EarthFigure horizon;
 };
+using SpinTruth = SpinTruthOf<SpinMotion>;
 
 struct TrueEdge {
   double t_s;  ///< Behind the start.
@@ -69,14 +83,15 @@ struct TrueEdge {
 /// Good to 1e-10 s within a day. A chord narrower than half a degree, or within half a degree of
 /// the whole turn, is not seen: no beam is that fine, and its edges are no longer roots that a step
 /// can find.
+template <SpunBody Motion>
 class SpinEdges {
  public:
   /// `orbit` outlives it.
-  SpinEdges(const SpinTruth& truth, const Orbit& orbit);
+  SpinEdges(const SpinTruthOf<Motion>& truth, const Orbit& orbit);
 
   /// The edges from where the last slice ended (at first: the start) up to `end_s`, exclusive, in
   /// order of time and channel.
-  /// @return NoCoverage where the orbit ends before (one turn ahead of the edges is looked at);
+  /// @return NoCoverage where orbit or motion ends before (a turn ahead of the edges is looked at);
   ///         Unobservable where it dips below the horizon.
   Expected<std::vector<TrueEdge>> until(double end_s);
 
@@ -114,7 +129,7 @@ class SpinEdges {
   Expected<void> follow(Follower& follower, double end_s, std::vector<TrueEdge>& edges);
   Expected<void> start();
 
-  SpinTruth truth_;
+  SpinTruthOf<Motion> truth_;
   const Orbit* orbit_;
   ApparentSun sun_;
   Eigen::Matrix3d axes_from_icrf_;
@@ -122,5 +137,8 @@ class SpinEdges {
   std::vector<Follower> followers_;
   std::int64_t revolutions_ = 0;
 };
+
+extern template class SpinEdges<BodySpin>;
+extern template class SpinEdges<SpinMotion>;
 
 }  // namespace spindrift

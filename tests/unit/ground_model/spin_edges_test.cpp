@@ -19,6 +19,8 @@
 
 namespace spindrift::spin_edges_test {
 
+using ::testing::HasSubstr;
+
 constexpr double kRpm = std::numbers::pi / 30.0;
 constexpr TaiTime kStart = tai_from_ns(1795143637000000000);  // 2026-11-20
 const Eigen::Vector3d kIcrfPole = Eigen::Vector3d::UnitZ();
@@ -379,6 +381,94 @@ TEST(SpinEdges, SayWhereTheOrbitEnds) {
   const auto seen = edges.until(10.0);
   ASSERT_FALSE(seen);
   EXPECT_EQ(seen.error().code, ErrorCode::NoCoverage);
+}
+
+/// The same motion, integrated: a body without torque that is symmetric about its third axis.
+BodyMotion integrated(const SpinMotion& motion, double end_s) {
+  constexpr double kStep_s = 2.5e-3;
+  const double ratio = motion.nutation.inertia_ratio;
+  const double cosine = std::cos(motion.nutation.half_angle_rad);
+  SpinMotion body = motion;
+  body.coning = {};
+  Eigen::Matrix3d R_icrf_axes;
+  R_icrf_axes << tangent_basis(motion.axis_icrf), motion.axis_icrf;
+  const Eigen::Matrix3d R_icrf_body =
+      R_icrf_axes * body.R_axes_tipped(0.0) *
+      Eigen::AngleAxisd{body.azimuth_rad(0.0), Eigen::Vector3d::UnitZ()};
+  // As large as turns the body as fast as said: spin_motion.h, with 1 kg m2 across the axis.
+  const double momentum_nms = motion.rate_rad_s / (1.0 + cosine / ratio - cosine);
+  const Eigen::Vector3d inertia_kg_m2{1.0, 1.0, ratio};
+  const Eigen::Vector3d rate_rad_s =
+      (momentum_nms * R_icrf_body.transpose() * motion.axis_icrf).cwiseQuotient(inertia_kg_m2);
+  BodyMotion free{RigidBody::make(Eigen::Matrix3d{inertia_kg_m2.asDiagonal()}).value(),
+                  {.q_icrf_body = Eigen::Quaterniond{R_icrf_body}, .rate_body_rad_s = rate_rad_s},
+                  kStep_s};
+  while (free.end_s() < end_s) {
+    free.step({});
+  }
+  return free;
+}
+
+SpinTruthOf<BodySpin> integrated(const SpinTruth& truth, double end_s) {
+  const Coning& coning = truth.motion.coning;
+  const Eigen::Vector3d hinge{std::sin(coning.azimuth_rad), std::cos(coning.azimuth_rad), 0.0};
+  const Eigen::Quaterniond q_body_sensors{Eigen::AngleAxisd{coning.tilt_rad, hinge}};
+  return {.start = truth.start,
+          .motion = BodySpin::make(integrated(truth.motion, end_s), q_body_sensors).value(),
+          .sun_sensor = truth.sun_sensor,
+          .north = truth.north,
+          .south = truth.south,
+          .horizon = truth.horizon};
+}
+
+TEST(SpinEdges, OfAnIntegratedBodyAreThoseOfItsClosedForm) {
+  constexpr double kEnd_s = 240.0;
+  const Orbit orbit = orbit_of(24400.0, 0.73, 0.5);
+  for (const double inertia_ratio : {0.3, 1.7}) {
+    SCOPED_TRACE(inertia_ratio);
+    SpinTruth truth = truth_of(place(100.0, -55.0), 60.0, HorizonModel::Ellipsoid);
+    truth.motion.nutation = {.half_angle_rad = 3.0 * kRadPerDeg,
+                             .inertia_ratio = inertia_ratio,
+                             .first_azimuth_rad = 1.0};
+    truth.motion.coning = {.tilt_rad = 1.0 * kRadPerDeg, .azimuth_rad = 0.5};
+    const auto expected = edges_of(truth, orbit, kEnd_s);
+    const SpinTruthOf<BodySpin> free = integrated(truth, kEnd_s + 2.0);
+    SpinEdges source{free, orbit};
+    const auto edges = source.until(kEnd_s).value();
+    EXPECT_GT(expected.size(), 1400U);
+    ASSERT_EQ(edges.size(), expected.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      ASSERT_EQ(name_of(edges[i].channel), name_of(expected[i].channel)) << i;
+      ASSERT_NEAR(edges[i].t_s, expected[i].t_s, 1e-7) << i;
+    }
+    EXPECT_EQ(source.revolutions(), 240);
+  }
+}
+
+TEST(SpinEdges, SayWhereTheMotionEnds) {
+  const Orbit orbit = orbit_of(24400.0, 0.73, 0.5);
+  const auto free = integrated(truth_of(place(100.0, -55.0), 60.0, HorizonModel::Sphere), 5.0);
+  SpinEdges edges{free, orbit};
+  EXPECT_TRUE(edges.until(3.0));
+  const auto seen = edges.until(10.0);
+  ASSERT_FALSE(seen);
+  EXPECT_EQ(seen.error().code, ErrorCode::NoCoverage);
+  EXPECT_THAT(seen.error().message, HasSubstr("the motion of the body ends"));
+}
+
+TEST(BodySpin, RefusesABodyThatTumblesOrTurnsTooFastForItsSteps) {
+  const auto error_of = [](const Eigen::Vector3d& rate_rad_s, double step_s) {
+    BodyMotion tumbling{
+        RigidBody::make(Eigen::Matrix3d{Eigen::Vector3d{1.0, 2.0, 2.5}.asDiagonal()}).value(),
+        {.q_icrf_body = Eigen::Quaterniond::Identity(), .rate_body_rad_s = rate_rad_s},
+        step_s};
+    for (int i = 0; i < 2000; ++i) {
+      tumbling.step({});
+    }
+    return BodySpin::make(tumbling, Eigen::Quaterniond::Identity()).error().message;
+  };
+  EXPECT_THAT(error_of({1.0, 0.0, 0.1}, 0.01), HasSubstr("must be below 90 deg"));
+  EXPECT_THAT(error_of({0.0, 0.0, 6.0}, 0.05), HasSubstr("too coarse"));
 }
 
 }  // namespace spindrift::spin_edges_test
