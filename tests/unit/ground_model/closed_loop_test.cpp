@@ -10,6 +10,7 @@
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/control/attitude_control.h"
 #include "pipelines/ground_model/control/control_period.h"
+#include "pipelines/ground_model/control/gyro_propagation.h"
 #include "pipelines/ground_model/dynamics/stepped_body.h"
 
 namespace spindrift::closed_loop_test {
@@ -152,6 +153,26 @@ TEST(ClosedLoop, KeepsTheMomentumOfBodyAndWheels) {
     loop.fly(control.torque_body_nm(loop.t_s(), loop.measured(Vector3d::UnitX())), {});
   }
   EXPECT_LT((momentum_icrf_nms() - at_first_nms).norm(), 1e-10 * at_first_nms.norm());
+}
+
+/// Of seed 004: its computer knows the attitude from its gyro alone.
+TEST(ClosedLoop, OrientsItByAnAttitudeOfTheGyroAlone) {
+  for (const GyroPropagation by : {GyroPropagation::Composition, GyroPropagation::RungeKutta}) {
+    ClosedLoop<SteppedBody> loop = loop_of(kMoments_kg_m2, {});
+    AttitudeControl control = sequence(orientation());
+    Measured measured = loop.measured(Vector3d::UnitX());
+    while (loop.t_s() < 800.0) {
+      const Measured before = measured;
+      loop.fly(control.torque_body_nm(loop.t_s(), measured), {});
+      measured = loop.measured(Vector3d::UnitX());
+      measured.q_icrf_body = propagated(by, before.q_icrf_body,
+                                        {.dt_s = loop.period_s(),
+                                         .from_rad_s = before.rate_body_rad_s,
+                                         .to_rad_s = measured.rate_body_rad_s});
+    }
+    EXPECT_LT(degrees(angle_between_rad(measured.q_icrf_body, kTarget)), 1e-3);
+    EXPECT_LT(degrees(off_rad(loop)), 1e-2);
+  }
 }
 
 /// Of seed 000: relays damp its rates, then it looks for the Sun by itself.
