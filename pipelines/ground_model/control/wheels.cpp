@@ -18,13 +18,18 @@ Wheels::Wheels(const WheelDesign& design)
 
 Expected<Wheels> Wheels::make(const WheelDesign& design) {
   constexpr double kFlat = 1e-6;
+  const double shortest =
+      design.axes_body.cols() > 0 ? design.axes_body.colwise().norm().minCoeff() : 0.0;
   // Written so that NaN fails.
   if (!(design.inertia_kg_m2 > 0.0 && design.torque_nm_most > 0.0 &&
-        design.speed_rad_s_most > 0.0)) {
+        design.speed_rad_s_most > 0.0 && shortest > 0.0)) {
     return Unexpected{
         {ErrorCode::InvalidConfiguration,
-         fmt::format("wheels of {} kg m2, at most {} N m and {} rad/s: must be above 0",
-                     design.inertia_kg_m2, design.torque_nm_most, design.speed_rad_s_most)}};
+         fmt::format(
+             "{} wheels of {} kg m2, at most {} N m and {} rad/s, the shortest axis {} long: "
+             "must be above 0",
+             design.axes_body.cols(), design.inertia_kg_m2, design.torque_nm_most,
+             design.speed_rad_s_most, shortest)}};
   }
   const Eigen::Matrix3Xd axes = design.axes_body.colwise().normalized();
   const Eigen::Vector3d spread =

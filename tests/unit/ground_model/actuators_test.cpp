@@ -78,7 +78,9 @@ TEST(Wheels, AreRefusedWhereTheyDoNotSpanSpace) {
   EXPECT_EQ(Wheels::make(two).error().code, ErrorCode::InvalidConfiguration);
   WheelDesign none = design();
   none.axes_body.col(1).setZero();
-  EXPECT_FALSE(Wheels::make(none));
+  EXPECT_THAT(Wheels::make(none).error().message, HasSubstr("the shortest axis 0 long"));
+  none.axes_body.resize(3, 0);
+  EXPECT_THAT(Wheels::make(none).error().message, HasSubstr("0 wheels"));
   WheelDesign weak = design();
   weak.torque_nm_most = 0.0;
   EXPECT_THAT(Wheels::make(weak).error().message, HasSubstr("must be above 0"));
