@@ -26,6 +26,15 @@ constexpr std::string_view kEvent = std::is_same_v<Kind, SpinEstimate>       ? "
 /// Larger than all of an earlier start, which told less than one a microsecond.
 std::uint64_t first_id() { return static_cast<std::uint64_t>(tai_ns(tai_now()) / 1000); }
 
+nlohmann::json leap_seconds_json() {
+  nlohmann::json offsets = nlohmann::json::array();
+  for (const LeapSecond& leap : leap_seconds()) {
+    offsets.push_back(
+        {{"start_tai_ns", tai_ns(leap.start)}, {"tai_minus_utc_s", leap.tai_minus_utc_s}});
+  }
+  return offsets;
+}
+
 }  // namespace
 
 ConsoleFeed::ConsoleFeed(const std::vector<Mission>& missions, nlohmann::json service)
@@ -196,6 +205,7 @@ nlohmann::json ConsoleFeed::state_now() {
   const TaiTime now = tai_now();
   nlohmann::json state{{"t_tai_ns", tai_ns(now)},
                        {"utc", format_utc(now)},
+                       {"leap_seconds", leap_seconds_json()},
                        {"service", service_},
                        {"alerts", nlohmann::json::array()},
                        {"spacecraft", nlohmann::json::object()}};

@@ -30,7 +30,7 @@ const stale = () => page.locator('body.stale').waitFor({ timeout: within_ms });
 const fresh = (of = page) => of.locator('body:not(.stale)').waitFor({ timeout: within_ms });
 
 before(async () => {
-  service = new Service();
+  service = new Service('spin/gms5');
   await service.start();
   browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox'] });
   page = await browser.newPage({ viewport: { width: 1366, height: 768 } });
@@ -97,8 +97,10 @@ test('shows the values of the archive', async () => {
 test('shows what an operator did and how far the target is', async () => {
   await eventually(async () => assert.match(await text('actions'), /✔ 00:00:00set_target ra 50.00°, dec -80.00°night shift: as planned/));
   await eventually(async () => assert.equal(await text('figure-to-target'), `${(await shown()).to_target_deg.toFixed(2)}°`));
-  const { action, arguments: stored } = service.row("SELECT * FROM operator_action WHERE by = 'night shift'");
-  assert.deepEqual([action, JSON.parse(stored)], ['set_target', { ra_deg: 50, dec_deg: -80 }]);
+  // As text: a double does not hold nanoseconds. TAI was 30 s ahead of UTC.
+  const done = service.row("SELECT *, CAST(t_tai_ns AS TEXT) AS t FROM operator_action WHERE by = 'night shift'");
+  assert.deepEqual([done.action, JSON.parse(done.arguments), done.t],
+    ['set_target', { ra_deg: 50, dec_deg: -80 }, `${Date.UTC(1996, 0) / 1e3 + 30}000000000`]);
 });
 
 test('is not go, and says all that stands against it', async () => eventually(async () => {
@@ -117,7 +119,7 @@ test('shows the edges of before to who comes late', async () => {
   await eventually(async () => {
     const { width, height } = await raster.boundingBox();
     await page.mouse.move(0, 0);
-    await raster.hover({ position: { x: width - 10, y: height - 22 } });
+    await raster.hover({ position: { x: width - 75, y: height - 22 } });
     assert.match(await text('raster-said'), /^sun1 \d\d:\d\d:\d\d 0.0° accepted/);
   });
 });
@@ -163,7 +165,7 @@ test('serves twelve viewers at once', async () => {
   const viewers = await Promise.all(Array.from({ length: 12 }, async () => {
     const context = await browser.newContext();
     const viewer = await context.newPage();
-    await viewer.goto(service.url);
+    await viewer.goto(service.url, { timeout: within_ms });
     await fresh(viewer);
     return viewer;
   }));

@@ -8,8 +8,6 @@ import { fileURLToPath } from 'node:url';
 
 const program = process.env.SPINDRIFT;
 const root = resolve(fileURLToPath(new URL('.', import.meta.url)), '../..');
-const pass = join(root, 'tests/data/spin/gms5');
-const mission = join(pass, 'mission.toml');
 const environment = { ...process.env, CYCLONEDDS_URI: `file://${join(root, 'deploy/cyclonedds/loopback.xml')}` };
 
 // Domain N has the 250 UDP ports from 7400 + 250 N on.
@@ -25,8 +23,11 @@ function unusedDomain() {
   throw new Error('every DDS domain from 60 to 99 is in use');
 }
 
+// `pass`: a folder of tests/data.
 export class Service {
-  constructor() {
+  constructor(pass) {
+    this.pass = join(root, 'tests/data', pass);
+    this.mission = join(this.pass, 'mission.toml');
     this.folder = mkdtempSync(join(tmpdir(), 'spindrift-browser-'));
     this.archive = join(this.folder, 'pass.db');
     this.bus = ['--domain', `${unusedDomain()}`, '--partition', 'replay'];
@@ -34,7 +35,7 @@ export class Service {
 
   // Resolves when it is ready, with `url` known.
   async start(address = '127.0.0.1:0') {
-    this.process = spawn(program, ['serve', '--mission', mission, '--db', this.archive, ...this.bus, '--console', address],
+    this.process = spawn(program, ['serve', '--mission', this.mission, '--db', this.archive, ...this.bus, '--console', address],
       { env: environment, stdio: ['ignore', 'pipe', 'pipe'] });
     let said = '';
     await new Promise((ready, failed) => {
@@ -51,7 +52,7 @@ export class Service {
   }
 
   async replay() {
-    const sender = spawn(program, ['replay', '--mission', mission, '--telemetry', pass, ...this.bus, '--speed', '60'],
+    const sender = spawn(program, ['replay', '--mission', this.mission, '--telemetry', this.pass, ...this.bus, '--speed', '60'],
       { env: environment, stdio: 'ignore' });
     const [status] = await once(sender, 'exit');
     if (status !== 0) throw new Error(`replay ended with ${status}`);

@@ -1,8 +1,9 @@
-// The open alerts, most severe first.
+// The open alerts: those that nobody has taken up first, then most severe first.
 import { byId, clock, element, sign } from './text.js';
 import { ask, field } from './hand.js';
 
 const order = ['critical', 'warning', 'info'];
+const states = ['active', 'acknowledged', 'shelved'];
 let shown = '';
 
 function evidenceOf(alert) {
@@ -19,7 +20,7 @@ function askAlert(alert, verb) {
   ask({
     title: `${words[verb]} ${alert.key}`,
     path: `/api/v1/alerts/${encodeURIComponent(alert.alert_id)}/${verb}`,
-    fields: verb === 'shelve' ? [field('Minutes', 'minutes', { type: 'number', min: 1, max: 1440, value: 15 })] : [],
+    fields: verb === 'shelve' ? [field('Minutes', 'minutes', { type: 'number', min: 1, max: 10080, value: 15 })] : [],
     body: ({ minutes, ...said }) => minutes ? { ...said, minutes: Number(minutes) } : said,
   });
 }
@@ -31,7 +32,8 @@ function made(alert, utcOf) {
   article.append(
     element('strong', `${icon} ${alert.severity.toUpperCase()} ${alert.spacecraft} ${alert.key}`),
     element('p', alert.message),
-    element('p', `${alert.state} since ${clock(utcOf(since_tai_ns ?? alert.raised_tai_ns))}`));
+    element('p', `${alert.state}${alert.state === 'shelved' ? ` until ${clock(utcOf(alert.shelved_until_tai_ns))}` : ''
+    }; began ${clock(utcOf(since_tai_ns ?? alert.raised_tai_ns))}`));
   for (const [verb, word] of Object.entries(words)) {
     if (verb === 'ack' && alert.state !== 'active') continue;
     const button = element('button', word);
@@ -50,7 +52,8 @@ export function drawAlerts(alerts, known, utcOf) {
   shown = text;
   const list = byId('alerts');
   const focused = list.contains(document.activeElement) ? document.activeElement.dataset.of : undefined;
-  const sorted = [...alerts].sort((a, b) => order.indexOf(a.severity) - order.indexOf(b.severity));
+  const sorted = [...alerts].sort((a, b) => states.indexOf(a.state) - states.indexOf(b.state)
+    || order.indexOf(a.severity) - order.indexOf(b.severity));
   list.replaceChildren(...sorted.map(alert => made(alert, utcOf)));
   if (!sorted.length) list.append(element('p', known ? 'no open alerts' : 'nothing known before the first telemetry', 'dim'));
   if (focused) [...list.querySelectorAll('button')].find(button => button.dataset.of === focused)?.focus();

@@ -18,25 +18,26 @@ const series_ms = 5000;  // a pixel of their half an hour
 const reopen_ms = 2000;
 
 const raster = new Raster();
-const series = new Series();
+const series = new Series(trace => trace.refresh(craft().t_tai_ns, utcOf));
 let convergence = null;
 let innovations = null;
 let state = null;
 let shown = '';       // the spacecraft on the page
 let heard_ms = null;  // when the service was last heard
 let state_ms = 0;
-let offset_s = 0;     // UTC minus TAI
+let leap_seconds = [];  // [TAI of its start, s, TAI minus UTC from then on, s]
 let dirty = true;
 let lost = false;     // the connection was, and the past is to be filled in again
 
-const utcOf = t_tai_ns => t_tai_ns / 1e9 + offset_s;
-const taiOf = utc_s => (utc_s - offset_s) * 1e9;
+const before = holds => leap_seconds.findLast(holds)?.[1] ?? NaN;
+const utcOf = t_tai_ns => t_tai_ns / 1e9 - before(([start_s]) => start_s <= t_tai_ns / 1e9);
+const taiOf = utc_s => (utc_s + before(([start_s, offset_s]) => start_s - offset_s <= utc_s)) * 1e9;
 const craft = () => state?.spacecraft?.[shown] ?? {};
 
 function takeState(next) {
   state = next;
   state_ms = performance.now();
-  offset_s = Math.round(Date.parse(state.utc) / 1e3 - state.t_tai_ns / 1e9);
+  leap_seconds = state.leap_seconds.map(one => [one.start_tai_ns / 1e9, one.tai_minus_utc_s]);
   const ids = Object.keys(state.spacecraft ?? {}).sort();
   const select = byId('spacecraft');
   if (ids.join('\n') !== [...select.options].map(option => option.value).join('\n')) {
@@ -61,6 +62,7 @@ async function show(id) {
   innovations?.destroy();
   innovations = craft().kind === 'three_axis'
     ? new Trace(byId('innovations'), byId('innovations-note'), id, { name: 'innovation', unit: 'sigma' }, [-3, 3]) : null;
+  innovations?.refresh(craft().t_tai_ns, utcOf);
   await series.open(id);
   if (id === shown) backfill();
 }
@@ -169,7 +171,7 @@ setInterval(() => { if (!document.hidden) convergence?.draw(utcOf); }, convergen
 setInterval(() => {
   if (document.hidden || !shown) return;
   innovations?.refresh(craft().t_tai_ns, utcOf);
-  if (series.trace) series.trace.refresh(craft().t_tai_ns, utcOf);
+  if (series.trace) series.refresh();
   else series.open(shown);
 }, series_ms);
 open();

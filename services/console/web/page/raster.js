@@ -1,4 +1,5 @@
-// Spin phase of the edges against time: a dot for an accepted one, a cross for a rejected one.
+// Spin phase of the edges against time: a dot for an accepted one, a cross for a rejected one; each channel's name at its
+// last edge.
 import { Ring } from './ring.js';
 import { begin, colours, cross } from './canvas.js';
 import { byId, clock, number } from './text.js';
@@ -9,6 +10,8 @@ const most = 1000;  // edges of a channel: 200 rpm
 const channels = { sun1: '#f2b134', sun2: '#ffd98a', north_in: '#7cb9f2', north_out: '#b4d7f7', south_in: '#6fd08c',
   south_out: '#b0e8c0' };
 const left = 40;
+const right = 74;  // of the names
+const row = 14;
 const bottom = 20;
 
 export class Raster {
@@ -46,7 +49,7 @@ export class Raster {
     if (!this.changed) return;
     this.changed = false;
     const { pen, width, height } = begin(this.canvas);
-    const plot = { w: width - left - 8, h: height - bottom - 8 };
+    const plot = { w: width - left - right, h: height - bottom - 8 };
     let last = -Infinity;
     for (const edge of this.edges) last = Math.max(last, utcOf(edge.t_tai_ns));
     pen.fillStyle = colours.dim;
@@ -60,11 +63,12 @@ export class Raster {
       pen.stroke();
     }
     this.drawn = [];
+    const named = new Map();
     if (!Number.isFinite(last)) {
       pen.fillText('no edges in the last 5 min', left + 10, 40);
       return;
     }
-    for (const part of [0, 0.5, 1]) {
+    for (const part of plot.w < 200 ? [0, 1] : [0, 0.5, 1]) {
       pen.fillText(clock(last - shown_s * (1 - part)), left + part * (plot.w - 60), height - 4);
     }
     for (const edge of this.edges) {
@@ -72,6 +76,7 @@ export class Raster {
       if (x < left || !Number.isFinite(edge.phase_deg)) continue;
       const y = 6 + plot.h * (1 - edge.phase_deg / 360);
       this.drawn.push({ x, y, edge, at: utcOf(edge.t_tai_ns) });
+      named.set(edge.channel, y);
       if (edge.accepted) {
         pen.fillStyle = channels[edge.channel] ?? colours.text;
         pen.fillRect(x - 1.5, y - 1.5, 3, 3);
@@ -80,6 +85,19 @@ export class Raster {
         cross(pen, x, y, 4);
       }
     }
+    this.name(pen, named, left + plot.w + 8, 6 + plot.h);
+  }
+
+  // Below one another where their edges are close.
+  name(pen, named, x, lowest) {
+    const places = [...named].sort(([, a], [, b]) => a - b);
+    let free = 0;
+    places.forEach(([channel, y], i) => {
+      const at = Math.max(free, Math.min(y + 5, lowest - row * (places.length - 1 - i)));
+      free = at + row;
+      pen.fillStyle = channels[channel] ?? colours.text;
+      pen.fillText(channel, x, at);
+    });
   }
 
   say(x, y) {

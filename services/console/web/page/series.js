@@ -5,7 +5,9 @@ import { byId, element } from './text.js';
 const shown_first = ['sun_angle', 'rate_x_deg_s'];
 
 export class Series {
-  constructor() {
+  // `fill`: gives a trace its points.
+  constructor(fill) {
+    this.fill = fill;
     this.quantities = [];
     this.select = byId('quantity');
     this.select.addEventListener('change', () => this.choose());
@@ -35,7 +37,11 @@ export class Series {
 
   choose() {
     this.trace?.destroy();
+    byId('series-note').textContent = '';
     this.trace = new Trace(byId('series'), byId('series-note'), this.spacecraft,
       this.quantities.find(({ name }) => name === this.select.value));
+    this.refresh();
   }
+
+  refresh() { this.fill(this.trace); }
 }
