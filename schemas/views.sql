@@ -112,8 +112,8 @@ SELECT run_id, 'input', source, reason, sum(samples)
 FROM rejected_input GROUP BY run_id, source, reason;
 
 -- The answer of a pass: the last estimate of each estimator of each run; finished = 0: of a run that goes
--- on, or was interrupted. Each is looked for from the end of its run: all estimates of a day take most of a
--- second.
+-- on, or was interrupted. One of before a manoeuvre that was marked is of another axis, and no answer any more.
+-- Each is looked for from the end of its run: all estimates of a day take most of a second.
 CREATE VIEW pass_answer AS
 WITH last AS (
   SELECT run_id, one.estimator,
@@ -123,13 +123,18 @@ WITH last AS (
   FROM run, (SELECT 'mean' AS estimator UNION ALL SELECT 'sequential' UNION ALL SELECT 'batch') AS one
 )
 SELECT spacecraft_id, finished_utc IS NOT NULL AS finished, spin_estimate_utc.*
-FROM last JOIN spin_estimate_utc USING (run_id, estimator, t_tai_ns) JOIN run USING (run_id);
+FROM last JOIN spin_estimate_utc USING (run_id, estimator, t_tai_ns) JOIN run USING (run_id)
+WHERE NOT EXISTS (
+  SELECT * FROM operator_action AS marked
+  WHERE marked.run_id = last.run_id AND marked.action = 'mark_manoeuvre' AND marked.t_tai_ns > last.t_tai_ns
+    AND marked.t_tai_ns <= (SELECT max(t_tai_ns) FROM spin_estimate WHERE spin_estimate.run_id = marked.run_id));
 
 -- The answers of a run two by two: apart in degrees and in the larger sigma of the two, since estimators of
 -- the same edges differ by no more than the worse of them errs (Hausman 1978: the variance of the difference
 -- from an efficient one is the difference of the variances). They contradict each other where both claim their
 -- axis and disagree, or both are on the same axis and one says that the other root may be it: no more than one can
--- be right. An answer that is CONVERGING, DOUBTFUL or LOST claims nothing.
+-- be right. Two that are AMBIGUOUS do not disagree, whichever of the roots each names first. An answer that is
+-- CONVERGING, DOUBTFUL or LOST claims nothing.
 CREATE VIEW spin_comparison AS
 WITH pair AS (
   SELECT a.run_id, a.spacecraft_id, a.finished, a.estimator AS one, b.estimator AS other,
@@ -144,10 +149,13 @@ WITH pair AS (
   WHERE (a.estimator = 'mean' AND b.estimator <> 'mean')
     OR (a.estimator = 'sequential' AND b.estimator = 'batch')
 )
-SELECT *, apart_deg / sigma_deg AS apart_sigmas, apart_deg > 3 * sigma_deg AS disagree,
-  one_quality IN ('OK', 'AMBIGUOUS') AND other_quality IN ('OK', 'AMBIGUOUS')
-    AND (apart_deg > 3 * sigma_deg OR one_quality <> other_quality) AS contradict
-FROM pair;
+SELECT *, one_quality IN ('OK', 'AMBIGUOUS') AND other_quality IN ('OK', 'AMBIGUOUS')
+    AND (disagree OR one_quality <> other_quality) AS contradict
+FROM (
+  SELECT *, apart_deg / sigma_deg AS apart_sigmas,
+    apart_deg > 3 * sigma_deg AND NOT (one_quality = 'AMBIGUOUS' AND other_quality = 'AMBIGUOUS') AS disagree
+  FROM pair
+);
 
 -- The answer of a pass of a three-axis spacecraft: the last attitude of each run, but for those that were
 -- reconstructed of a separation. Looked for from the end, as above.

@@ -335,15 +335,44 @@ TEST_F(ArchiveProducts, VerdictIsNoBetterThanWhatTheEstimatorsContradictEachOthe
   run_of("5", Quality::Doubtful, 3.5, Quality::Ok);
   run_of("6", Quality::Ok, 3.5, Quality::Converging);
   run_of("7", Quality::Ok, 3.5, Quality::Lost);
+  run_of("8", Quality::Ambiguous, 3.5, Quality::Ambiguous);
   ASSERT_TRUE(archive->flush());
 
   SQLite::Database database = reader();
   EXPECT_THAT(column(database, "SELECT quality FROM pass_verdict ORDER BY run_id"),
-              ElementsAre("OK", "DOUBTFUL", "AMBIGUOUS", "DOUBTFUL", "OK", "CONVERGING", "LOST"));
+              ElementsAre("OK", "DOUBTFUL", "AMBIGUOUS", "DOUBTFUL", "OK", "CONVERGING", "LOST",
+                          "AMBIGUOUS"));
   EXPECT_EQ(text("SELECT why FROM pass_verdict WHERE run_id = '2'"),
             "sequential and batch disagree by 0.060 deg, 3.5 sigma; OK");
   EXPECT_EQ(text("SELECT why FROM pass_verdict WHERE run_id = '3'"),
             "sequential is AMBIGUOUS, batch is OK; OK");
+  EXPECT_EQ(text("SELECT against FROM pass_verdict WHERE run_id = '8'"), "AMBIGUOUS");
+}
+
+TEST_F(ArchiveProducts, AnswerOfBeforeAManoeuvreIsNoneOnceAnotherCameAfterIt) {
+  ArchiveBatch batch = start_of("run-1");
+  batch.products = {estimate_at(5, SpinEstimator::Batch, 0.0)};
+  batch.actions = {{.action_id = "1",
+                    .spacecraft = batch.spacecraft_id,
+                    .t = tai_from_ns(7),
+                    .made_utc = "2026-11-20T03:00:00Z",
+                    .by = "operator",
+                    .action = "mark_manoeuvre",
+                    .arguments = "{}",
+                    .does = SpinAction{MarkManoeuvre{}}}};
+  store(batch);
+  const auto reported = [&] { return text("SELECT estimator FROM pass_verdict"); };
+  EXPECT_EQ(reported(), "batch");
+
+  batch = testing::batch_of("run-1");
+  batch.products = {estimate_at(8, SpinEstimator::Sequential, 0.0)};
+  store(batch);
+  EXPECT_EQ(reported(), "sequential");
+
+  batch = testing::batch_of("run-1");
+  batch.products = {estimate_at(9, SpinEstimator::Batch, 0.0)};
+  store(batch);
+  EXPECT_EQ(reported(), "batch");
 }
 
 TEST_F(ArchiveProducts, UtcOfTheViewsIsThatOfFormatUtc) {
