@@ -5,19 +5,13 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
-#include <atomic>
-#include <chrono>
 #include <cstddef>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <string>
-#include <thread>
 #include <utility>
 #include <variant>
 
@@ -29,27 +23,18 @@
 #include "services/archive/stored_results.h"
 #include "services/archive/submit_all.h"
 #include "services/bus/participant.h"
-#include "services/clock/wall_clock.h"
 #include "services/ingest/other_services.h"
 #include "services/ingest/rehearsal_clocks.h"
-#include "services/ingest/telemetry_subscriber.h"
 #include "services/mission/mission.h"
 #include "services/processor/problems.h"
 #include "services/processor/processor.h"
-#include "services/processor/silence_watch.h"
-#include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"
 #include "services/queue/contained.h"
 #include "services/requests/request_server.h"
 #include "services/serving/action_inbox.h"
-#include "services/serving/alert_outbox.h"
 #include "services/serving/background_solving.h"
-#include "services/serving/computing.h"
-#include "services/serving/heartbeat.h"
-#include "services/serving/patience.h"
-#include "services/serving/service_manager.h"
-#include "services/serving/service_watch.h"
-#include "services/serving/session_watch.h"
+#include "services/serving/routing.h"
+#include "services/serving/service_run.h"
 #include "services/serving/stop_signal.h"
 #include "services/serving/thread_failures.h"
 #include "services/spindrift/act.h"
@@ -69,12 +54,6 @@ namespace {
 
 // Samples between the thread that takes and the one that routes.
 constexpr std::size_t kSamplesTaken = 65'536;
-// Samples that wait to be computed: a whole day's pass in a burst.
-constexpr std::size_t kSamplesToCompute = 1'000'000;
-constexpr std::chrono::milliseconds kStuckPoll{200};
-// A backlog of what was stored is computed for so long after the signal to stop. What is left then
-// is computed at the next start.
-constexpr std::chrono::seconds kComputedWhenStopped{8};
 constexpr int kUntilRead_ms = 1000;
 
 Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::path>& paths) {
@@ -115,12 +94,6 @@ std::string service_name() {
   return fmt::format("spindrift {}:{}", host.data(), ::getpid());
 }
 
-/// What others on the bus say beside telemetry.
-struct Told {
-  OtherServices others;
-  RehearsalClocks clocks;
-};
-
 Expected<Told> listen(const bus::Participant& participant) {
   return OtherServices::create(participant, service_name()).and_then([&](OtherServices&& others) {
     return RehearsalClocks::create(participant).map([&](RehearsalClocks&& clocks) {
@@ -129,267 +102,8 @@ Expected<Told> listen(const bus::Participant& participant) {
   });
 }
 
-/// What came, for those who watch the link.
-struct Heard {
-  LinkWatch links;
-  SessionWatch sessions;
-};
-
-/// Before the archive may make them wait.
-void note_arrivals(const std::vector<ArchiveBatch>& samples, Heard& heard, SilenceWatch& silences) {
-  const auto now = std::chrono::steady_clock::now();
-  for (const ArchiveBatch& batch : samples) {
-    heard.sessions.note(batch);
-    const auto note = [&](const auto& of_kind) {
-      // A sample that is left out has a negative one.
-      const auto last = std::find_if(of_kind.rbegin(), of_kind.rend(),
-                                     [](const auto& sample) { return sample.arrival >= 0; });
-      if (last != of_kind.rend()) {
-        heard.links.note(batch.spacecraft_id, last->value.t, now);
-        silences.note(batch.spacecraft_id, now);
-      }
-    };
-    batch.samples.for_each(note);
-    batch.moved.for_each(note);
-  }
-}
-
-/// The clock of the host says something of samples of now only.
-Moment moment_of(const Processor& processor) {
-  return {.now = std::chrono::steady_clock::now(),
-          .host = processor.is_live() ? std::optional{tai_now()} : std::nullopt};
-}
-
-/// What is taken next; or that streams are silent, which only holds while nothing waits in `taken`.
-Routed next_routed(BoundedQueue<SampleBatch>& taken, Processor& processor, Heard& heard,
-                   SilenceWatch& silences) {
-  const auto next_silence = silences.next();
-  const auto next_decision = processor.next_decision();
-  const auto next = next_silence && next_decision ? std::min(next_silence, next_decision)
-                                                  : std::max(next_silence, next_decision);
-  auto batch = next ? taken.take_until(*next) : taken.take();
-  const Moment moment = moment_of(processor);
-  Routed routed = batch ? processor.route(std::move(*batch), moment)
-                        : processor.fall_silent(silences.take_silent(moment.now), moment);
-  note_arrivals(routed.samples, heard, silences);
-  return routed;
-}
-
-/// First `again`. Then hands what is taken to the archive and on to be computed, until `taken` is
-/// closed and empty, or the archive refuses.
-Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
-                     Processor& processor, Archive& archive, Computing& computing, Heard& heard,
-                     Problems& problems) {
-  for (PassInput& input : again) {
-    computing.leave_to_backlog(std::move(input));
-  }
-  SilenceWatch silences;
-  while (!taken.is_drained()) {
-    Routed routed = next_routed(taken, processor, heard, silences);
-    problems.set_sources(processor.source_problems());
-    auto stored = submit_all(archive, std::move(routed.samples));
-    for (auto input = routed.work.begin(); stored && input != routed.work.end(); ++input) {
-      stored = computing.take(std::move(*input), taken.size());
-    }
-    if (!stored) {
-      return stored;
-    }
-  }
-  return {};
-}
-
-/// Spacecraft by spacecraft, as long as patience lasts.
-Expected<void> finish(Processor& processor, Archive& archive, const Patience& patience) {
-  const std::size_t spacecraft = processor.spacecraft().size();
-  for (std::size_t i = 0; i < spacecraft; ++i) {
-    if (patience.ended) {
-      warn("runs_not_finished", {{"spacecraft", spacecraft - i}},
-           fmt::format("the runs of {} spacecraft are not finished yet: the next start of the "
-                       "service will",
-                       spacecraft - i));
-      return {};
-    }
-    if (auto stored = submit_all(archive, processor.finish(i)); !stored) {
-      return stored;
-    }
-  }
-  return {};
-}
-
-/// In the end runs are finished of which all samples are computed and all solutions made. Who can
-/// no longer empty a queue closes it: nobody must wait for room.
-void route_and_compute(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
-                       BoundedQueue<PassInput>& backlog, Processor& processor, Archive& archive,
-                       const Patience& patience, Heard& heard, Problems& problems,
-                       ThreadFailures& failures) {
-  BackgroundTasks tasks;
-  Computing computing{processor, archive, backlog, tasks, patience};
-  std::atomic<std::size_t> solutions_left = 0;
-  const auto solve = [&](BoundedQueue<BackgroundTask>& of) {
-    failures.note(contained("solving",
-                            [&] { solutions_left += solve_in_background(of, archive, patience); }));
-    of.close();
-  };
-  std::thread solving{[&] { solve(tasks.usual); }};
-  std::thread solving_awaited{[&] { solve(tasks.awaited); }};
-  std::thread working_off{[&] {
-    failures.note(contained("computing the backlog", [&] { return computing.work_off(); }));
-    backlog.close();
-  }};
-  failures.note(contained("taking in", [&] {
-    return route(std::move(again), taken, processor, archive, computing, heard, problems);
-  }));
-  taken.close();
-  backlog.close();
-  working_off.join();
-  tasks.usual.close();
-  tasks.awaited.close();
-  solving.join();
-  solving_awaited.join();
-  if (!failures.first() || solutions_left > 0) {
-    return;
-  }
-  if (computing.samples_left() > 0) {
-    warn("samples_not_computed", {{"samples", computing.samples_left()}},
-         fmt::format("{} samples are stored and not computed yet: the next start of the service "
-                     "will",
-                     computing.samples_left()));
-    return;
-  }
-  failures.note(contained("finishing", [&] { return finish(processor, archive, patience); }));
-}
-
-/// A service that is told to stop waits a while for the mathematics, and while writing fails not at
-/// all: it makes the last attempt now.
-void lose_patience(const std::stop_token& done, Patience& patience,
-                   BoundedQueue<SampleBatch>& queue, Archive& archive) {
-  std::optional<std::chrono::steady_clock::time_point> until;
-  while (!done.stop_requested()) {
-    if (patience.stopping && archive.statistics().failure) {
-      queue.close();
-      static_cast<void>(
-          archive.close());  // What it could not store is said when it is closed again.
-      return;
-    }
-    const auto now = std::chrono::steady_clock::now();
-    if (patience.stopping && !until) {
-      until = now + kComputedWhenStopped;
-    }
-    patience.ended = until && now >= *until;
-    std::this_thread::sleep_for(kStuckPoll);
-  }
-}
-
-/// Of a subscriber that was stopped.
-Expected<void> how_taking_ended(const TelemetrySubscriber& subscriber) {
-  const auto status = subscriber.status();
-  if (!status) {
-    return Unexpected{status.error()};
-  }
-  if (status->discarded > 0) {
-    spdlog::error(
-        "{} samples that their senders take for delivered were discarded by the stop: "
-        "send them again",
-        status->discarded);
-  }
-  if (!status->failure.empty()) {
-    return Unexpected{{ErrorCode::Unavailable, status->failure}};
-  }
-  return {};
-}
-
-/// What was stored before a restart, for those who watch what comes.
-void note_stored(const std::vector<PassInput>& again, const LastOrigins& last_origins,
-                 const Processor& processor, SessionWatch& sessions, AlertDesk& desk) {
-  const auto spacecraft = processor.spacecraft();
-  std::map<std::string, TaiTime> newest;
-  for (const PassInput& input : again) {
-    const std::string& id = spacecraft.at(input.spacecraft);
-    input.values.for_each([&](const auto& of_kind) {
-      for (const auto& arrived : of_kind) {
-        TaiTime& last = newest.try_emplace(id, arrived.value.t).first->second;
-        last = std::max(last, arrived.value.t);
-      }
-    });
-    desk.go_on(id, input.run_id, input.values);
-  }
-  for (const auto& [id, t] : newest) {
-    sessions.go_on(id, last_origins, t);
-  }
-}
-
 std::size_t taken_size(const SampleBatch& taken) {
   return std::max<std::size_t>(size_of(taken), 1);
-}
-
-/// From "ready" until a signal, or a failure, and everything taken is with the archive.
-/// @param queue Of what is taken.
-Expected<void> run(std::vector<PassInput> again, const LastOrigins& last_origins,
-                   BoundedQueue<SampleBatch>& queue, const ServeOptions& options,
-                   const std::vector<Mission>& missions, const bus::Participant& participant,
-                   const ResultPublisher& publisher, Told& told, Processor& processor,
-                   Archive& archive, AlertDesk& desk, Announcer& announcer, Problems& problems,
-                   ConsoleFeed* feed, StopSignal& stop_signal, ThreadFailures& failures) {
-  BoundedQueue<PassInput> work{kSamplesToCompute,
-                               [](const PassInput& input) { return sample_count(input); }};
-  const auto spacecraft = processor.spacecraft();
-  auto started = TelemetrySubscriber::start(participant, queue,
-                                            {spacecraft.begin(), spacecraft.end()}, last_origins);
-  if (!started) {
-    return Unexpected{started.error()};
-  }
-  TelemetrySubscriber& subscriber = **started;
-  Heard heard{.links = LinkWatch{processor.spacecraft()}, .sessions = {}};
-  note_stored(again, last_origins, processor, heard.sessions, desk);
-  Patience patience;
-  stop_signal.on_stop([&] {
-    tell_manager_stopping();
-    spdlog::info("stopping");
-    patience.stopping = true;
-    failures.note(contained("stopping", [&] { subscriber.stop(); }));
-    queue.close();
-  });
-  const std::jthread watching{[&](const std::stop_token& done) {
-    failures.note(
-        contained("watching the stop", [&] { lose_patience(done, patience, queue, archive); }));
-  }};
-  {
-    AlertOutbox outbox{archive, desk, [&](const ArchiveBatch& batch) { announcer.announce(batch); },
-                       failures};
-    ServiceWatch service{{.missions = missions,
-                          .mode = mode_of(options),
-                          .db = options.db,
-                          .archive = archive,
-                          .taken = queue,
-                          .links = heard.links,
-                          .sessions = heard.sessions,
-                          .others = told.others,
-                          .clocks = told.clocks}};
-    const Heartbeat heartbeat{{.subscriber = subscriber,
-                               .taken = queue,
-                               .work = work,
-                               .archive = archive,
-                               .publisher = publisher,
-                               .links = heard.links,
-                               .problems = problems,
-                               .service = service,
-                               .desk = desk,
-                               .outbox = outbox,
-                               .on_health =
-                                   [&](const Health& health) {
-                                     if (feed != nullptr) {
-                                       feed->put(health);
-                                     }
-                                   }},
-                              failures};
-    tell_manager_ready();
-    spdlog::info("ready");
-    route_and_compute(std::move(again), queue, work, processor, archive, patience, heard, problems,
-                      failures);
-  }
-  stop_signal.join();
-  const auto taking = how_taking_ended(subscriber);
-  return failures.first().and_then([&] { return taking; });
 }
 
 /// Of a queue that nobody empties any more. Whoever said them takes them for taken.
@@ -587,9 +301,28 @@ Expected<void> serve(const ServeOptions& options) {
           if (!console) {
             return Expected<void>{Unexpected{console.error()}};
           }
-          auto ran = run(std::move(stored.routed.work), stored.last_origins, taken, options,
-                         *missions, *participant, *publisher, *told, *processor, archive, desk,
-                         announcer, problems, feed.get(), stop_signal, failures);
+          auto ran = run_service(
+              std::move(stored),
+              {.missions = *missions,
+               .mode = mode_of(options),
+               .db = options.db,
+               .participant = *participant,
+               .publisher = *publisher,
+               .told = *told,
+               .taken = taken,
+               .processor = *processor,
+               .archive = archive,
+               .desk = desk,
+               .problems = problems,
+               .stop_signal = stop_signal,
+               .failures = failures,
+               .announce = [&](const ArchiveBatch& batch) { announcer.announce(batch); },
+               .on_health =
+                   [&](const Health& health) {
+                     if (feed != nullptr) {
+                       feed->put(health);
+                     }
+                   }});
           tell_actions_left(taken);
           // Who asks and waits for the archive gets his answer, so that the servers can end.
           static_cast<void>(archive.close());

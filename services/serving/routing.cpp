@@ -1,0 +1,77 @@
+#include "services/serving/routing.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <utility>
+
+#include "services/archive/submit_all.h"
+#include "services/clock/wall_clock.h"
+#include "services/processor/silence_watch.h"
+
+namespace spindrift {
+namespace {
+
+/// Before the archive may make them wait.
+void note_arrivals(const std::vector<ArchiveBatch>& samples, Heard& heard, SilenceWatch& silences) {
+  const auto now = std::chrono::steady_clock::now();
+  for (const ArchiveBatch& batch : samples) {
+    heard.sessions.note(batch);
+    const auto note = [&](const auto& of_kind) {
+      // A sample that is left out has a negative one.
+      const auto last = std::find_if(of_kind.rbegin(), of_kind.rend(),
+                                     [](const auto& sample) { return sample.arrival >= 0; });
+      if (last != of_kind.rend()) {
+        heard.links.note(batch.spacecraft_id, last->value.t, now);
+        silences.note(batch.spacecraft_id, now);
+      }
+    };
+    batch.samples.for_each(note);
+    batch.moved.for_each(note);
+  }
+}
+
+/// What is taken next; or that streams are silent, which only holds while nothing waits in `taken`.
+Routed next_routed(BoundedQueue<SampleBatch>& taken, Processor& processor, Heard& heard,
+                   SilenceWatch& silences) {
+  const auto next_silence = silences.next();
+  const auto next_decision = processor.next_decision();
+  const auto next = next_silence && next_decision ? std::min(next_silence, next_decision)
+                                                  : std::max(next_silence, next_decision);
+  auto batch = next ? taken.take_until(*next) : taken.take();
+  const Moment moment = moment_of(processor);
+  Routed routed = batch ? processor.route(std::move(*batch), moment)
+                        : processor.fall_silent(silences.take_silent(moment.now), moment);
+  note_arrivals(routed.samples, heard, silences);
+  return routed;
+}
+
+}  // namespace
+
+Moment moment_of(const Processor& processor) {
+  return {.now = std::chrono::steady_clock::now(),
+          .host = processor.is_live() ? std::optional{tai_now()} : std::nullopt};
+}
+
+Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
+                     Processor& processor, Archive& archive, Computing& computing, Heard& heard,
+                     Problems& problems) {
+  for (PassInput& input : again) {
+    computing.leave_to_backlog(std::move(input));
+  }
+  SilenceWatch silences;
+  while (!taken.is_drained()) {
+    Routed routed = next_routed(taken, processor, heard, silences);
+    problems.set_sources(processor.source_problems());
+    auto stored = submit_all(archive, std::move(routed.samples));
+    for (auto input = routed.work.begin(); stored && input != routed.work.end(); ++input) {
+      stored = computing.take(std::move(*input), taken.size());
+    }
+    if (!stored) {
+      return stored;
+    }
+  }
+  return {};
+}
+
+}  // namespace spindrift

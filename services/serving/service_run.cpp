@@ -1,0 +1,220 @@
+#include "services/serving/service_run.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "services/archive/submit_all.h"
+#include "services/ingest/telemetry_subscriber.h"
+#include "services/queue/contained.h"
+#include "services/serving/alert_outbox.h"
+#include "services/serving/background_solving.h"
+#include "services/serving/computing.h"
+#include "services/serving/heartbeat.h"
+#include "services/serving/patience.h"
+#include "services/serving/routing.h"
+#include "services/serving/service_manager.h"
+#include "services/serving/service_watch.h"
+#include "services/standard_error/warning.h"
+
+namespace spindrift {
+namespace {
+
+// Samples that wait to be computed: a whole day's pass in a burst.
+constexpr std::size_t kSamplesToCompute = 1'000'000;
+constexpr std::chrono::milliseconds kStuckPoll{200};
+// A backlog of what was stored is computed for so long after the signal to stop. What is left then
+// is computed at the next start.
+constexpr std::chrono::seconds kComputedWhenStopped{8};
+
+/// Spacecraft by spacecraft, as long as patience lasts.
+Expected<void> finish(Processor& processor, Archive& archive, const Patience& patience) {
+  const std::size_t spacecraft = processor.spacecraft().size();
+  for (std::size_t i = 0; i < spacecraft; ++i) {
+    if (patience.ended) {
+      warn("runs_not_finished", {{"spacecraft", spacecraft - i}},
+           fmt::format("the runs of {} spacecraft are not finished yet: the next start of the "
+                       "service will",
+                       spacecraft - i));
+      return {};
+    }
+    if (auto stored = submit_all(archive, processor.finish(i)); !stored) {
+      return stored;
+    }
+  }
+  return {};
+}
+
+/// In the end runs are finished of which all samples are computed and all solutions made. Who can
+/// no longer empty a queue closes it: nobody must wait for room.
+void route_and_compute(std::vector<PassInput> again, BoundedQueue<PassInput>& backlog,
+                       const Patience& patience, Heard& heard, const ServiceParts& parts) {
+  Processor& processor = parts.processor;
+  Archive& archive = parts.archive;
+  ThreadFailures& failures = parts.failures;
+  BackgroundTasks tasks;
+  Computing computing{processor, archive, backlog, tasks, patience};
+  std::atomic<std::size_t> solutions_left = 0;
+  const auto solve = [&](BoundedQueue<BackgroundTask>& of) {
+    failures.note(contained("solving",
+                            [&] { solutions_left += solve_in_background(of, archive, patience); }));
+    of.close();
+  };
+  std::thread solving{[&] { solve(tasks.usual); }};
+  std::thread solving_awaited{[&] { solve(tasks.awaited); }};
+  std::thread working_off{[&] {
+    failures.note(contained("computing the backlog", [&] { return computing.work_off(); }));
+    backlog.close();
+  }};
+  failures.note(contained("taking in", [&] {
+    return route(std::move(again), parts.taken, processor, archive, computing, heard,
+                 parts.problems);
+  }));
+  parts.taken.close();
+  backlog.close();
+  working_off.join();
+  tasks.usual.close();
+  tasks.awaited.close();
+  solving.join();
+  solving_awaited.join();
+  if (!failures.first() || solutions_left > 0) {
+    return;
+  }
+  if (computing.samples_left() > 0) {
+    warn("samples_not_computed", {{"samples", computing.samples_left()}},
+         fmt::format("{} samples are stored and not computed yet: the next start of the service "
+                     "will",
+                     computing.samples_left()));
+    return;
+  }
+  failures.note(contained("finishing", [&] { return finish(processor, archive, patience); }));
+}
+
+/// A service that is told to stop waits a while for the mathematics, and while writing fails not at
+/// all: it makes the last attempt now.
+void lose_patience(const std::stop_token& done, Patience& patience,
+                   BoundedQueue<SampleBatch>& queue, Archive& archive) {
+  std::optional<std::chrono::steady_clock::time_point> until;
+  while (!done.stop_requested()) {
+    if (patience.stopping && archive.statistics().failure) {
+      queue.close();
+      static_cast<void>(
+          archive.close());  // What it could not store is said when it is closed again.
+      return;
+    }
+    const auto now = std::chrono::steady_clock::now();
+    if (patience.stopping && !until) {
+      until = now + kComputedWhenStopped;
+    }
+    patience.ended = until && now >= *until;
+    std::this_thread::sleep_for(kStuckPoll);
+  }
+}
+
+/// Of a subscriber that was stopped.
+Expected<void> how_taking_ended(const TelemetrySubscriber& subscriber) {
+  const auto status = subscriber.status();
+  if (!status) {
+    return Unexpected{status.error()};
+  }
+  if (status->discarded > 0) {
+    spdlog::error(
+        "{} samples that their senders take for delivered were discarded by the stop: "
+        "send them again",
+        status->discarded);
+  }
+  if (!status->failure.empty()) {
+    return Unexpected{{ErrorCode::Unavailable, status->failure}};
+  }
+  return {};
+}
+
+/// What was stored before a restart, for those who watch what comes.
+void note_stored(const GoneOn& gone_on, const Processor& processor, SessionWatch& sessions,
+                 AlertDesk& desk) {
+  const auto spacecraft = processor.spacecraft();
+  std::map<std::string, TaiTime> newest;
+  for (const PassInput& input : gone_on.routed.work) {
+    const std::string& id = spacecraft.at(input.spacecraft);
+    input.values.for_each([&](const auto& of_kind) {
+      for (const auto& arrived : of_kind) {
+        TaiTime& last = newest.try_emplace(id, arrived.value.t).first->second;
+        last = std::max(last, arrived.value.t);
+      }
+    });
+    desk.go_on(id, input.run_id, input.values);
+  }
+  for (const auto& [id, t] : newest) {
+    sessions.go_on(id, gone_on.last_origins, t);
+  }
+}
+
+}  // namespace
+
+Expected<void> run_service(GoneOn gone_on, const ServiceParts& parts) {
+  BoundedQueue<PassInput> work{kSamplesToCompute,
+                               [](const PassInput& input) { return sample_count(input); }};
+  const auto spacecraft = parts.processor.spacecraft();
+  auto started = TelemetrySubscriber::start(
+      parts.participant, parts.taken, {spacecraft.begin(), spacecraft.end()}, gone_on.last_origins);
+  if (!started) {
+    return Unexpected{started.error()};
+  }
+  TelemetrySubscriber& subscriber = **started;
+  Heard heard{.links = LinkWatch{spacecraft}, .sessions = {}};
+  note_stored(gone_on, parts.processor, heard.sessions, parts.desk);
+  Patience patience;
+  parts.stop_signal.on_stop([&] {
+    tell_manager_stopping();
+    spdlog::info("stopping");
+    patience.stopping = true;
+    parts.failures.note(contained("stopping", [&] { subscriber.stop(); }));
+    parts.taken.close();
+  });
+  const std::jthread watching{[&](const std::stop_token& done) {
+    parts.failures.note(contained(
+        "watching the stop", [&] { lose_patience(done, patience, parts.taken, parts.archive); }));
+  }};
+  {
+    AlertOutbox outbox{parts.archive, parts.desk, parts.announce, parts.failures};
+    ServiceWatch service{{.missions = parts.missions,
+                          .mode = parts.mode,
+                          .db = parts.db,
+                          .archive = parts.archive,
+                          .taken = parts.taken,
+                          .links = heard.links,
+                          .sessions = heard.sessions,
+                          .others = parts.told.others,
+                          .clocks = parts.told.clocks}};
+    const Heartbeat heartbeat{{.subscriber = subscriber,
+                               .taken = parts.taken,
+                               .work = work,
+                               .archive = parts.archive,
+                               .publisher = parts.publisher,
+                               .links = heard.links,
+                               .problems = parts.problems,
+                               .service = service,
+                               .desk = parts.desk,
+                               .outbox = outbox,
+                               .on_health = parts.on_health},
+                              parts.failures};
+    tell_manager_ready();
+    spdlog::info("ready");
+    route_and_compute(std::move(gone_on.routed.work), work, patience, heard, parts);
+  }
+  parts.stop_signal.join();
+  const auto taking = how_taking_ended(subscriber);
+  return parts.failures.first().and_then([&] { return taking; });
+}
+
+}  // namespace spindrift
