@@ -171,32 +171,39 @@ FROM run JOIN attitude_utc ON attitude_utc.run_id = run.run_id
 -- one of a run that failed to compute (run_fault) is DOUBTFUL, unless it is LOST. One that claims its axis is no
 -- better than the contradictions among the estimators allow: DOUBTFUL where axes disagree, else AMBIGUOUS. NULL from
 -- estimator to sigma_deg: the run has no answer; quality is then that of the run that failed. A spin axis leaves qx
--- to qw NULL, an attitude ra_deg and dec_deg.
+-- to qw NULL, an attitude ra_deg and dec_deg. `why` is first what speaks against the answer, then its own status;
+-- `against` what speaks against it alone, with its own status unless that is OK: empty where nothing does.
 CREATE VIEW pass_verdict AS
-SELECT run.run_id, run.spacecraft_id, run.started_utc, run.finished_utc IS NOT NULL AS finished,
-  coalesce(estimator, source, separation.method) AS estimator,
-  CASE WHEN 'LOST' IN (axis.quality, attitude.quality) THEN 'LOST'
-    WHEN fault.what IS NOT NULL THEN 'DOUBTFUL'
-    WHEN axis.quality IN ('OK', 'AMBIGUOUS') THEN ifnull(
-      (SELECT CASE WHEN max(disagree) THEN 'DOUBTFUL' ELSE 'AMBIGUOUS' END FROM spin_comparison
-       WHERE spin_comparison.run_id = run.run_id AND contradict HAVING count(*) > 0), axis.quality)
-    ELSE coalesce(axis.quality, attitude.quality, separation.quality) END AS quality,
-  ra_deg, dec_deg, ifnull(attitude.qx, event.qx) AS qx, ifnull(attitude.qy, event.qy) AS qy,
-  ifnull(attitude.qz, event.qz) AS qz, ifnull(attitude.qw, event.qw) AS qw,
-  coalesce(axis.sigma_deg, attitude.sigma_deg, event.sigma_deg) AS sigma_deg,
-  ifnull('computing failed' || ifnull(' at ' || fault.utc, '') || ': ' || fault.what || '; ', '')
-    || ifnull((SELECT group_concat(
-      CASE WHEN disagree THEN format('%s and %s disagree by %.3f deg, %.1f sigma; ', one, other, apart_deg, apart_sigmas)
-        ELSE format('%s is %s, %s is %s; ', one, one_quality, other, other_quality) END, '')
-      FROM spin_comparison WHERE spin_comparison.run_id = run.run_id AND (disagree OR contradict)), '')
-    || coalesce(axis.status, attitude.status, separation.status, 'no estimate') AS why
-FROM run LEFT JOIN pass_answer AS axis ON axis.run_id = run.run_id AND estimator =
-  (SELECT estimator FROM pass_answer WHERE pass_answer.run_id = run.run_id
-   ORDER BY CASE estimator WHEN 'batch' THEN 1 WHEN 'sequential' THEN 2 ELSE 3 END LIMIT 1)
-LEFT JOIN attitude_answer AS attitude ON attitude.run_id = run.run_id
-LEFT JOIN reconstruction AS separation ON attitude.run_id IS NULL AND separation.run_id = run.run_id
-  AND separation.method = (SELECT min(method) FROM reconstruction WHERE reconstruction.run_id = run.run_id)
-LEFT JOIN reconstruction_event AS event ON event.run_id = separation.run_id
-  AND event.method = separation.method AND event.event = 'T1'
-LEFT JOIN run_fault_utc AS fault ON fault.run_id = run.run_id AND fault.t_tai_ns =
-  (SELECT min(t_tai_ns) FROM run_fault WHERE run_fault.run_id = run.run_id);
+SELECT run_id, spacecraft_id, started_utc, finished, estimator, quality, ra_deg, dec_deg, qx, qy, qz, qw, sigma_deg,
+  others || status AS why,
+  CASE own_quality WHEN 'OK' THEN rtrim(others, '; ') ELSE others || status END AS against
+FROM (
+  SELECT run.run_id, run.spacecraft_id, run.started_utc, run.finished_utc IS NOT NULL AS finished,
+    coalesce(estimator, source, separation.method) AS estimator,
+    CASE WHEN 'LOST' IN (axis.quality, attitude.quality) THEN 'LOST'
+      WHEN fault.what IS NOT NULL THEN 'DOUBTFUL'
+      WHEN axis.quality IN ('OK', 'AMBIGUOUS') THEN ifnull(
+        (SELECT CASE WHEN max(disagree) THEN 'DOUBTFUL' ELSE 'AMBIGUOUS' END FROM spin_comparison
+         WHERE spin_comparison.run_id = run.run_id AND contradict HAVING count(*) > 0), axis.quality)
+      ELSE coalesce(axis.quality, attitude.quality, separation.quality) END AS quality,
+    coalesce(axis.quality, attitude.quality, separation.quality) AS own_quality,
+    ra_deg, dec_deg, ifnull(attitude.qx, event.qx) AS qx, ifnull(attitude.qy, event.qy) AS qy,
+    ifnull(attitude.qz, event.qz) AS qz, ifnull(attitude.qw, event.qw) AS qw,
+    coalesce(axis.sigma_deg, attitude.sigma_deg, event.sigma_deg) AS sigma_deg,
+    ifnull('computing failed' || ifnull(' at ' || fault.utc, '') || ': ' || fault.what || '; ', '')
+      || ifnull((SELECT group_concat(
+        CASE WHEN disagree THEN format('%s and %s disagree by %.3f deg, %.1f sigma; ', one, other, apart_deg, apart_sigmas)
+          ELSE format('%s is %s, %s is %s; ', one, one_quality, other, other_quality) END, '')
+        FROM spin_comparison WHERE spin_comparison.run_id = run.run_id AND (disagree OR contradict)), '') AS others,
+    coalesce(axis.status, attitude.status, separation.status, 'no estimate') AS status
+  FROM run LEFT JOIN pass_answer AS axis ON axis.run_id = run.run_id AND estimator =
+    (SELECT estimator FROM pass_answer WHERE pass_answer.run_id = run.run_id
+     ORDER BY CASE estimator WHEN 'batch' THEN 1 WHEN 'sequential' THEN 2 ELSE 3 END LIMIT 1)
+  LEFT JOIN attitude_answer AS attitude ON attitude.run_id = run.run_id
+  LEFT JOIN reconstruction AS separation ON attitude.run_id IS NULL AND separation.run_id = run.run_id
+    AND separation.method = (SELECT min(method) FROM reconstruction WHERE reconstruction.run_id = run.run_id)
+  LEFT JOIN reconstruction_event AS event ON event.run_id = separation.run_id
+    AND event.method = separation.method AND event.event = 'T1'
+  LEFT JOIN run_fault_utc AS fault ON fault.run_id = run.run_id AND fault.t_tai_ns =
+    (SELECT min(t_tai_ns) FROM run_fault WHERE run_fault.run_id = run.run_id)
+);

@@ -53,10 +53,20 @@ static void print_alert(const void* sample) {
 }
 
 static void print_health(const void* sample) {
+  static const char* const links[] = {"waiting", "live", "stale"};
   const spindrift_Health* h = sample;
   printf("health %s received=%llu committed=%llu: %s\n", h->service,
          (unsigned long long)h->samples_received, (unsigned long long)h->samples_committed,
          h->status);
+  for (uint32_t i = 0; i < h->spacecraft._length; ++i) {
+    const spindrift_SpacecraftHealth* one = &h->spacecraft._buffer[i];
+    if (one->estimator[0] == '\0') {
+      printf("verdict %s %s: no answer\n", one->spacecraft, links[one->link]);
+    } else {
+      printf("verdict %s %s: %s by %s, sigma_deg=%.4f against=\"%s\"\n", one->spacecraft,
+             links[one->link], one->quality, one->estimator, one->sigma_deg, one->against);
+    }
+  }
 }
 
 struct Followed {

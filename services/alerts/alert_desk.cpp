@@ -244,6 +244,13 @@ std::vector<Alert> AlertDesk::settled(const ConditionChanges& changes, Desk& des
   return alerts;
 }
 
+std::string AlertDesk::run_of(const std::string& spacecraft) const {
+  const std::lock_guard lock{mutex_};
+  const auto found = desks_.find(spacecraft);
+  return found == desks_.end() || !found->second.supervised ? std::string{}
+                                                            : found->second.supervised->stored_run;
+}
+
 std::optional<SpinTarget> AlertDesk::target_of(const std::string& spacecraft) const {
   const std::lock_guard lock{mutex_};
   const auto found = desks_.find(spacecraft);

@@ -57,6 +57,9 @@ class AlertDesk {
   /// @return what is to be stored.
   std::vector<ArchiveBatch> see(const std::map<std::string, ServiceState>& states, TaiTime now);
 
+  /// The run of a spacecraft that is computed now, as far as the archive holds it. Empty: none yet.
+  std::string run_of(const std::string& spacecraft) const;
+
   /// Where the axis should be now; empty: nobody has said, or it is no spinner.
   std::optional<SpinTarget> target_of(const std::string& spacecraft) const;
 

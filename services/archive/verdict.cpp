@@ -1,32 +1,44 @@
 #include "services/archive/verdict.h"
 
-#include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>
+
+#include <optional>
 
 #include "services/archive/connection.h"
 
 namespace spindrift {
 
+PassVerdict verdict_in(SQLite::Database& archive, const std::string& run_id) {
+  SQLite::Statement query{
+      archive,
+      "SELECT verdict.finished, ifnull(estimator, ''), ifnull(verdict.quality, ''),"
+      " verdict.sigma_deg, verdict.ra_deg, verdict.dec_deg, spin_rate_rpm, sigma_rpm, why, against"
+      " FROM pass_verdict AS verdict LEFT JOIN pass_answer USING (run_id, estimator)"
+      " WHERE run_id = ?"};
+  query.bind(1, run_id);
+  if (!query.executeStep()) {
+    return {};
+  }
+  const auto number = [&](int column) {
+    const SQLite::Column value = query.getColumn(column);
+    return value.isNull() ? std::nullopt : std::optional{value.getDouble()};
+  };
+  return {.finished = query.getColumn(0).getInt() != 0,
+          .estimator = query.getColumn(1).getString(),
+          .quality = query.getColumn(2).getString(),
+          .sigma_deg = number(3),
+          .ra_deg = number(4),
+          .dec_deg = number(5),
+          .spin_rate_rpm = number(6),
+          .sigma_rpm = number(7),
+          .why = query.getColumn(8).getString(),
+          .against = query.getColumn(9).getString()};
+}
+
 Expected<PassVerdict> find_verdict(const std::filesystem::path& archive,
                                    const std::string& run_id) {
-  return read_archive(archive, [&](SQLite::Database& database) {
-    SQLite::Statement query{
-        database,
-        "SELECT finished, ifnull(estimator, ''), ifnull(quality, ''), sigma_deg,"
-        " why FROM pass_verdict WHERE run_id = ?"};
-    query.bind(1, run_id);
-    PassVerdict verdict;
-    if (query.executeStep()) {
-      verdict = {.finished = query.getColumn(0).getInt() != 0,
-                 .estimator = query.getColumn(1).getString(),
-                 .quality = query.getColumn(2).getString(),
-                 .sigma_deg = query.getColumn(3).isNull()
-                                  ? std::nullopt
-                                  : std::optional{query.getColumn(3).getDouble()},
-                 .why = query.getColumn(4).getString()};
-    }
-    return verdict;
-  });
+  return read_archive(archive,
+                      [&](SQLite::Database& database) { return verdict_in(database, run_id); });
 }
 
 Expected<std::vector<Disagreement>> find_disagreements(const std::filesystem::path& archive,

@@ -3,29 +3,21 @@
 
 #pragma once
 
+#include <SQLiteCpp/Database.h>
+
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "services/products/pass_verdict.h"
 #include "services/words/disagreement_words.h"
 
 namespace spindrift {
 
-/// A row of the view pass_verdict.
-struct PassVerdict {
-  bool finished = false;  ///< Otherwise the run goes on, or was interrupted or killed.
-  /// @name Empty: the run has no answer
-  /// @{
-  std::string estimator = {};
-  std::string quality = {};  ///< There is one of a run that failed, too.
-  std::optional<double> sigma_deg = {};
-  /// @}
-  std::string why = {};
-};
-
-/// Of what is stored. @return As find_stored_passes.
+/// Of what is stored. Throws SQLite::Exception.
+PassVerdict verdict_in(SQLite::Database& archive, const std::string& run_id);
+/// Likewise. @return As find_stored_passes.
 Expected<PassVerdict> find_verdict(const std::filesystem::path& archive, const std::string& run_id);
 
 /// Which estimators of a run give axes that their sigmas do not explain: those that the view

@@ -7,26 +7,6 @@
 
 namespace spindrift {
 
-nlohmann::json verdict_of(SQLite::Database& archive, const std::string& run_id) {
-  SQLite::Statement row{archive,
-                        "SELECT estimator, verdict.quality AS quality, why, verdict.sigma_deg AS "
-                        "sigma_deg, verdict.ra_deg AS ra_deg, verdict.dec_deg AS dec_deg, "
-                        "spin_rate_rpm, sigma_rpm FROM pass_verdict AS verdict LEFT JOIN "
-                        "pass_answer USING (run_id, estimator) WHERE run_id = ?"};
-  row.bind(1, run_id);
-  nlohmann::json verdict = nlohmann::json::object();
-  if (row.executeStep()) {
-    for (int i = 0; i < row.getColumnCount(); ++i) {
-      const SQLite::Column value = row.getColumn(i);
-      if (!value.isNull()) {
-        verdict[value.getName()] =
-            value.isText() ? nlohmann::json(value.getString()) : nlohmann::json(value.getDouble());
-      }
-    }
-  }
-  return verdict;
-}
-
 Expected<std::vector<SeriesPoint>> values_of(SQLite::Database& archive, const std::string& run_id,
                                              const Quantity& quantity, const Span& span) {
   SQLite::Statement rows{archive, quantity.sql};

@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -17,10 +16,6 @@
 
 namespace spindrift {
 
-/// Columns of `pass_verdict` of a run, and the spin rate of the estimator that it reports; those
-/// that have a value. Throws SQLite::Exception, as what follows.
-nlohmann::json verdict_of(SQLite::Database& archive, const std::string& run_id);
-
 /// More values than which a series is not read of.
 inline constexpr std::size_t kMostValuesRead = 1'000'000;
 
@@ -28,8 +23,8 @@ struct Span {
   std::int64_t from_tai_ns;
   std::int64_t to_tai_ns;
 };
-/// All values of a run in a span, both ends included, in order of time. @return InvalidInput for
-/// more than kMostValuesRead.
+/// All values of a run in a span, both ends included, in order of time. Throws SQLite::Exception.
+/// @return InvalidInput for more than kMostValuesRead.
 Expected<std::vector<SeriesPoint>> values_of(SQLite::Database& archive, const std::string& run_id,
                                              const Quantity& quantity, const Span& span);
 

@@ -288,18 +288,4 @@ HttpResponse ConsoleAnswers::change_alert(const OperatorWord& word) {
   return json_answer(http::status::ok, alert_json(taken->spacecraft_id, taken->run_id, alert));
 }
 
-void ConsoleAnswers::read_verdicts() {
-  for (const std::string& spacecraft : service_.feed.spacecraft()) {
-    const std::string run_id = service_.feed.run_of(spacecraft).value_or("");
-    auto verdict =
-        archive_.read([&](SQLite::Database& archive) { return verdict_of(archive, run_id); });
-    if (verdict) {
-      service_.feed.put_verdict(spacecraft, run_id, *std::move(verdict));
-    }
-    if (const auto target = service_.desk.target_of(spacecraft)) {
-      service_.feed.put_target(spacecraft, *target);
-    }
-  }
-}
-
 }  // namespace spindrift

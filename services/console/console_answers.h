@@ -20,10 +20,10 @@
 #include "services/console/archive_view.h"
 #include "services/console/console_feed.h"
 #include "services/console/http_messages.h"
-#include "services/console/kept_connection.h"
 #include "services/console/metrics.h"
 #include "services/console/quantities.h"
 #include "services/console/request_target.h"
+#include "services/serving/kept_connection.h"
 
 namespace spindrift {
 
@@ -58,9 +58,6 @@ class ConsoleAnswers {
 
   /// @param is_crowded More connections are open than are served.
   Answer to(const HttpRequest& request, bool is_crowded, const ViewerCounts& viewers);
-
-  /// Into the feed. Of the thread that reads the archive.
-  void read_verdicts();
 
  private:
   using Get = std::function<Answer(const HttpRequest&, const RequestTarget&, const ViewerCounts&)>;

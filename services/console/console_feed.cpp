@@ -119,15 +119,15 @@ nlohmann::json ConsoleFeed::put_alert(const std::string& spacecraft, const std::
   return row;
 }
 
-void ConsoleFeed::put_verdict(const std::string& spacecraft, const std::string& run_id,
-                              nlohmann::json verdict) {
+void ConsoleFeed::put(const std::string& spacecraft, const std::string& run_id,
+                      const PassVerdict& verdict) {
   const std::lock_guard lock{mutex_};
   if (ShownSpacecraft& shown = shown_.at(spacecraft); shown.run_id() == run_id) {
-    shown.take_verdict(std::move(verdict));
+    shown.take(verdict);
   }
 }
 
-void ConsoleFeed::put_target(const std::string& spacecraft, const SpinTarget& target) {
+void ConsoleFeed::put(const std::string& spacecraft, const SpinTarget& target) {
   const std::lock_guard lock{mutex_};
   shown_.at(spacecraft).take(target);
 }

@@ -38,15 +38,14 @@ class ConsoleFeed {
   void put(const Health& health);
   /// Of before the service began.
   void put(const StoredAlert& stored);
+  /// Of the run in force.
+  void put(const std::string& spacecraft, const std::string& run_id, const PassVerdict& verdict);
+  /// Where the axis of a spinner should be.
+  void put(const std::string& spacecraft, const SpinTarget& target);
   /// @}
 
   /// @name Of the console
   /// @{
-  /// The archive's verdict on the run in force.
-  void put_verdict(const std::string& spacecraft, const std::string& run_id,
-                   nlohmann::json verdict);
-  /// Where the axis of a spinner should be.
-  void put_target(const std::string& spacecraft, const SpinTarget& target);
   /// Tells viewers the state of now.
   void tell_state();
   void tell_pulses();

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <atomic>
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
@@ -263,23 +262,11 @@ class ConsoleServer::Loop {
       }
       if (looks_ % kLooksAState == 0) {
         feed_.tell_state();
-        read_verdicts();
       }
       for (const Shared& viewer : std::set<Shared>{viewers_}) {
         tell(viewer);
       }
     });
-  }
-
-  /// For the next state. Not while series of before are still being read.
-  void read_verdicts() {
-    if (!reading_verdicts_.exchange(true)) {
-      asio::post(reading_, [this] {
-        let_samples_come_first();
-        static_cast<void>(contained("reading verdicts", [this] { answers_.read_verdicts(); }));
-        reading_verdicts_ = false;
-      });
-    }
   }
 
   ViewerCounts viewer_counts() const { return {.watching = viewers_.size(), .dropped = dropped_}; }
@@ -289,7 +276,6 @@ class ConsoleServer::Loop {
   int open_ = 0;  // Outlives the context, which holds the sessions.
   int looks_ = 0;
   std::uint64_t dropped_ = 0;
-  std::atomic<bool> reading_verdicts_ = false;
   asio::io_context context_{1};
   tcp::acceptor acceptor_;
   asio::steady_timer accepting_{context_};

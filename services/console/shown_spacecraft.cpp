@@ -181,6 +181,23 @@ void ShownSpacecraft::take(const SpacecraftHealth& health) {
   }
 }
 
+void ShownSpacecraft::take(const PassVerdict& verdict) {
+  verdict_ = {{"why", verdict.why}, {"against", verdict.against}};
+  const auto add = [this](const char* name, const auto& value) {
+    if (value) {
+      verdict_[name] = *value;
+    }
+  };
+  const auto text = [](const std::string& of) { return of.empty() ? nullptr : &of; };
+  add("estimator", text(verdict.estimator));
+  add("quality", text(verdict.quality));
+  add("sigma_deg", verdict.sigma_deg);
+  add("ra_deg", verdict.ra_deg);
+  add("dec_deg", verdict.dec_deg);
+  add("spin_rate_rpm", verdict.spin_rate_rpm);
+  add("sigma_rpm", verdict.sigma_rpm);
+}
+
 nlohmann::json ShownSpacecraft::state() {
   nlohmann::json state{{"kind", name_of(mission_.kind())}};
   if (mission_.spin() != nullptr) {

@@ -38,8 +38,8 @@ class ShownSpacecraft {
   void take_details(const ArchiveBatch& stored);
 
   void take(const SpacecraftHealth& health);
-  /// The archive's, of the run.
-  void take_verdict(nlohmann::json verdict) { verdict_ = std::move(verdict); }
+  /// Of the run.
+  void take(const PassVerdict& verdict);
   void take(const SpinTarget& target) { target_ = target; }
 
   /// As in /api/v1/state, but whether it is go.

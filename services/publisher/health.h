@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipelines/time/tai_time.h"
+#include "services/products/pass_verdict.h"
 
 namespace spindrift {
 
@@ -19,6 +20,7 @@ struct SpacecraftHealth {
   LinkState link;  ///< Waiting: nothing has come yet, which is not known to be good or bad.
   std::optional<TaiTime> last_sample = {};  ///< Telemetry time of the one that came last.
   std::optional<double> data_age_s = {};    ///< Since it came.
+  PassVerdict verdict = {};                 ///< Of the run in force.
 };
 
 struct Health {

@@ -42,13 +42,24 @@ Expected<void> put_origin(Result& result, const ResultOrigin& origin) {
       .and_then([&] { return put_name(result.service, origin.service, "service"); });
 }
 
+/// Points into `health`.
 Expected<spindrift_SpacecraftHealth> to_idl(const SpacecraftHealth& health) {
+  const PassVerdict& verdict = health.verdict;
   spindrift_SpacecraftHealth out{
       .spacecraft = {},
       .link = static_cast<spindrift_LinkState>(health.link),
       .last_sample_tai_ns = health.last_sample ? tai_ns(*health.last_sample) : 0,
-      .data_age_s = health.data_age_s.value_or(kNotAvailable)};
-  return put_name(out.spacecraft, health.spacecraft, "spacecraft").map([&out] { return out; });
+      .data_age_s = health.data_age_s.value_or(kNotAvailable),
+      .estimator = {},
+      .quality = {},
+      .sigma_deg = verdict.sigma_deg.value_or(kNotAvailable),
+      // The generated types know no const: a sample that is written is only read.
+      .why = const_cast<char*>(verdict.why.c_str()),           // NOLINT(*-pro-type-const-cast)
+      .against = const_cast<char*>(verdict.against.c_str())};  // NOLINT(*-pro-type-const-cast)
+  return put_name(out.spacecraft, health.spacecraft, "spacecraft")
+      .and_then([&] { return put_name(out.estimator, verdict.estimator, "estimator"); })
+      .and_then([&] { return put_name(out.quality, verdict.quality, "quality"); })
+      .map([&out] { return out; });
 }
 
 }  // namespace

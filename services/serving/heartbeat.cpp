@@ -123,6 +123,14 @@ std::vector<std::string> Heartbeat::problems(const TelemetrySubscriberStatus& st
   return found;
 }
 
+std::vector<SpacecraftHealth> Heartbeat::spacecraft() const {
+  auto all = watched_.links.report(std::chrono::steady_clock::now());
+  for (SpacecraftHealth& one : all) {
+    one.verdict = watched_.verdicts.of(one.spacecraft);
+  }
+  return all;
+}
+
 void Heartbeat::publish_health(const TelemetrySubscriberStatus& status) {
   const SequenceCounts counts = total(status);
   const ArchiveStatistics archive = watched_.archive.statistics();
@@ -137,7 +145,7 @@ void Heartbeat::publish_health(const TelemetrySubscriberStatus& status) {
       .commit_p99_ms = archive.commit_p99_ms.value_or(0.0),
       .status = found.empty() ? "ok" : found.front(),
       .message = fmt::format("{}", fmt::join(found, "\n")),
-      .spacecraft = watched_.links.report(std::chrono::steady_clock::now()),
+      .spacecraft = spacecraft(),
       .works = (status.taking || status.failure.empty()) && !archive.failure};
   watched_.on_health(health);
   const auto published = watched_.publisher.publish(health);

@@ -22,6 +22,7 @@
 #include "services/serving/alert_outbox.h"
 #include "services/serving/service_watch.h"
 #include "services/serving/thread_failures.h"
+#include "services/serving/verdict_watch.h"
 
 namespace spindrift {
 
@@ -35,6 +36,7 @@ class Heartbeat {
     const Archive& archive;
     const ResultPublisher& publisher;
     const LinkWatch& links;
+    const VerdictWatch& verdicts;
     const Problems& problems;
     ServiceWatch& service;
     AlertDesk& desk;
@@ -57,6 +59,7 @@ class Heartbeat {
                                     const std::optional<Error>& archive_failure) const;
   void note_losses(const TelemetrySubscriberStatus& status);
   void note_storing(const std::optional<Error>& failure);
+  std::vector<SpacecraftHealth> spacecraft() const;
   void publish_health(const TelemetrySubscriberStatus& status);
   void supervise(const TelemetrySubscriberStatus& status);
   void say_once(const std::string& problem);

@@ -196,12 +196,14 @@ Expected<void> run_service(GoneOn gone_on, const ServiceParts& parts) {
                           .sessions = heard.sessions,
                           .others = parts.told.others,
                           .clocks = parts.told.clocks}};
+    const VerdictWatch verdicts{parts.db, spacecraft, parts.desk, parts.on_verdict, parts.failures};
     const Heartbeat heartbeat{{.subscriber = subscriber,
                                .taken = parts.taken,
                                .work = work,
                                .archive = parts.archive,
                                .publisher = parts.publisher,
                                .links = heard.links,
+                               .verdicts = verdicts,
                                .problems = parts.problems,
                                .service = service,
                                .desk = parts.desk,

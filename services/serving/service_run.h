@@ -20,6 +20,7 @@
 #include "services/queue/bounded_queue.h"
 #include "services/serving/stop_signal.h"
 #include "services/serving/thread_failures.h"
+#include "services/serving/verdict_watch.h"
 #include "services/telemetry/sample_batch.h"
 
 namespace spindrift {
@@ -47,6 +48,7 @@ struct ServiceParts {
   ThreadFailures& failures;
   std::function<void(const ArchiveBatch&)> announce;  ///< Alerts of the service. Must not wait.
   std::function<void(const Health&)> on_health;       ///< Must not wait.
+  VerdictWatch::OnVerdict on_verdict;                 ///< Must not wait.
 };
 
 /// Until a signal, or a failure, and everything taken is with the archive.

@@ -322,6 +322,13 @@ Expected<void> serve(const ServeOptions& options) {
                      if (feed != nullptr) {
                        feed->put(health);
                      }
+                   },
+               .on_verdict =
+                   [&](const std::string& spacecraft, const std::string& run_id,
+                       const PassVerdict& verdict) {
+                     if (feed != nullptr) {
+                       show_verdict(*feed, spacecraft, run_id, verdict, desk);
+                     }
                    }});
           tell_actions_left(taken);
           // Who asks and waits for the archive gets his answer, so that the servers can end.

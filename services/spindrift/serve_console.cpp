@@ -19,6 +19,14 @@ std::unique_ptr<ConsoleFeed> make_console_feed(const ServeOptions& options,
                                {"status", "starting"}});
 }
 
+void show_verdict(ConsoleFeed& feed, const std::string& spacecraft, const std::string& run_id,
+                  const PassVerdict& verdict, const AlertDesk& desk) {
+  feed.put(spacecraft, run_id, verdict);
+  if (const auto target = desk.target_of(spacecraft)) {
+    feed.put(spacecraft, *target);
+  }
+}
+
 Expected<std::unique_ptr<ConsoleServer>> start_console(const ServeOptions& options,
                                                        ConsoleFeed* feed, AlertDesk& desk,
                                                        Archive& archive, ActionInbox& inbox) {

@@ -23,6 +23,10 @@ std::unique_ptr<ConsoleFeed> make_console_feed(const ServeOptions& options,
                                                const std::vector<Mission>& missions,
                                                const std::string& name);
 
+/// And where the axis of a spinner should be.
+void show_verdict(ConsoleFeed& feed, const std::string& spacecraft, const std::string& run_id,
+                  const PassVerdict& verdict, const AlertDesk& desk);
+
 /// Says where it is. Null where `feed` is. All of them outlive it. @return As ConsoleServer::start.
 Expected<std::unique_ptr<ConsoleServer>> start_console(const ServeOptions& options,
                                                        ConsoleFeed* feed, AlertDesk& desk,

@@ -222,7 +222,8 @@ nlohmann::json to_json(const PassVerdict& verdict) {
   return {{"estimator", known(verdict.estimator)},
           {"quality", known(verdict.quality)},
           {"sigma_deg", verdict.sigma_deg ? nlohmann::json(*verdict.sigma_deg) : nlohmann::json{}},
-          {"why", verdict.why}};
+          {"why", verdict.why},
+          {"against", verdict.against}};
 }
 
 nlohmann::json to_json(const RunFault& fault) {

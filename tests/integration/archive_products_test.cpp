@@ -85,9 +85,10 @@ TEST_F(ArchiveProducts, VerdictOfAPassIsThatOfBatchElseOfSequentialElseOfMean) {
 
   SQLite::Database database = reader();
   EXPECT_THAT(column(database,
-                     "SELECT format('%s %.3g %s', ifnull(estimator, '-'), ifnull(dec_deg, 0), why)"
-                     " FROM pass_verdict ORDER BY run_id"),
-              ElementsAre("- 0 no estimate", "mean 30 OK", "sequential 30 OK", "batch 30 OK"));
+                     "SELECT format('%s %.3g %s: %s', ifnull(estimator, '-'), ifnull(dec_deg, 0),"
+                     " why, against) FROM pass_verdict ORDER BY run_id"),
+              ElementsAre("- 0 no estimate: no estimate",
+                          "mean 30 OK: ", "sequential 30 OK: ", "batch 30 OK: "));
 }
 
 AttitudeEstimate attitude_at(std::int64_t t_tai_ns, Quality quality) {
@@ -184,6 +185,9 @@ TEST_F(ArchiveProducts, VerdictOfARunThatFailedToComputeIsDoubtfulUnlessItIsLost
           "DOUBTFUL 0 computing failed at 2026-11-20T03:00:00.250Z: no such angle; no estimate",
           "DOUBTFUL 30 computing failed at 2026-11-20T03:00:00.250Z: no such angle; OK",
           "LOST 20 computing failed at 2026-11-20T03:00:00.250Z: no such angle; LOST"));
+  const std::string failed = "computing failed at 2026-11-20T03:00:00.250Z: no such angle";
+  EXPECT_THAT(column(database, "SELECT against FROM pass_verdict ORDER BY run_id"),
+              ElementsAre(failed + "; no estimate", failed, failed + "; LOST"));
 }
 
 TEST_F(ArchiveProducts, SpinFixIsStoredInDegreesWithItsCovariance) {

@@ -80,7 +80,7 @@ TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
        {"action_id", "spacecraft_id", "t_tai_ns", "made_utc", "by", "action", "arguments"}},
       {"pass_verdict",
        {"run_id", "spacecraft_id", "started_utc", "finished", "estimator", "quality", "ra_deg",
-        "dec_deg", "qx", "qy", "qz", "qw", "sigma_deg", "why"}}};
+        "dec_deg", "qx", "qy", "qz", "qw", "sigma_deg", "why", "against"}}};
   const auto archive = open();
 
   SQLite::Database database = reader();

@@ -173,7 +173,12 @@ TEST(ResultPublisher, PublishesTheWholeMessageAndTheStateOfEverySpacecraft) {
   health.spacecraft = {{.spacecraft = "HEARD",
                         .link = LinkState::Stale,
                         .last_sample = tai_from_ns(kTestTime_tai_ns - 7),
-                        .data_age_s = 6.5},
+                        .data_age_s = 6.5,
+                        .verdict = {.estimator = "mean",
+                                    .quality = "DOUBTFUL",
+                                    .sigma_deg = 0.25,
+                                    .why = std::string(300, 'y'),
+                                    .against = "mean and batch disagree"}},
                        {.spacecraft = "UNHEARD", .link = LinkState::Waiting}};
   const auto reader = results_reader(participant, bus::kHealthTopic);
   ASSERT_TRUE(publisher.publish(health));
@@ -189,10 +194,19 @@ TEST(ResultPublisher, PublishesTheWholeMessageAndTheStateOfEverySpacecraft) {
     EXPECT_EQ(heard.link, spindrift_LINK_STALE);
     EXPECT_EQ(heard.last_sample_tai_ns, kTestTime_tai_ns - 7);
     EXPECT_EQ(heard.data_age_s, 6.5);
+    EXPECT_STREQ(heard.estimator, "mean");
+    EXPECT_STREQ(heard.quality, "DOUBTFUL");
+    EXPECT_EQ(heard.sigma_deg, 0.25);
+    EXPECT_EQ(heard.why, std::string(300, 'y'));
+    EXPECT_STREQ(heard.against, "mean and batch disagree");
     const spindrift_SpacecraftHealth& unheard = sample.spacecraft._buffer[1];
     EXPECT_EQ(unheard.link, spindrift_LINK_WAITING);
     EXPECT_EQ(unheard.last_sample_tai_ns, 0);
     EXPECT_TRUE(std::isnan(unheard.data_age_s));
+    EXPECT_STREQ(unheard.estimator, "");
+    EXPECT_STREQ(unheard.quality, "");
+    EXPECT_TRUE(std::isnan(unheard.sigma_deg));
+    EXPECT_STREQ(unheard.against, "no estimate");
   };
   ASSERT_TRUE(eventually([&] {
     reader.take(check).value();

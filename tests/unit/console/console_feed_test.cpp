@@ -79,10 +79,13 @@ TEST_F(Feed, ShowsLinkSunAndEarthOfTheLastSample) {
 
 TEST_F(Feed, ShowsTheVerdictOfTheRunInForceAndHowFarTheTargetIs) {
   put(estimate_at(kT, SpinEstimator::Mean));
-  feed_->put_verdict("SPINNER", "run of before", {{"quality", "LOST"}});
+  feed_->put("SPINNER", "run of before", PassVerdict{.quality = "LOST"});
   EXPECT_FALSE(shown().contains("quality"));
-  feed_->put_verdict("SPINNER", "run", {{"quality", "OK"}, {"ra_deg", 100.0}, {"dec_deg", -55.0}});
+  feed_->put("SPINNER", "run",
+             PassVerdict{.quality = "OK", .ra_deg = 100.0, .dec_deg = -55.0, .against = "edges"});
   EXPECT_EQ(shown()["quality"], "OK");
+  EXPECT_EQ(shown()["against"], "edges");
+  EXPECT_FALSE(shown().contains("sigma_deg"));
   EXPECT_NEAR(shown()["to_target_deg"].get<double>(), 5.0, 1e-9);
   EXPECT_NEAR(shown()["target"]["dec_deg"].get<double>(), -50.0, 1e-9);
   EXPECT_EQ(shown()["estimates"]["mean"]["estimator"], "mean");
@@ -147,7 +150,7 @@ TEST_F(Feed, IsGoWhenNothingStandsAgainstIt) {
   put_link(LinkState::Live);
   put(estimate_at(kT, SpinEstimator::Mean));
   EXPECT_EQ(shown()["go"]["is_go"], false);
-  feed_->put_verdict("SPINNER", "run", {{"quality", "OK"}, {"sigma_deg", 0.1}});
+  feed_->put("SPINNER", "run", PassVerdict{.quality = "OK", .sigma_deg = 0.1});
   EXPECT_EQ(shown()["go"], (nlohmann::json{{"is_go", true}, {"against", nlohmann::json::array()}}));
   put(Alert{.alert_id = "00ff",
             .key = "spin.nutation",

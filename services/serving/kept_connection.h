@@ -1,5 +1,5 @@
 /// @file
-/// The console's one connection to the archive, which reads.
+/// A connection to the archive that reads again and again.
 
 #pragma once
 

@@ -1,4 +1,4 @@
-#include "services/console/kept_connection.h"
+#include "services/serving/kept_connection.h"
 
 #include <sys/stat.h>
 
