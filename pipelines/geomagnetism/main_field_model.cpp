@@ -4,18 +4,42 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 
 namespace spindrift {
+namespace {
+
+using std::chrono::days;
+
+struct YearSpan {
+  days beginning;  ///< Since 1970.
+  days length;
+};
+
+YearSpan span_of(std::chrono::year year) {
+  using namespace std::chrono;
+  const auto beginning = sys_days{year / January / 1}.time_since_epoch();
+  return {.beginning = beginning,
+          .length = sys_days{(year + years{1}) / January / 1}.time_since_epoch() - beginning};
+}
+
+}  // namespace
 
 double decimal_year(TaiTime t) {
   using namespace std::chrono;
   const auto since_1970 = t.time_since_epoch();
   const year in = year_month_day{sys_days{floor<days>(since_1970)}}.year();
-  const auto beginning = sys_days{in / January / 1}.time_since_epoch();
-  const auto length = sys_days{(in + years{1}) / January / 1}.time_since_epoch() - beginning;
-  return static_cast<int>(in) + duration<double>{since_1970 - beginning} / length;
+  const YearSpan span = span_of(in);
+  return static_cast<int>(in) + duration<double>{since_1970 - span.beginning} / span.length;
+}
+
+TaiTime instant_of_year(double year) {
+  const double whole = std::floor(year);
+  const YearSpan span = span_of(std::chrono::year{static_cast<int>(whole)});
+  return shifted(TaiTime{span.beginning},
+                 (year - whole) * std::chrono::duration<double>{span.length}.count());
 }
 
 Expected<MainFieldModel> MainFieldModel::make(std::vector<FieldEpoch> epochs) {

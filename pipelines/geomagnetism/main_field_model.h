@@ -15,6 +15,8 @@ namespace spindrift {
 
 /// The year and its part that has passed at `t`, by TAI: a year is 365 or 366 days.
 double decimal_year(TaiTime t);
+/// The other way round.
+TaiTime instant_of_year(double year);
 
 struct FieldEpoch {
   double year;

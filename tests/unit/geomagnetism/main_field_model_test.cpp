@@ -50,6 +50,17 @@ TEST(MainFieldModel, KnowsDegrees1To13) {
   EXPECT_GT((field_nt(model, 2010.0, 10) - field_nt(model, 2010.0, 13)).norm(), 1.0);
 }
 
+TEST(DecimalYear, AndInstantAreEachOthersInverse) {
+  const TaiTime new_year_2030 = tai_from_ns(1'893'456'000'000'000'000);
+  EXPECT_EQ(instant_of_year(2030.0), new_year_2030);
+  EXPECT_EQ(instant_of_year(1970.0), tai_from_ns(0));
+  EXPECT_EQ(instant_of_year(2024.5) - instant_of_year(2024.0), std::chrono::days{183});
+  EXPECT_EQ(instant_of_year(1901.0) - instant_of_year(1900.0), std::chrono::days{365});
+  for (const double year : {1900.25, 1969.75, 1999.0, 2026.875}) {
+    EXPECT_NEAR(decimal_year(instant_of_year(year)), year, 1e-12);
+  }
+}
+
 TEST(MainFieldModel, ChangesEvenlyBetweenEpochs) {
   const MainFieldModel model = igrf().value();
   for (const double epoch : {1900.0, 1995.0, 2015.0, 2020.0, 2025.0}) {
