@@ -15,12 +15,11 @@ void share(const TableRule& from, const char* table, TableRule& with) {
   with.tables.emplace(table, from.tables.at(table));
 }
 
-/// A body is needed, and each sensor that is simulated.
+/// A body is needed, and each sensor that a separation always has.
 void require_sensors(TableRule& three_axis) {
   for (const char* const table : {"gyro", "sun_sensor", "star_tracker", "inertia"}) {
     three_axis.tables.at(table).required = "always";
   }
-  three_axis.tables.erase("magnetometer");
 }
 
 Expected<TableRule> separation_schema(const TableRule& mission, const TableRule& spin) {

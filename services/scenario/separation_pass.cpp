@@ -95,6 +95,7 @@ TelemetryValues telemetry_of(const ThreeAxisTelemetry& telemetry) {
   append(telemetry.gyro);
   append(telemetry.sun);
   append(telemetry.stars);
+  append(telemetry.fields);
   put_in_order(all);
   return all;
 }
@@ -127,6 +128,10 @@ Expected<SimulatedPass> played_pass(const Scenario& scenario, const SeparationSc
                  {"sun outliers", static_cast<std::int64_t>(received.sun_outliers.size())}}};
   pass.made = {count_of<GyroSample>(pass.telemetry), count_of<SunDirection>(pass.telemetry),
                count_of<StarFix>(pass.telemetry)};
+  if (flight.sensors.magnetometer) {
+    pass.kinds.emplace_back(Kind<MagneticField>{});
+    pass.made.push_back(count_of<MagneticField>(pass.telemetry));
+  }
   return pass;
 }
 

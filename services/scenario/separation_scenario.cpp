@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipelines/frames/euler312.h"
+#include "services/geomagnetism/igrf.h"
 #include "services/mission/mission_three_axis.h"
 #include "services/scenario/silences.h"
 #include "services/toml_schema/values.h"
@@ -52,9 +53,27 @@ SeparationTruth truth_of(const TomlValues& values, const Eigen::Matrix3d& inerti
                      .end_s = number(values, "pass.duration_s")}};
 }
 
+Sampling sampling_of(const TomlValues& values, std::string_view from, std::string_view step) {
+  return {.from_s = number(values, from), .step_s = number(values, step)};
+}
+
+std::optional<TrueMagnetometer> magnetometer_of(const TomlValues& values,
+                                                const ThreeAxisConfig& said) {
+  if (!said.magnetometer) {
+    return std::nullopt;
+  }
+  return TrueMagnetometer{
+      .sampling = sampling_of(values, "separation.control_on_s", "telemetry.magnetometer_step_s"),
+      .noise_nt = value_if<double>(values, "truth.magnetometer.noise_nt")
+                      .value_or(said.magnetometer->noise_nt),
+      .bias_nt = vector_of(value_if<std::vector<double>>(values, "truth.magnetometer.bias_nt")
+                               .value_or(std::vector<double>(3, 0.0))),
+      .field = igrf().value()};
+}
+
 ThreeAxisSensors sensors_of(const TomlValues& values, const ThreeAxisConfig& said) {
   const auto sampling = [&](std::string_view from, std::string_view step) {
-    return Sampling{.from_s = number(values, from), .step_s = number(values, step)};
+    return sampling_of(values, from, step);
   };
   const auto star_noise_arcsec = value_if<double>(values, "truth.star_tracker.noise_arcsec");
   return {
@@ -71,7 +90,8 @@ ThreeAxisSensors sensors_of(const TomlValues& values, const ThreeAxisConfig& sai
                        .noise_rad = star_noise_arcsec
                                         ? *star_noise_arcsec / kArcsecPerDeg * kRadPerDeg
                                         : said.star_tracker->noise_rad,
-                       .q_body_sensor = said.star_tracker->q_body_sensor}};
+                       .q_body_sensor = said.star_tracker->q_body_sensor},
+      .magnetometer = magnetometer_of(values, said)};
 }
 
 std::optional<LauncherTelling> launcher_of(const TomlValues& values) {

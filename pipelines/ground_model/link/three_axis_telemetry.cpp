@@ -7,6 +7,7 @@
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "pipelines/geomagnetism/field_at_spacecraft.h"
 #include "pipelines/ground_model/sensors/three_axis_reading.h"
 
 namespace spindrift {
@@ -64,6 +65,25 @@ class Downlink {
     return {};
   }
 
+  Expected<void> send_field(const TrueMagnetometer& magnetometer, const Orbit& orbit) {
+    TurningEarth earth;
+    for (const double t_s : due_s(magnetometer.sampling)) {
+      const TaiTime t = shifted(start_, t_s);
+      const auto true_icrf_nt = orbit.at(t).and_then([&](const OrbitState& spacecraft) {
+        return field_icrf_nt(magnetometer.field, t, spacecraft.position_icrf_km, earth);
+      });
+      if (!true_icrf_nt) {
+        return Unexpected{true_icrf_nt.error()};
+      }
+      const Vector3d error_nt = magnetometer.bias_nt + chance_.normal_vector(magnetometer.noise_nt);
+      if (arrives(t_s, true)) {
+        telemetry_.fields.push_back(
+            {t, motion_.at(t_s).q_icrf_body.conjugate() * *true_icrf_nt + error_nt});
+      }
+    }
+    return {};
+  }
+
   ThreeAxisTelemetry telemetry() && { return std::move(telemetry_); }
 
  private:
@@ -115,9 +135,12 @@ Expected<ThreeAxisTelemetry> three_axis_telemetry(const BodyMotion& motion, TaiT
   Downlink downlink{motion, start, faults, chance};
   downlink.send_stars(sensors.star_tracker);
   downlink.send_gyro(sensors.gyro);
-  return downlink.send_sun(sensors.sun_sensor, orbit).map([&] {
-    return std::move(downlink).telemetry();
-  });
+  return downlink.send_sun(sensors.sun_sensor, orbit)
+      .and_then([&] {
+        return sensors.magnetometer ? downlink.send_field(*sensors.magnetometer, orbit)
+                                    : Expected<void>{};
+      })
+      .map([&] { return std::move(downlink).telemetry(); });
 }
 
 }  // namespace spindrift

@@ -1,5 +1,6 @@
 /// @file
-/// What gyro, sun sensor and star tracker send down of a body's motion, and what does not arrive.
+/// What gyro, sun sensor, star tracker and magnetometer send down of a body's motion, and what does
+/// not arrive.
 
 #pragma once
 
@@ -11,9 +12,11 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
+#include "pipelines/geomagnetism/main_field_model.h"
 #include "pipelines/ground_model/dynamics/body_motion.h"
 #include "pipelines/ground_model/link/chance.h"
 #include "pipelines/ground_model/link/silence.h"
+#include "pipelines/three_axis/magnetic_field.h"
 #include "pipelines/three_axis/samples.h"
 #include "pipelines/time/tai_time.h"
 
@@ -25,7 +28,7 @@ struct Sampling {
   double step_s;
 };
 
-/// Noise is one standard deviation about each axis.
+/// Noise is one standard deviation about each axis, of a magnetometer along it.
 struct TrueGyro {
   Sampling sampling;
   double noise_rad_s;
@@ -46,10 +49,19 @@ struct TrueStarTracker {
   Eigen::Quaterniond q_body_sensor;
 };
 
+/// Reads the main field of the Earth.
+struct TrueMagnetometer {
+  Sampling sampling;
+  double noise_nt;
+  Eigen::Vector3d bias_nt;  ///< Body axes.
+  MainFieldModel field;
+};
+
 struct ThreeAxisSensors {
   TrueGyro gyro;
   TrueSunSensor sun_sensor;
   TrueStarTracker star_tracker;
+  std::optional<TrueMagnetometer> magnetometer = std::nullopt;  ///< Empty: not on board.
 };
 
 struct ThreeAxisFaults {
@@ -64,12 +76,14 @@ struct ThreeAxisTelemetry {
   std::vector<GyroSample> gyro;
   std::vector<SunDirection> sun;
   std::vector<StarFix> stars;
+  std::vector<MagneticField> fields;
   std::vector<TaiTime> sun_outliers;  ///< Of `sun`.
   std::int64_t missing = 0;           ///< Measured, and did not arrive.
 };
 
 /// Draws as often whatever happens to a sample.
-/// @param orbit To the end of the motion. @return NoCoverage where it does not reach.
+/// @param orbit To the end of the motion. @return NoCoverage where it does not reach, or where the
+///        model of the field does not; InvalidInput where the field is asked for within the core.
 Expected<ThreeAxisTelemetry> three_axis_telemetry(const BodyMotion& motion, TaiTime start,
                                                   const ThreeAxisSensors& sensors,
                                                   const ThreeAxisFaults& faults, const Orbit& orbit,

@@ -40,8 +40,8 @@ struct FlownSeparation {
   std::optional<Euler312> told;  ///< By the launcher: body in the orbit frame at T1.
 };
 
-/// @return NoCoverage where the orbit ends before; Unobservable where the launcher is to tell and
-///         there is no orbit frame at T1.
+/// @return NoCoverage where the orbit, or the field for a magnetometer, ends before; Unobservable
+///         where the launcher is to tell and there is no orbit frame at T1.
 Expected<FlownSeparation> flown(const SeparationScenario& scenario, const Orbit& orbit);
 
 }  // namespace spindrift

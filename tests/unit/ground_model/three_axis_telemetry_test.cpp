@@ -9,6 +9,8 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/geomagnetism/field_at_spacecraft.h"
+#include "services/geomagnetism/igrf.h"
 
 namespace spindrift::three_axis_telemetry_test {
 
@@ -100,6 +102,47 @@ TEST(ThreeAxisTelemetry, IsOffByBiasAndNoise) {
     EXPECT_NEAR(sun.sun_body.norm(), 1.0, 1e-12);
   }
   expect_one(suns, 2.0 * 4001.0);
+}
+
+TEST(ThreeAxisTelemetry, OfAMagnetometerIsTheFieldWithBiasAndNoise) {
+  constexpr double kNoise_nt = 50.0;
+  const Vector3d bias_nt{100.0, -200.0, 300.0};
+  ThreeAxisSensors with_field = sensors();
+  with_field.magnetometer = TrueMagnetometer{
+      .sampling = {150.0, 0.1}, .noise_nt = kNoise_nt, .bias_nt = bias_nt, .field = igrf().value()};
+  const ThreeAxisTelemetry telemetry = sent(with_field, {});
+  ASSERT_EQ(telemetry.fields.size(), 3501U);
+  EXPECT_EQ(telemetry.fields.front().t, shifted(kStart, 150.0));
+  const BodyMotion motion = turning();
+  TurningEarth earth;
+  double squares = 0.0;
+  for (const MagneticField& sample : telemetry.fields) {
+    const Vector3d true_icrf_nt =
+        field_icrf_nt(igrf().value(), sample.t, kOrbit.at(sample.t).value().position_icrf_km, earth)
+            .value();
+    const Vector3d truth =
+        motion.at(seconds_between(kStart, sample.t)).q_icrf_body.conjugate() * true_icrf_nt;
+    squares += ((sample.field_body_nt - bias_nt - truth) / kNoise_nt).squaredNorm();
+  }
+  expect_one(squares, 3.0 * 3501.0);
+  // The others are as without it.
+  const ThreeAxisTelemetry without = sent(sensors(), {});
+  EXPECT_TRUE(without.fields.empty());
+  EXPECT_EQ(telemetry.sun.back().sun_body, without.sun.back().sun_body);
+  EXPECT_EQ(telemetry.gyro.back().rate_body_rad_s, without.gyro.back().rate_body_rad_s);
+}
+
+TEST(ThreeAxisTelemetry, OfAMagnetometerNeedsTheFieldsModel) {
+  ThreeAxisSensors with_field = sensors();
+  with_field.magnetometer = TrueMagnetometer{.sampling = {0.0, 100.0},
+                                             .noise_nt = 1.0,
+                                             .bias_nt = Vector3d::Zero(),
+                                             .field = igrf().value()};
+  Chance chance{7};
+  const auto refused =
+      three_axis_telemetry(turning(), instant_of_year(2030.0), with_field, {}, kOrbit, chance);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::NoCoverage);
 }
 
 TEST(ThreeAxisTelemetry, OfAGyroStopsAtItsRange) {

@@ -115,6 +115,34 @@ TEST(SeparationScenario, WritesAMissionFileWithEventsAndWhatTheLauncherTells) {
   EXPECT_NEAR(check->difference.chi_square, 100.0, 0.01);
 }
 
+TEST(SeparationScenario, SimulatesAMagnetometerWhereThereIsOne) {
+  const std::string with_field = kWhole + "[three_axis.magnetometer]\nnoise_nt = 100\n";
+  const auto scenario = loaded(with_field);
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const TrueMagnetometer& as_said = separation(scenario).sensors.magnetometer.value();
+  EXPECT_EQ(as_said.noise_nt, 100.0);
+  EXPECT_EQ(as_said.bias_nt, Eigen::Vector3d::Zero());
+  EXPECT_EQ(as_said.sampling.from_s, 60.0);
+  EXPECT_EQ(as_said.sampling.step_s, 1.0);
+
+  const auto other = loaded(replaced(with_field, "[three_axis.gyro]",
+                                     "[telemetry]\nmagnetometer_step_s = 0.5\n"
+                                     "[truth.magnetometer]\nnoise_nt = 10\nbias_nt = [1, 2, 3]\n"
+                                     "[three_axis.gyro]"));
+  ASSERT_TRUE(other) << other.error().message;
+  const TrueMagnetometer& really = separation(other).sensors.magnetometer.value();
+  EXPECT_EQ(really.noise_nt, 10.0);
+  EXPECT_EQ(really.bias_nt, Eigen::Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(really.sampling.step_s, 0.5);
+
+  const SimulatedPass pass = simulated(replaced(with_field, "lost = 0.01", "lost = 0"));
+  EXPECT_EQ(count_of<MagneticField>(pass), 250U);
+  EXPECT_EQ(pass.made.back().plural, "magnetometer samples");
+  EXPECT_EQ(pass.kinds.size(), 4U);
+  EXPECT_THAT(pass.mission_toml, HasSubstr("[three_axis.magnetometer]"));
+  EXPECT_EQ(simulated(kWhole).kinds.size(), 3U);
+}
+
 TEST(SeparationScenario, GivesTheSamePassForTheSameSeed) {
   const SimulatedPass first = simulated(kWhole);
   const SimulatedPass second = simulated(kWhole);
@@ -168,7 +196,7 @@ TEST(SeparationScenario, ReportsMistakesAtOnce) {
   text = replaced(text, "[three_axis.gyro]\nnoise_deg_s = 0.002\nbias_sigma_deg_s = 0.01\n", "");
   text = replaced(text, "lost = 0.01", "lost = nan\nspoilt = 0.5");
   text = replaced(text, "to_s = 152.0", "to_s = 140.0");
-  text += "[three_axis.magnetometer]\nnoise_nt = 1\n[spin.noise]\nsun_pulse_s = 1\n";
+  text += "[truth.magnetometer]\nbias_nt = [1, 2]\n[spin.noise]\nsun_pulse_s = 1\n";
   const std::string error = error_of(text);
   for (const char* const problem :
        {"attitude.rate_deg_s = [ 62, 0 ]: must be",
@@ -179,7 +207,7 @@ TEST(SeparationScenario, ReportsMistakesAtOnce) {
         "three_axis.star_tracker.noise_arcsec: missing", "three_axis.inertia.kg_m2 = ",
         "[three_axis.gyro]: missing", "faults.lost = nan: must lie in [0, 1]",
         "faults.spoilt: unknown", "faults.gyro_gap[0].to_s = 140: must not be below from_s = 150",
-        "three_axis.magnetometer: unknown", "spin: unknown"}) {
+        "truth.magnetometer.bias_nt = [ 1, 2 ]: must be", "spin: unknown"}) {
     EXPECT_THAT(error, HasSubstr(problem));
   }
 }
