@@ -226,11 +226,12 @@ INSERT INTO rejection VALUES
   ('geometry', 'the measurement has no meaning: a chord of a whole turn, a slit lag out of range'),
   ('no_sensor', 'the mission file describes no such sensor'),
   ('no_orbit', 'the orbit does not reach: not testable, not wrong; or the orbit state is on no ellipse round the Earth'),
+  ('no_field', 'the model of the Earth''s field does not reach: not testable, not wrong'),
   ('saturated', 'the gyro turns faster than it can measure'),
   ('frozen', 'the gyro gives the same numbers again and again'),
   ('outlier', 'the gyro''s samples beside it are elsewhere'),
   ('shadow', 'the Earth is before the Sun'),
-  ('innovation', 'too far from where the attitude has it'),
+  ('innovation', 'too far from where the attitude has it; of a magnetometer: or from the strength of the field'),
   ('period', 'it failed the test of the spin period'),
   ('sun_angle', 'it failed the test of the sun angle'),
   ('north_chord', 'it failed the test of the north chord'),
@@ -264,7 +265,9 @@ CREATE TABLE rejected_sample (
   kind               TEXT NOT NULL CHECK (
     kind = 'orbit_state' OR kind = 'gyro' OR kind = 'star' OR kind = 'sun' OR kind = 'magnetometer'),
   rejected_by        TEXT NOT NULL REFERENCES rejection,
-  squared_innovation REAL,  -- normalised, of 3 (star) or 2 degrees of freedom; NULL: not by innovation
+  -- Normalised, of 2 (sun) or 3 degrees of freedom, of a magnetometer 1 (the strength) where there is no
+  -- attitude yet. NULL: not by innovation
+  squared_innovation REAL,
   PRIMARY KEY (run_id, t_tai_ns, kind)
 ) STRICT, WITHOUT ROWID;
 

@@ -48,7 +48,9 @@ enum class NoticeCode {
   AmbiguousPriorNotBorne,  ///< -
   LateSamples,             ///< -
   SamplesOutOfTime,        ///< -
-  AttitudeNeverBegan,      ///< gyro, star, sun
+  FieldWithoutOrbit,       ///< t_tai_ns; likewise the following
+  OutsideFieldModel,       ///< -
+  AttitudeNeverBegan,      ///< gyro, star, sun, magnetometer
 };
 inline constexpr int kNoticeCodes = static_cast<int>(NoticeCode::AttitudeNeverBegan) + 1;
 

@@ -37,6 +37,8 @@ Matrix3d axes_of(const ObservedDirection& direction) {
 }
 Matrix3d axes_of(const ObservedAttitude& /*attitude*/) { return Matrix3d::Identity(); }
 
+double square_of(const std::optional<double>& sigmas) { return sigmas ? *sigmas * *sigmas : 0.0; }
+
 TaiTime time_of(const std::variant<StarFix, SeenDirection>& sample) {
   return std::visit([](const auto& is) { return is.t; }, sample);
 }
@@ -246,7 +248,7 @@ void AttitudeEstimator::take_in_star(const StarFix& fix, Products& out) {
   if (!filter_) {
     note_accepted(SampleKind::Star, fix.t);
     begin(alone, out);
-  } else if (work_in(fix.t, SampleKind::Star, observed, out)) {
+  } else if (work_in(fix.t, SampleKind::Star, observed, std::nullopt, out)) {
     rejected_stars_.forget();
   } else if (filter_ && rejected_stars_.note(observed)) {
     began_anew_ = true;
@@ -256,7 +258,15 @@ void AttitudeEstimator::take_in_star(const StarFix& fix, Products& out) {
 
 void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& out) {
   if (filter_) {
-    work_in(seen.t, seen.kind, seen.direction, out);
+    work_in(seen.t, seen.kind, seen.direction, seen.stronger, out);
+    return;
+  }
+  if (const double strength = square_of(seen.stronger); strength > innovation_gate(1)) {
+    leave_out({.t = seen.t,
+               .kind = seen.kind,
+               .rejected_by = SampleRejection::Innovation,
+               .squared_innovation = strength},
+              out);
     return;
   }
   note_accepted(seen.kind, seen.t);
@@ -269,9 +279,9 @@ void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& o
 /// @return Whether the filter accepts it.
 template <class Observed>
 bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& observed,
-                                Products& out) {
-  const int freedom = freedom_of(observed);
-  const double squared_innovation = filter_->squared_innovation(observed);
+                                const std::optional<double>& stronger, Products& out) {
+  const int freedom = freedom_of(observed) + (stronger ? 1 : 0);
+  const double squared_innovation = filter_->squared_innovation(observed) + square_of(stronger);
   InnovationRecord& innovations = innovations_.at(index_of(kind));
   if (squared_innovation > innovation_gate(freedom)) {
     innovations.rejected();

@@ -2,12 +2,12 @@
 /// Attitude and gyro bias from samples in order of time: begins, filters, gates, says how good it
 /// is, and begins anew (mekf.h).
 ///
-/// It begins at a star fix, or at two directions (carried_directions.h); before that there is
-/// nothing. A star fix or a direction between two gyro samples is taken in when the second is
-/// there, as the rate changes evenly between them; where none comes the last rate is held, and the
-/// covariance grows by what the rate has shown of changing. An attitude that all sensors reject, or
-/// that nothing has held for long, is LOST; star fixes that it rejects and that agree with each
-/// other overrule it. Then it begins at the next fix.
+/// It begins at a star fix, or at two directions that agree (carried_directions.h); before that
+/// there is nothing. A star fix or a direction between two gyro samples is taken in when the second
+/// is there, as the rate changes evenly between them; where none comes the last rate is held, and
+/// the covariance grows by what the rate has shown of changing. An attitude that all sensors
+/// reject, or that nothing has held for long, is LOST; star fixes that it rejects and that agree
+/// with each other overrule it. Then it begins at the next fix.
 ///
 /// Its quality is
 ///     CONVERGING nothing speaks against it, but no ten fixes, or as much of directions about every
@@ -45,6 +45,8 @@ struct SeenDirection {
   TaiTime t;
   SampleKind kind;
   ObservedDirection direction;
+  /// Of a field: how much stronger it is than known, in standard deviations. Tested with it.
+  std::optional<double> stronger = std::nullopt;
 };
 
 class AttitudeEstimator {
@@ -93,7 +95,8 @@ class AttitudeEstimator {
   void take_in_star(const StarFix& fix, Products& out);
   void take_in_direction(const SeenDirection& seen, Products& out);
   template <class Observed>
-  bool work_in(TaiTime t, SampleKind kind, const Observed& observed, Products& out);
+  bool work_in(TaiTime t, SampleKind kind, const Observed& observed,
+               const std::optional<double>& stronger, Products& out);
 
   /// Between two gyro samples.
   struct Interval {

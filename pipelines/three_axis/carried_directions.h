@@ -27,7 +27,9 @@ class CarriedDirections {
 
   void forget() { directions_.clear(); }
 
-  /// @return Unobservable for fewer than two, or nearly in line.
+  /// @return Unobservable for fewer than two, nearly in line, or further from or nearer to each
+  /// other
+  ///         than noise explains.
   Expected<UncertainAttitude> attitude() const;
 
  private:

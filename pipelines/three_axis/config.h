@@ -29,7 +29,7 @@ struct StarTracker {
 };
 
 struct Magnetometer {
-  double noise_nt;
+  double noise_nt;  ///< From the main field: with what crust and currents add to that.
 };
 
 struct Inertia {

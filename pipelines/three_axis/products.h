@@ -34,8 +34,9 @@ enum class SampleRejection {
   Frozen,      ///< Of the gyro: the same numbers as too many before it.
   Outlier,     ///< Of the gyro: off from its neighbours.
   Shadow,      ///< Of the sun sensor: the Earth is before the Sun.
-  NoOrbit,     ///< Of an orbit state: on no ellipse round the Earth.
-  Innovation,  ///< Too far from where the attitude has it.
+  NoOrbit,     ///< Of an orbit state: on no ellipse round the Earth. Of a field: unknown where.
+  NoField,     ///< Of the magnetometer: the model of the field does not reach.
+  Innovation,  ///< Too far from where the attitude has it; of a field: or from its strength.
 };
 std::string_view name_of(SampleRejection rejection);
 

@@ -4,6 +4,7 @@
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/ephemeris/shadow.h"
+#include "pipelines/geomagnetism/field_at_spacecraft.h"
 
 namespace spindrift {
 
@@ -11,10 +12,12 @@ std::chrono::nanoseconds reorder_horizon(const OrderedSample& /*sample*/) {
   return std::chrono::seconds{1};
 }
 
-ThreeAxisPass::ThreeAxisPass(const ThreeAxisConfig& config, std::optional<Orbit> orbit)
+ThreeAxisPass::ThreeAxisPass(const ThreeAxisConfig& config, std::optional<Orbit> orbit,
+                             std::optional<MainFieldModel> field)
     : config_{config},
       orbit_{std::move(orbit)},
       orbit_is_of_mission_{orbit_.has_value()},
+      field_{std::move(field)},
       estimator_{config} {}
 
 ThreeAxisOutput ThreeAxisPass::take(const OrderedSample& sample) {
@@ -68,7 +71,8 @@ ThreeAxisOutput ThreeAxisPass::finish() {
     say_once({NoticeCode::AttitudeNeverBegan,
               {{"gyro", accepted(SampleKind::Gyro)},
                {"star", accepted(SampleKind::Star)},
-               {"sun", accepted(SampleKind::Sun)}}},
+               {"sun", accepted(SampleKind::Sun)},
+               {"magnetometer", accepted(SampleKind::Magnetometer)}}},
              out);
   }
   return out;
@@ -103,8 +107,12 @@ void ThreeAxisPass::compute(const StarFix& fix, ThreeAxisOutput& out) {
   estimator_.push(fix, out.products);
 }
 
+Expected<OrbitState> ThreeAxisPass::spacecraft_at(TaiTime t) const {
+  return orbit_ ? orbit_->at(t) : Unexpected{{ErrorCode::NoCoverage, {}}};
+}
+
 void ThreeAxisPass::compute(const SunDirection& sun, ThreeAxisOutput& out) {
-  const auto spacecraft = orbit_ ? orbit_->at(sun.t) : Unexpected{{ErrorCode::NoCoverage, {}}};
+  const auto spacecraft = spacecraft_at(sun.t);
   constexpr auto kAtEarth = [] {
     return OrbitState{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   };
@@ -118,6 +126,32 @@ void ThreeAxisPass::compute(const SunDirection& sun, ThreeAxisOutput& out) {
                                 .direction = {.body = sun.sun_body,
                                               .ref = sun_icrf,
                                               .sigma_rad = config_.sun_sensor->noise_rad}},
+                  out.products);
+}
+
+void ThreeAxisPass::compute(const MagneticField& field, ThreeAxisOutput& out) {
+  const auto spacecraft = spacecraft_at(field.t);
+  if (!spacecraft) {
+    leave_out({field.t, field}, SampleRejection::NoOrbit, out);
+    say_once({NoticeCode::FieldWithoutOrbit, {{"t_tai_ns", tai_ns(field.t)}}}, out);
+    return;
+  }
+  const auto known_icrf_nt =
+      field_ ? field_icrf_nt(*field_, field.t, spacecraft->position_icrf_km, earth_)
+             : Unexpected{{ErrorCode::NoCoverage, {}}};
+  if (!known_icrf_nt) {
+    leave_out({field.t, field}, SampleRejection::NoField, out);
+    say_once({NoticeCode::OutsideFieldModel, {{"t_tai_ns", tai_ns(field.t)}}}, out);
+    return;
+  }
+  const double noise_nt = config_.magnetometer->noise_nt;
+  const double strength_nt = known_icrf_nt->norm();
+  estimator_.push(SeenDirection{.t = field.t,
+                                .kind = SampleKind::Magnetometer,
+                                .direction = {.body = field.field_body_nt,
+                                              .ref = *known_icrf_nt,
+                                              .sigma_rad = noise_nt / strength_nt},
+                                .stronger = (field.field_body_nt.norm() - strength_nt) / noise_nt},
                   out.products);
 }
 
@@ -135,8 +169,9 @@ bool ThreeAxisPass::has_sensor(SampleKind kind) const {
       return config_.star_tracker.has_value();
     case SampleKind::Sun:
       return config_.sun_sensor.has_value();
-    case SampleKind::OrbitState:
     case SampleKind::Magnetometer:
+      return config_.magnetometer.has_value();
+    case SampleKind::OrbitState:
       break;
   }
   return true;

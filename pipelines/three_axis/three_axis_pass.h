@@ -4,10 +4,11 @@
 ///
 ///     sample -> order of time -> gyro, star fix ------------------> attitude
 ///                             -> sun vector, beside the ephemeris ->
+///                             -> field, beside the main field ------>
 ///                             -> orbit state, where the mission has no orbit
 ///
 /// One star tracker a spacecraft. Without an orbit the Sun is where the Earth's centre sees it, off
-/// by an arc minute in the geostationary ring, and no shadow is known.
+/// by an arc minute in the geostationary ring, no shadow is known, and no field.
 
 #pragma once
 
@@ -19,14 +20,18 @@
 #include <variant>
 #include <vector>
 
+#include "pipelines/core/expected.h"
 #include "pipelines/core/notice.h"
+#include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/ephemeris/timed_orbit_state.h"
 #include "pipelines/exclusions/exclusions.h"
+#include "pipelines/geomagnetism/main_field_model.h"
 #include "pipelines/three_axis/attitude_action.h"
 #include "pipelines/three_axis/attitude_estimator.h"
 #include "pipelines/three_axis/config.h"
+#include "pipelines/three_axis/magnetic_field.h"
 #include "pipelines/three_axis/products.h"
 #include "pipelines/three_axis/samples.h"
 #include "pipelines/time/reorder_window.h"
@@ -42,7 +47,8 @@ struct ThreeAxisOutput {
 /// as in the archive.
 struct OrderedSample {
   TaiTime t;
-  std::variant<TimedOrbitState, GyroSample, StarFix, SunDirection> is;  ///< As SampleKind.
+  /// As SampleKind.
+  std::variant<TimedOrbitState, GyroSample, StarFix, SunDirection, MagneticField> is;
 
   SampleKind kind() const { return static_cast<SampleKind>(is.index()); }
   friend auto operator<=>(const OrderedSample& a, const OrderedSample& b) {
@@ -56,12 +62,15 @@ std::chrono::nanoseconds reorder_horizon(const OrderedSample& sample);
 class ThreeAxisPass {
  public:
   /// @param orbit Of the mission file; empty: states on the way say it.
-  ThreeAxisPass(const ThreeAxisConfig& config, std::optional<Orbit> orbit);
+  /// @param field The Earth's; empty: a magnetometer tells nothing.
+  ThreeAxisPass(const ThreeAxisConfig& config, std::optional<Orbit> orbit,
+                std::optional<MainFieldModel> field = std::nullopt);
 
-  // What is no number, or no unit vector or quaternion within 0.001, does not come here.
+  // What is no number, no unit vector or quaternion within 0.001, or no field, does not come here.
   ThreeAxisOutput push(const GyroSample& sample) { return take({sample.t, sample}); }
   ThreeAxisOutput push(const StarFix& fix) { return take({fix.t, fix}); }
   ThreeAxisOutput push(const SunDirection& sun) { return take({sun.t, sun}); }
+  ThreeAxisOutput push(const MagneticField& field) { return take({field.t, field}); }
   ThreeAxisOutput push(const TimedOrbitState& state) { return take({state.t, state}); }
 
   /// An operator's word on telemetry from `t` on: on what is not computed yet.
@@ -84,6 +93,8 @@ class ThreeAxisPass {
   void compute(const GyroSample& sample, ThreeAxisOutput& out);
   void compute(const StarFix& fix, ThreeAxisOutput& out);
   void compute(const SunDirection& sun, ThreeAxisOutput& out);
+  void compute(const MagneticField& field, ThreeAxisOutput& out);
+  Expected<OrbitState> spacecraft_at(TaiTime t) const;
   void leave_out(const OrderedSample& sample, SampleRejection rejected_by, ThreeAxisOutput& out);
   bool has_sensor(SampleKind kind) const;
   void say_once(Notice notice, ThreeAxisOutput& out);
@@ -92,6 +103,8 @@ class ThreeAxisPass {
   std::optional<Orbit> orbit_;
   bool orbit_is_of_mission_;
   ApparentSun sun_;
+  std::optional<MainFieldModel> field_;
+  TurningEarth earth_;
   BasicReorderWindow<OrderedSample> window_;
   AttitudeEstimator estimator_;
   Exclusions<SampleKind> excluded_;

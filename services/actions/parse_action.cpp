@@ -21,8 +21,9 @@ namespace {
 
 constexpr std::array<const char*, 5> kOfEveryAction = {"spacecraft", "by", "action", "note",
                                                        "t_tai_ns"};
-constexpr std::array<std::string_view, 3> kSensors = {"gyro", "star", "sun"};
-constexpr std::array kSensorKinds = {SampleKind::Gyro, SampleKind::Star, SampleKind::Sun};
+constexpr std::array<std::string_view, 4> kSensors = {"gyro", "star", "sun", "magnetometer"};
+constexpr std::array kSensorKinds = {SampleKind::Gyro, SampleKind::Star, SampleKind::Sun,
+                                     SampleKind::Magnetometer};
 
 void read(SaidValues& said, PulseChannel& channel) {
   channel = static_cast<PulseChannel>(said.name("channel", kPulseChannelNames));

@@ -63,7 +63,7 @@ Quantity innovation() {
           "FROM rejected_sample WHERE run_id = ?1 AND squared_innovation IS NOT NULL AND "
           "t_tai_ns <= ?2 ORDER BY t_tai_ns DESC",
           deviate("squared_innovations", "innovation_freedom"),
-          deviate("squared_innovation", "CASE kind WHEN 'star' THEN 3 ELSE 2 END"))};
+          deviate("squared_innovation", "CASE kind WHEN 'sun' THEN 2 ELSE 3 END"))};
 }
 
 Quantity fix(std::string_view column) {

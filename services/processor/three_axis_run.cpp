@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "services/clock/wall_clock.h"
+#include "services/geomagnetism/igrf.h"
 #include "services/processor/separation_solving.h"
 #include "services/standard_error/warning.h"
 
@@ -32,17 +33,20 @@ Expected<std::vector<Product>> products_of(const std::string& spacecraft_id,
 
 }  // namespace
 
+ThreeAxisPass ThreeAxisRun::new_pass() const { return {config_, orbit_, field_}; }
+
 ThreeAxisRun::ThreeAxisRun(const Mission& mission, const std::string& run_id, SolvingPlan plan)
     : config_{std::get<ThreeAxisConfig>(mission.config)},
       orbit_{mission.orbit},
+      field_{config_.magnetometer ? std::optional{igrf().value()} : std::nullopt},
       separation_{mission.separation},
-      computing_{mission.spacecraft_id, run_id, ThreeAxisPass{config_, orbit_}},
+      computing_{mission.spacecraft_id, run_id, new_pass()},
       plan_{plan} {
   begin(run_id);
 }
 
 void ThreeAxisRun::begin(const std::string& run_id) {
-  computing_.begin(run_id, ThreeAxisPass{config_, orbit_});
+  computing_.begin(run_id, new_pass());
   summary_ = {};
   summary_.run_id = run_id;
   summary_.spacecraft_id = computing_.spacecraft_id();

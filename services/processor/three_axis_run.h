@@ -34,6 +34,7 @@ class ThreeAxisRun {
   std::vector<RunSummary> summaries() const;
 
  private:
+  ThreeAxisPass new_pass() const;
   void begin(const std::string& run_id);
   RunSummary summary() const;
   void note(const ThreeAxisOutput& output);
@@ -51,6 +52,7 @@ class ThreeAxisRun {
 
   ThreeAxisConfig config_;
   std::optional<Orbit> orbit_;
+  std::optional<MainFieldModel> field_;  ///< Where there is a magnetometer.
   std::optional<SeparationPlan> separation_;
   std::deque<RunSummary> finished_;  ///< They stay where they are: their last tasks point to them.
   RunSummary summary_;

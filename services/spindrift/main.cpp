@@ -367,7 +367,7 @@ void add_act(CLI::App& app, Request& request) {
   command.add_option("--at", options.at,
                      "UTC from which it applies; without it as far as "
                      "telemetry has come");
-  command.add_option("--channel", options.channel, "Channel, or gyro, star, sun");
+  command.add_option("--channel", options.channel, "Channel, or gyro, star, sun, magnetometer");
   command.add_option("--ra", options.ra_deg, "Right ascension, deg, ICRF");
   command.add_option("--dec", options.dec_deg, "Declination, deg");
   command.add_option("--sigma", options.sigma_deg, "One standard deviation, deg");

@@ -116,9 +116,16 @@ constexpr std::array<Pattern<NoticeCode>, kNoticeCodes> kNoticePatterns{{
     {LateSamples, "samples arrive after their time was processed: they are stored and left out"},
     {SamplesOutOfTime,
      "samples stamped far from the times of all others are left out: a sender's clock is wrong"},
+    {FieldWithoutOrbit,
+     "{t_tai_ns}: no orbit says where the spacecraft is: samples of the magnetometer are left out; "
+     "it takes [orbit] or orbit states"},
+    {OutsideFieldModel,
+     "{t_tai_ns}: the model of the Earth's field does not reach here (it ends with its years, and "
+     "at the core): samples of the magnetometer are left out; get a newer program"},
     {AttitudeNeverBegan,
-     "no attitude: {star} star fixes, {sun} sun vectors and {gyro} gyro samples do not anchor "
-     "one; it takes a star fix, or two directions not in line within 5 s"},
+     "no attitude: {star} star fixes, {sun} sun vectors, {magnetometer} fields and {gyro} gyro "
+     "samples do not anchor one; it takes a star fix, or two directions that agree and are not in "
+     "line within 5 s"},
 }};
 static_assert(are_by_code(kNoticePatterns));
 
@@ -176,6 +183,8 @@ std::string_view name_of(NoticeCode code) {
       "ambiguous_prior_not_borne",
       "late_samples",
       "samples_out_of_time",
+      "field_without_orbit",
+      "outside_field_model",
       "attitude_never_began",
   };
   return kNames.at(static_cast<std::size_t>(code));

@@ -10,6 +10,8 @@
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/ephemeris/sun.h"
+#include "pipelines/geomagnetism/field_at_spacecraft.h"
+#include "services/geomagnetism/igrf.h"
 #include "tests/support/turning_body.h"
 
 namespace spindrift::testing {
@@ -26,10 +28,12 @@ std::string mission_toml(const ThreeAxisConfig& config) {
       "[spacecraft]\nid = \"SAT\"\nkind = \"three_axis\"\n"
       "[three_axis.gyro]\nnoise_deg_s = {}\nbias_sigma_deg_s = {}\nrange_deg_s = {}\n"
       "[three_axis.sun_sensor]\nnoise_deg = {}\n"
-      "[three_axis.star_tracker]\nq_body_sensor = [{}, {}, {}, {}]\nnoise_arcsec = {}\n",
+      "[three_axis.star_tracker]\nq_body_sensor = [{}, {}, {}, {}]\nnoise_arcsec = {}\n"
+      "[three_axis.magnetometer]\nnoise_nt = {}\n",
       config.gyro->noise_rad_s / kDegree_rad, config.gyro->bias_sigma_rad_s / kDegree_rad,
       *config.gyro->range_rad_s / kDegree_rad, config.sun_sensor->noise_rad / kDegree_rad, q.x(),
-      q.y(), q.z(), q.w(), config.star_tracker->noise_rad / kDegree_rad * 3600.0);
+      q.y(), q.z(), q.w(), config.star_tracker->noise_rad / kDegree_rad * 3600.0,
+      config.magnetometer->noise_nt);
 }
 
 /// `row(t_s, number)` at steps of `step_s`.
@@ -52,7 +56,8 @@ std::string fields(const Eigen::Vector3d& v) {
 
 void write_three_axis_pass(const std::filesystem::path& folder, const ThreeAxisScene& scene) {
   std::mt19937_64 rng{22};
-  const ThreeAxisConfig config = usual_three_axis();
+  ThreeAxisConfig config = usual_three_axis();
+  config.magnetometer = Magnetometer{.noise_nt = 100.0};
   const TurningBody body = TurningBody::smooth(rng, scene.duration_s + 1.0, 0.02);
   Sensors sensors{body, config, rng};
   std::ofstream{folder / "mission.toml"}
@@ -88,11 +93,23 @@ void write_three_axis_pass(const std::filesystem::path& folder, const ThreeAxisS
                const OrbitState state = orbit->at(at_s(t_s)).value();
                return fields(state.position_icrf_km) + fields(state.velocity_icrf_km_s);
              });
+  const MainFieldModel model = igrf().value();
+  TurningEarth earth;
+  write_rows(
+      folder / "magnetometer.csv", "bx_nt,by_nt,bz_nt", 0.0, end_s, scene.sun_s,
+      [&](double t_s, int) {
+        const OrbitState state = orbit->at(at_s(t_s)).value();
+        return fields(
+            sensors
+                .field(t_s, field_icrf_nt(model, at_s(t_s), state.position_icrf_km, earth).value())
+                .field_body_nt);
+      });
 }
 
 void write_half(const std::filesystem::path& pass, std::int64_t middle_tai_ns, bool first,
                 const std::filesystem::path& to) {
-  for (const char* name : {"gyro.csv", "star.csv", "sun.csv", "orbit_state.csv"}) {
+  for (const char* name :
+       {"gyro.csv", "star.csv", "sun.csv", "orbit_state.csv", "magnetometer.csv"}) {
     std::ifstream whole{pass / name};
     std::ofstream half{to / name};
     std::string row;

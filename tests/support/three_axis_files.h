@@ -13,7 +13,7 @@ struct ThreeAxisScene {
   double duration_s = 60.0;
   double gyro_s = 0.1;  ///< Between samples; likewise:
   double star_s = 1.0;
-  double sun_s = 0.5;
+  double sun_s = 0.5;       ///< Of the magnetometer, too.
   bool separation = false;  ///< The mission says that it separated 60 s before the first sample.
 };
 

@@ -105,6 +105,12 @@ Eigen::Vector3d Sensors::direction(double t_s, const Eigen::Vector3d& ref_icrf, 
                            normal_vector(rng_, sigma_rad).head<2>());
 }
 
+MagneticField Sensors::field(double t_s, const Eigen::Vector3d& field_icrf_nt) {
+  return {.t = at_s(t_s),
+          .field_body_nt = body_.q_icrf_body(t_s).conjugate() * field_icrf_nt +
+                           normal_vector(rng_, config_.magnetometer->noise_nt)};
+}
+
 Eigen::Vector3d error_rad(const Eigen::Quaterniond& estimate, const Eigen::Quaterniond& truth) {
   const Eigen::AngleAxisd apart{estimate.conjugate() * truth};
   return apart.angle() * apart.axis();

@@ -14,6 +14,7 @@
 
 #include "pipelines/three_axis/attitude_estimator.h"
 #include "pipelines/three_axis/config.h"
+#include "pipelines/three_axis/magnetic_field.h"
 #include "pipelines/three_axis/samples.h"
 
 namespace spindrift::testing {
@@ -55,6 +56,7 @@ class Sensors {
   StarFix star(double t_s);
   /// @param ref_icrf Unit.
   Eigen::Vector3d direction(double t_s, const Eigen::Vector3d& ref_icrf, double sigma_rad);
+  MagneticField field(double t_s, const Eigen::Vector3d& field_icrf_nt);
 
   const Eigen::Vector3d& bias_rad_s() const { return bias_rad_s_; }
 

@@ -92,6 +92,26 @@ class AttitudeEstimatorTest : public ::testing::Test {
   AttitudeEstimator::Products products_;
 };
 
+TEST_F(AttitudeEstimatorTest, TwoDirectionsThatContradictEachOtherBeginNothing) {
+  gyro(0.0);
+  sun(0.0);
+  // Twenty degrees nearer to the Sun than it is.
+  const Vector3d nearer = (field_icrf_ + 0.35 * sun_icrf_).normalized();
+  estimator_.push(SeenDirection{.t = at_s(0.0),
+                                .kind = SampleKind::Magnetometer,
+                                .direction = {.body = sensors_.direction(0.0, nearer, 0.0),
+                                              .ref = field_icrf_,
+                                              .sigma_rad = 0.5 * kRadPerDeg}},
+                  products_);
+  EXPECT_FALSE(estimator_.filter());
+  run(0.0, 1.0, [&](double t_s) {
+    sun(t_s);
+    field(t_s);
+  });
+  estimator_.settle(products_);
+  EXPECT_TRUE(estimator_.filter());
+}
+
 TEST_F(AttitudeEstimatorTest, BeforeTheFirstFixThereIsNothing) {
   run(0.0, 10.0, [&](double t_s) { sun(t_s); });
   estimator_.settle(products_);

@@ -9,6 +9,8 @@
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/angle.h"
+#include "pipelines/geomagnetism/field_at_spacecraft.h"
+#include "services/geomagnetism/igrf.h"
 #include "tests/support/turning_body.h"
 
 namespace spindrift::three_axis_pass_test {
@@ -223,11 +225,106 @@ TEST_F(ThreeAxisPassTest, APassWithoutAFixSaysWhatItTakes) {
   add(pass_.push(sun(4.0)));
   add(pass_.finish());
   EXPECT_EQ(estimates(), 0U);
-  EXPECT_THAT(
-      notices_,
-      ::testing::ElementsAre(Notice{
-          NoticeCode::AttitudeNeverBegan,
-          {{"gyro", std::int64_t{20}}, {"star", std::int64_t{0}}, {"sun", std::int64_t{1}}}}));
+  EXPECT_THAT(notices_, ::testing::ElementsAre(Notice{NoticeCode::AttitudeNeverBegan,
+                                                      {{"gyro", std::int64_t{20}},
+                                                       {"star", std::int64_t{0}},
+                                                       {"sun", std::int64_t{1}},
+                                                       {"magnetometer", std::int64_t{0}}}}));
+}
+
+/// A magnetometer, and no star tracker.
+class MagnetometerPassTest : public ThreeAxisPassTest {
+ protected:
+  static constexpr int kSeconds = 55;
+
+  MagnetometerPassTest() {
+    config_.star_tracker.reset();
+    config_.magnetometer = Magnetometer{.noise_nt = 100.0};
+    pass_ = {config_, orbit_, model_};
+  }
+
+  MagneticField field(double t_s) {
+    const Eigen::Vector3d position_km = orbit_.at(at_s(t_s)).value().position_icrf_km;
+    return Sensors{body_, config_, rng_}.field(
+        t_s, field_icrf_nt(model_, at_s(t_s), position_km, earth_).value());
+  }
+  AttitudeEstimate last() const { return std::get<AttitudeEstimate>(products_.back()); }
+
+  Orbit orbit_{KeplerOrbit::through(at_s(-10.0), state_towards(sun_icrf_, 1.0).state).value()};
+  MainFieldModel model_ = igrf().value();
+  TurningEarth earth_;
+};
+
+TEST_F(MagnetometerPassTest, FieldSunAndGyroMakeAnAttitude) {
+  for (int second = 0; second < kSeconds; ++second) {
+    add(pass_.push(sun(second)));
+    add(pass_.push(field(second)));
+    gyro(second, second + 1.0);
+  }
+  add(pass_.finish());
+  EXPECT_EQ(last().assessment.quality, Quality::Ok);
+  EXPECT_LT(degrees(last().sigma_rad()), 0.4);
+  EXPECT_LT(error_rad(last().q_icrf_body, body_.q_icrf_body(kSeconds - 0.25)).norm(),
+            4.0 * last().sigma_rad());
+  EXPECT_THAT(rejected(), IsEmpty());
+  EXPECT_THAT(notices_, IsEmpty());
+  EXPECT_EQ(pass_.sensors().at(index_of(SampleKind::Magnetometer)).accepted, kSeconds);
+}
+
+TEST_F(MagnetometerPassTest, AFieldOfAnotherStrengthIsLeftOutBeforeThereIsAnAttitudeAndBehind) {
+  for (int second = 0; second < kSeconds; ++second) {
+    add(pass_.push(sun(second)));
+    MagneticField sample = field(second);
+    sample.field_body_nt *= second < 3 || second == 30 ? 1.05 : 1.0;
+    add(pass_.push(sample));
+    gyro(second, second + 1.0);
+  }
+  add(pass_.finish());
+  EXPECT_THAT(reasons(), ::testing::ElementsAreArray(
+                             std::vector<SampleRejection>(4, SampleRejection::Innovation)));
+  for (const RejectedSample& sample : rejected()) {
+    EXPECT_EQ(sample.kind, SampleKind::Magnetometer);
+    // 5 % of 20,000 to 60,000 nT over 100 nT.
+    EXPECT_GT(*sample.squared_innovation, 50.0);
+  }
+  EXPECT_EQ(last().assessment.quality, Quality::Ok);
+}
+
+TEST_F(MagnetometerPassTest, WithoutAnOrbitAFieldIsLeftOutUntilAStateComes) {
+  pass_ = {config_, std::nullopt, model_};
+  add(pass_.push(field(0.0)));
+  add(pass_.push(field(1.0)));
+  add(pass_.push(TimedOrbitState{.t = at_s(1.5), .state = orbit_.at(at_s(1.5)).value()}));
+  add(pass_.push(field(2.0)));
+  add(pass_.finish());
+  EXPECT_THAT(reasons(),
+              ::testing::ElementsAre(SampleRejection::NoOrbit, SampleRejection::NoOrbit));
+  ASSERT_THAT(notices_, SizeIs(2));
+  EXPECT_EQ(notices_[0].code, NoticeCode::FieldWithoutOrbit);
+  EXPECT_EQ(notices_[1].code, NoticeCode::AttitudeNeverBegan);
+  EXPECT_EQ(pass_.sensors().at(index_of(SampleKind::Magnetometer)).accepted, 1);
+}
+
+TEST_F(MagnetometerPassTest, BehindTheYearsOfTheModelAFieldIsLeftOut) {
+  const auto off = instant_of_year(2030.0) - at_s(0.5);
+  MagneticField before = field(0.0);
+  MagneticField behind = field(1.0);
+  before.t += off;
+  behind.t += off;
+  add(pass_.push(before));
+  add(pass_.push(behind));
+  add(pass_.finish());
+  EXPECT_THAT(notices_, ::testing::Contains(Notice{NoticeCode::OutsideFieldModel,
+                                                   {{"t_tai_ns", tai_ns(behind.t)}}}));
+  EXPECT_THAT(reasons(), ::testing::Contains(SampleRejection::NoField).Times(1));
+}
+
+TEST_F(MagnetometerPassTest, AFieldThatTheMissionLacksTheSensorOfIsLeftOut) {
+  const MagneticField sample = field(0.0);
+  config_.magnetometer.reset();
+  pass_ = {config_, orbit_, model_};
+  add(pass_.push(sample));
+  EXPECT_THAT(reasons(), ::testing::ElementsAre(SampleRejection::NoSensor));
 }
 
 }  // namespace spindrift::three_axis_pass_test

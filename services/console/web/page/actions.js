@@ -2,7 +2,7 @@
 import { ask, askFor, field } from './hand.js';
 import { byId, clock, fillTable, number } from './text.js';
 
-const channels = { spin: ['sun1', 'sun2', 'north_in', 'north_out', 'south_in', 'south_out'], three_axis: ['gyro', 'star', 'sun'] };
+const channels = { spin: ['sun1', 'sun2', 'north_in', 'north_out', 'south_in', 'south_out'], three_axis: ['gyro', 'star', 'sun', 'magnetometer'] };
 const form = '\\d{4}-\\d\\d-\\d\\d \\d\\d:\\d\\d:\\d\\d';
 const sent = new Map();  // by action_id: those that no state has told yet
 
