@@ -1,5 +1,6 @@
 /// @file
-/// Whether the mission files fit the pass: one for each spacecraft, orbits that reach.
+/// Whether the mission files fit the pass: one for each spacecraft, orbits that reach, and the
+/// Earth's field for a magnetometer.
 
 #pragma once
 
@@ -25,8 +26,10 @@ struct MissionFacts {
   SpacecraftKind kind = SpacecraftKind::Spin;
   std::optional<Coverage> ephemeris;  ///< Absent where the orbit is given otherwise, or not at all.
   std::string no_orbit;               ///< Why there is none somewhere in the pass; empty: there is.
-  bool infrared = true;               ///< It has an infrared sensor.
-  std::vector<std::string> idle;      ///< Tables of the file that nothing reads.
+  /// Of the model of the Earth's field; empty: no magnetometer.
+  std::optional<TaiTime> field_to = {};
+  bool infrared = true;                        ///< It has an infrared sensor.
+  std::vector<std::string> idle;               ///< Tables of the file that nothing reads.
   std::vector<std::string> orbit_doubts = {};  ///< See mission.h.
 };
 

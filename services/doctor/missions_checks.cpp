@@ -5,6 +5,7 @@
 
 #include "pipelines/time/utc.h"
 #include "services/doctor/missions.h"
+#include "services/geomagnetism/igrf.h"
 #include "services/words/duration.h"
 
 namespace spindrift::doctor {
@@ -17,13 +18,22 @@ std::string coverage_text(const Coverage& coverage) {
                      format_utc(coverage.to, 0));
 }
 
+/// What there is none of without the orbit.
+std::string orbit_advice(const MissionFacts& mission) {
+  return fmt::format("get an ephemeris of the pass: {} without the orbit",
+                     mission.kind == SpacecraftKind::Spin ? "there is no spin axis"
+                                                          : "the magnetometer tells nothing");
+}
+
 Check check_orbit(const MissionFacts& mission, const ComingPass& pass) {
   const std::string name = fmt::format("orbit of {}", mission.spacecraft);
   const std::string coverage =
       mission.ephemeris ? coverage_text(*mission.ephemeris) : "no ephemeris: any time";
   if (!mission.no_orbit.empty()) {
-    return warning(name, fmt::format("{}: {}", coverage, mission.no_orbit),
-                   "get an ephemeris of the pass: there is no spin axis without the orbit");
+    return warning(
+        name,
+        mission.ephemeris ? fmt::format("{}: {}", coverage, mission.no_orbit) : mission.no_orbit,
+        orbit_advice(mission));
   }
   if (!mission.ephemeris) {
     return ok(name, coverage);
@@ -34,6 +44,18 @@ Check check_orbit(const MissionFacts& mission, const ComingPass& pass) {
                                         is_now ? "" : " behind the pass");
   return is_now && left_s < kDay_s ? warning(name, found, "get the next ephemeris now")
                                    : ok(name, found);
+}
+
+Check check_field(const MissionFacts& mission, const ComingPass& pass) {
+  const std::string name = fmt::format("field coefficients of {}", mission.spacecraft);
+  const std::string found =
+      fmt::format("{} until {}", kFieldModelName, format_utc(*mission.field_to, 0));
+  const bool is_now = pass.from == pass.to;
+  const double left_s = seconds_between(pass.to, *mission.field_to);
+  return left_s < (is_now ? kDay_s : 0.0)
+             ? warning(name, fmt::format("{}: the magnetometer tells nothing behind that", found),
+                       "install a program with the next generation of the field")
+             : ok(name, found);
 }
 
 std::vector<Check> check_settings(const MissionFacts& mission) {
@@ -74,8 +96,11 @@ std::vector<Check> check_missions(std::span<const MissionFacts> missions, const 
     for (Check& check : check_settings(mission)) {
       checks.push_back(std::move(check));
     }
-    if (mission.kind == SpacecraftKind::Spin) {
+    if (mission.kind == SpacecraftKind::Spin || mission.field_to) {
       checks.push_back(check_orbit(mission, pass));
+    }
+    if (mission.field_to) {
+      checks.push_back(check_field(mission, pass));
     }
   }
   return checks;

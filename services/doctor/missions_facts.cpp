@@ -2,6 +2,7 @@
 
 #include "pipelines/time/time_span.h"
 #include "services/doctor/missions.h"
+#include "services/geomagnetism/igrf.h"
 
 namespace spindrift::doctor {
 namespace {
@@ -17,6 +18,12 @@ std::vector<std::string> idle_tables(const Mission& mission) {
     }
   }
   return idle;
+}
+
+std::optional<TaiTime> field_end(const Mission& mission) {
+  const auto* const three_axis = std::get_if<ThreeAxisConfig>(&mission.config);
+  return three_axis != nullptr && three_axis->magnetometer ? std::optional{igrf_end()}
+                                                           : std::nullopt;
 }
 
 /// Holes of an ephemeris that are shorter than this many steps of the pass are not looked for.
@@ -40,10 +47,12 @@ MissionFacts mission_facts(const Mission& mission, const ComingPass& pass) {
       .kind = mission.kind(),
       .ephemeris = {},
       .no_orbit = {},
+      .field_to = field_end(mission),
       .infrared = mission.spin() == nullptr || mission.spin()->north || mission.spin()->south,
       .idle = idle_tables(mission),
       .orbit_doubts = mission.orbit_doubts};
   if (!mission.orbit) {
+    facts.no_orbit = "the mission file gives none, and orbit states may not come";
     return facts;
   }
   if (const OrbitEphemeris* const ephemeris = mission.orbit->ephemeris()) {

@@ -11,6 +11,7 @@
 #include "pipelines/time/utc.h"
 #include "services/clock/wall_clock.h"
 #include "services/doctor/leap_seconds.h"
+#include "services/geomagnetism/igrf.h"
 
 namespace spindrift {
 namespace {
@@ -53,6 +54,10 @@ ServiceWatch::ServiceWatch(const Watched& watched) : watched_{watched} {
     }
     if (mission.orbit && mission.orbit->ephemeris() != nullptr) {
       until.emplace("orbit", mission.orbit->ephemeris()->usable_to());
+    }
+    if (const auto* const three_axis = std::get_if<ThreeAxisConfig>(&mission.config);
+        three_axis != nullptr && three_axis->magnetometer) {
+      until.emplace("field_coefficients", igrf_end());
     }
   }
 }

@@ -17,6 +17,7 @@
 #include "services/bus/reader.h"
 #include "services/publisher/product_messages.h"
 #include "tests/support/archive_rows.h"
+#include "tests/support/processed_pass.h"
 #include "tests/support/service.h"
 #include "tests/support/temporary_folder.h"
 
@@ -176,6 +177,33 @@ TEST(ServeAlerts, DoNotTakeARehearsalForLateTelemetry) {
         << rehearsal.log();
   }
   EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM alert WHERE key = 'link.late'"), 0);
+  EXPECT_EQ(service.stop_when_computed(), 0) << service.log();
+}
+
+TEST(ServeAlerts, SayThatTheFieldOfAMagnetometerEndsWithinADay) {
+  const TemporaryFolder folder;
+  // Noon before 2030, by TAI.
+  const auto scenario = folder.write(
+      "scenario.toml",
+      replaced(text_of(scenarios() / "separation.toml"),
+               {{"start_utc = \"2026-03-01T04:00:00Z\"", "start_tai_ns = 1893412800000000000"}}) +
+          "[three_axis.magnetometer]\nnoise_nt = 100\n");
+  const fs::path pass = folder.path() / "pass";
+  Program simulate{{"simulate", scenario.string(), "--out", pass.string()}};
+  ASSERT_EQ(simulate.exit_status(), 0) << simulate.log();
+  Service service{pass.string(), "replay"};
+  ASSERT_TRUE(service.ready()) << service.log();
+  {
+    const Program rehearsal{{"replay", "--now", "--mission", service.mission(), "--telemetry",
+                             pass.string(), "--domain", std::to_string(service.bus().domain),
+                             "--partition", service.bus().partition}};
+    EXPECT_TRUE(eventually([&] {
+      return number_of(service.db(),
+                       "SELECT count(*) FROM alert"
+                       " WHERE key = 'data.outdated:field_coefficients'") == 1;
+    })) << service.log()
+        << rehearsal.log();
+  }
   EXPECT_EQ(service.stop_when_computed(), 0) << service.log();
 }
 

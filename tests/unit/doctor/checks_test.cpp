@@ -188,6 +188,39 @@ TEST(DoctorMissions, WarnsOfAnOrbitThatMayBeThatOfAnother) {
   expect_advice(check_one(facts));
 }
 
+MissionFacts with_magnetometer(std::chrono::seconds field_left) {
+  return {.spacecraft = "LEOSAT",
+          .kind = SpacecraftKind::ThreeAxis,
+          .ephemeris = Coverage{.from = kNow - 1h, .to = kNow + 48h},
+          .no_orbit = {},
+          .field_to = kNow + field_left,
+          .infrared = true,
+          .idle = {}};
+}
+
+TEST(DoctorMissions, WarnsWhenTheFieldOfAMagnetometerEndsWithinADay) {
+  const std::string name = "field coefficients of LEOSAT";
+  EXPECT_EQ(worst_of(check_one(with_magnetometer(24h))), Verdict::Ok);
+  const auto checks = check_one(with_magnetometer(24h - 1s));
+  EXPECT_EQ(named(checks, name).verdict, Verdict::Warning);
+  EXPECT_THAT(named(checks, name).found, HasSubstr("IGRF-14 until 2026-11-21T02:59:59Z"));
+  expect_advice(checks);
+  const auto of_pass = check_missions(std::vector{with_magnetometer(2h)}, {kNow, kNow + 1h});
+  EXPECT_EQ(named(of_pass, name).verdict, Verdict::Ok);
+}
+
+TEST(DoctorMissions, WarnsOfAMagnetometerWithoutAnOrbit) {
+  MissionFacts facts = with_magnetometer(24h);
+  facts.ephemeris.reset();
+  facts.no_orbit = "none";
+  const auto checks = check_one(facts);
+  EXPECT_EQ(named(checks, "orbit of LEOSAT").verdict, Verdict::Warning);
+  EXPECT_EQ(named(checks, "orbit of LEOSAT").found, "none");
+  expect_advice(checks);
+  facts.field_to.reset();
+  EXPECT_EQ(worst_of(check_one(facts)), Verdict::Ok);
+}
+
 // --- disk
 
 DiskFacts disk(std::uint64_t free_bytes) {
