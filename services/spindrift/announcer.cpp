@@ -30,8 +30,9 @@ bool is_estimate(const Product& product) {
 
 }  // namespace
 
-Announcer::Announcer(const ResultPublisher& publisher, ConsoleFeed* feed, ThreadFailures& failures)
-    : publisher_{publisher}, feed_{feed}, thread_{[this, &failures] {
+Announcer::Announcer(const ResultPublisher& publisher, ConsoleFeed* feed, ServiceTerminal& terminal,
+                     ThreadFailures& failures)
+    : publisher_{publisher}, feed_{feed}, terminal_{terminal}, thread_{[this, &failures] {
         failures.note(contained("announcing", [this] { run(); }));
       }} {}
 
@@ -58,6 +59,7 @@ void Announcer::committed(std::span<const ArchiveBatch> batches) {
     if (unannounced_.contains(batch.run_id)) {
       continue;
     }
+    terminal_.note(batch);
     if (feed_ != nullptr) {
       feed_->put_details(batch);
     }
@@ -84,10 +86,13 @@ void Announcer::run() {
       if (!published) {
         spdlog::error("not published: {}", published.error().message);
       }
+      if (const auto* const alert = std::get_if<Alert>(&result.product)) {
+        terminal_.tell(result.spacecraft, result.run_id, *alert);
+      }
       if (const auto* const one = std::get_if<ReconstructionProduct>(&result.product)) {
         spdlog::info("{}: separation reconstructed: {}", result.spacecraft, to_text(*one));
       }
-      if (is_estimate(result.product)) {
+      if (is_estimate(result.product) && !terminal_.has_status_line()) {
         latest.insert_or_assign(result.spacecraft, &result.product);
       }
     }

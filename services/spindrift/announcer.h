@@ -1,6 +1,7 @@
 /// @file
-/// Announces results once they are stored, on a thread of its own: on the bus, and in the log the
-/// latest estimate every now and then, and each reconstruction of a separation.
+/// Announces results once they are stored, on a thread of its own: on the bus, and in the log each
+/// change of an alert, each reconstruction of a separation and, where no status line has it, the
+/// latest estimate every now and then.
 
 #pragma once
 
@@ -19,13 +20,15 @@
 #include "services/publisher/announcements.h"
 #include "services/publisher/result_publisher.h"
 #include "services/serving/thread_failures.h"
+#include "services/terminal/service_terminal.h"
 
 namespace spindrift {
 
 class Announcer {
  public:
   /// All of them outlive it. @param feed Null: there is no console.
-  Announcer(const ResultPublisher& publisher, ConsoleFeed* feed, ThreadFailures& failures);
+  Announcer(const ResultPublisher& publisher, ConsoleFeed* feed, ServiceTerminal& terminal,
+            ThreadFailures& failures);
   ~Announcer();
   Announcer(const Announcer&) = delete;
   Announcer& operator=(const Announcer&) = delete;
@@ -50,6 +53,7 @@ class Announcer {
 
   const ResultPublisher& publisher_;
   ConsoleFeed* feed_;
+  ServiceTerminal& terminal_;
   Announcements waiting_;
   std::map<std::string, StoredResults> announced_before_;              ///< By run.
   std::set<std::string> unannounced_;                                  ///< Runs of other commands.

@@ -178,7 +178,9 @@ void add_serve(CLI::App& app, Request& request) {
       command.add_option("--console", options.console, "Console for browsers at HOST:PORT");
   command.add_option("--console-host", options.console_hosts, "Name by which browsers call it")
       ->needs(console);
-  command.add_flag("--json", options.json, "Print one JSON object at the end");
+  command.add_flag(
+      "--json", options.json,
+      "Print one JSON object at the end; the log, where it is no terminal, as JSON lines");
   command.callback([&] { request.run = [&] { return serve(request.serve); }; });
 }
 

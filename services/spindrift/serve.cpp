@@ -47,6 +47,8 @@
 #include "services/spindrift/serve_console.h"
 #include "services/spindrift/summary_text.h"
 #include "services/standard_error/warning.h"
+#include "services/terminal/json_log.h"
+#include "services/terminal/service_terminal.h"
 #include "services/webhook/webhook.h"
 
 namespace spindrift {
@@ -247,6 +249,10 @@ Expected<void> print_if_read(const std::string& text) {
 }  // namespace
 
 Expected<void> serve(const ServeOptions& options) {
+  const TellAs tell_as = how_to_tell(options.json);
+  if (tell_as == TellAs::JsonLines) {
+    log_as_json();
+  }
   // To the end of the process: a solution that was given up may still use it.
   const auto missions = load_missions(options.missions);
   static auto processor = make_processor(options, missions);
@@ -272,7 +278,8 @@ Expected<void> serve(const ServeOptions& options) {
   ThreadFailures failures;
   Problems problems;
   const auto feed = make_console_feed(options, *missions, service_name());
-  Announcer announcer{*publisher, feed.get(), failures};
+  ServiceTerminal terminal{*missions, tell_as};
+  Announcer announcer{*publisher, feed.get(), terminal, failures};
   AlertDesk desk{*missions, mode_of(options)};
   const auto webhook = start_webhook(options, desk);
   if (!webhook) {
@@ -319,6 +326,7 @@ Expected<void> serve(const ServeOptions& options) {
                .announce = [&](const ArchiveBatch& batch) { announcer.announce(batch); },
                .on_health =
                    [&](const Health& health) {
+                     terminal.show(health);
                      if (feed != nullptr) {
                        feed->put(health);
                      }
@@ -330,6 +338,7 @@ Expected<void> serve(const ServeOptions& options) {
                        show_verdict(*feed, spacecraft, run_id, verdict, desk);
                      }
                    }});
+          terminal.erase();
           tell_actions_left(taken);
           // Who asks and waits for the archive gets his answer, so that the servers can end.
           static_cast<void>(archive.close());
