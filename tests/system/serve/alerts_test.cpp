@@ -188,7 +188,7 @@ TEST(ServeAlerts, SayThatTheFieldOfAMagnetometerEndsWithinADay) {
       replaced(text_of(scenarios() / "separation.toml"),
                {{"start_utc = \"2026-03-01T04:00:00Z\"", "start_tai_ns = 1893412800000000000"}}) +
           "[three_axis.magnetometer]\nnoise_nt = 100\n");
-  const fs::path pass = folder.path() / "pass";
+  const std::filesystem::path pass = folder.path() / "pass";
   Program simulate{{"simulate", scenario.string(), "--out", pass.string()}};
   ASSERT_EQ(simulate.exit_status(), 0) << simulate.log();
   Service service{pass.string(), "replay"};
