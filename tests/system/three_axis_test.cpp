@@ -72,6 +72,36 @@ TEST(ThreeAxis, TheAttitudeOfAPassIsThatOfItsStarFix) {
           fmt::format("mekf|CONVERGING|1|{:a}|CONVERGING|", attitude["qw"].get<double>())}));
 }
 
+TEST(ThreeAxis, SunAndMagnetometerGiveTheAttitudeBeforeTheFirstStarFix) {
+  const TemporaryFolder folder;
+  const auto scenario =
+      folder.write("scenario.toml", text_of(scenarios() / "separation.toml") +
+                                        "[three_axis.magnetometer]\nnoise_nt = 100\n");
+  const auto pass = folder.path() / "pass";
+  Program simulate{{"simulate", scenario.string(), "--out", pass.string()}};
+  ASSERT_EQ(simulate.exit_status(), 0) << simulate.log();
+  const Outcome outcome = process(folder, pass);
+  ASSERT_EQ(outcome.status, 0) << outcome.log;
+  const auto truth = nlohmann::json::parse(text_of(pass / "truth.json"));
+  const auto acquisition = truth["T3"]["t_tai_ns"].get<std::int64_t>();
+  const auto first_fix = truth["T4"]["t_tai_ns"].get<std::int64_t>();
+  const std::string mekf = " FROM attitude WHERE source = 'mekf'";
+  EXPECT_LT(number_of(outcome.db, "SELECT min(t_tai_ns)" + mekf), acquisition + 5'000'000'000);
+
+  // What is known last without a star fix.
+  const auto& q = truth["T4"]["q_icrf_body_xyzw"];
+  const std::vector<std::string> last = rows_of(
+      outcome.db,
+      fmt::format("SELECT quality, {} - t_tai_ns < 300000000,"
+                  " 2 * degrees(acos(abs(qx * {} + qy * {} + qz * {} + qw * {}))) < 4 * sigma_deg,"
+                  " sigma_deg < 0.5 {} AND t_tai_ns < {} ORDER BY t_tai_ns DESC LIMIT 1",
+                  first_fix, q[0].get<double>(), q[1].get<double>(), q[2].get<double>(),
+                  q[3].get<double>(), mekf, first_fix));
+  EXPECT_EQ(last, std::vector<std::string>{"OK|1|1|1|"});
+  EXPECT_GT(outcome.run["sensors"]["magnetometer"]["accepted"], 200);
+  EXPECT_EQ(outcome.run["sensors"]["magnetometer"]["rejected"], nlohmann::json::object());
+}
+
 /// What an archive holds of a pass, but its runs.
 std::vector<std::string> pass_rows(const std::filesystem::path& db) {
   std::vector<std::string> rows;
