@@ -1,6 +1,7 @@
 #include "pipelines/supervision/channel_presence.h"
 
 #include <algorithm>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -8,12 +9,35 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/geometry.h"
+#include "pipelines/spin/types/side.h"
 
 namespace spindrift {
 namespace {
 
 constexpr double kToSpare_rad = 1.0 * kRadPerDeg;
 constexpr double kSigmasToSpare = 3.0;
+
+/// Of the beams' channels.
+Side side_of(PulseChannel channel) {
+  const bool is_north = channel == PulseChannel::NorthIn || channel == PulseChannel::NorthOut;
+  return is_north ? Side::North : Side::South;
+}
+
+/// Slit 2 ends as far from the axis as it is canted, slit 1 at the axis.
+bool slit_sees(PulseChannel channel, const SunSensor& sensor, double sun_angle_rad,
+               double to_spare_rad) {
+  const double end_rad = channel == PulseChannel::Sun2 ? sensor.slit_cant_rad : 0.0;
+  return std::min(sun_angle_rad, std::numbers::pi - sun_angle_rad) > end_rad + to_spare_rad;
+}
+
+bool beam_crosses(const InfraredSensor& beam, double earth_angle_rad, double disc_rad,
+                  double to_spare_rad) {
+  const auto crosses = [&](double radius_rad) {
+    return predict_chord_rad(beam.mount_angle_rad, earth_angle_rad, radius_rad).has_value();
+  };
+  return disc_rad > to_spare_rad && crosses(disc_rad - to_spare_rad) &&
+         crosses(disc_rad + to_spare_rad);
+}
 
 }  // namespace
 
@@ -32,16 +56,13 @@ ConditionChanges ChannelPresence::see(const Pulse& edge, const std::optional<Axi
     Channel& one = channels_[i];
     if (channel == edge.channel) {
       ++one.edges;
+      one.was_in_view = true;
       one.of_others = {};
     } else {
       ++one.of_others.at(index_of(edge.channel));
     }
-    const double missed_now = missed(channel);
-    const bool is_back = missed_now == 0.0 && channel == edge.channel;
-    const bool is_missed =
-        one.edges > limit_ && missed_now > limit_ && axis && should_see(channel, edge.t, *axis);
-    if (is_back || is_missed) {
-      if (auto change = one.watch.see(edge.t, {.value = missed_now, .limit = limit_})) {
+    if (channel == edge.channel || (axis && is_silent(channel, edge.t, *axis))) {
+      if (auto change = one.watch.see(edge.t, {.value = missed(channel), .limit = limit_})) {
         changes.push_back(std::move(*change));
       }
     }
@@ -49,16 +70,41 @@ ConditionChanges ChannelPresence::see(const Pulse& edge, const std::optional<Axi
   return changes;
 }
 
+/// What comes into view is given as many revolutions anew.
+bool ChannelPresence::is_silent(PulseChannel channel, TaiTime t, const AxisSeen& axis) {
+  if (missed(channel) <= limit_) {
+    return false;
+  }
+  Channel& one = channels_[index_of(channel)];
+  const bool in_view = works(channel) && is_in_view(channel, t, axis);
+  const bool is_silent = std::exchange(one.was_in_view, in_view) && in_view;
+  if (!is_silent) {
+    one.of_others = {};
+  }
+  return is_silent;
+}
+
 double ChannelPresence::missed(PulseChannel channel) const {
   const auto& others = channels_[index_of(channel)].of_others;
   return *std::max_element(others.begin(), others.end());
 }
 
-bool ChannelPresence::should_see(PulseChannel channel, TaiTime t, const AxisSeen& axis) const {
+bool ChannelPresence::works(PulseChannel channel) const {
+  if (sees_the_sun(channel)) {
+    return true;
+  }
+  const Side side = side_of(channel);
+  const auto& beam = sensor_of(config_, side);
+  const auto has_come = [this](PulseChannel one) {
+    return channels_[index_of(one)].edges > limit_;
+  };
+  return beam && (beam->healthy || has_come(kInChannels.at(index_of(side))) ||
+                  has_come(kOutChannels.at(index_of(side))));
+}
+
+bool ChannelPresence::is_in_view(PulseChannel channel, TaiTime t, const AxisSeen& axis) const {
   const auto state = orbit_.at(t);
-  const bool is_north = channel == PulseChannel::NorthIn || channel == PulseChannel::NorthOut;
-  const auto& beam = is_north ? config_.north : config_.south;
-  if (!state || (!sees_the_sun(channel) && !beam)) {
+  if (!state) {
     return false;
   }
   const Eigen::Vector3d earth_icrf = -state->position_icrf_km.normalized();
@@ -69,15 +115,13 @@ bool ChannelPresence::should_see(PulseChannel channel, TaiTime t, const AxisSeen
   }
   const double to_spare_rad = kToSpare_rad + kSigmasToSpare * axis.sigma_rad;
   if (sees_the_sun(channel)) {
-    return angle_between_rad(geometric_sun_icrf_km(t).normalized(), earth_icrf) >
-           *disc_rad + to_spare_rad;
+    const Eigen::Vector3d sun_icrf = geometric_sun_icrf_km(t).normalized();
+    return angle_between_rad(sun_icrf, earth_icrf) > *disc_rad + to_spare_rad &&
+           slit_sees(channel, config_.sun_sensor, angle_between_rad(axis.axis_icrf, sun_icrf),
+                     to_spare_rad);
   }
-  const double earth_angle_rad = angle_between_rad(axis.axis_icrf, earth_icrf);
-  const auto crosses = [&](double radius_rad) {
-    return predict_chord_rad(beam->mount_angle_rad, earth_angle_rad, radius_rad).has_value();
-  };
-  return *disc_rad > to_spare_rad && crosses(*disc_rad - to_spare_rad) &&
-         crosses(*disc_rad + to_spare_rad);
+  return beam_crosses(*sensor_of(config_, side_of(channel)),
+                      angle_between_rad(axis.axis_icrf, earth_icrf), *disc_rad, to_spare_rad);
 }
 
 }  // namespace spindrift

@@ -21,8 +21,9 @@ struct AxisSeen {
   double sigma_rad;
 };
 
-/// A channel is silent that has given edges, and none for so many of another one, while the axis in
-/// force has it cross the Earth's disc or see the Sun with a degree and three sigma to spare. Where
+/// A channel is silent that gives no edge for so many of another one, while the axis in force has
+/// it cross the Earth's disc or see the Sun with a degree and three sigma to spare. Of a beam that
+/// the mission does not call healthy so many edges must have come, by either of its channels. Where
 /// the link is silent no other channel counts.
 class ChannelPresence {
  public:
@@ -31,13 +32,16 @@ class ChannelPresence {
   ConditionChanges see(const Pulse& edge, const std::optional<AxisSeen>& axis);
 
  private:
-  bool should_see(PulseChannel channel, TaiTime t, const AxisSeen& axis) const;
+  bool is_silent(PulseChannel channel, TaiTime t, const AxisSeen& axis);
+  bool is_in_view(PulseChannel channel, TaiTime t, const AxisSeen& axis) const;
+  bool works(PulseChannel channel) const;
   double missed(PulseChannel channel) const;
 
   struct Channel {
     ConditionWatch watch;
     int edges = 0;
-    std::array<int, kPulseChannels> of_others = {};  ///< Edges since its last one.
+    bool was_in_view = false;  ///< At its last edge, or when it was last looked for in vain.
+    std::array<int, kPulseChannels> of_others = {};  ///< Edges since then.
   };
   SpinConfig config_;
   Orbit orbit_;

@@ -175,6 +175,76 @@ TEST(SpinConditions, RaiseAChannelThatTheAxisInForceShouldSee) {
   EXPECT_EQ(pass.raised, Keys{});
 }
 
+TEST(SpinConditions, RaiseAChannelThatIsDeadFromTheStart) {
+  for (const PulseChannel dead : {PulseChannel::Sun2, PulseChannel::NorthOut}) {
+    Supervised pass;
+    for (int revolution = 0; revolution < 30; ++revolution) {
+      give_edges(pass, revolution, dead);
+    }
+    EXPECT_EQ(pass.raised, Keys{}) << "no axis yet";
+    pass.see(estimate(30.0, Quality::Ok));
+    for (int revolution = 30; revolution < 42; ++revolution) {
+      give_edges(pass, revolution, dead);
+    }
+    EXPECT_EQ(pass.raised,
+              Keys{"channel.silent:" + std::string{kPulseChannelNames.at(index_of(dead))}});
+  }
+}
+
+TEST(SpinConditions, ExpectABeamThatHasNeverComeWhereTheMissionCallsItHealthy) {
+  for (const bool healthy : {false, true}) {
+    SpinConfig mission = config();
+    mission.south = InfraredSensor{
+        .mount_angle_rad = 95.0 * kRadPerDeg, .azimuth_rad = 0.1, .healthy = healthy};
+    Supervised pass;
+    pass.conditions = SpinConditions{mission, orbit(), AlertLimits{}, std::nullopt};
+    pass.see(estimate(0.0, Quality::Ok));
+    for (int revolution = 0; revolution < 30; ++revolution) {
+      give_edges(pass, revolution, std::nullopt);
+    }
+    EXPECT_EQ(pass.raised,
+              healthy ? Keys({"channel.silent:south_in", "channel.silent:south_out"}) : Keys{});
+  }
+}
+
+/// Slit 2 ends 46 deg from the axis, which is 32 deg from the Sun, or 110.
+TEST(SpinConditions, ExpectNoSunBehindTheEndOfASlit) {
+  for (const double off_deg : {113.0, 0.0}) {
+    SpinConfig mission = config();
+    mission.sun_sensor.slit_cant_rad = 0.8;
+    Supervised pass;
+    pass.conditions = SpinConditions{mission, orbit(), AlertLimits{}, std::nullopt};
+    pass.see(estimate(0.0, Quality::Ok, 0.05, off_deg));
+    for (int revolution = 0; revolution < 40; ++revolution) {
+      give_edges(pass, revolution, PulseChannel::Sun2);
+    }
+    EXPECT_EQ(pass.raised, off_deg > 0.0 ? Keys{} : Keys{"channel.silent:sun2"});
+  }
+}
+
+TEST(SpinConditions, GiveABeamThatComesIntoViewItsRevolutions) {
+  Supervised pass;
+  pass.see(estimate(0.0, Quality::Ok));
+  for (int revolution = 0; revolution < 20; ++revolution) {
+    give_edges(pass, revolution, std::nullopt);
+  }
+  SpinEstimate away = estimate(20.0, Quality::Ok);
+  away.axis_icrf = Eigen::AngleAxisd{70.0 * kRadPerDeg, Eigen::Vector3d::UnitY()} * kAxis;
+  pass.see(away);
+  for (int revolution = 20; revolution < 55; ++revolution) {
+    give_edges(pass, revolution, PulseChannel::NorthIn);
+  }
+  pass.see(estimate(55.0, Quality::Ok));
+  for (int revolution = 55; revolution < 64; ++revolution) {
+    give_edges(pass, revolution, PulseChannel::NorthIn);
+    EXPECT_EQ(pass.raised, Keys{}) << revolution;
+  }
+  for (int revolution = 64; revolution < 80; ++revolution) {
+    give_edges(pass, revolution, PulseChannel::NorthIn);
+  }
+  EXPECT_EQ(pass.raised, Keys{"channel.silent:north_in"});
+}
+
 TEST(SpinConditions, ExpectNoEdgesOfABeamThatMissesTheEarth) {
   Supervised pass;
   pass.see(estimate(0.0, Quality::Ok, 0.05, 70.0));
