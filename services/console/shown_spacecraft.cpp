@@ -63,16 +63,6 @@ void keep_last(std::size_t most, std::deque<Value>& values) {
   }
 }
 
-nlohmann::json prior_of(const Mission& mission) {
-  const SpinConfig* const spin = mission.spin();
-  if (spin == nullptr || !spin->prior) {
-    return nullptr;
-  }
-  nlohmann::json prior = place_json(spin->prior->axis_icrf);
-  prior["sigma_deg"] = spin->prior->sigma_rad * kDegPerRad;
-  return prior;
-}
-
 }  // namespace
 
 ShownSpacecraft::ShownSpacecraft(const Mission& mission)
@@ -88,6 +78,7 @@ void ShownSpacecraft::show(const std::string& run_id) {
     periods_s_.clear();
     edges_.clear();
     actions_.clear();
+    priors_.clear();
     bound_deg_.reset();
   }
 }
@@ -151,12 +142,38 @@ void ShownSpacecraft::take_details(const ArchiveBatch& stored) {
       bound_deg_ = {(*batch)->estimate.t, (*batch)->bound_rad * kDegPerRad};
     }
   }
-  actions_.insert(actions_.end(), stored.actions.begin(), stored.actions.end());
+  for (const OperatorAction& action : stored.actions) {
+    take(action);
+  }
   keep_last(kActionsKept, actions_);
   keep_last(kMostEdgesAtOnce, edges_);
   while (periods_s_.size() > kTurnsKept) {
     periods_s_.erase(periods_s_.begin());
   }
+}
+
+void ShownSpacecraft::take(const OperatorAction& action) {
+  actions_.push_back(action);
+  const auto* const does = std::get_if<SpinAction>(&action.does);
+  const auto* const said = does == nullptr ? nullptr : std::get_if<SetPrior>(does);
+  if (said != nullptr) {
+    priors_.insert_or_assign(action.t.value(), said->prior);
+  }
+}
+
+/// The mission's, until an operator has said another one.
+nlohmann::json ShownSpacecraft::prior() const {
+  std::optional<SpinPrior> prior = mission_.spin()->prior;
+  const auto later = last_sample_ ? priors_.upper_bound(*last_sample_) : priors_.begin();
+  if (later != priors_.begin()) {
+    prior = std::prev(later)->second;
+  }
+  if (!prior) {
+    return nullptr;
+  }
+  nlohmann::json shown = place_json(prior->axis_icrf);
+  shown["sigma_deg"] = prior->sigma_rad * kDegPerRad;
+  return shown;
 }
 
 std::optional<double> ShownSpacecraft::phase_deg(TaiTime t) const {
@@ -201,7 +218,7 @@ void ShownSpacecraft::take(const PassVerdict& verdict) {
 nlohmann::json ShownSpacecraft::state() {
   nlohmann::json state{{"kind", name_of(mission_.kind())}};
   if (mission_.spin() != nullptr) {
-    state["prior"] = prior_of(mission_);
+    state["prior"] = prior();
     state["target"] = target_ ? place_json(target_->axis_icrf) : nullptr;
   }
   state.update(link_);

@@ -49,6 +49,8 @@ class ShownSpacecraft {
   nlohmann::json take_pulses();
 
  private:
+  void take(const OperatorAction& action);
+  nlohmann::json prior() const;
   void add_sky(nlohmann::json& state);
   void add_to_target(nlohmann::json& state) const;
   std::optional<double> phase_deg(TaiTime t) const;
@@ -63,6 +65,7 @@ class ShownSpacecraft {
   std::map<TaiTime, double> periods_s_;                  ///< Of the last turns, by their sun1.
   std::deque<PulseUse> edges_;                           ///< That viewers were not told yet.
   std::deque<OperatorAction> actions_;                   ///< The last ones.
+  std::map<TaiTime, SpinPrior> priors_;                  ///< Set by actions: each from then on.
   std::optional<std::pair<TaiTime, double>> bound_deg_;  ///< Of the last batch solution.
   ApparentSun sun_;
 };

@@ -93,6 +93,33 @@ TEST_F(Feed, ShowsTheVerdictOfTheRunInForceAndHowFarTheTargetIs) {
   EXPECT_FALSE(shown().contains("quality"));
 }
 
+TEST_F(Feed, ShowsThePriorThatAnOperatorHasSetFromItsTimeOn) {
+  put_link(LinkState::Live);
+  put(estimate_at(kT, SpinEstimator::Mean));
+  EXPECT_TRUE(shown()["prior"].is_null());
+  const auto say = [&](TaiTime t, double ra_deg) {
+    OperatorAction action{.action_id = "1",
+                          .spacecraft = "SPINNER",
+                          .t = t,
+                          .made_utc = "",
+                          .by = "shift",
+                          .action = "set_prior",
+                          .arguments = "{}",
+                          .note = "",
+                          .does = SpinAction{SetPrior{{.axis_icrf = axis_icrf_from(ra_deg, -50.0),
+                                                       .sigma_rad = 2.0 * kRadPerDeg}}}};
+    feed_->put_details({.run_id = "run", .spacecraft_id = "SPINNER", .actions = {action}});
+  };
+  say(kT + 1s, 30.0);
+  EXPECT_TRUE(shown()["prior"].is_null());
+  say(kT, 20.0);
+  EXPECT_NEAR(shown()["prior"]["ra_deg"].get<double>(), 20.0, 1e-9);
+  EXPECT_NEAR(shown()["prior"]["dec_deg"].get<double>(), -50.0, 1e-9);
+  EXPECT_NEAR(shown()["prior"]["sigma_deg"].get<double>(), 2.0, 1e-9);
+  put(estimate_at(kT, SpinEstimator::Mean), "next run");
+  EXPECT_TRUE(shown()["prior"].is_null());
+}
+
 TEST_F(Feed, TellsTheBoundWithTheBatchSolution) {
   put(estimate_at(kT, SpinEstimator::Sequential));
   BatchSolution solution{};
