@@ -53,14 +53,14 @@ Expected<std::vector<OperatorAction>> find_stored_actions(const std::filesystem:
 }
 
 std::vector<OperatorAction> read_actions_of_run(SQLite::Database& database,
-                                                const std::string& run_id) {
+                                                const std::string& run_id, SpacecraftKind kind) {
   SQLite::Statement query{
       database, std::string{kColumns} +
                     "JOIN run AS one ON one.run_id = ? AND one.spacecraft_id = run.spacecraft_id"
                     " AND one.mode = run.mode AND one.first_arrival >= run.first_arrival"
                     " ORDER BY arrival"};
   query.bind(1, run_id);
-  return read_all(query, SpacecraftKind::Spin);
+  return read_all(query, kind);
 }
 
 }  // namespace spindrift

@@ -56,7 +56,8 @@ PulseUse use_of(SQLite::Statement& row) {
 }
 
 void read_actions(SQLite::Database& database, StoredEdges& stored) {
-  for (const OperatorAction& action : read_actions_of_run(database, stored.run_id)) {
+  for (const OperatorAction& action :
+       read_actions_of_run(database, stored.run_id, SpacecraftKind::Spin)) {
     stored.pass.act(action.t.value(), std::get<SpinAction>(action.does));
   }
 }

@@ -65,9 +65,9 @@ Expected<std::vector<OperatorAction>> find_stored_actions(const std::filesystem:
                                                           const std::string& spacecraft_id,
                                                           const RunStart& start);
 
-/// To the run of a spinner and those before it, likewise. @throws SQLite::Exception
+/// To the run of a spacecraft of that kind and those before it, likewise. @throws SQLite::Exception
 std::vector<OperatorAction> read_actions_of_run(SQLite::Database& database,
-                                                const std::string& run_id);
+                                                const std::string& run_id, SpacecraftKind kind);
 
 /// Edges in the run's pulses and coded frames, each sample once. Of the newest runs: a sample
 /// belongs to the run that took it last.

@@ -5,15 +5,37 @@
 #include <fmt/format.h>
 
 #include "pipelines/core/shown.h"
+#include "pipelines/exclusions/exclusions.h"
+#include "pipelines/three_axis/three_axis_pass.h"
 #include "services/archive/connection.h"
+#include "services/archive/stored_pass.h"
 #include "services/archive/stored_rows.h"
 
 namespace spindrift {
 namespace {
 
+Exclusions<SampleKind> read_exclusions(SQLite::Database& database,
+                                       const std::string& spacecraft_id) {
+  // A run that only reconstructs has no samples of its own.
+  SQLite::Statement query{database,
+                          "SELECT run_id FROM run WHERE spacecraft_id = ? AND first_tai_ns IS NOT "
+                          "NULL ORDER BY first_arrival DESC, started_utc DESC LIMIT 1"};
+  query.bind(1, spacecraft_id);
+  Exclusions<SampleKind> excluded;
+  if (query.executeStep()) {
+    const std::string run_id = query.getColumn(0).getString();
+    for (const OperatorAction& action :
+         read_actions_of_run(database, run_id, SpacecraftKind::ThreeAxis)) {
+      std::visit([&](const auto& what) { excluded.add(action.t.value(), what); },
+                 std::get<AttitudeAction>(action.does));
+    }
+  }
+  return excluded;
+}
+
 template <class Value>
 std::vector<Value> read_from(const SQLite::Database& database, const std::string& spacecraft_id,
-                             TaiTime from) {
+                             TaiTime from, const Exclusions<SampleKind>& excluded) {
   SQLite::Statement query{database,
                           fmt::format("SELECT {} FROM {} WHERE spacecraft_id = ? AND t_tai_ns >= ?"
                                       " AND arrival >= 0 ORDER BY t_tai_ns",
@@ -22,7 +44,10 @@ std::vector<Value> read_from(const SQLite::Database& database, const std::string
   query.bind(2, tai_ns(from));
   std::vector<Value> values;
   while (query.executeStep()) {
-    values.push_back(read_arrived<Value>(query).value);
+    const Value value = read_arrived<Value>(query).value;
+    if (!excluded.hold(value.t, OrderedSample{value.t, value}.kind())) {
+      values.push_back(value);
+    }
   }
   return values;
 }
@@ -62,11 +87,12 @@ Expected<SeparationSamples> find_separation_samples(const std::filesystem::path&
                                                     const std::string& spacecraft_id,
                                                     TaiTime from) {
   return read_archive(archive, [&](SQLite::Database& database) {
+    const auto excluded = read_exclusions(database, spacecraft_id);
     return SeparationSamples{
-        .gyro = read_from<GyroSample>(database, spacecraft_id, from),
-        .sun = read_from<SunDirection>(database, spacecraft_id, from),
-        .stars = read_from<StarFix>(database, spacecraft_id, from),
-        .orbit_states = read_from<TimedOrbitState>(database, spacecraft_id, from)};
+        .gyro = read_from<GyroSample>(database, spacecraft_id, from, excluded),
+        .sun = read_from<SunDirection>(database, spacecraft_id, from, excluded),
+        .stars = read_from<StarFix>(database, spacecraft_id, from, excluded),
+        .orbit_states = read_from<TimedOrbitState>(database, spacecraft_id, from, excluded)};
   });
 }
 

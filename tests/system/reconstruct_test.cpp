@@ -1,5 +1,6 @@
 // The attitude at separation through the program: from files and from the archive.
 
+#include <SQLiteCpp/Database.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -92,6 +93,29 @@ TEST(Reconstruct, FromTheArchiveGivesWhatTheFilesGive) {
   EXPECT_EQ(archive.object["batch"], files.object["batch"]);
   EXPECT_EQ(archive.object["sequential"], files.object["sequential"]);
   EXPECT_EQ(number_of(processed.db, "SELECT count(*) FROM run"), 2);
+}
+
+TEST(Reconstruct, FromTheArchiveLeavesOutWhatAnOperatorExcluded) {
+  const TemporaryFolder folder;
+  const auto pass = pass_of("separation");
+  const Outcome processed = process(folder, pass);
+  ASSERT_EQ(processed.status, 0) << processed.log;
+  const Answer before = reconstruct({"--db", processed.db.string(), "--method", "batch"});
+  ASSERT_EQ(before.status, 0) << before.log;
+  const auto& sun = before.object["batch"]["sun"]["count"];
+  ASSERT_GT(sun.get<int>(), 100);
+  SQLite::Database{processed.db.string(), SQLite::OPEN_READWRITE, kBusy_ms}.exec(
+      "INSERT INTO operator_action SELECT 'a', spacecraft_id, run_id, first_arrival, first_tai_ns,"
+      " started_utc, 'shift', 'exclude_channel', '{\"channel\":\"sun\"}', '' FROM run"
+      " WHERE first_tai_ns IS NOT NULL");
+  // Also where a run has reconstructed since.
+  for (int again = 0; again < 2; ++again) {
+    const Answer answer = reconstruct({"--db", processed.db.string(), "--method", "batch"});
+    ASSERT_EQ(answer.status, 0) << answer.log;
+    EXPECT_EQ(answer.object["batch"]["sun"]["count"], 0);
+    EXPECT_GT(answer.object["batch"]["events"][0]["sigma_deg"].get<double>(),
+              2.0 * before.object["batch"]["events"][0]["sigma_deg"].get<double>());
+  }
 }
 
 TEST(Reconstruct, TakesTheMissionOfTheNewestRunWhereNoneIsGiven) {
