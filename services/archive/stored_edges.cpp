@@ -4,6 +4,13 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <numbers>
+#include <variant>
+
+#include "pipelines/statistics/significance.h"
 #include "services/archive/connection.h"
 #include "services/archive/stored_pass.h"
 #include "services/products/named.h"
@@ -35,6 +42,7 @@ std::optional<StoredEdges> find_run(SQLite::Database& database, const std::strin
       .run_id = query.getColumn(0).getString(),
       .config_sha256 = query.getColumn(1).getString(),
       .orbit_sha256 = orbit.isNull() ? std::nullopt : std::optional{orbit.getString()},
+      .told_prior = {},
       .pass = {}};
 }
 
@@ -42,6 +50,18 @@ std::optional<StoredEdges> find_run(SQLite::Database& database, const std::strin
 Eigen::Vector3d axis_of(SQLite::Statement& row) {
   return direction_icrf({.ra_rad = row.getColumn(0).getDouble() * kRadPerDeg,
                          .dec_rad = row.getColumn(1).getDouble() * kRadPerDeg});
+}
+
+/// Its own first, then those of the other candidates, some twice.
+/// @param fix A row of spin_fix.
+std::string select_axes_of(const char* fix) {
+  return fmt::format(
+      " SELECT ra_deg, dec_deg FROM {0}"
+      " UNION ALL SELECT alternate_ra_deg, alternate_dec_deg FROM {0}"
+      " WHERE alternate_ra_deg IS NOT NULL"
+      " UNION ALL SELECT c.ra_deg, c.dec_deg FROM {0}"
+      " JOIN spin_fix_candidate AS c USING (run_id, revolution)",
+      fix);
 }
 
 PulseUse use_of(SQLite::Statement& row) {
@@ -55,11 +75,75 @@ PulseUse use_of(SQLite::Statement& row) {
   return use;
 }
 
+/// The run has come so far: an action of then has been done.
+bool has_come_to(SQLite::Database& database, const std::string& run_id, TaiTime t) {
+  SQLite::Statement query{
+      database,
+      "SELECT EXISTS (SELECT 1 FROM spin_fix WHERE run_id = ?1 AND t_tai_ns >= ?2)"
+      " OR EXISTS (SELECT 1 FROM spin_estimate WHERE run_id = ?1 AND t_tai_ns >= ?2"
+      "  AND estimator <> 'batch')"};
+  query.bind(1, run_id);
+  query.bind(2, tai_ns(t));
+  query.executeStep();
+  return query.getColumn(0).getInt() != 0;
+}
+
+/// What SpinPass made of a choice: at the first fix that it settled the prior is its axis, and a
+/// third of the way to the next candidate the sigma. Empty: there was nothing to choose.
+std::optional<SpinPrior> chosen_root(SQLite::Database& database, const std::string& run_id,
+                                     TaiTime from, TaiTime to) {
+  SQLite::Statement query{
+      database,
+      "WITH settled AS (SELECT * FROM spin_fix WHERE run_id = ?1 AND t_tai_ns >= ?2 AND"
+      "  t_tai_ns < ?3 AND resolution = 'PRIOR' ORDER BY t_tai_ns LIMIT 1)" +
+          select_axes_of("settled")};
+  query.bind(1, run_id);
+  query.bind(2, tai_ns(from));
+  query.bind(3, tai_ns(to));
+  std::optional<SpinPrior> prior;
+  while (query.executeStep()) {
+    const Eigen::Vector3d axis_icrf = axis_of(query);
+    if (!prior) {
+      prior = SpinPrior{.axis_icrf = axis_icrf, .sigma_rad = std::numbers::pi};
+    } else {
+      prior->sigma_rad =
+          std::min(prior->sigma_rad, angle_between_rad(prior->axis_icrf, axis_icrf) / kPriorSigmas);
+    }
+  }
+  return prior && prior->sigma_rad < std::numbers::pi ? prior : std::nullopt;
+}
+
+bool is_of_prior(const SpinAction& action) {
+  return std::holds_alternative<SetPrior>(action) || std::holds_alternative<ChooseRoot>(action);
+}
+
+/// Each holds until the next.
+void read_told_prior(SQLite::Database& database, const std::multimap<TaiTime, SpinAction>& of_prior,
+                     StoredEdges& stored) {
+  for (auto said = of_prior.begin(); said != of_prior.end(); ++said) {
+    const auto next = std::next(said);
+    const auto* const prior = std::get_if<SetPrior>(&said->second);
+    if (prior == nullptr) {
+      const TaiTime until = next == of_prior.end() ? TaiTime::max() : next->first;
+      const auto root = chosen_root(database, stored.run_id, said->first, until);
+      stored.told_prior = root ? root : stored.told_prior;
+    } else if (has_come_to(database, stored.run_id, said->first)) {
+      stored.told_prior = prior->prior;
+    }
+  }
+}
+
 void read_actions(SQLite::Database& database, StoredEdges& stored) {
+  std::multimap<TaiTime, SpinAction> of_prior;
   for (const OperatorAction& action :
        read_actions_of_run(database, stored.run_id, SpacecraftKind::Spin)) {
-    stored.pass.act(action.t.value(), std::get<SpinAction>(action.does));
+    const auto& does = std::get<SpinAction>(action.does);
+    stored.pass.act(action.t.value(), does);
+    if (is_of_prior(does)) {
+      of_prior.emplace(action.t.value(), does);
+    }
   }
+  read_told_prior(database, of_prior, stored);
 }
 
 /// In order of time.
@@ -94,12 +178,8 @@ void read_estimate(SQLite::Database& database, SpinEstimator estimator, StoredEd
 void read_last_fix(SQLite::Database& database, StoredEdges& stored) {
   SQLite::Statement query{
       database,
-      "WITH last AS (SELECT * FROM spin_fix WHERE run_id = ? ORDER BY revolution DESC LIMIT 1)"
-      " SELECT ra_deg, dec_deg FROM last"
-      " UNION ALL SELECT alternate_ra_deg, alternate_dec_deg FROM last"
-      " WHERE alternate_ra_deg IS NOT NULL"
-      " UNION ALL SELECT c.ra_deg, c.dec_deg FROM last"
-      " JOIN spin_fix_candidate AS c USING (run_id, revolution)"};
+      "WITH last AS (SELECT * FROM spin_fix WHERE run_id = ? ORDER BY revolution DESC LIMIT 1)" +
+          select_axes_of("last")};
   query.bind(1, stored.run_id);
   std::optional<SpinFix> fix;
   while (query.executeStep()) {

@@ -16,6 +16,7 @@ struct StoredEdges {
   std::string run_id;
   std::string config_sha256;                ///< Of the mission file of the run.
   std::optional<std::string> orbit_sha256;  ///< Of its orbit file, if it had one.
+  std::optional<SpinPrior> told_prior;      ///< By an operator, in the place of the mission's.
   PassEdges pass;
 };
 

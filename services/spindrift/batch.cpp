@@ -56,8 +56,10 @@ Expected<void> batch(const BatchOptions& options) {
   if (options.last_revolutions) {
     stored->pass.keep_last(*options.last_revolutions);
   }
-  const auto starts = stored->pass.starts(mission->spin()->prior);
-  return solve_batch(*mission->spin(), *mission->orbit, std::move(stored->pass).edges(), starts)
+  SpinConfig config = *mission->spin();
+  config.prior = stored->told_prior ? stored->told_prior : config.prior;
+  const auto starts = stored->pass.starts(config.prior);
+  return solve_batch(config, *mission->orbit, std::move(stored->pass).edges(), starts)
       .map([&](const BatchSolution& solution) {
         if (options.json) {
           nlohmann::json object = to_json(solution.estimate);

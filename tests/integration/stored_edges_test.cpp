@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "tests/integration/archive_fixture.h"
@@ -37,6 +38,52 @@ TEST_F(ArchiveEdges, OfARunWithoutSun1AreThere) {
   ASSERT_TRUE(stored) << stored.error().message;
   EXPECT_EQ(stored->run_id, "run-1");
   EXPECT_EQ(std::move(stored->pass).edges().size(), 5U);
+}
+
+/// Of the second fix a choice made a prior of the first of two roots, 12 deg apart.
+TEST_F(ArchiveEdges, HaveThePriorThatOperatorsToldInThePlaceOfTheMissions) {
+  store_run("run-1", 3);
+  const auto told_by = [&](std::int64_t t_tai_ns, const SpinAction& does, const char* action,
+                           const char* arguments) {
+    ArchiveBatch batch = testing::batch_of("run-1");
+    batch.actions.push_back({.action_id = std::to_string(t_tai_ns),
+                             .spacecraft = "SPINNER",
+                             .t = tai_from_ns(t_tai_ns),
+                             .made_utc = "2026-11-26T00:00:00Z",
+                             .by = "shift",
+                             .action = action,
+                             .arguments = arguments,
+                             .note = "",
+                             .does = does,
+                             .arrival = t_tai_ns});
+    store(batch);
+    return read_edges(path(), "SPINNER", std::nullopt)->told_prior;
+  };
+  ArchiveBatch fixes = testing::batch_of("run-1");
+  for (const std::int64_t turn : {1, 2}) {
+    fixes.products.emplace_back(
+        SpinFix{.revolution = turn,
+                .t = tai_from_ns(10 * turn),
+                .geometry_case = 5,
+                .axis_icrf = Eigen::Vector3d::UnitX(),
+                .covariance_rad2 = 1e-6 * Eigen::Matrix2d::Identity(),
+                .alternates = {{.axis_icrf = axis_icrf_from(12.0, 0.0)}},
+                .resolution = turn == 1 ? Resolution::Ambiguous : Resolution::Prior,
+                .norm = 1.0,
+                .accepted = turn == 2});
+  }
+  store(fixes);
+  const SetPrior prior{{.axis_icrf = axis_icrf_from(30.0, 40.0), .sigma_rad = 0.1}};
+  constexpr const char* kPrior = R"({"ra_deg":30,"dec_deg":40,"sigma_deg":5})";
+  EXPECT_FALSE(told_by(21, prior, "set_prior", kPrior)) << "the run has not come so far";
+  const auto chosen = told_by(5, ChooseRoot{Eigen::Vector3d::UnitX()}, "choose_root",
+                              R"({"ra_deg":1,"dec_deg":0})");
+  ASSERT_TRUE(chosen);
+  EXPECT_LT((chosen->axis_icrf - Eigen::Vector3d::UnitX()).norm(), 1e-12);
+  EXPECT_NEAR(chosen->sigma_rad, 4.0 * kRadPerDeg, 1e-9);
+  const auto set = told_by(15, prior, "set_prior", kPrior);
+  ASSERT_TRUE(set);
+  EXPECT_NEAR(set->sigma_rad, 5.0 * kRadPerDeg, 1e-9);
 }
 
 TEST_F(ArchiveEdges, ThatNoRevolutionHadAPlaceForMakeNoRun) {

@@ -1,5 +1,6 @@
 // Passes of which no single revolution tells the true axis from the false one, through the program.
 
+#include <SQLiteCpp/Database.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -83,6 +84,20 @@ TEST(DualSolutions, APriorSettlesForBatchWhatItsEdgesLeaveOpen) {
     EXPECT_LT(error_deg(batch["ra_deg"], batch["dec_deg"], 240.11, 72.64),
               3.0 * batch["sigma_deg"].get<double>());
   }
+}
+
+TEST(DualSolutions, APriorThatAnOperatorToldSettlesABatchSolutionOfTheStoredRun) {
+  const TemporaryFolder folder;
+  const auto outcome = process_false_twin(folder, 1, "");
+  ASSERT_EQ(outcome.run["batch"]["quality"], "AMBIGUOUS") << outcome.log;
+  SQLite::Database{outcome.db.string(), SQLite::OPEN_READWRITE, kBusy_ms}.exec(
+      "INSERT INTO operator_action SELECT 'a', spacecraft_id, run_id, first_arrival, first_tai_ns,"
+      " started_utc, 'shift', 'set_prior',"
+      " '{\"ra_deg\":240.11,\"dec_deg\":72.64,\"sigma_deg\":1.0}', '' FROM run");
+  Program batch{{"batch", "--mission", (folder.path() / "pass" / "mission.toml").string(), "--db",
+                 outcome.db.string(), "--json"}};
+  ASSERT_EQ(batch.exit_status(), 0) << batch.log();
+  EXPECT_EQ(nlohmann::json::parse(batch.out())["quality"], "OK") << batch.out();
 }
 
 TEST(DualSolutions, APriorFarFromAllOfThemSettlesNothing) {

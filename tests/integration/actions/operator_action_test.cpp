@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/frames/celestial.h"
 #include "services/actions/parse_action.h"
 #include "services/alerts/alert_desk.h"
 #include "services/archive/stored_edges.h"
@@ -150,6 +151,19 @@ TEST_F(OperatorActions, AreRepeatedByARestartToTheBit) {
   EXPECT_EQ(product_rows(path()), product_rows(whole.db));
   EXPECT_EQ(number("SELECT count(*) FROM operator_action"), 3);
   EXPECT_EQ(number("SELECT count(*) FROM run"), 1);
+}
+
+TEST_F(OperatorActions, GiveABatchSolutionOfTheStoredRunTheirPrior) {
+  live().receive(
+      0, kAll,
+      {{{"action", "set_prior"}, {"ra_deg", 101.0}, {"dec_deg", -54.0}, {"sigma_deg", 2.0}}}, true);
+  const auto told = read_edges(path(), "SPINNER", std::nullopt)->told_prior;
+  ASSERT_TRUE(told);
+  EXPECT_LT((told->axis_icrf -
+             direction_icrf({.ra_rad = 101.0 * kRadPerDeg, .dec_rad = -54.0 * kRadPerDeg}))
+                .norm(),
+            1e-12);
+  EXPECT_NEAR(told->sigma_rad, 2.0 * kRadPerDeg, 1e-12);
 }
 
 TEST_F(OperatorActions, AreObeyedByABatchSolutionOfTheStoredRun) {
