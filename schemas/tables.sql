@@ -169,6 +169,8 @@ CREATE TABLE stream_silence (
 
 -- What an operator said of the telemetry from t_tai_ns on: input, which holds for the run that took it and
 -- all later ones of its mode. arrival: its place among the samples of that run, which are before and behind it.
+-- What `sequential`, `mean` and the filters have computed before stays; of what is left out `batch` and the
+-- reconstruction of a separation forget that, too. exclude_segment is of its beginning on where it does not say.
 CREATE TABLE operator_action (
   action_id     TEXT PRIMARY KEY,
   spacecraft_id TEXT NOT NULL REFERENCES spacecraft,

@@ -5,6 +5,7 @@
 
 #include "pipelines/reconstruction/event_times.h"
 #include "pipelines/reconstruction/observations.h"
+#include "pipelines/three_axis/three_axis_pass.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -60,6 +61,17 @@ bool SeparationRecord::push(const StarFix& fix) {
   due_at_fixes_ = 2 * fixes_;
   awaited_ = std::max(fix.t, events->back().t);
   return is_due(later_by_s(request_.gyro.back().t, held_s(request_.gyro)));
+}
+
+bool SeparationRecord::forget(const Exclusions<SampleKind>& excluded) {
+  const auto erase = [&](auto& samples) {
+    return std::erase_if(samples, [&](const auto& sample) {
+      return excluded.hold(sample.t, OrderedSample{sample.t, sample}.kind());
+    });
+  };
+  const auto gone = erase(request_.gyro) + erase(request_.sun_directions) +
+                    erase(request_.star_fixes) + erase(request_.orbit_states);
+  return gone > 0 && due_at_fixes_ > 1;
 }
 
 bool SeparationRecord::is_due(TaiTime reached) {

@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/exclusions/exclusions.h"
 #include "pipelines/reconstruction/request.h"
+#include "pipelines/three_axis/products.h"
 
 namespace spindrift {
 
@@ -30,6 +32,10 @@ class SeparationRecord {
   bool push(const SunDirection& sun);
   bool push(const StarFix& fix);
   bool push(const TimedOrbitState& state);
+
+  /// What an operator has left out since it arrived.
+  /// @return whether a solution rests on it: another one is due.
+  bool forget(const Exclusions<SampleKind>& excluded);
 
   /// All up to now, each kind in order of time.
   const ReconstructionRequest& request() const { return request_; }

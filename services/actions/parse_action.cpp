@@ -117,6 +117,35 @@ Expected<std::variant<SpinAction, AttitudeAction>> one_of(const std::vector<Name
       fmt::format("action: '{}': must be one of {}", shown(name), fmt::join(names, ", ")));
 }
 
+struct Segment {
+  TaiTime from;
+  TaiTime to;
+};
+
+/// Empty: the action is of none.
+std::optional<Segment> segment_in(const std::variant<SpinAction, AttitudeAction>& does) {
+  const auto of_one = [](const auto& what) -> std::optional<Segment> {
+    if constexpr (requires { what.from; }) {
+      return Segment{.from = what.from, .to = what.to};
+    } else {
+      return std::nullopt;
+    }
+  };
+  return std::visit([&](const auto& of_kind) { return std::visit(of_one, of_kind); }, does);
+}
+
+/// What a segment means is its own time, most often one that has passed.
+Expected<OperatorAction> with_time(OperatorAction action) {
+  if (const auto segment = segment_in(action.does)) {
+    action.t = action.t.value_or(segment->from);
+    if (segment->to <= *action.t) {
+      return invalid(fmt::format("{}: to_tai_ns: {}: must be later than t_tai_ns, {}",
+                                 action.action, tai_ns(segment->to), tai_ns(*action.t)));
+    }
+  }
+  return action;
+}
+
 Expected<SpacecraftKind> kind_of(const std::string& spacecraft, const KnownSpacecraft& known) {
   const auto found = known.find(spacecraft);
   if (found != known.end()) {
@@ -171,9 +200,9 @@ Expected<OperatorAction> parse_action(const nlohmann::json& request, const Known
   }
   return kind_of(action.spacecraft, known)
       .and_then([&](SpacecraftKind kind) { return what_it_does(kind, action.action, arguments); })
-      .map([&](const std::variant<SpinAction, AttitudeAction>& does) {
+      .and_then([&](const std::variant<SpinAction, AttitudeAction>& does) {
         action.does = does;
-        return action;
+        return with_time(action);
       });
 }
 

@@ -18,7 +18,7 @@ namespace spindrift {
 using KnownSpacecraft = std::map<std::string, SpacecraftKind>;
 
 /// As POST /api/v1/actions has it: `spacecraft`, `by`, `action` and its arguments; `note` and
-/// `t_tai_ns` may be missing.
+/// `t_tai_ns` may be missing. A segment without `t_tai_ns` is of its own beginning on.
 /// @return The action, with an id and as made now; InvalidInput with all that is wrong: key, value,
 ///         what is allowed.
 Expected<OperatorAction> parse_action(const nlohmann::json& request, const KnownSpacecraft& known);

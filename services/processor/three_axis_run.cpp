@@ -52,6 +52,7 @@ void ThreeAxisRun::begin(const std::string& run_id) {
   summary_.spacecraft_id = computing_.spacecraft_id();
   summary_.kind = SpacecraftKind::ThreeAxis;
   excluded_ = {};
+  has_forgotten_ = false;
   if (separation_) {
     record_.emplace(ReconstructionRequest{.sensors = config_,
                                           .times = separation_->times,
@@ -106,6 +107,12 @@ void ThreeAxisRun::record(const Arrived<Value>& arrived) {
 void ThreeAxisRun::record(const OperatorAction& action) {
   if (const auto* const does = std::get_if<AttitudeAction>(&action.does)) {
     std::visit([&](const auto& what) { excluded_.add(action.t.value(), what); }, *does);
+    if (record_->forget(excluded_)) {
+      has_forgotten_ = true;
+      if (plan_ == SolvingPlan::Meanwhile) {
+        hand_out_solutions();
+      }
+    }
   }
 }
 
@@ -118,10 +125,10 @@ void ThreeAxisRun::hand_out_solutions() {
   }
 }
 
-/// Or one that rests on more.
+/// Or one that rests on more, unless that may be what was forgotten.
 bool ThreeAxisRun::is_stored(ReconstructionMethod method) const {
   const MadeBefore* const made = computing_.made_before();
-  if (made == nullptr) {
+  if (made == nullptr || has_forgotten_) {
     return false;
   }
   const auto stored = made->reconstructed.find(name_of(method));

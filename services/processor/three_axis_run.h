@@ -60,6 +60,7 @@ class ThreeAxisRun {
   SolvingPlan plan_;
   std::optional<SeparationRecord> record_;  ///< Where the mission tells of a separation.
   Exclusions<SampleKind> excluded_;         ///< From it.
+  bool has_forgotten_ = false;              ///< What a solution rested on.
   std::vector<BackgroundTask> due_;
 };
 

@@ -368,7 +368,7 @@ void add_act(CLI::App& app, Request& request) {
   command.add_option("--note", options.note, "Why");
   command.add_option("--at", options.at,
                      "UTC from which it applies; without it as far as "
-                     "telemetry has come");
+                     "telemetry has come, of a segment from its beginning on");
   command.add_option("--channel", options.channel, "Channel, or gyro, star, sun, magnetometer");
   command.add_option("--ra", options.ra_deg, "Right ascension, deg, ICRF");
   command.add_option("--dec", options.dec_deg, "Declination, deg");

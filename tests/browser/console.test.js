@@ -64,8 +64,9 @@ test('tells what an action does and why it is refused', async () => {
   await page.selectOption('#action', 'exclude_segment');
   await fill({ from: '1996-01-01 00:00:10', to: '1996-01-01 00:00:00', by: 'night shift', token: service.token() });
   await page.click('#hand-send');
-  assert.equal(await text('hand-sentence'), 'Leaves out all channels from 1996-01-01 00:00:10 to ' +
-    '1996-01-01 00:00:00 UTC, for telemetry of GMS-5 from now on, by night shift. It is stored, and repeated after a restart.');
+  assert.equal(await text('hand-sentence'), 'Leaves out all channels from 1996-01-01 00:00:10 to 1996-01-01 00:00:00 UTC: batch and ' +
+    'reconstruction forget what came of it, other answers that are computed stay, for telemetry of GMS-5, by night shift. ' +
+    'It is stored, and repeated after a restart.');
   await page.click('#hand-send');
   await eventually(async () => assert.match(await text('hand-said'), /^Refused \(400\): .*to_tai_ns.*must be later/));
   await page.click('#hand-cancel');

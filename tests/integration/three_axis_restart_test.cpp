@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "services/actions/parse_action.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
 #include "services/telemetry_files/telemetry_files.h"
@@ -79,6 +80,7 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
     std::filesystem::create_directory(pass_);
     testing::write_three_axis_pass(pass_, kLongPass);
     sent_ = in_batches(disordered_samples(pass_));
+    first_ns_ = tai_ns(sent_.front().samples.of<GyroSample>().front().value.t);
   }
 
   Processor new_processor() const {
@@ -105,6 +107,18 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
     for (std::size_t i = from; i < to; ++i) {
       if (i == kSilence) {
         work(processor, processor.fall_silent({"SAT"}), out);
+      }
+      if (i == says_at_) {
+        SampleBatch said;
+        said.actions = {parse_action({{"spacecraft", "SAT"},
+                                      {"by", "shift"},
+                                      {"action", "exclude_segment"},
+                                      {"channel", "sun"},
+                                      {"from_tai_ns", first_ns_ + 100'000'000'000},
+                                      {"to_tai_ns", first_ns_ + 300'000'000'000}},
+                                     {{"SAT", SpacecraftKind::ThreeAxis}})
+                            .value()};
+        work(processor, processor.route(std::move(said)), out);
       }
       work(processor, processor.route(sent_[i]), out);
     }
@@ -133,9 +147,12 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
 
   std::filesystem::path pass_;
   std::vector<SampleBatch> sent_;
+  std::optional<std::size_t> says_at_;  ///< That batch, of a segment long before.
+  std::int64_t first_ns_ = 0;
 };
 
 TEST_F(ThreeAxisRestart, KilledAtAnyPointGivesWhatNoRestartWouldHave) {
+  says_at_ = 80;
   const auto whole_db = directory() / "whole.db";
   Processor unstopped = new_processor();
   Submitted whole;
@@ -150,6 +167,12 @@ TEST_F(ThreeAxisRestart, KilledAtAnyPointGivesWhatNoRestartWouldHave) {
             (std::vector<std::string>{"batch|T1|", "sequential|T1|"}));
   ASSERT_EQ(rows_of(whole_db, "SELECT DISTINCT rejected_by FROM rejected_sample ORDER BY 1"),
             (std::vector<std::string>{"innovation|", "late|", "saturated|"}));
+
+  EXPECT_EQ(
+      number_of(whole_db, "SELECT sun_vectors FROM reconstruction WHERE method = 'batch'"),
+      number_of(whole_db, fmt::format("SELECT count(*) FROM sun_sample WHERE t_tai_ns - {} NOT"
+                                      " BETWEEN 100000000000 AND 299999999999",
+                                      first_ns_)));
 
   for (const std::size_t killed :
        {std::size_t{1}, std::size_t{50}, kSilence, kSilence + 1, sent_.size() - 5, sent_.size()}) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -151,6 +152,34 @@ TEST_F(OperatorActions, AreRepeatedByARestartToTheBit) {
   EXPECT_EQ(product_rows(path()), product_rows(whole.db));
   EXPECT_EQ(number("SELECT count(*) FROM operator_action"), 3);
   EXPECT_EQ(number("SELECT count(*) FROM run"), 1);
+}
+
+/// Of twelve turns, said ten later.
+TEST_F(OperatorActions, LeaveAPastSegmentOutOfBatchAlsoAfterARestart) {
+  const Samples all = edges();
+  const TaiTime from = all[108].value.t;
+  const TaiTime to = all[180].value.t;
+  const json segment{
+      {"action", "exclude_segment"}, {"from_tai_ns", tai_ns(from)}, {"to_tai_ns", tai_ns(to)}};
+  live().receive(0, kStopped, {segment});
+  const auto before = product_rows(path());
+  live().receive(kStopped, kStopped, {});
+  EXPECT_EQ(product_rows(path()), before);
+  live().receive(kStopped, kAll, {}, true);
+  const Serving whole{.db = directory() / "whole.db"};
+  whole.receive(0, kAll, {segment}, true);
+  EXPECT_EQ(product_rows(path()), product_rows(whole.db));
+  EXPECT_EQ(last_batch_rows(path()), last_batch_rows(whole.db));
+
+  EXPECT_EQ(number("SELECT t_tai_ns FROM operator_action"), tai_ns(from));
+  const auto kept = std::move(read_edges(path(), "SPINNER", std::nullopt)->pass).edges();
+  EXPECT_TRUE(std::none_of(kept.begin(), kept.end(), [&](const PassEdge& edge) {
+    return from <= edge.pulse.t && edge.pulse.t < to;
+  }));
+  EXPECT_EQ(number("SELECT edges + outliers FROM spin_batch ORDER BY t_tai_ns DESC LIMIT 1"),
+            static_cast<std::int64_t>(kept.size()));
+  EXPECT_GT(kept.size(), kAll - 100);
+  EXPECT_LE(kept.size(), kAll - 72);
 }
 
 TEST_F(OperatorActions, GiveABatchSolutionOfTheStoredRunTheirPrior) {

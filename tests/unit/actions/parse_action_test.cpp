@@ -46,7 +46,7 @@ TEST(ParseAction, TakesEachWithItsArguments) {
     EXPECT_EQ(action->by, "shift");
     EXPECT_LE(action->action_id.size(), 40U);
     EXPECT_NE(action->action_id, parse_action(request(all[i]), kKnown)->action_id);
-    EXPECT_EQ(action->t.has_value(), all[i].contains("t_tai_ns"));
+    EXPECT_EQ(action->t.has_value(), all[i].contains("t_tai_ns") || all[i].contains("from_tai_ns"));
   }
 }
 
@@ -61,6 +61,21 @@ TEST(ParseAction, OfThreeAxesKnowsSensors) {
   EXPECT_EQ(action->arguments, R"({"channel":"star"})");
   EXPECT_THAT(why_not({{"spacecraft", "STABLE"}, {"action", "mark_manoeuvre"}}),
               HasSubstr("must be one of exclude_channel, include_channel, exclude_segment"));
+}
+
+TEST(ParseAction, TakesASegmentAsOfItsBeginningOrOfATimeBeforeItsEnd) {
+  const json segment{
+      {"action", "exclude_segment"}, {"from_tai_ns", kFrom}, {"to_tai_ns", kFrom + 10}};
+  EXPECT_EQ(parse_action(request(segment), kKnown)->t, tai_from_ns(kFrom));
+  const auto with_t = [&](std::int64_t t_tai_ns) {
+    json said = segment;
+    said["t_tai_ns"] = t_tai_ns;
+    return said;
+  };
+  EXPECT_EQ(parse_action(request(with_t(kFrom + 9)), kKnown)->t, tai_from_ns(kFrom + 9));
+  EXPECT_EQ(why_not(with_t(kFrom + 10)),
+            "exclude_segment: to_tai_ns: 1795143637000000010: must be later than t_tai_ns, "
+            "1795143637000000010");
 }
 
 TEST(ParseAction, ReadsWhatItStores) {

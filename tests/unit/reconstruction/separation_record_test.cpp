@@ -66,6 +66,34 @@ class SeparationRecordTest : public ::testing::Test {
   std::vector<ReconstructionRequest> due_requests_;
 };
 
+TEST_F(SeparationRecordTest, ForgetsWhatAnOperatorLeavesOutAndIsDueOnceASolutionRestedOnIt) {
+  SeparationRecord record{{.sensors = flight_.sensors,
+                           .times = times_,
+                           .gyro = {},
+                           .sun_directions = {},
+                           .star_fixes = {},
+                           .orbit = flight_.orbit}};
+  Exclusions<SampleKind> excluded;
+  excluded.add(at(0.0), ExcludeSegment<SampleKind>{
+                            .from = at(0.0), .to = at(250.0), .channel = SampleKind::Gyro});
+  bool was_due = false;
+  for (const AnySample& sample : samples_of(flight_)) {
+    if (!was_due) {
+      EXPECT_FALSE(record.forget(excluded));
+    }
+    was_due = std::visit([&](const auto& is) { return record.push(is); }, sample) || was_due;
+  }
+  ASSERT_TRUE(was_due);
+  EXPECT_FALSE(record.forget(excluded));
+  excluded.add(at(280.0), ExcludeChannel<SampleKind>{SampleKind::Sun});
+  const auto sun_before = record.request().sun_directions.size();
+  EXPECT_TRUE(record.forget(excluded));
+  EXPECT_FALSE(record.request().gyro.empty());
+  EXPECT_GE(record.request().gyro.front().t, at(250.0));
+  EXPECT_LT(record.request().sun_directions.size(), sun_before);
+  EXPECT_LT(record.request().sun_directions.back().t, at(280.0));
+}
+
 TEST_F(SeparationRecordTest, ASolutionIsDueWithTheStarFixAndIsThatOfAllSamples) {
   EXPECT_THAT(due_at_s(samples_of(flight_)), ElementsAre(300.0));
   ReconstructionRequest whole = flight_.request();

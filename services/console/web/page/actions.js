@@ -26,7 +26,9 @@ const actions = {
   exclude_segment: {
     word: 'Exclude a segment',
     fields: (craft, place, now_s) => [utc('From', 'from', now_s - 60), utc('To', 'to', now_s), channel(craft, [['', 'all channels']])],
-    does: said => `Leaves out ${said.channel ? `channel ${said.channel}` : 'all channels'} from ${said.from} to ${said.to} UTC`,
+    isOfItsTime: true,
+    does: said => `Leaves out ${said.channel ? `channel ${said.channel}` : 'all channels'} from ${said.from} to ${said.to} UTC: ${
+      'batch and reconstruction forget what came of it, other answers that are computed stay'}`,
   },
   choose_root: { word: 'Choose the axis of two', of: 'spin', fields: (craft, place) => axis(place ?? other(craft)),
     does: said => `Takes, of two axes that fit, the one near ${at(said)}` },
@@ -57,8 +59,8 @@ function bodyOf(said, spacecraft, taiOf) {
 export function askAction(spacecraft, craft, time, chosen = 'exclude_channel', place = undefined) {
   const known = Object.entries(actions).filter(([, { of = craft.kind }]) => of === craft.kind);
   const select = field('Action', 'action', { options: known.map(([name, { word }]) => [name, word]) });
-  const fieldsOf = name => [select, ...actions[name].fields(craft, place, time.now_s),
-    utc('From (empty: now)', 'since', NaN, { required: false })];
+  const since = utc('From (empty: now)', 'since', NaN, { required: false });
+  const fieldsOf = name => [select, ...actions[name].fields(craft, place, time.now_s), ...actions[name].isOfItsTime ? [] : [since]];
   select.lastChild.value = chosen;
   select.lastChild.addEventListener('change', event => {
     askFor(fieldsOf(event.target.value));
@@ -69,8 +71,9 @@ export function askAction(spacecraft, craft, time, chosen = 'exclude_channel', p
     path: '/api/v1/actions',
     fields: fieldsOf(chosen),
     body: said => bodyOf(said, spacecraft, time.taiOf),
-    sentence: said => `${actions[said.action].does(said)}, for telemetry of ${spacecraft} from ${
-      said.since ? `${said.since} UTC` : 'now'} on, by ${said.by}. It is stored, and repeated after a restart.`,
+    sentence: said => `${actions[said.action].does(said)}, for telemetry of ${spacecraft}${
+      actions[said.action].isOfItsTime ? '' : ` from ${said.since ? `${said.since} UTC` : 'now'} on`
+    }, by ${said.by}. It is stored, and repeated after a restart.`,
     taken: ({ action_id }, said) => sent.set(action_id, said),
   });
 }
