@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <iterator>
 
@@ -23,7 +24,7 @@ std::string epoch(TaiTime t) {
 Expected<std::vector<EphemerisPoint>> sampled_orbit(const Orbit& orbit, TaiTime from, TaiTime to,
                                                     std::chrono::seconds step) {
   std::vector<EphemerisPoint> points;
-  for (TaiTime t = from;; t += step) {
+  for (TaiTime t = from;; t = std::min<TaiTime>(t + step, to)) {
     const auto state = orbit.at(t);
     if (!state) {
       return Unexpected{state.error()};

@@ -15,7 +15,7 @@
 
 namespace spindrift {
 
-/// States every `step` from `from` on, up to the first at or behind `to`.
+/// States every `step` from `from` on, and at `to`.
 /// @return NoCoverage where the orbit ends before.
 Expected<std::vector<EphemerisPoint>> sampled_orbit(const Orbit& orbit, TaiTime from, TaiTime to,
                                                     std::chrono::seconds step);

@@ -23,7 +23,9 @@ namespace spindrift {
 namespace {
 
 constexpr std::chrono::seconds kOrbitStep{60};
-constexpr std::chrono::minutes kOrbitMargin{10};
+constexpr std::chrono::minutes kOrbitBefore{10};
+// Who takes the pass is warned of an orbit that ends within a day.
+constexpr std::chrono::hours kOrbitBehind{36};
 constexpr std::size_t kBlock = 1U << 20U;
 
 /// In blocks: an orbit file may be larger than memory should hold.
@@ -52,11 +54,15 @@ Expected<void> write_orbit(const std::filesystem::path& path, const Scenario& sc
   if (scenario.oem) {
     return copy_orbit(*scenario.oem, path);
   }
-  const TaiTime start = scenario.start;
-  return sampled_orbit(scenario.orbit, start - kOrbitMargin,
-                       shifted(start, scenario.duration_s) + kOrbitMargin, kOrbitStep)
+  TaiTime from = scenario.start - kOrbitBefore;
+  TaiTime to = shifted(scenario.start, scenario.duration_s) + kOrbitBehind;
+  if (const OrbitEphemeris* const ephemeris = scenario.orbit.ephemeris()) {
+    from = std::max(from, ephemeris->usable_from());
+    to = std::min(to, ephemeris->usable_to());
+  }
+  return sampled_orbit(scenario.orbit, from, to, kOrbitStep)
       .and_then([&](const std::vector<EphemerisPoint>& points) {
-        return write_file(path, oem_text(scenario.spacecraft_id, start, points));
+        return write_file(path, oem_text(scenario.spacecraft_id, scenario.start, points));
       });
 }
 

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "pipelines/core/shown.h"
 #include "pipelines/time/utc.h"
@@ -65,6 +66,40 @@ void check_coverage(TomlDocument& document, const Orbit& orbit, std::optional<Ta
   }
 }
 
+/// The orbit of a pass that begins at `start`, seen from the Earth as at `own_start`.
+Expected<Orbit> moved_orbit(const Orbit& orbit, TaiTime own_start, TaiTime start) {
+  if (orbit.ephemeris() == nullptr) {
+    return orbit.at(own_start)
+        .and_then([&](const OrbitState& state) { return KeplerOrbit::through(start, state); })
+        .map([](const KeplerOrbit& moved) { return Orbit{moved}; });
+  }
+  std::vector<OemSegment> segments = orbit.ephemeris()->segments();
+  for (OemSegment& segment : segments) {
+    segment.usable_from += start - own_start;
+    segment.usable_to += start - own_start;
+    for (EphemerisPoint& point : segment.points) {
+      point.t += start - own_start;
+    }
+  }
+  return OrbitEphemeris::make(std::move(segments)).map([](OrbitEphemeris&& moved) {
+    return Orbit{std::move(moved)};
+  });
+}
+
+/// As the scenario has it, or as it would be were the pass at `start`.
+Expected<MissionOrbit> orbit_at(const TomlDocument& document, std::optional<TaiTime> own_start,
+                                std::optional<TaiTime> start) {
+  return load_orbit(document.values, document.path.parent_path())
+      .and_then([&](MissionOrbit&& loaded) -> Expected<MissionOrbit> {
+        if (!loaded.orbit || !own_start || start == own_start) {
+          return std::move(loaded);
+        }
+        return moved_orbit(*loaded.orbit, *own_start, *start).map([](Orbit&& moved) {
+          return MissionOrbit{.orbit = std::move(moved), .file_sha256 = std::nullopt};
+        });
+      });
+}
+
 std::optional<std::filesystem::path> oem_of(const TomlDocument& document) {
   const auto oem = value_if<std::string>(document.values, "orbit.oem");
   return oem ? std::optional{document.path.parent_path() / *oem} : std::nullopt;
@@ -105,7 +140,7 @@ Expected<Scenario> load_scenario(const std::filesystem::path& path,
   }
   const auto own_start = start_of(*document);
   const auto start = other_start ? other_start : own_start;
-  auto orbit = load_orbit(document->values, path.parent_path());
+  auto orbit = orbit_at(*document, own_start, start);
   if (!orbit) {
     add_problem(*document, orbit_key(document->values), std::move(orbit.error().message));
   } else if (orbit->orbit) {
@@ -117,7 +152,7 @@ Expected<Scenario> load_scenario(const std::filesystem::path& path,
   }
   return Scenario{.spacecraft_id = value_of<std::string>(document->values, "spacecraft.id"),
                   .orbit = std::move(*orbit->orbit),
-                  .oem = oem_of(*document),
+                  .oem = other_start ? std::nullopt : oem_of(*document),
                   .start = *start,
                   .duration_s = number(document->values, "pass.duration_s"),
                   .flight = flight_of(*document, *start),

@@ -20,7 +20,7 @@ namespace spindrift {
 struct Scenario {
   std::string spacecraft_id;
   Orbit orbit;
-  std::optional<std::filesystem::path> oem;  ///< The orbit's file, where it is from one.
+  std::optional<std::filesystem::path> oem;  ///< The orbit's file, where it is as in one.
   TaiTime start;
   double duration_s;
   std::variant<SpinScenario, SeparationScenario> flight;  ///< In the order of SpacecraftKind.
@@ -30,7 +30,9 @@ struct Scenario {
 
 /// Reads a scenario, and the orbit file that it names, by the rules of schemas/scenario.schema.toml
 /// or schemas/separation.schema.toml, and schemas/mission.schema.toml.
-/// @param other_start In the place of the scenario's.
+/// @param other_start In the place of the scenario's. The orbit moves with it: the spacecraft is
+///        where it would have been as long after the scenario's start, in ICRF; the Sun is where it
+///        is then.
 /// @return InvalidConfiguration with every problem, one a line:
 ///         "FILE:LINE: KEY = VALUE: what is allowed"; the line where one is to blame.
 Expected<Scenario> load_scenario(const std::filesystem::path& path,

@@ -206,16 +206,19 @@ void add_simulate(CLI::App& app, Request& request) {
   spindrift::SimulateOptions& options = request.simulate;
   CLI::App& command = *app.add_subcommand("simulate", "Make a pass from a scenario");
   command.add_option("scenario", options.scenario, "Scenario file")->check(check_path)->required();
-  CLI::Option_group& where = *command.add_option_group("Output", "One of these is needed");
+  CLI::Option_group& where = *command.add_option_group("Output", "At least one of these is needed");
   where.add_option("--out", options.out, "Folder to write, made where there is none")
       ->check(check_path);
   CLI::Option* const publish = where.add_flag("--publish", options.publish, "Onto DDS");
-  where.require_option(1);
+  where.require_option(1, 2);
   CLI::Option* const speed =
       command.add_option("--speed", options.speed, "Times real time; 0: as fast as it is taken")
           ->capture_default_str()
           ->needs(publish);
-  command.add_flag("--now", options.now, "Rehearse: the pass begins now, whatever pass.start says")
+  command
+      .add_flag("--now", options.now,
+                "Rehearse: the pass begins now, whatever pass.start says, on its orbit "
+                "seen from the Earth; serve the mission file of --out")
       ->needs(publish)
       ->excludes(speed);
   add_bus_options(command, options.domain, options.partition);

@@ -1,11 +1,15 @@
 #include "services/spindrift/simulate.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "pipelines/core/shown.h"
 #include "services/clock/wall_clock.h"
@@ -30,12 +34,18 @@ nlohmann::json counts_json(const std::vector<Counted>& counts) {
   return object;
 }
 
-void report(const Scenario& scenario, const SimulatedPass& pass, nlohmann::json outcome,
-            const std::string& outcome_text, bool json) {
+/// Where a pass went.
+struct Output {
+  nlohmann::json json = nlohmann::json::object();
+  std::string text;
+};
+
+void report(const Scenario& scenario, const SimulatedPass& pass, Output output, bool json) {
   if (json) {
-    outcome.update(counts_json(pass.made));
-    outcome.update({{"spacecraft", scenario.spacecraft_id}, {"faults", counts_json(pass.faults)}});
-    fmt::print("{}", json_line(with_warnings(outcome)));
+    output.json.update(counts_json(pass.made));
+    output.json.update(
+        {{"spacecraft", scenario.spacecraft_id}, {"faults", counts_json(pass.faults)}});
+    fmt::print("{}", json_line(with_warnings(output.json)));
     return;
   }
   std::vector<std::string> made;
@@ -46,22 +56,23 @@ void report(const Scenario& scenario, const SimulatedPass& pass, nlohmann::json 
   for (const auto& [plural, count] : pass.faults) {
     fmt::print("  {}: {}\n", plural, count);
   }
-  fmt::print("{}", outcome_text);
+  fmt::print("{}", output.text);
 }
 
 Expected<void> to_files(const SimulateOptions& options, const Scenario& scenario,
-                        const SimulatedPass& pass) {
+                        const SimulatedPass& pass, Output& output) {
+  if (options.out.empty()) {
+    return {};
+  }
   const auto paths = write_pass(options.out, scenario, pass);
   if (!paths) {
     return Unexpected{paths.error()};
   }
-  std::vector<std::string> names;
-  std::string lines;
   for (const std::filesystem::path& path : *paths) {
-    names.push_back(path.string());
-    lines += path.string() + '\n';
+    output.json["files"].push_back(path.string());
+    output.text += path.string() + '\n';
   }
-  report(scenario, pass, {{"files", names}}, lines, options.json);
+  spdlog::info("{} is written", shown((options.out / "mission.toml").string()));
   return {};
 }
 
@@ -78,19 +89,21 @@ Expected<void> publish(const Scenario& scenario, const TelemetryValues& values,
 }
 
 Expected<void> to_bus(const SimulateOptions& options, const Scenario& scenario,
-                      const SimulatedPass& pass) {
-  const auto sent = send_telemetry(
-      {.bus = {.domain = options.domain, .partition = options.partition},
-       .source = "simulate",
-       .speed = options.speed,
-       .rehearsal = options.now ? std::optional{Rehearsal::OfThePresent} : std::nullopt,
-       .kinds = pass.kinds},
-      [&](TelemetryOutput& output) { return publish(scenario, pass.telemetry, output); });
-  if (!sent) {
-    return Unexpected{sent.error()};
+                      const SimulatedPass& pass, Output& output) {
+  if (!options.publish) {
+    return {};
   }
-  report(scenario, pass, sent->json("published_"), sent->text() + " published\n", options.json);
-  return {};
+  return send_telemetry(
+             {.bus = {.domain = options.domain, .partition = options.partition},
+              .source = "simulate",
+              .speed = options.speed,
+              .rehearsal = options.now ? std::optional{Rehearsal::OfThePresent} : std::nullopt,
+              .kinds = pass.kinds},
+             [&](TelemetryOutput& bus) { return publish(scenario, pass.telemetry, bus); })
+      .map([&](const PublishedCounts& sent) {
+        output.json.update(sent.json("published_"));
+        output.text += sent.text() + " published\n";
+      });
 }
 
 TaiTime next_second() { return std::chrono::ceil<std::chrono::seconds>(tai_now()); }
@@ -108,7 +121,10 @@ Expected<void> simulate(const SimulateOptions& options) {
     return Unexpected{{pass.error().code, fmt::format("{}: {}", shown(options.scenario.string()),
                                                       pass.error().message)}};
   }
-  return options.publish ? to_bus(options, *scenario, *pass) : to_files(options, *scenario, *pass);
+  Output output;
+  return to_files(options, *scenario, *pass, output)
+      .and_then([&] { return to_bus(options, *scenario, *pass, output); })
+      .map([&] { report(*scenario, *pass, std::move(output), options.json); });
 }
 
 }  // namespace spindrift

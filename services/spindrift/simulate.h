@@ -13,7 +13,7 @@ namespace spindrift {
 
 struct SimulateOptions {
   std::filesystem::path scenario;
-  std::filesystem::path out;  ///< Folder for the files; unless `publish`.
+  std::filesystem::path out;  ///< Folder for the files, written before anything is published.
   bool publish = false;
   double speed = 1.0;  ///< Times real time; 0: as fast as it is taken.
   bool now = false;    ///< The pass is of the present.

@@ -195,7 +195,6 @@ TEST(Simulate, RefusesABadCommandLine) {
   for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{
            {"simulate"},
            {"simulate", kNominal},
-           {"simulate", kNominal, "--out", "x", "--publish"},
            {"simulate", kNominal, "--out", "x", "--speed", "2"},
            {"simulate", kNominal, "--out", "x", "--partition", "replay"},
            {"simulate", kNominal, "--publish", "--speed", "-1"},

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <csignal>
+#include <filesystem>
 #include <string>
 
 #include "pipelines/time/tai_time.h"
@@ -12,6 +14,7 @@
 #include "tests/support/bus_fixture.h"
 #include "tests/support/program.h"
 #include "tests/support/service.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::rehearsal_test {
@@ -64,6 +67,29 @@ TEST_F(Rehearsal, OfASimulatedPassIsOfThePresent) {
   EXPECT_GT(tai_from_ns(last()), before);
   EXPECT_LE(tai_from_ns(last()), tai_now());
   stop(simulate);
+}
+
+TEST(SimulatedRehearsal, GivesTheServiceOfItsMissionFileAnAxis) {
+  const TemporaryFolder folder;
+  const auto mission = folder.path() / "pass" / "mission.toml";
+  const auto db = folder.path() / "served.db";
+  const bus::BusConfig bus = bus_of_its_own();
+  const std::string domain = std::to_string(bus.domain);
+  Program simulate{{"simulate", (scenarios() / "gto-nominal.toml").string(), "--publish", "--now",
+                    "--out", mission.parent_path().string(), "--domain", domain}};
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(mission); })) << simulate.log();
+  Program service{{"serve", "--mission", mission.string(), "--db", db.string(), "--domain", domain,
+                   "--partition", "replay"}};
+  ASSERT_TRUE(service.says("ready")) << service.log();
+  EXPECT_TRUE(eventually([&] {
+    return number_of(db, "SELECT count(*) FROM spin_estimate WHERE quality <> 'DOUBTFUL'") > 0;
+  })) << service.log();
+  EXPECT_EQ(number_of(db, "SELECT count(*) FROM pulse_use WHERE rejected_by = 'no_orbit'"), 0);
+  EXPECT_EQ(number_of(db, "SELECT count(*) FROM alert WHERE key = 'data.outdated:orbit'"), 0);
+  simulate.signal(SIGINT);
+  EXPECT_EQ(simulate.exit_status(), 1);
+  service.signal(SIGTERM);
+  EXPECT_EQ(service.exit_status(), 0);
 }
 
 TEST(RehearsalsCommand, IsAtTheSpeedOfTheClock) {

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <numbers>
 
+#include "pipelines/ephemeris/oem.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/time/utc.h"
@@ -293,11 +295,11 @@ TEST(Scenario, RefusesAnOrbitFileThatEndsTooEarlyAndSaysByHowMuch) {
   const auto pass = simulated_pass(*elements);
   ASSERT_TRUE(pass);
   ASSERT_TRUE(write_pass(folder.path(), *elements, *pass));
-  // From ten minutes before the pass to ten after.
+  // To a day and a half behind the pass.
   const std::string from_file = replaced(kWhole, kOrbit, "[orbit]\noem = \"orbit.oem\"\n");
   EXPECT_TRUE(load_scenario(folder.write("good.toml", from_file)));
   const auto late = load_scenario(
-      folder.write("late.toml", replaced(from_file, "duration_s = 20.0", "duration_s = 1200.0")));
+      folder.write("late.toml", replaced(from_file, "duration_s = 20.0", "duration_s = 130200.0")));
   ASSERT_FALSE(late);
   EXPECT_THAT(late.error().message,
               AllOf(HasSubstr("late.toml:"),
@@ -317,6 +319,35 @@ TEST(Scenario, TakesTheOrbitFileOverAsItIs) {
   ASSERT_TRUE(write_pass(folder.path() / "pass", *scenario, simulated_pass(*scenario).value()));
   EXPECT_EQ(read_text_file(folder.path() / "pass" / "orbit.oem").value(),
             read_text_file(gms5).value());
+}
+
+/// Written for a start that is not the scenario's: by how much the states of the orbit file differ
+/// from those of the scenario, as long after its start, km.
+double moved_by_km(const TemporaryFolder& folder, const std::string& text) {
+  const auto path = folder.write("scenario.toml", text);
+  const Scenario own = load_scenario(path).value();
+  const TaiTime start = own.start + std::chrono::hours{24'000} + std::chrono::milliseconds{1};
+  const Scenario moved = load_scenario(path, start).value();
+  EXPECT_EQ(moved.start, start);
+  EXPECT_TRUE(write_pass(folder.path() / "pass", moved, simulated_pass(moved).value()));
+  const auto written = parse_oem(read_text_file(folder.path() / "pass" / "orbit.oem").value());
+  double most_km = 0.0;
+  for (double t_s = -30.0; t_s <= own.duration_s + 30.0; t_s += 1.0) {
+    const auto was = own.orbit.at(shifted(own.start, t_s)).value();
+    for (const auto& is : {moved.orbit.at(shifted(start, t_s)), written->at(shifted(start, t_s))}) {
+      most_km = std::max(most_km, (is.value().position_icrf_km - was.position_icrf_km).norm());
+    }
+  }
+  return most_km;
+}
+
+TEST(Scenario, MovesItsOrbitWithItsStart) {
+  const TemporaryFolder folder;
+  EXPECT_LT(moved_by_km(folder, kWhole), 1e-6);
+  std::filesystem::copy(recorded_passes() / "gms5" / "orbit.oem", folder.path() / "gms5.oem");
+  EXPECT_LT(moved_by_km(folder, replaced(replaced(kWhole, kOrbit, "[orbit]\noem = \"gms5.oem\"\n"),
+                                         "2026-11-20T03:00:00Z", "1996-02-17T23:30:00Z")),
+            1e-3);
 }
 
 TEST(Scenario, RefusesToSimulateBelowTheHorizon) {
