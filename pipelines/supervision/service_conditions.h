@@ -16,7 +16,7 @@ namespace spindrift {
 
 /// What came of one source of telemetry since the service started.
 struct SourceRecord {
-  std::int64_t missing = 0;   ///< By gaps in its sequence numbers, that last.
+  std::int64_t missing = 0;   ///< By gaps in its sequence numbers, that last; of all spacecraft.
   std::int64_t restarts = 0;  ///< Sessions that it began behind the first.
   std::int64_t repeated = 0;  ///< Samples from before the session that brought them.
 };
@@ -28,7 +28,7 @@ struct ServiceState {
   std::optional<double> silent_s = {};  ///< Since a sample came; empty: some wait to be looked at.
   std::optional<double> late_s = {};    ///< Of the last sample when it came; empty: it is recorded.
   std::map<std::string, SourceRecord> sources = {};
-  std::int64_t received = 0;  ///< Of all sources, since the service started.
+  std::int64_t received = 0;  ///< Of the spacecraft, since the service started.
   std::int64_t rejected = 0;  ///< Of those.
   bool is_twice = false;      ///< Another service publishes results of the spacecraft.
   double backlog_s = 0.0;     ///< How long the oldest sample waits to be committed.

@@ -7,6 +7,9 @@ namespace spindrift {
 
 Arrivals::Arrivals(std::set<std::string, std::less<>> spacecraft, const LastOrigins& stored)
     : ours_{std::move(spacecraft)} {
+  for (const std::string& one : ours_) {
+    by_spacecraft_.emplace(one, SpacecraftCounts{});
+  }
   for (std::size_t kind = 0; kind < stored.size(); ++kind) {
     for (const Origin& last : stored.at(kind)) {
       tracker_.go_on(last, kind);
@@ -19,6 +22,7 @@ std::map<std::string, SequenceCounts> Arrivals::count(const TelemetrySamples& sa
   samples.for_each([this]<class Value>(const SamplesOfKind<Value>& of_kind) {
     for (const TelemetrySample<Value>& sample : of_kind) {
       tracker_.record(sample.origin, sample.spacecraft, kTelemetryKind<Value>);
+      ++by_spacecraft_[sample.spacecraft].received;
     }
   });
   return tracker_.take_changed();
@@ -37,9 +41,9 @@ std::map<std::string, SequenceCounts> Arrivals::by_source() const {
   return tracker_.by_source();
 }
 
-std::uint64_t Arrivals::rejected() const {
+CountsBySpacecraft Arrivals::by_spacecraft() const {
   const std::lock_guard lock{mutex_};
-  return rejected_;
+  return by_spacecraft_;
 }
 
 }  // namespace spindrift

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -20,6 +21,14 @@
 #include "services/telemetry/sample_batch.h"
 
 namespace spindrift {
+
+/// How many samples came of one spacecraft.
+struct SpacecraftCounts {
+  std::uint64_t received = 0;
+  std::uint64_t rejected = 0;  ///< Of those, they could not be true.
+};
+/// By name.
+using CountsBySpacecraft = std::map<std::string, SpacecraftCounts, std::less<>>;
 
 /// From any thread. Its memory is bounded whatever is sent.
 class Arrivals {
@@ -59,8 +68,8 @@ class Arrivals {
   SampleBatch take_rest(TaiTime now);
 
   std::map<std::string, SequenceCounts> by_source() const;
-  /// How many could not be true.
-  std::uint64_t rejected() const;
+  /// Of ours.
+  CountsBySpacecraft by_spacecraft() const;
 
  private:
   /// @return whether it can be true.
@@ -72,7 +81,10 @@ class Arrivals {
     if (sample) {
       return true;
     }
-    ++rejected_;
+    if (const auto of = by_spacecraft_.find(message.spacecraft); of != by_spacecraft_.end()) {
+      ++of->second.received;
+      ++of->second.rejected;
+    }
     if (auto rejected = limit_.pass(rejected_from_idl(origin, sample.error().message), tai_now())) {
       batch.rejected.push_back(*std::move(rejected));
     }
@@ -85,7 +97,7 @@ class Arrivals {
   SequenceTracker tracker_;
   RejectionLimit limit_;
   SampleBatch rest_;
-  std::uint64_t rejected_ = 0;
+  CountsBySpacecraft by_spacecraft_;
 };
 
 }  // namespace spindrift

@@ -150,7 +150,7 @@ Expected<TelemetrySubscriberStatus> TelemetrySubscriber::status() const {
   }
   const std::lock_guard lock{mutex_};
   return TelemetrySubscriberStatus{.by_source = arrivals_->by_source(),
-                                   .rejected = arrivals_->rejected(),
+                                   .by_spacecraft = arrivals_->by_spacecraft(),
                                    .reader = std::move(*reader),
                                    .taking = taking_,
                                    .failure = failure_,

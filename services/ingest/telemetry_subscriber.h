@@ -29,9 +29,9 @@ namespace spindrift {
 
 struct TelemetrySubscriberStatus {
   std::map<std::string, SequenceCounts> by_source;
-  std::uint64_t rejected;    ///< Of those, they could not be true.
-  bus::ReaderStatus reader;  ///< Of all topics together.
-  bool taking;               ///< False: the thread ended, stopped or failed (see `failure`).
+  CountsBySpacecraft by_spacecraft;  ///< Of those with a mission here.
+  bus::ReaderStatus reader;          ///< Of all topics together.
+  bool taking;  ///< False: the thread ended, stopped or failed (see `failure`).
   std::string failure;
   std::uint64_t discarded;  ///< Acknowledged to their writers, but not queued when it stopped.
 };

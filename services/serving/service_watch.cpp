@@ -35,14 +35,6 @@ std::optional<double> free_gib(const std::filesystem::path& db) {
                  : std::optional{static_cast<double>(space.available) / kBytesPerGib};
 }
 
-std::uint64_t received(const TelemetrySubscriberStatus& status) {
-  std::uint64_t sum = 0;
-  for (const auto& [source, counts] : status.by_source) {
-    sum += counts.received;
-  }
-  return sum;
-}
-
 }  // namespace
 
 ServiceWatch::ServiceWatch(const Watched& watched) : watched_{watched} {
@@ -70,7 +62,7 @@ Expected<ServiceWatch::States> ServiceWatch::look(
   if (!others) {
     return Unexpected{others.error()};
   }
-  const ServiceState of_service = state_of_service(status, now);
+  const ServiceState of_service = state_of_service(now);
   States states;
   for (const SpacecraftHealth& link : watched_.links.report(now)) {
     if (link.link == LinkState::Waiting) {
@@ -79,10 +71,10 @@ Expected<ServiceWatch::States> ServiceWatch::look(
     ServiceState state = of_service;
     note_link(link, state);
     state.is_twice = others->contains(link.spacecraft);
-    state.sources = watched_.sessions.report(link.spacecraft);
-    for (const auto& [source, missing] : gaps) {
-      state.sources[source].missing = static_cast<std::int64_t>(missing);
-    }
+    state.sources = watched_.sessions.report(link.spacecraft, gaps);
+    const SpacecraftCounts& counts = status.by_spacecraft.at(link.spacecraft);
+    state.received = static_cast<std::int64_t>(counts.received);
+    state.rejected = static_cast<std::int64_t>(counts.rejected);
     states.emplace(link.spacecraft, std::move(state));
   }
   return states;
@@ -102,7 +94,7 @@ void ServiceWatch::note_time(Instant now) {
   last_ = now;
 }
 
-ServiceState ServiceWatch::state_of_service(const TelemetrySubscriberStatus& status, Instant now) {
+ServiceState ServiceWatch::state_of_service(Instant now) {
   const ArchiveStatistics archive = watched_.archive.statistics();
   const bool failed =
       archive.failure || archive.failures > std::exchange(failures_, archive.failures);
@@ -110,8 +102,6 @@ ServiceState ServiceWatch::state_of_service(const TelemetrySubscriberStatus& sta
           .pass_t = t_,
           .silent_s = std::nullopt,
           .late_s = std::nullopt,
-          .received = static_cast<std::int64_t>(received(status)),
-          .rejected = static_cast<std::int64_t>(status.rejected),
           .backlog_s = backlog_.see(now, watched_.sessions.samples(), archive.samples_committed),
           .write_failed = failed,
           .free_gib = free_gib(watched_.db),

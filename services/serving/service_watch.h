@@ -53,7 +53,7 @@ class ServiceWatch {
   using Instant = std::chrono::steady_clock::time_point;
 
   void note_time(Instant now);
-  ServiceState state_of_service(const TelemetrySubscriberStatus& status, Instant now);
+  ServiceState state_of_service(Instant now);
   void note_link(const SpacecraftHealth& link, ServiceState& state) const;
 
   Watched watched_;

@@ -61,12 +61,16 @@ SessionWatch::Source* SessionWatch::source_of(Spacecraft& spacecraft, const Orig
   return &source;
 }
 
-std::map<std::string, SourceRecord> SessionWatch::report(const std::string& spacecraft) const {
+std::map<std::string, SourceRecord> SessionWatch::report(
+    const std::string& spacecraft, const std::map<std::string, std::uint64_t>& missing) const {
   const std::lock_guard lock{mutex_};
   std::map<std::string, SourceRecord> records;
   if (const auto one = spacecraft_.find(spacecraft); one != spacecraft_.end()) {
     for (const auto& [name, source] : one->second.sources) {
-      records.emplace(name, source.record);
+      SourceRecord& record = records.emplace(name, source.record).first->second;
+      if (const auto gap = missing.find(name); source.session && gap != missing.end()) {
+        record.missing = static_cast<std::int64_t>(gap->second);
+      }
     }
   }
   return records;

@@ -33,8 +33,11 @@ class SessionWatch {
   /// The samples of `batch`, in their order.
   void note(const ArchiveBatch& batch);
 
-  /// Of a spacecraft, by source; their gaps are not known here.
-  std::map<std::string, SourceRecord> report(const std::string& spacecraft) const;
+  /// Of a spacecraft, by source.
+  /// @param missing By source, of all spacecraft: nobody can say of which of those that it brings.
+  std::map<std::string, SourceRecord> report(
+      const std::string& spacecraft,
+      const std::map<std::string, std::uint64_t>& missing = {}) const;
 
   /// All that were noted.
   std::uint64_t samples() const;
@@ -42,8 +45,8 @@ class SessionWatch {
  private:
   struct Source {
     std::set<std::uint64_t> sessions;
-    std::uint64_t session = 0;      ///< The one that was heard last.
-    std::optional<TaiTime> before;  ///< The newest sample when it began, if it began here.
+    std::optional<std::uint64_t> session;  ///< The one that was heard last; empty: none since.
+    std::optional<TaiTime> before;         ///< The newest sample when it began, if it began here.
     SourceRecord record;
   };
   struct Spacecraft {

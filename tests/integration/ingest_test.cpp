@@ -354,6 +354,24 @@ TEST(TelemetrySubscriber, PassesOnWhatCannotBeTrueAsRejected) {
   EXPECT_THAT(arrived.rejected[0].reason, HasSubstr("t_tai_ns = -1"));
 }
 
+TEST(TelemetrySubscriber, CountsWhatCannotBeTrueOfItsSpacecraftOnly) {
+  Station station{bus_of_its_own()};
+  const auto writer = pulse_writer(station.participant());
+  std::string other = "OTHER";
+  for (std::uint64_t seq = 0; seq < 6; ++seq) {
+    spindrift_Pulse pulse = idl_pulse(seq);
+    pulse.spacecraft = seq < 3 ? other.data() : pulse.spacecraft;
+    pulse.t_tai_ns = seq % 3 == 0 ? -1 : pulse.t_tai_ns;
+    ASSERT_TRUE(writer.write(pulse));
+  }
+  ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 6; }));
+  const auto counts = station.status().by_spacecraft;
+  ASSERT_EQ(counts.size(), 1U);
+  EXPECT_EQ(counts.at("SPINNER").received, 3U);
+  EXPECT_EQ(counts.at("SPINNER").rejected, 1U);
+  EXPECT_EQ(station.finish().rejected.size(), 2U);
+}
+
 TEST(TelemetrySubscriber, CountsGapsDuplicatesAndDisorderAndPassesAllOn) {
   Station station{bus_of_its_own()};
   const auto writer = pulse_writer(station.participant());

@@ -42,6 +42,18 @@ TEST(SessionWatch, DoesNotTakeTwoThatSendTheSameForRepetition) {
   EXPECT_EQ(sessions.report("SPINNER").at("front-end").restarts, 0);
 }
 
+TEST(SessionWatch, TellsOfAGapTheSpacecraftThatTheSourceBrings) {
+  SessionWatch sessions;
+  LastOrigins origins;
+  origins[kTelemetryKind<Pulse>] = {{.source = "front-end", .session = 1, .seq = 9}};
+  sessions.go_on("OTHER", origins, at(9.0));
+  sessions.note(batch("front-end", 1, 0.0, 10));
+  const std::map<std::string, std::uint64_t> missing{{"front-end", 3}, {"of-others", 5}};
+  EXPECT_EQ(sessions.report("SPINNER", missing).size(), 1U);
+  EXPECT_EQ(sessions.report("SPINNER", missing).at("front-end").missing, 3);
+  EXPECT_EQ(sessions.report("OTHER", missing).at("front-end").missing, 0);
+}
+
 TEST(SessionWatch, KnowsTheSessionsOfBeforeARestart) {
   SessionWatch sessions;
   LastOrigins origins;
