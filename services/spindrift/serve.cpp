@@ -88,13 +88,15 @@ KnownSpacecraft kinds_of(const std::vector<Mission>& missions) {
   return known;
 }
 
-std::string service_name() {
+std::string host_name() {
   std::array<char, 48> host{};
   if (::gethostname(host.data(), host.size() - 1) != 0) {
     host = {"unknown"};
   }
-  return fmt::format("spindrift {}:{}", host.data(), ::getpid());
+  return host.data();
 }
+
+std::string service_name() { return fmt::format("spindrift {}:{}", host_name(), ::getpid()); }
 
 Expected<Told> listen(const bus::Participant& participant) {
   return OtherServices::create(participant, service_name()).and_then([&](OtherServices&& others) {
@@ -166,7 +168,8 @@ Expected<std::unique_ptr<Webhook>> start_webhook(const ServeOptions& options,
     spdlog::info("a rehearsal: nothing is told to {}", shown(options.webhook));
     return nullptr;
   }
-  return Webhook::start(options.webhook, desk, service_name());
+  return Webhook::start(options.webhook, desk,
+                        fmt::format("spindrift {} {}", host_name(), options.partition));
 }
 
 void note_faults(std::span<const ArchiveBatch> stored, Problems& problems) {

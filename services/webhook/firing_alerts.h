@@ -23,7 +23,7 @@ class FiringAlerts {
   /// An alert that is not told again for so long has ended.
   static constexpr std::chrono::minutes kEndsAfter{4};
 
-  /// @param service Its name: a label.
+  /// @param service Its name, the same after a restart: a label.
   explicit FiringAlerts(std::string service) : service_{std::move(service)} {}
 
   /// @param open All open alerts. @return an array for POST /api/v2/alerts; empty: nothing is due.

@@ -18,7 +18,8 @@ namespace spindrift {
 class Webhook {
  public:
   /// @param url "http://127.0.0.1:9093/api/v2/alerts". @param desk Outlives it.
-  /// @param service As in the health.
+  /// @param service Its name, the same after a restart: an Alertmanager takes an alert with other
+  ///        labels for another one.
   /// @return InvalidConfiguration for what is no http or https URL.
   static Expected<std::unique_ptr<Webhook>> start(const std::string& url, const AlertDesk& desk,
                                                   const std::string& service);

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -134,6 +135,32 @@ TEST(Webhook, IsToldOfTheAlertsOfALiveService) {
   EXPECT_TRUE(eventually([&] { return tells_off_target(receiver); })) << told.service.log();
   told.service.signal(SIGTERM);
   EXPECT_EQ(told.service.exit_status(), 0);
+}
+
+std::set<nlohmann::json> labels_of_off_target(const Receiver& receiver) {
+  std::set<nlohmann::json> labels;
+  for (const nlohmann::json& alert : receiver.alerts()) {
+    if (alert["labels"]["alertname"] == "spin.off_target") {
+      labels.insert(alert["labels"]);
+    }
+  }
+  return labels;
+}
+
+TEST(Webhook, IsToldTheSameLabelsAfterARestart) {
+  const Receiver first;
+  Told told{first.url(), "live"};
+  ASSERT_TRUE(told.service.says("ready")) << told.service.log();
+  told.send_pass();
+  ASSERT_TRUE(eventually([&] { return tells_off_target(first); })) << told.service.log();
+  told.service.signal(SIGKILL);
+  static_cast<void>(told.service.exit_status());
+
+  const Receiver second;
+  Program again{told.arguments(second.url(), "live")};
+  EXPECT_TRUE(eventually([&] { return tells_off_target(second); })) << again.log();
+  EXPECT_EQ(labels_of_off_target(first).size(), 1U);
+  EXPECT_EQ(labels_of_off_target(second), labels_of_off_target(first));
 }
 
 TEST(Webhook, IsToldNothingOfARehearsal) {
