@@ -162,8 +162,8 @@ ArchiveStatistics Archive::statistics() const {
   return {.rows_committed = rows_committed_,
           .samples_committed = samples_committed_,
           .queued_batches = queue_.size(),
-          .commit_p50_ms = commit_durations_.percentile_ms(50),
           .commit_p99_ms = commit_durations_.percentile_ms(99),
+          .commits = commits_,
           .failure = failure_,
           .failures = failures_};
 }
@@ -309,6 +309,7 @@ void Archive::note_success(std::span<const ArchiveBatch> batches, double duratio
     const std::lock_guard lock{mutex_};
     if (!batches.empty()) {
       commit_durations_.add(duration_ms);
+      commits_.add(duration_ms * 1e-3);
     }
     rows_committed_ += row_count(batches);
     for (const ArchiveBatch& batch : batches) {

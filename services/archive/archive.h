@@ -22,6 +22,7 @@
 #include "services/archive/records.h"
 #include "services/archive/store.h"
 #include "services/archive/write_lock.h"
+#include "services/clock/duration_histogram.h"
 
 namespace spindrift {
 
@@ -51,8 +52,8 @@ struct ArchiveStatistics {
   std::uint64_t rows_committed = 0;     ///< As submitted: a pulse that was stored before counts.
   std::uint64_t samples_committed = 0;  ///< The samples of telemetry among them.
   std::size_t queued_batches = 0;
-  std::optional<double> commit_p50_ms;
   std::optional<double> commit_p99_ms;  ///< Whole transactions, the last 1000 of them.
+  DurationHistogram commits = {};       ///< All of them.
   std::optional<Error> failure;         ///< Writing fails at present, or failed and stopped.
   std::uint64_t failures = 0;           ///< Writes that failed.
 };
@@ -143,6 +144,7 @@ class Archive {
   std::uint64_t failures_ = 0;
   std::size_t rows_lost_ = 0;
   RecentDurations commit_durations_;
+  DurationHistogram commits_;
 
   std::thread writer_;
 };

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -77,6 +78,8 @@ struct ArchiveBatch {
   std::vector<Product> products = {};
   std::vector<SourceCount> source_counts = {};
   std::optional<std::string> finished_utc = {};  ///< ISO 8601, ending in Z.
+  /// Not stored: when the last sample came that the products rest on. Empty: they waited for none.
+  std::optional<std::chrono::steady_clock::time_point> came = {};
 };
 
 /// Rows that `batch` asks for, those the archive already holds included.

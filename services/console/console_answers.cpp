@@ -100,7 +100,8 @@ void ConsoleAnswers::add_api() {
   gets_["/healthz"] = [this](const auto&, const auto&, const auto&) { return health(); };
   gets_["/metrics"] = [this](const auto&, const auto&, const ViewerCounts& viewers) {
     return answer(http::status::ok, "text/plain; version=0.0.4; charset=utf-8",
-                  metrics_text(service_.feed.state(), service_.archive.statistics(), viewers));
+                  metrics_text(service_.feed.state(), service_.archive.statistics(),
+                               service_.feed.latencies(), viewers));
   };
   gets_["/api/v1/state"] = [this](const auto&, const auto&, const auto&) {
     return json_answer(http::status::ok, service_.feed.state());

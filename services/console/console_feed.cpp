@@ -146,6 +146,16 @@ void ConsoleFeed::tell_pulses() {
   }
 }
 
+void ConsoleFeed::note_latency(std::chrono::duration<double> latency) {
+  const std::lock_guard lock{mutex_};
+  latencies_.add(latency.count());
+}
+
+DurationHistogram ConsoleFeed::latencies() const {
+  const std::lock_guard lock{mutex_};
+  return latencies_;
+}
+
 nlohmann::json ConsoleFeed::state() {
   const std::lock_guard lock{mutex_};
   return state_now();

@@ -15,6 +15,7 @@
 
 #include "services/alerts/stored_alerts.h"
 #include "services/archive/records.h"
+#include "services/clock/duration_histogram.h"
 #include "services/console/event_ring.h"
 #include "services/console/shown_spacecraft.h"
 #include "services/mission/mission.h"
@@ -42,6 +43,8 @@ class ConsoleFeed {
   void put(const std::string& spacecraft, const std::string& run_id, const PassVerdict& verdict);
   /// Where the axis of a spinner should be.
   void put(const std::string& spacecraft, const SpinTarget& target);
+  /// From the arrival of the last sample that a result rests on to its announcement.
+  void note_latency(std::chrono::duration<double> latency);
   /// @}
 
   /// @name Of the console
@@ -51,6 +54,7 @@ class ConsoleFeed {
   void tell_pulses();
 
   nlohmann::json state();
+  DurationHistogram latencies() const;
   /// Why the service takes or stores nothing; empty: it does.
   std::string trouble() const;
   /// Of a spacecraft. Empty: none yet. @return nothing where there is no such spacecraft.
@@ -78,6 +82,7 @@ class ConsoleFeed {
   /// Open ones, by spacecraft and key: of a key one is open at most.
   std::map<std::pair<std::string, std::string>, nlohmann::json> alerts_;
   std::string trouble_;
+  DurationHistogram latencies_;
   std::optional<std::chrono::steady_clock::time_point> last_health_;
   EventRing ring_;
 };

@@ -28,6 +28,17 @@ class Family {
     family_.metric.push_back(std::move(metric));
     return *this;
   }
+  Family& add(const DurationHistogram& durations) {
+    ClientMetric metric;
+    metric.histogram.sample_count = durations.count();
+    metric.histogram.sample_sum = durations.sum_s();
+    for (std::size_t i = 0; i < DurationHistogram::kBounds_s.size(); ++i) {
+      metric.histogram.bucket.push_back({.cumulative_count = durations.counts().at(i),
+                                         .upper_bound = DurationHistogram::kBounds_s.at(i)});
+    }
+    family_.metric.push_back(std::move(metric));
+    return *this;
+  }
   /// A number of `object`, if it has it.
   Family& add(const nlohmann::json& object, const char* member, Labels labels = {}) {
     if (const auto value = object.find(member); value != object.end() && value->is_number()) {
@@ -74,12 +85,9 @@ void add_service(const nlohmann::json& service, std::vector<MetricFamily>& all) 
 }
 
 void add_archive(const ArchiveStatistics& archive, std::vector<MetricFamily>& all) {
-  Family commit{"commit_seconds", "How long the last 1000 commits took"};
-  if (archive.commit_p50_ms && archive.commit_p99_ms) {
-    commit.add(*archive.commit_p50_ms * 1e-3, {{"quantile", "0.5"}})
-        .add(*archive.commit_p99_ms * 1e-3, {{"quantile", "0.99"}});
-  }
-  commit.put_into(all);
+  Family{"commit_seconds", "How long commits took", MetricType::Histogram}
+      .add(archive.commits)
+      .put_into(all);
   Family{"rows_committed_total", "Rows that are stored", MetricType::Counter}
       .add(static_cast<double>(archive.rows_committed))
       .put_into(all);
@@ -121,10 +129,15 @@ void add_alerts(const nlohmann::json& alerts, std::vector<MetricFamily>& all) {
 }  // namespace
 
 std::string metrics_text(const nlohmann::json& state, const ArchiveStatistics& archive,
-                         const ViewerCounts& viewers) {
+                         const DurationHistogram& latencies, const ViewerCounts& viewers) {
   std::vector<MetricFamily> all;
   add_service(state.at("service"), all);
   add_archive(archive, all);
+  Family{"latency_seconds",
+         "From the arrival of the last sample that a result rests on to its announcement",
+         MetricType::Histogram}
+      .add(latencies)
+      .put_into(all);
   add_spacecraft(state.at("spacecraft"), all);
   add_alerts(state.at("alerts"), all);
   Family{"viewers", "Who watches the console"}

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "services/archive/archive.h"
+#include "services/clock/duration_histogram.h"
 
 namespace spindrift {
 
@@ -16,8 +17,9 @@ struct ViewerCounts {
   std::uint64_t dropped = 0;  ///< They took nothing any more.
 };
 
-/// In the text format. @param state As in /api/v1/state. What is not known yet is left out.
+/// In the text format. What is not known yet is left out.
+/// @param state As in /api/v1/state. @param latencies Of results.
 std::string metrics_text(const nlohmann::json& state, const ArchiveStatistics& archive,
-                         const ViewerCounts& viewers);
+                         const DurationHistogram& latencies, const ViewerCounts& viewers);
 
 }  // namespace spindrift

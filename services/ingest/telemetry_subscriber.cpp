@@ -266,6 +266,7 @@ Expected<void> TelemetrySubscriber::hand_over_rest(TaiTime now) {
 
 Expected<void> TelemetrySubscriber::push(SampleBatch batch) {
   const std::size_t samples = count_of(batch.samples);
+  batch.came = std::chrono::steady_clock::now();
   if (!queue_.push(std::move(batch))) {
     const std::lock_guard lock{mutex_};
     discarded_ += samples;

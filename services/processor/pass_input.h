@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,8 @@ struct PassInput {
   TelemetryValues values = {};               ///< `arrival`: the place of each among all in here.
   std::vector<OperatorAction> actions = {};  ///< Likewise, in a place of their own.
   std::vector<std::int64_t> silences = {};   ///< Each before what has that place.
+  /// When the last of it came. Empty: it came before a restart, or nothing came that made it due.
+  std::optional<std::chrono::steady_clock::time_point> came = {};
 };
 
 inline std::size_t sample_count(const PassInput& input) { return count_of(input.values); }

@@ -3,9 +3,11 @@
 
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,7 +19,8 @@ namespace spindrift {
 struct Announcement {
   std::string spacecraft;
   std::string run_id;
-  Product product;  ///< Of a kind that is announced.
+  Product product;                                                 ///< Of a kind that is announced.
+  std::optional<std::chrono::steady_clock::time_point> came = {};  ///< As in ArchiveBatch.
 };
 
 /// Any thread adds, one takes. Beyond kMaxWaiting only the latest of each instance on the bus is
@@ -26,9 +29,10 @@ class Announcements {
  public:
   static constexpr std::size_t kMaxWaiting = 4096;
 
-  /// Those of `products` that are announced.
+  /// Those of `products` that are announced. @param came As in ArchiveBatch.
   void add(const std::string& spacecraft, const std::string& run_id,
-           std::span<const Product> products);
+           std::span<const Product> products,
+           std::optional<std::chrono::steady_clock::time_point> came = {});
 
   /// Waits for at least one and takes all, those of a spacecraft and kind in the order they came;
   /// empty only when closed and drained.

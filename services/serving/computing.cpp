@@ -1,6 +1,7 @@
 #include "services/serving/computing.h"
 
 #include <utility>
+#include <vector>
 
 #include "services/archive/submit_all.h"
 
@@ -42,8 +43,14 @@ Expected<void> Computing::work_off() {
 Expected<void> Computing::compute(const PassInput& input) {
   if (patience_.ended) {
     samples_left_ += sample_count(input);
-  } else if (auto stored = submit_all(archive_, processor_.compute(input)); !stored) {
-    return stored;
+  } else {
+    std::vector<ArchiveBatch> batches = processor_.compute(input);
+    for (ArchiveBatch& batch : batches) {
+      batch.came = input.came;
+    }
+    if (auto stored = submit_all(archive_, std::move(batches)); !stored) {
+      return stored;
+    }
   }
   for (BackgroundTask& task : processor_.take_background_tasks(input)) {
     tasks_.push(std::move(task));

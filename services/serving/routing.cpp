@@ -40,9 +40,13 @@ Routed next_routed(BoundedQueue<SampleBatch>& taken, Processor& processor, Heard
                                                   : std::max(next_silence, next_decision);
   auto batch = next ? taken.take_until(*next) : taken.take();
   const Moment moment = moment_of(processor);
+  const auto came = batch ? batch->came : std::nullopt;
   Routed routed = batch ? processor.route(std::move(*batch), moment)
                         : processor.fall_silent(silences.take_silent(moment.now), moment);
   note_arrivals(routed.samples, heard, silences);
+  for (PassInput& input : routed.work) {
+    input.came = came;
+  }
   return routed;
 }
 

@@ -65,9 +65,10 @@ void Announcer::committed(std::span<const ArchiveBatch> batches) {
     }
     if (const auto before = announced_before_.find(batch.run_id);
         before == announced_before_.end()) {
-      waiting_.add(batch.spacecraft_id, batch.run_id, batch.products);
+      waiting_.add(batch.spacecraft_id, batch.run_id, batch.products, batch.came);
     } else {
-      waiting_.add(batch.spacecraft_id, batch.run_id, news(batch.products, before->second));
+      waiting_.add(batch.spacecraft_id, batch.run_id, news(batch.products, before->second),
+                   batch.came);
     }
   }
 }
@@ -88,6 +89,9 @@ void Announcer::run() {
       }
       if (const auto* const alert = std::get_if<Alert>(&result.product)) {
         terminal_.tell(result.spacecraft, result.run_id, *alert);
+      }
+      if (feed_ != nullptr && result.came) {
+        feed_->note_latency(std::chrono::steady_clock::now() - *result.came);
       }
       if (const auto* const one = std::get_if<ReconstructionProduct>(&result.product)) {
         spdlog::info("{}: separation reconstructed: {}", result.spacecraft, to_text(*one));

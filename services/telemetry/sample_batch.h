@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,8 @@ struct SampleBatch {
   OtherSpacecraft others = {};
   /// Of the sources in it, from the start up to and including this batch. Empty for a file.
   std::map<std::string, SequenceCounts> counts = {};
+  /// From the bus: when it was queued.
+  std::optional<std::chrono::steady_clock::time_point> came = {};
 };
 
 /// Samples, actions and rejected input.

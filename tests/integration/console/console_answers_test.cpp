@@ -194,8 +194,17 @@ TEST_F(ConsoleAnswers, MetricsForPrometheus) {
   EXPECT_THAT(reply.body(), HasSubstr("# TYPE spindrift_viewers gauge\nspindrift_viewers 0"));
   EXPECT_THAT(reply.body(), HasSubstr("spindrift_alert{spacecraft=\"SPINNER\",key=\"spin.sigma\","
                                       "severity=\"warning\",state=\"active\"} 1"));
-  EXPECT_THAT(reply.body(), HasSubstr("spindrift_commit_seconds{quantile=\"0.99\"}"));
+  EXPECT_THAT(reply.body(), HasSubstr("spindrift_commit_seconds_bucket{le=\"+Inf\"}"));
   EXPECT_THAT(reply.body(), HasSubstr("spindrift_viewers_dropped_total 0"));
+  EXPECT_THAT(reply.body(), HasSubstr("# TYPE spindrift_latency_seconds histogram\n"));
+  EXPECT_THAT(reply.body(), HasSubstr("spindrift_latency_seconds_count 0\n"));
+  feed_.note_latency(std::chrono::milliseconds{30});
+  feed_.note_latency(std::chrono::seconds{20});
+  const std::string later = client_->get("/metrics").body();
+  EXPECT_THAT(later, HasSubstr("spindrift_latency_seconds_bucket{le=\"0.02\"} 0\n"));
+  EXPECT_THAT(later, HasSubstr("spindrift_latency_seconds_bucket{le=\"0.05\"} 1\n"));
+  EXPECT_THAT(later, HasSubstr("spindrift_latency_seconds_bucket{le=\"+Inf\"} 2\n"));
+  EXPECT_THAT(later, HasSubstr("spindrift_latency_seconds_sum 20.03\n"));
 }
 
 TEST_F(ConsoleAnswers, TakesAnActionOfWhoeverHasTheToken) {
