@@ -19,7 +19,7 @@ struct SpacecraftHealth {
   std::string spacecraft;
   LinkState link;  ///< Waiting: nothing has come yet, which is not known to be good or bad.
   std::optional<TaiTime> last_sample = {};  ///< Telemetry time of the one that came last.
-  std::optional<double> data_age_s = {};    ///< Since it came.
+  std::optional<double> data_age_s = {};    ///< Since it came; empty: none has since the start.
   PassVerdict verdict = {};                 ///< Of the run in force.
 };
 

@@ -28,12 +28,15 @@ class LinkWatch {
   /// A sample with telemetry time `t` came. One of another spacecraft is not looked at.
   void note(const std::string& spacecraft, TaiTime t, Instant now);
 
+  /// After a restart: its telemetry had come to `t`, and nobody knows when.
+  void go_on(const std::string& spacecraft, TaiTime t);
+
   std::vector<SpacecraftHealth> report(Instant now) const;
 
  private:
   struct Last {
     TaiTime t;
-    Instant came;
+    std::optional<Instant> came;  ///< Empty: before a restart.
   };
   mutable std::mutex mutex_;
   std::map<std::string, std::optional<Last>> last_;

@@ -140,8 +140,7 @@ Expected<void> how_taking_ended(const TelemetrySubscriber& subscriber) {
 }
 
 /// What was stored before a restart, for those who watch what comes.
-void note_stored(const GoneOn& gone_on, const Processor& processor, SessionWatch& sessions,
-                 AlertDesk& desk) {
+void note_stored(const GoneOn& gone_on, const Processor& processor, Heard& heard, AlertDesk& desk) {
   const auto spacecraft = processor.spacecraft();
   std::map<std::string, TaiTime> newest;
   for (const PassInput& input : gone_on.routed.work) {
@@ -155,7 +154,8 @@ void note_stored(const GoneOn& gone_on, const Processor& processor, SessionWatch
     desk.go_on(id, input.run_id, input.values);
   }
   for (const auto& [id, t] : newest) {
-    sessions.go_on(id, gone_on.last_origins, t);
+    heard.sessions.go_on(id, gone_on.last_origins, t);
+    heard.links.go_on(id, t);
   }
 }
 
@@ -172,7 +172,7 @@ Expected<void> run_service(GoneOn gone_on, const ServiceParts& parts) {
   }
   TelemetrySubscriber& subscriber = **started;
   Heard heard{.links = LinkWatch{spacecraft}, .sessions = {}};
-  note_stored(gone_on, parts.processor, heard.sessions, parts.desk);
+  note_stored(gone_on, parts.processor, heard, parts.desk);
   Patience patience;
   parts.stop_signal.on_stop([&] {
     tell_manager_stopping();

@@ -65,8 +65,8 @@ Expected<ServiceWatch::States> ServiceWatch::look(
   const ServiceState of_service = state_of_service(now);
   States states;
   for (const SpacecraftHealth& link : watched_.links.report(now)) {
-    if (link.link == LinkState::Waiting) {
-      continue;
+    if (!link.data_age_s) {
+      continue;  // Nothing has come since the start.
     }
     ServiceState state = of_service;
     note_link(link, state);

@@ -42,7 +42,8 @@ class ServiceWatch {
 
   using States = std::map<std::string, ServiceState>;
   /// @param gaps Lasting ones, by source.
-  /// @return by spacecraft, of those of which telemetry has come; Unavailable when Cyclone refuses.
+  /// @return by spacecraft, of those of which telemetry has come since the start; Unavailable when
+  /// Cyclone refuses.
   Expected<States> look(const TelemetrySubscriberStatus& status,
                         const std::map<std::string, std::uint64_t>& gaps);
 

@@ -5,6 +5,7 @@
 #include <spindrift.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <map>
@@ -56,6 +57,36 @@ TEST(Serve, LeavesAWholeArchiveWhenKilled) {
                       "SELECT count(*) FROM pulse_use LEFT JOIN pulse USING"
                       " (spacecraft_id, t_tai_ns, channel) WHERE pulse.t_tai_ns IS NULL"),
             0);
+}
+
+TEST(Serve, TellsAfterARestartHowFarTelemetryHadCome) {
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    Service service{"nominal"};
+    ASSERT_TRUE(service.ready()) << service.program().log();
+    ASSERT_TRUE((FrontEnd{service.bus(), "SPINNER", pulses_of("nominal")}.send_until(0.1)));
+    ASSERT_TRUE(
+        eventually([&] { return number_of(service.db(), "SELECT count(*) FROM pulse") == 360; }));
+    service.program().signal(signal);
+    static_cast<void>(service.program().exit_status());
+    service.start();
+    ASSERT_TRUE(service.ready()) << service.program().log();
+
+    const auto participant = bus::Participant::create(service.bus()).value();
+    const auto health =
+        bus::Reader<spindrift_Health>::create(participant, bus::kHealthTopic, bus::results_qos())
+            .value();
+    std::vector<spindrift_SpacecraftHealth> links;
+    ASSERT_TRUE(eventually([&] {
+      health
+          .take([&](const spindrift_Health& beat) { links.push_back(beat.spacecraft._buffer[0]); })
+          .value();
+      return !links.empty();
+    }));
+    EXPECT_EQ(links.back().link, spindrift_LINK_STALE);
+    EXPECT_EQ(links.back().last_sample_tai_ns,
+              number_of(service.db(), "SELECT max(t_tai_ns) FROM pulse"));
+    EXPECT_TRUE(std::isnan(links.back().data_age_s));
+  }
 }
 
 /// As they would be sent, but that every 97th comes 50 later: late by seconds, or within the

@@ -35,6 +35,17 @@ TEST(LinkWatch, IsStaleAfterSilenceAndLiveAgainWithTheNextSample) {
   EXPECT_EQ(links.report(later).at(1).link, LinkState::Live);
 }
 
+TEST(LinkWatch, IsStaleAfterARestartUntilTheNextSample) {
+  LinkWatch links{{"SPINNER"}};
+  links.go_on("SPINNER", kT);
+  const auto stored = links.report(kCame).at(0);
+  EXPECT_EQ(stored.link, LinkState::Stale);
+  EXPECT_EQ(stored.last_sample, kT);
+  EXPECT_FALSE(stored.data_age_s);
+  links.note("SPINNER", kT, kCame);
+  EXPECT_EQ(links.report(kCame).at(0).link, LinkState::Live);
+}
+
 TEST(LinkWatch, DoesNotLookAtOtherSpacecraft) {
   LinkWatch links{{"SPINNER"}};
   links.note("OTHER", kT, kCame);
