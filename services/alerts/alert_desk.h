@@ -34,6 +34,9 @@ class AlertDesk {
   /// Supervises nothing: alerts that are taken up may be changed.
   AlertDesk() = default;
 
+  /// Of the runs it sees.
+  RunMode mode() const { return mode_; }
+
   /// An alert of before, as the archive has it, in the order in which they were raised.
   void take_up(const std::string& spacecraft, const std::string& run_id, const Alert& alert);
 

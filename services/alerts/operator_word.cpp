@@ -7,6 +7,9 @@
 namespace spindrift {
 
 Expected<ArchiveBatch> take_word(const OperatorWord& word, AlertDesk& desk, Archive& archive) {
+  if (word.by.empty()) {
+    return Unexpected{{ErrorCode::InvalidInput, "by: must be a text, not empty: who says so"}};
+  }
   const TaiTime now = tai_now();
   auto batch = word.minutes > 0
                    ? desk.shelve(word.alert_id, now, now + std::chrono::minutes{word.minutes},

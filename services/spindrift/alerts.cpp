@@ -24,6 +24,7 @@
 #include "services/requests/request_client.h"
 #include "services/serving/stop_signal.h"
 #include "services/spindrift/outcome.h"
+#include "services/standard_error/warning.h"
 #include "services/words/json_line.h"
 
 namespace spindrift {
@@ -31,11 +32,18 @@ namespace {
 
 constexpr std::chrono::milliseconds kPoll{100};
 
+/// A service neither shows nor changes those of a run of another mode than its own.
 std::string to_text(const StoredAlert& stored) {
   const Alert& alert = stored.alert;
-  return fmt::format("{} {} {} {} {} since {}: {}\n", alert.alert_id, stored.spacecraft,
+  return fmt::format("{} {} {} {} {} since {}, {} run: {}\n", alert.alert_id, stored.spacecraft,
                      name_of(alert.severity), name_of(alert.state), alert.key,
-                     format_utc(alert.raised), alert.message);
+                     format_utc(alert.raised), name_of(stored.mode), alert.message);
+}
+
+nlohmann::json json_of(const StoredAlert& stored) {
+  nlohmann::json object = alert_json(stored.spacecraft, stored.run_id, stored.alert);
+  object["mode"] = name_of(stored.mode);
+  return object;
 }
 
 /// Whose revision is another one than was told. @param first Of those that are over nothing is.
@@ -46,19 +54,38 @@ void tell_changes(const std::vector<StoredAlert>& alerts, bool json, bool first,
     std::int64_t& before = told.try_emplace(stored.alert.alert_id, 0).first->second;
     const bool is_over = first && stored.alert.state == AlertState::Cleared;
     if (std::exchange(before, revision) != revision && !is_over) {
-      fmt::print("{}", json ? json_line(alert_json(stored.spacecraft, stored.run_id, stored.alert))
-                            : to_text(stored));
+      fmt::print("{}", json ? json_line(json_of(stored)) : to_text(stored));
     }
   }
 }
 
-std::string done_text(const ArchiveBatch& batch) {
-  const Alert& alert = std::get<Alert>(batch.products.front());
-  return fmt::format("{} {} {}\n", alert.alert_id, alert.key, name_of(alert.state));
+nlohmann::json changed_json(const ArchiveBatch& batch) {
+  return alert_json(batch.spacecraft_id, batch.run_id, std::get<Alert>(batch.products.front()));
+}
+
+void print_changed(const nlohmann::json& alert, bool json) {
+  fmt::print("{}", json ? json_line(with_warnings(alert))
+                        : fmt::format("{} {} {}\n", alert.value("alert_id", ""),
+                                      alert.value("key", ""), alert.value("state", "")));
+}
+
+/// Of the service that holds the archive. What it refuses may be in the archive all the same.
+std::string why_refused(const AlertsOptions& options, const nlohmann::json& answer) {
+  const std::string mode = answer.value("mode", "");
+  for (const StoredAlert& stored : find_alerts(options.db).value_or(std::vector<StoredAlert>{})) {
+    if (stored.alert.alert_id == options.alert_id && stored.alert.state != AlertState::Cleared &&
+        name_of(stored.mode) != mode) {
+      return fmt::format(
+          "alert '{}' is of a {} run, and a service that runs {} holds the archive: say it again "
+          "when that has ended",
+          options.alert_id, name_of(stored.mode), mode);
+    }
+  }
+  return answer.value("error", "");
 }
 
 /// Holds the archive before it looks, so that nobody else's word comes between.
-Expected<std::string> changed_here(const AlertsOptions& options) {
+Expected<nlohmann::json> changed_here(const AlertsOptions& options) {
   auto archive = find_alerts(options.db).and_then([&](const auto& /*an archive it is*/) {
     return Archive::open(options.db, {});
   });
@@ -82,7 +109,7 @@ Expected<std::string> changed_here(const AlertsOptions& options) {
     return Unexpected{{ErrorCode::InvalidConfiguration, taken.error().message}};
   }
   const auto stored_word = taken.map([](const ArchiveBatch& /*stored*/) {});
-  return outcome_of(stored_word, (*archive)->close()).map([&] { return done_text(*taken); });
+  return outcome_of(stored_word, (*archive)->close()).map([&] { return changed_json(*taken); });
 }
 
 }  // namespace
@@ -92,13 +119,13 @@ Expected<void> list_alerts(const AlertsOptions& options) {
     nlohmann::json all = nlohmann::json::array();
     for (const StoredAlert& stored : alerts) {
       if (options.json) {
-        all.push_back(alert_json(stored.spacecraft, stored.run_id, stored.alert));
+        all.push_back(json_of(stored));
       } else if (stored.alert.state != AlertState::Cleared) {
         fmt::print("{}", to_text(stored));
       }
     }
     if (options.json) {
-      fmt::print("{}", json_line({{"alerts", std::move(all)}}));
+      fmt::print("{}", json_line(with_warnings({{"alerts", std::move(all)}})));
     }
   });
 }
@@ -134,12 +161,13 @@ Expected<void> change_alert(const AlertsOptions& options) {
     return Unexpected{answer.error()};
   }
   if (!*answer) {
-    return changed_here(options).map([](const std::string& text) { fmt::print("{}", text); });
+    return changed_here(options).map(
+        [&](const nlohmann::json& alert) { print_changed(alert, options.json); });
   }
-  if (const auto error = (**answer).find("error"); error != (**answer).end()) {
-    return Unexpected{{ErrorCode::InvalidConfiguration, error->get<std::string>()}};
+  if ((**answer).contains("error")) {
+    return Unexpected{{ErrorCode::InvalidConfiguration, why_refused(options, **answer)}};
   }
-  fmt::print("{}", (**answer).value("text", ""));
+  print_changed((**answer).at("alert"), options.json);
   return {};
 }
 
@@ -149,8 +177,8 @@ nlohmann::json answer_alert(const nlohmann::json& request, AlertDesk& desk, Arch
                                 .note = request.value("note", ""),
                                 .minutes = request.value("minutes", 0)},
                                desk, archive);
-  return taken ? nlohmann::json{{"text", done_text(*taken)}}
-               : nlohmann::json{{"error", taken.error().message}};
+  return taken ? nlohmann::json{{"alert", changed_json(*taken)}}
+               : nlohmann::json{{"error", taken.error().message}, {"mode", name_of(desk.mode())}};
 }
 
 }  // namespace spindrift

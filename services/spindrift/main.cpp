@@ -324,6 +324,7 @@ void add_alert_change(CLI::App& alerts, Request& request, const char* name, cons
   command.add_option("--by", options.by, "Who says so")->required();
   command.add_option("--note", options.note, "Why")->required();
   command.add_option("--db", options.db, "Archive, if not said before")->check(check_path);
+  command.add_flag("--json", options.json, "Print the alert as one JSON object");
   if (std::string_view{name} == "shelve") {
     command.add_option("--minutes", options.minutes, "For so long")
         ->check(CLI::Range(1, 10080))

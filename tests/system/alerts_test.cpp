@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/support/archive_rows.h"
+#include "tests/support/bus_fixture.h"
 #include "tests/support/eventually.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_files.h"
@@ -75,7 +76,8 @@ TEST(Alerts, AreListedAndAcknowledgedByTheirId) {
   };
   Program list{ask({})};
   EXPECT_EQ(list.exit_status(), 0) << list.log();
-  EXPECT_THAT(list.out(), AllOf(HasSubstr("warning active spin.off_target"), HasSubstr("limit")));
+  EXPECT_THAT(list.out(), AllOf(HasSubstr("warning active spin.off_target"),
+                                HasSubstr("process run"), HasSubstr("limit")));
 
   Program unknown{ask({"ack", "none", "--by", "shift", "--note", "seen"})};
   EXPECT_EQ(unknown.exit_status(), 2);
@@ -86,6 +88,11 @@ TEST(Alerts, AreListedAndAcknowledgedByTheirId) {
   Program listed{ask({"--json"})};
   EXPECT_EQ(listed.exit_status(), 0) << listed.log();
   EXPECT_EQ(nlohmann::json::parse(listed.out())["alerts"][0]["state"], "active");
+  EXPECT_EQ(nlohmann::json::parse(listed.out())["alerts"][0]["mode"], "process");
+  EXPECT_TRUE(nlohmann::json::parse(listed.out())["warnings"].empty());
+  Program nobody{ask({"ack", id.substr(0, 16), "--by", "", "--note", "seen"})};
+  EXPECT_EQ(nobody.exit_status(), 2);
+  EXPECT_THAT(nobody.log(), HasSubstr("by: must be a text, not empty"));
   Program known{{"alerts", "--db", pass.db.string(), "ack", id.substr(0, 16), "--by", "shift",
                  "--note", "seen"}};
   EXPECT_EQ(known.exit_status(), 0) << known.log();
@@ -95,6 +102,40 @@ TEST(Alerts, AreListedAndAcknowledgedByTheirId) {
                     "SELECT from_state, to_state, by, note FROM alert_transition"
                     " ORDER BY t_tai_ns DESC LIMIT 1"),
             std::vector<std::string>{"active|acknowledged|shift|seen|"});
+}
+
+TEST(Alerts, AreChangedInJsonWhereverTheFlagStands) {
+  const OffTarget pass;
+  process(pass);
+  const std::string id = rows_of(pass.db, "SELECT alert_id FROM alert").front().substr(0, 16);
+  Program ack{
+      {"alerts", "--db", pass.db.string(), "--json", "ack", id, "--by", "shift", "--note", "seen"}};
+  EXPECT_EQ(ack.exit_status(), 0) << ack.log();
+  auto changed = nlohmann::json::parse(ack.out());
+  EXPECT_EQ(changed["alert_id"], id);
+  EXPECT_EQ(changed["state"], "acknowledged");
+  EXPECT_TRUE(changed["warnings"].empty());
+  Program shelve{{"alerts", "--db", pass.db.string(), "shelve", id, "--by", "shift", "--note",
+                  "seen", "--minutes", "5", "--json"}};
+  EXPECT_EQ(shelve.exit_status(), 0) << shelve.log();
+  changed = nlohmann::json::parse(shelve.out());
+  EXPECT_EQ(changed["state"], "shelved");
+}
+
+TEST(Alerts, OfAProcessRunAreLeftUntilTheServiceThatHoldsTheArchiveEnds) {
+  const OffTarget pass;
+  process(pass);
+  const std::string id = rows_of(pass.db, "SELECT alert_id FROM alert").front().substr(0, 16);
+  const bus::BusConfig bus = bus_of_its_own();
+  Program service{{"serve", "--mission", (pass.folder.path() / "mission.toml").string(), "--db",
+                   pass.db.string(), "--domain", std::to_string(bus.domain), "--partition",
+                   bus.partition}};
+  ASSERT_TRUE(service.says("ready")) << service.log();
+  Program ack{{"alerts", "--db", pass.db.string(), "ack", id, "--by", "shift", "--note", "seen"}};
+  EXPECT_EQ(ack.exit_status(), 2);
+  EXPECT_THAT(ack.log(), AllOf(HasSubstr("is of a process run"), HasSubstr("when that has ended")));
+  service.signal(SIGTERM);
+  EXPECT_EQ(service.exit_status(), 0);
 }
 
 TEST(Alerts, AreFollowedUntilASignal) {
