@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "pipelines/time/tai_time.h"
 #include "services/doctor/check.h"
 
 namespace spindrift::doctor {
@@ -18,7 +19,7 @@ struct LeapTable {
 };
 
 struct LeapFacts {
-  std::chrono::sys_days today;
+  std::chrono::sys_days day;         ///< For which they are to be known.
   LeapTable erfa;                    ///< With which the program computes.
   std::optional<LeapTable> machine;  ///< Of the package tzdata; absent where it is not installed.
 };
@@ -26,7 +27,8 @@ struct LeapFacts {
 /// From the text of leap-seconds.list, whose times are seconds since 1900. Absent for another text.
 std::optional<LeapTable> machine_table(std::string_view text);
 
-LeapFacts leap_facts();
+/// @param t For which they are to be known.
+LeapFacts leap_facts(TaiTime t);
 
 Check check_leap_seconds(const LeapFacts& facts);
 

@@ -35,8 +35,8 @@ Check check_leap_seconds(const LeapFacts& facts) {
                    "UTC will be wrong by the difference: install a newer liberfa1; Debian 12 has "
                    "none, a later Debian has");
   }
-  return facts.today > known_until
-             ? warning(name, fmt::format("{}; out of date", found),
+  return facts.day > known_until
+             ? warning(name, fmt::format("{}; not known on {}", found, text_of(facts.day)),
                        "apt-get update && apt-get install --only-upgrade tzdata; where that brings "
                        "no newer table: UTC is right unless IERS Bulletin C has announced a leap "
                        "second meanwhile (https://hpiers.obspm.fr/iers/bul/bulc/bulletinc.dat)")

@@ -37,11 +37,15 @@ int erfa_release_year(year last_leap) {
   return dubious - kTrustedYears - 1;
 }
 
+/// Not of a time before the last leap second.
+sys_days day_of(TaiTime t) {
+  return floor<days>(sys_seconds{floor<seconds>(t.time_since_epoch()) -
+                                 seconds{leap_seconds().back().tai_minus_utc_s}});
+}
+
 LeapTable erfa_table() {
   const LeapSecond last = leap_seconds().back();
-  const auto start = floor<days>(
-      sys_seconds{floor<seconds>(last.start.time_since_epoch()) - seconds{last.tai_minus_utc_s}});
-  const int release = erfa_release_year(std::chrono::year_month_day{start}.year());
+  const int release = erfa_release_year(std::chrono::year_month_day{day_of(last.start)}.year());
   return {.tai_minus_utc_s = last.tai_minus_utc_s,
           .complete_until = sys_days{year{release} / 12 / 31}};
 }
@@ -68,8 +72,8 @@ std::optional<LeapTable> machine_table(std::string_view text) {
                    .complete_until = floor<days>(sys_seconds{seconds{*expires} - kFrom1900To1970})};
 }
 
-LeapFacts leap_facts() {
-  return {.today = floor<days>(std::chrono::system_clock::now()),
+LeapFacts leap_facts(TaiTime t) {
+  return {.day = day_of(t),
           .erfa = erfa_table(),
           .machine = machine_table(read_text_file(kMachineTable).value_or(std::string{}))};
 }

@@ -25,7 +25,9 @@ struct MissionFacts {
   std::string spacecraft;
   SpacecraftKind kind = SpacecraftKind::Spin;
   std::optional<Coverage> ephemeris;  ///< Absent where the orbit is given otherwise, or not at all.
-  std::string no_orbit;               ///< Why there is none somewhere in the pass; empty: there is.
+  bool orbit_given = true;            ///< By the mission file.
+  std::optional<TaiTime> no_orbit_at;  ///< The first time of the pass without one; empty: none is.
+  bool no_orbit_ever = false;          ///< Nor has any other time of the pass one.
   /// Of the model of the Earth's field; empty: no magnetometer.
   std::optional<TaiTime> field_to = {};
   bool infrared = true;                        ///< It has an infrared sensor.

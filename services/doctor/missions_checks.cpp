@@ -25,21 +25,34 @@ std::string orbit_advice(const MissionFacts& mission) {
                                                           : "the magnetometer tells nothing");
 }
 
+/// Only an ephemeris does not reach everywhere.
+std::string no_orbit_text(TaiTime t, const Coverage& coverage) {
+  const std::string where =
+      t < coverage.from ? duration_text(seconds_between(t, coverage.from)) + " before it begins"
+      : t > coverage.to ? duration_text(seconds_between(coverage.to, t)) + " after it ends"
+                        : "in a gap of it";
+  return fmt::format("no orbit at {}, {}", format_utc(t, 0), where);
+}
+
 Check check_orbit(const MissionFacts& mission, const ComingPass& pass) {
   const std::string name = fmt::format("orbit of {}", mission.spacecraft);
   const std::string coverage =
       mission.ephemeris ? coverage_text(*mission.ephemeris) : "no ephemeris: any time";
-  if (!mission.no_orbit.empty()) {
-    return warning(
-        name,
-        mission.ephemeris ? fmt::format("{}: {}", coverage, mission.no_orbit) : mission.no_orbit,
-        orbit_advice(mission));
+  if (!mission.orbit_given) {
+    return warning(name, "the mission file gives none, and orbit states may not come",
+                   orbit_advice(mission));
   }
   if (!mission.ephemeris) {
     return ok(name, coverage);
   }
-  const double left_s = seconds_between(pass.to, mission.ephemeris->to);
   const bool is_now = pass.from == pass.to;
+  if (mission.no_orbit_at) {
+    return (mission.no_orbit_ever && !is_now ? failure : warning)(
+        name,
+        fmt::format("{}: {}", coverage, no_orbit_text(*mission.no_orbit_at, *mission.ephemeris)),
+        orbit_advice(mission));
+  }
+  const double left_s = seconds_between(pass.to, mission.ephemeris->to);
   const std::string found = fmt::format("{}, another {}{}", coverage, duration_text(left_s),
                                         is_now ? "" : " behind the pass");
   return is_now && left_s < kDay_s ? warning(name, found, "get the next ephemeris now")

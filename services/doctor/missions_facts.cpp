@@ -29,14 +29,16 @@ std::optional<TaiTime> field_end(const Mission& mission) {
 /// Holes of an ephemeris that are shorter than this many steps of the pass are not looked for.
 constexpr int kLooks = 1000;
 
-std::string no_orbit_in(const Orbit& orbit, const ComingPass& pass) {
+void look_for_orbit(const Orbit& orbit, const ComingPass& pass, MissionFacts& facts) {
+  facts.no_orbit_ever = true;
   for (int i = 0; i <= kLooks; ++i) {
     const TaiTime t = shifted(pass.from, elapsed_s(pass.from, pass.to) * i / kLooks);
-    if (const auto state = orbit.at(t); !state) {
-      return state.error().message;
+    if (orbit.at(t)) {
+      facts.no_orbit_ever = false;
+    } else if (!facts.no_orbit_at) {
+      facts.no_orbit_at = t;
     }
   }
-  return {};
 }
 
 }  // namespace
@@ -46,19 +48,19 @@ MissionFacts mission_facts(const Mission& mission, const ComingPass& pass) {
       .spacecraft = mission.spacecraft_id,
       .kind = mission.kind(),
       .ephemeris = {},
-      .no_orbit = {},
+      .no_orbit_at = {},
       .field_to = field_end(mission),
       .infrared = mission.spin() == nullptr || mission.spin()->north || mission.spin()->south,
       .idle = idle_tables(mission),
       .orbit_doubts = mission.orbit_doubts};
   if (!mission.orbit) {
-    facts.no_orbit = "the mission file gives none, and orbit states may not come";
+    facts.orbit_given = false;
     return facts;
   }
   if (const OrbitEphemeris* const ephemeris = mission.orbit->ephemeris()) {
     facts.ephemeris = {.from = ephemeris->usable_from(), .to = ephemeris->usable_to()};
   }
-  facts.no_orbit = no_orbit_in(*mission.orbit, pass);
+  look_for_orbit(*mission.orbit, pass, facts);
   return facts;
 }
 

@@ -19,7 +19,7 @@ namespace {
 constexpr double kBytesPerGib = 1024.0 * 1024.0 * 1024.0;
 
 std::optional<TaiTime> leap_seconds_until() {
-  const doctor::LeapFacts facts = doctor::leap_facts();
+  const doctor::LeapFacts facts = doctor::leap_facts(tai_now());
   const std::chrono::sys_days until =
       facts.machine ? std::max(facts.machine->complete_until, facts.erfa.complete_until)
                     : facts.erfa.complete_until;

@@ -87,8 +87,8 @@ TEST(DoctorLeapSeconds, KnowsTheTableOfErfa) {
   EXPECT_LT(facts.erfa.complete_until, std::chrono::sys_days{2100y / 1 / 1});
 }
 
-LeapFacts leaps(std::chrono::sys_days today) {
-  return {.today = today,
+LeapFacts leaps(std::chrono::sys_days day) {
+  return {.day = day,
           .erfa = {.tai_minus_utc_s = 37, .complete_until = 2021y / 12 / 31},
           .machine = LeapTable{.tai_minus_utc_s = 37, .complete_until = 2026y / 6 / 28}};
 }
@@ -97,7 +97,7 @@ TEST(DoctorLeapSeconds, WarnsWhenNoTableReachesToday) {
   EXPECT_EQ(check_leap_seconds(leaps(2026y / 6 / 28)).verdict, Verdict::Ok);
   const Check late = check_leap_seconds(leaps(2026y / 6 / 29));
   EXPECT_EQ(late.verdict, Verdict::Warning);
-  EXPECT_THAT(late.found, HasSubstr("out of date"));
+  EXPECT_THAT(late.found, HasSubstr("not known on "));
   expect_advice({late});
   LeapFacts alone = leaps(2023y / 1 / 1);
   EXPECT_EQ(check_leap_seconds(alone).verdict, Verdict::Ok);
@@ -112,7 +112,7 @@ TEST(DoctorLeapSeconds, FailsWhenTheProgramMissesOne) {
   // A newer program on an old machine is right.
   facts.machine->complete_until = 2016y / 12 / 28;
   facts.machine->tai_minus_utc_s = 36;
-  facts.today = 2021y / 6 / 1;
+  facts.day = 2021y / 6 / 1;
   EXPECT_EQ(check_leap_seconds(facts).verdict, Verdict::Ok);
 }
 
@@ -124,7 +124,7 @@ MissionFacts spinner(std::chrono::seconds left) {
   return {.spacecraft = "SPINNER",
           .kind = SpacecraftKind::Spin,
           .ephemeris = Coverage{.from = kNow - 1h, .to = kNow + left},
-          .no_orbit = {},
+          .no_orbit_at = {},
           .infrared = true,
           .idle = {}};
 }
@@ -144,10 +144,26 @@ TEST(DoctorMissions, WarnsWhenTheEphemerisEndsWithinADay) {
 
 TEST(DoctorMissions, WarnsWhenThereIsNoOrbitNow) {
   MissionFacts facts = spinner(48h);
-  facts.no_orbit = "3 s before the ephemeris begins";
+  facts.ephemeris->from = kNow + 3s;
+  facts.no_orbit_at = kNow;
+  facts.no_orbit_ever = true;
   const Check orbit = named(check_one(facts), "orbit of SPINNER");
   EXPECT_EQ(orbit.verdict, Verdict::Warning);
-  EXPECT_THAT(orbit.found, HasSubstr("3 s before the ephemeris begins"));
+  EXPECT_THAT(orbit.found, HasSubstr("no orbit at 2026-11-20T03:00:00Z, 3 s before it begins"));
+}
+
+TEST(DoctorMissions, FailsOnAPassOfWhichNoTimeHasAnOrbit) {
+  const ComingPass pass{.from = kNow + 30 * 24h, .to = kNow + 31 * 24h};
+  MissionFacts facts = spinner(24h);
+  facts.no_orbit_at = pass.from;
+  EXPECT_EQ(named(check_missions(std::vector{facts}, pass), "orbit of SPINNER").verdict,
+            Verdict::Warning);
+  facts.no_orbit_ever = true;
+  const auto checks = check_missions(std::vector{facts}, pass);
+  const Check orbit = named(checks, "orbit of SPINNER");
+  EXPECT_EQ(orbit.verdict, Verdict::Failure);
+  EXPECT_THAT(orbit.found, HasSubstr("no orbit at 2026-12-20T03:00:00Z, 29 days after it ends"));
+  expect_advice(checks);
 }
 
 TEST(DoctorMissions, TakesElementsForAnyTime) {
