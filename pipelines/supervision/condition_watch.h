@@ -33,6 +33,7 @@ struct ConditionChange {
   TaiTime t;
   Evidence evidence;
   AlertSeverity severity = AlertSeverity::Warning;
+  std::string who = {};  ///< Does it, where somebody does.
 };
 using ConditionChanges = std::vector<ConditionChange>;
 

@@ -39,7 +39,11 @@ ConditionChanges ServiceConditions::see(const ServiceState& state) {
   see_link(state, changes);
   see_archive(state, changes);
   see_data(state, changes);
-  add(twice_.see(state.t, state.is_twice), changes);
+  auto twice = twice_.see(state.t, state.other_service.has_value());
+  if (twice) {
+    twice->who = state.other_service.value_or("");
+  }
+  add(std::move(twice), changes);
   return changes;
 }
 

@@ -30,8 +30,9 @@ struct ServiceState {
   std::map<std::string, SourceRecord> sources = {};
   std::int64_t received = 0;  ///< Of the spacecraft, since the service started.
   std::int64_t rejected = 0;  ///< Of those.
-  bool is_twice = false;      ///< Another service publishes results of the spacecraft.
-  double backlog_s = 0.0;     ///< How long the oldest sample waits to be committed.
+  /// Publishes results of the spacecraft, too; empty: none does.
+  std::optional<std::string> other_service = {};
+  double backlog_s = 0.0;  ///< How long the oldest sample waits to be committed.
   bool write_failed = false;
   std::optional<double> free_gib = {};             ///< At the archive; empty: nobody knows.
   double clock_step_s = 0.0;                       ///< Of the wall clock, since the state before.

@@ -94,6 +94,11 @@ ConditionChanges SpinConditions::see(const SpinEstimate& estimate) {
   if (estimate.estimator == SpinEstimator::Batch) {
     return changes;
   }
+  const auto later = manoeuvres_.upper_bound(estimate.t);
+  if (later != manoeuvres_.begin()) {
+    first_.reset();
+    manoeuvres_.erase(manoeuvres_.begin(), later);
+  }
   first_ = first_.value_or(estimate.t);
   const bool is_sequential = estimate.estimator == SpinEstimator::Sequential;
   (is_sequential ? sequential_ : mean_) = estimate;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/types/products.h"
@@ -27,6 +28,8 @@ class SpinConditions {
 
   /// For estimates from `t` on; the rate stays as it was.
   void set_target(TaiTime t, const Eigen::Vector3d& axis_icrf);
+  /// The axis moves at `t`: its sigma is wide for a while.
+  void note_manoeuvre(TaiTime t) { manoeuvres_.insert(t); }
   /// Of the last estimate.
   const std::optional<SpinTarget>& target() const { return target_; }
 
@@ -60,7 +63,8 @@ class SpinConditions {
   ConditionWatch rate_;
   ConditionWatch lost_;
   std::map<std::int64_t, TaiTime> t_sun1_;  ///< Of revolutions whose period is to come.
-  std::optional<TaiTime> first_;            ///< Estimate.
+  std::optional<TaiTime> first_;            ///< Estimate, or first since a manoeuvre.
+  std::set<TaiTime> manoeuvres_;            ///< To come.
   std::optional<SpinEstimate> mean_;
   std::optional<SpinEstimate> sequential_;
   std::optional<Estimated> least_nutation_rad_;  ///< Half-angle, of those found.

@@ -83,12 +83,16 @@ void append(std::vector<Alert> alerts, std::vector<Product>& products) {
 }
 
 template <class Conditions>
-void set_target(Conditions& conditions, const OperatorAction& action) {
+void apply(const OperatorAction& action, Conditions& conditions) {
   const auto* const does = std::get_if<SpinAction>(&action.does);
-  const auto* const target = does == nullptr ? nullptr : std::get_if<SetTarget>(does);
   auto* const spin = std::get_if<SpinConditions>(&conditions);
-  if (target != nullptr && spin != nullptr) {
+  if (does == nullptr || spin == nullptr) {
+    return;
+  }
+  if (const auto* const target = std::get_if<SetTarget>(does)) {
     spin->set_target(action.t.value(), target->axis_icrf);
+  } else if (std::holds_alternative<MarkManoeuvre>(*does)) {
+    spin->note_manoeuvre(action.t.value());
   }
 }
 
@@ -135,7 +139,7 @@ void AlertDesk::see(ArchiveBatch& batch) {
     return;
   }
   for (const OperatorAction& action : batch.actions) {
-    set_target(supervised.conditions, action);
+    apply(action, supervised.conditions);
   }
   std::vector<Alert> alerts = changed_by(batch, desk);
   std::move(alerts.begin(), alerts.end(), std::back_inserter(desk.waiting));

@@ -70,7 +70,9 @@ Expected<ServiceWatch::States> ServiceWatch::look(
     }
     ServiceState state = of_service;
     note_link(link, state);
-    state.is_twice = others->contains(link.spacecraft);
+    if (const auto other = others->find(link.spacecraft); other != others->end()) {
+      state.other_service = other->second;
+    }
     state.sources = watched_.sessions.report(link.spacecraft, gaps);
     const SpacecraftCounts& counts = status.by_spacecraft.at(link.spacecraft);
     state.received = static_cast<std::int64_t>(counts.received);

@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "pipelines/core/shown.h"
 #include "pipelines/time/utc.h"
+#include "services/words/duration.h"
 
 namespace spindrift {
 namespace {
+
+constexpr double kHour_s = 3600.0;
 
 struct Words {
   AlertCode code;
@@ -58,25 +63,41 @@ constexpr std::array<Words, kAlertCodes> kWords{{
     {ArchiveWrite, "the archive does not store", "look at the log, and at the disk of the archive"},
     {ArchiveDisk, "free space at the archive", "make room"},
     {ClockJump, "the clock of this host was stepped", "look at its time service"},
-    {DataOutdated, "hours until what the service needs ends", "get it anew"},
+    {DataOutdated, "what the service needs ends", "get the next ephemeris"},
 }};
+
+std::string value_text(const ConditionChange& change) {
+  const Evidence& evidence = change.evidence;
+  if (change.code == DataOutdated) {
+    const bool is_over = evidence.value < 0.0;
+    return fmt::format(": {} {}{}{}", change.about == "orbit" ? "the orbit" : "the leap seconds",
+                       is_over ? "ended " : "end in ",
+                       duration_text(std::abs(evidence.value) * kHour_s), is_over ? " ago" : "");
+  }
+  if (evidence.limit <= 0.0) {
+    return {};  // Of what is raised at once because it is there, the value says nothing.
+  }
+  const std::string sigma =
+      evidence.sigma ? fmt::format(" (sigma {:.3g})", *evidence.sigma) : std::string{};
+  return fmt::format(": {:.3g} {}{}, limit {:.3g}", evidence.value, evidence.unit, sigma,
+                     evidence.limit);
+}
+
+std::string_view what_to_do(const ConditionChange& change) {
+  return change.about == "leap_seconds" ? "install a newer tzdata"
+                                        : kWords.at(static_cast<std::size_t>(change.code)).to_do;
+}
 
 }  // namespace
 
 std::string sentence_of(const ConditionChange& change) {
   const Words& words = kWords.at(static_cast<std::size_t>(change.code));
-  const Evidence& evidence = change.evidence;
   if (change.change == Change::Cleared) {
     return fmt::format("over at {}", format_utc(change.t));
   }
-  const std::string sigma =
-      evidence.sigma ? fmt::format(" (sigma {:.3g})", *evidence.sigma) : std::string{};
-  // Of what is raised at once because it is there, the value says nothing.
-  const std::string value = evidence.limit > 0.0
-                                ? fmt::format(": {:.3g} {}{}, limit {:.3g}", evidence.value,
-                                              evidence.unit, sigma, evidence.limit)
-                                : std::string{};
-  return fmt::format("{}{} at {}: {}", words.what, value, format_utc(change.t), words.to_do);
+  const std::string who = change.who.empty() ? "" : fmt::format(" ({})", shown(change.who));
+  return fmt::format("{}{}{} at {}: {}", words.what, who, value_text(change), format_utc(change.t),
+                     what_to_do(change));
 }
 
 std::string evidence_json(const Evidence& evidence, std::string_view config_sha256) {

@@ -138,7 +138,7 @@ TEST(ServiceConditions, RaiseTheShareOfImpossibleSamples) {
 TEST(ServiceConditions, RaiseWhatIsWrongWithTheServiceAndItsHost) {
   Supervised service;
   service.see(0, 1, [](ServiceState& one, int /*t_s*/) {
-    one.is_twice = true;
+    one.other_service = "another";
     one.backlog_s = 10.0;
     one.write_failed = true;
     one.free_gib = 0.5;

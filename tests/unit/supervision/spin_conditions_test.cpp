@@ -129,6 +129,23 @@ TEST(SpinConditions, RaiseASigmaThatIsWideTwoMinutesAfterTheFirstAnswer) {
   EXPECT_EQ(pass.raised, Keys{"spin.sigma"});
 }
 
+TEST(SpinConditions, RaiseNoWideSigmaForTwoMinutesAfterAManoeuvre) {
+  Supervised pass;
+  give_estimates(pass, Quality::Ok, 0.05, 0.0, 0.0, 300.0);
+  pass.conditions.note_manoeuvre(at(310.0));
+  give_estimates(pass, Quality::Converging, 1.5, 0.0, 312.0, 432.0);
+  EXPECT_EQ(pass.raised, Keys{});
+  give_estimates(pass, Quality::Ok, 1.5, 0.0, 432.0, 434.0);
+  EXPECT_EQ(pass.raised, Keys{"spin.sigma"});
+}
+
+TEST(SpinConditions, RaiseAWideSigmaBeforeAManoeuvreThatIsToCome) {
+  Supervised pass;
+  pass.conditions.note_manoeuvre(at(310.0));
+  give_estimates(pass, Quality::Ok, 1.5, 0.0, 0.0, 122.0);
+  EXPECT_EQ(pass.raised, Keys{"spin.sigma"});
+}
+
 TEST(SpinConditions, RaiseAnAxisAndARateAwayFromTheirTarget) {
   Supervised pass{SpinTarget{.axis_icrf = kAxis,
                              .rate = SpinTarget::Rate{.rad_s = 5.0, .tolerance_rad_s = 0.1}}};

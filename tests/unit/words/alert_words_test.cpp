@@ -37,6 +37,28 @@ TEST(AlertWords, GiveValueLimitTimeAndWhatToDo) {
             "over at 2026-11-20T03:00:00.000Z");
 }
 
+TEST(AlertWords, NameTheServiceThatRunsBesideThisOne) {
+  auto twice = change(AlertCode::ServiceTwice, Change::Raised, 0.0);
+  twice.who = "spindrift gs2:4242";
+  EXPECT_EQ(sentence_of(twice),
+            "another service publishes results of the spacecraft in this partition (spindrift "
+            "gs2:4242) at 2026-11-20T03:00:00.000Z: stop one of the two; `spindrift doctor` says "
+            "who is on the bus");
+}
+
+TEST(AlertWords, SayWhatEndsAndWhen) {
+  auto outdated = change(AlertCode::DataOutdated, Change::Raised, 24.0);
+  outdated.about = "orbit";
+  EXPECT_EQ(sentence_of(outdated),
+            "what the service needs ends: the orbit ends in 1 h 15 min at "
+            "2026-11-20T03:00:00.000Z: get the next ephemeris");
+  outdated.about = "leap_seconds";
+  outdated.evidence.value = -3630.0;
+  EXPECT_EQ(sentence_of(outdated),
+            "what the service needs ends: the leap seconds ended 151 days 6 h ago at "
+            "2026-11-20T03:00:00.000Z: install a newer tzdata");
+}
+
 TEST(AlertWords, GiveEvidenceToPrograms) {
   const auto evidence = nlohmann::json::parse(
       evidence_json(change(AlertCode::SpinSigma, Change::Raised, 1.0).evidence, "00ff"));
