@@ -13,6 +13,7 @@
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
 #include "tests/support/eventually.h"
+#include "tests/support/processed_pass.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_files.h"
 #include "tests/support/temporary_folder.h"
@@ -21,6 +22,7 @@
 namespace spindrift::alerts_test {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -40,10 +42,12 @@ struct OffTarget : PassCopy {
 };
 
 TEST(Alerts, AreNotRaisedByRecordedPassesThatAreWell) {
-  for (const std::string pass : {"nominal", "north-only", "gms5"}) {
-    const PassCopy copy{pass};
-    process(copy);
-    EXPECT_EQ(rows_of(copy.db, "SELECT key FROM alert WHERE severity <> 'info'"),
+  for (const std::string pass : {"nominal", "north-only", "gms5", "coded"}) {
+    const TemporaryFolder folder;
+    const auto db = folder.path() / "out.db";
+    Program program{arguments(pass, db)};
+    ASSERT_EQ(program.exit_status(), 0) << program.log();
+    EXPECT_EQ(rows_of(db, "SELECT key FROM alert WHERE severity <> 'info'"),
               std::vector<std::string>{})
         << pass;
   }
@@ -62,6 +66,16 @@ TEST(Alerts, NameAChannelThatDiesInTheMidstOfAPass) {
   dead.close();
   process(pass);
   EXPECT_THAT(rows_of(pass.db, kOpenKeys), ElementsAre("channel.silent:north_in|"));
+}
+
+TEST(Alerts, NameAChannelThatIsDeadFromTheStart) {
+  for (const std::string dead : {"sun2", "south_out"}) {
+    const PassCopy pass{"nominal"};
+    std::ofstream{pass.folder.path() / "pulses.csv"}
+        << without_channel(dead, text_of(kPasses / "nominal" / "pulses.csv"));
+    process(pass);
+    EXPECT_THAT(rows_of(pass.db, kOpenKeys), Contains("channel.silent:" + dead + "|"));
+  }
 }
 
 TEST(Alerts, AreListedAndAcknowledgedByTheirId) {
