@@ -363,6 +363,7 @@ TEST_F(ArchiveProducts, AnswerOfBeforeAManoeuvreIsNoneOnceAnotherCameAfterIt) {
                     .by = "operator",
                     .action = "mark_manoeuvre",
                     .arguments = "{}",
+                    .note = "",
                     .does = SpinAction{MarkManoeuvre{}}}};
   store(batch);
   const auto reported = [&] { return text("SELECT estimator FROM pass_verdict"); };

@@ -357,10 +357,11 @@ TEST(TelemetrySubscriber, PassesOnWhatCannotBeTrueAsRejected) {
 TEST(TelemetrySubscriber, CountsWhatCannotBeTrueOfItsSpacecraftOnly) {
   Station station{bus_of_its_own()};
   const auto writer = pulse_writer(station.participant());
-  std::string other = "OTHER";
   for (std::uint64_t seq = 0; seq < 6; ++seq) {
     spindrift_Pulse pulse = idl_pulse(seq);
-    pulse.spacecraft = seq < 3 ? other.data() : pulse.spacecraft;
+    if (seq < 3) {
+      std::string_view{"OTHER\0", 6}.copy(pulse.spacecraft, sizeof pulse.spacecraft);
+    }
     pulse.t_tai_ns = seq % 3 == 0 ? -1 : pulse.t_tai_ns;
     ASSERT_TRUE(writer.write(pulse));
   }

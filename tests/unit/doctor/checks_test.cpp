@@ -19,6 +19,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using namespace std::chrono_literals;
 
+constexpr TaiTime kNow = tai_from_ns(1'795'143'637'000'000'000);
+
 // --- host
 
 HostFacts good_host() {
@@ -117,8 +119,6 @@ TEST(DoctorLeapSeconds, FailsWhenTheProgramMissesOne) {
 }
 
 // --- missions
-
-constexpr TaiTime kNow = tai_from_ns(1'795'143'637'000'000'000);
 
 MissionFacts spinner(std::chrono::seconds left) {
   return {.spacecraft = "SPINNER",
