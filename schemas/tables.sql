@@ -233,7 +233,7 @@ INSERT INTO rejection VALUES
   ('frozen', 'the gyro gives the same numbers again and again'),
   ('outlier', 'the gyro''s samples beside it are elsewhere'),
   ('shadow', 'the Earth is before the Sun'),
-  ('innovation', 'too far from where the attitude has it; of a magnetometer: or from the strength of the field'),
+  ('innovation', 'too far from where the attitude has it'),
   ('period', 'it failed the test of the spin period'),
   ('sun_angle', 'it failed the test of the sun angle'),
   ('north_chord', 'it failed the test of the north chord'),

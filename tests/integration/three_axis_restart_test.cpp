@@ -41,7 +41,7 @@ std::vector<AnySample> disordered_samples(const std::filesystem::path& pass) {
       all.emplace_back(std::move(sample));
     });
   }
-  for (std::size_t i = 20; i + 9 < all.size(); i += 31) {
+  for (std::size_t i = 22; i + 9 < all.size(); i += 31) {
     const auto first = all.begin() + static_cast<std::ptrdiff_t>(i);
     std::rotate(first, first + 1, first + 9);
   }
