@@ -15,12 +15,17 @@ constexpr int kWidth = 30;
 
 }  // namespace
 
+void draw_last_line(const std::string& text) {
+  fmt::print(stderr, "{}{}", kEraseLine, text);
+  std::fflush(stderr);
+}
+
 ProgressBar::ProgressBar(std::string label, std::uint64_t total)
     : label_{std::move(label)}, total_{total}, shown_{total > 0 && isatty(STDERR_FILENO) == 1} {}
 
 ProgressBar::~ProgressBar() {
   if (shown_) {
-    std::fputs(kEraseLine, stderr);
+    draw_last_line("");
   }
 }
 
@@ -35,8 +40,8 @@ void ProgressBar::advance_to(std::uint64_t done) {
   next_drawing_ = now + kBetweenDrawings;
   const double part = static_cast<double>(std::min(done, total_)) / static_cast<double>(total_);
   const auto filled = static_cast<int>(part * kWidth);
-  fmt::print(stderr, "{}{} [{:#>{}}{:->{}}] {:3.0f} %", kEraseLine, label_, "", filled, "",
-             kWidth - filled, 100.0 * part);
+  draw_last_line(fmt::format("{} [{:#>{}}{:->{}}] {:3.0f} %", label_, "", filled, "",
+                             kWidth - filled, 100.0 * part));
 }
 
 }  // namespace spindrift

@@ -12,6 +12,10 @@ namespace spindrift {
 /// Ahead of whatever else is written to a terminal while a bar may stand in its last line.
 inline constexpr const char* kEraseLine = "\r\x1b[K";
 
+/// `text` in place of what stands in the last line of standard error, a terminal; at once, which
+/// the end of a line would do otherwise.
+void draw_last_line(const std::string& text);
+
 /// One line on standard error, drawn anew at most ten times a second and gone at the end. Silent
 /// where standard error is no terminal.
 class ProgressBar {

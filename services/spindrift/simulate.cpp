@@ -72,7 +72,9 @@ Expected<void> to_files(const SimulateOptions& options, const Scenario& scenario
     output.json["files"].push_back(path.string());
     output.text += path.string() + '\n';
   }
-  spdlog::info("{} is written", shown((options.out / "mission.toml").string()));
+  if (options.publish) {  // The service may be started with it now.
+    spdlog::info("{} is written", shown((options.out / "mission.toml").string()));
+  }
   return {};
 }
 

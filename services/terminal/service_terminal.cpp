@@ -125,8 +125,7 @@ void ServiceTerminal::draw(const Health& health) {
     if (mission == missions_.end() || (heard > 0 && !is_heard(one)) || place++ != turn) {
       continue;
     }
-    fmt::print(stderr, "{}{}", kEraseLine,
-               status_line(*mission, one, arrivals, rate, columns_of_line()));
+    draw_last_line(status_line(*mission, one, arrivals, rate, columns_of_line()));
   }
 }
 
@@ -143,7 +142,7 @@ std::optional<double> ServiceTerminal::rate_hz(Counts& counts, Instant now, std:
 
 void ServiceTerminal::erase() const {
   if (has_status_line()) {
-    std::fputs(kEraseLine, stderr);
+    draw_last_line("");
   }
 }
 

@@ -70,8 +70,11 @@ std::string value_text(const ConditionChange& change) {
   const Evidence& evidence = change.evidence;
   if (change.code == DataOutdated) {
     const bool is_over = evidence.value < 0.0;
-    return fmt::format(": {} {}{}{}", change.about == "orbit" ? "the orbit" : "the leap seconds",
-                       is_over ? "ended " : "end in ",
+    const std::string_view what = change.about == "orbit" ? "the orbit"
+                                  : change.about == "leap_seconds"
+                                      ? "the table of leap seconds"
+                                      : "the model of the Earth's field";
+    return fmt::format(": {} {}{}{}", what, is_over ? "ended " : "ends in ",
                        duration_text(std::abs(evidence.value) * kHour_s), is_over ? " ago" : "");
   }
   if (evidence.limit <= 0.0) {
@@ -85,7 +88,9 @@ std::string value_text(const ConditionChange& change) {
 
 std::string_view what_to_do(const ConditionChange& change) {
   return change.about == "leap_seconds" ? "install a newer tzdata"
-                                        : kWords.at(static_cast<std::size_t>(change.code)).to_do;
+         : change.about == "field_coefficients"
+             ? "install a program with the next generation of it"
+             : kWords.at(static_cast<std::size_t>(change.code)).to_do;
 }
 
 }  // namespace

@@ -55,8 +55,12 @@ TEST(AlertWords, SayWhatEndsAndWhen) {
   outdated.about = "leap_seconds";
   outdated.evidence.value = -3630.0;
   EXPECT_EQ(sentence_of(outdated),
-            "what the service needs ends: the leap seconds ended 151 days 6 h ago at "
+            "what the service needs ends: the table of leap seconds ended 151 days 6 h ago at "
             "2026-11-20T03:00:00.000Z: install a newer tzdata");
+  outdated.about = "field_coefficients";
+  EXPECT_EQ(sentence_of(outdated),
+            "what the service needs ends: the model of the Earth's field ended 151 days 6 h ago at "
+            "2026-11-20T03:00:00.000Z: install a program with the next generation of it");
 }
 
 TEST(AlertWords, GiveEvidenceToPrograms) {
