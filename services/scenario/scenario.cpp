@@ -26,9 +26,15 @@ constexpr double kOrbitMargin_s = 30.0;
 constexpr TaiTime kEarliest = tai_from_ns(63158400000000000);
 constexpr TaiTime kLatest = tai_from_ns(4102444800000000000);
 
-bool is_three_axis(const TomlDocument& document) {
-  return document.table["spacecraft"]["kind"].value<std::string>() ==
-         name_of(SpacecraftKind::ThreeAxis);
+ScenarioKind kind_of(const toml::table& scenario) {
+  if (scenario["spacecraft"]["kind"].value<std::string>() != name_of(SpacecraftKind::ThreeAxis)) {
+    return ScenarioKind::Spin;
+  }
+  const auto model = scenario["attitude"]["model"].value<std::string>();
+  if (model == "tumbling") {
+    return ScenarioKind::Tumbling;
+  }
+  return model == "orientation" ? ScenarioKind::Orientation : ScenarioKind::Separation;
 }
 
 std::optional<TaiTime> start_of(TomlDocument& document) {
@@ -105,27 +111,47 @@ std::optional<std::filesystem::path> oem_of(const TomlDocument& document) {
   return oem ? std::optional{document.path.parent_path() / *oem} : std::nullopt;
 }
 
-/// Its values by the rules of its kind of spacecraft.
+Expected<TomlDocument> parsed(const std::filesystem::path& path, std::string text,
+                              ScenarioKind kind) {
+  return scenario_schema(kind).and_then(
+      [&](const TableRule& schema) { return parse_document(path, std::move(text), schema); });
+}
+
+/// Its values by the rules of its kind.
 Expected<TomlDocument> read_scenario(const std::filesystem::path& path) {
   const auto read = [&path](std::string&& text) -> Expected<TomlDocument> {
-    const auto spin = scenario_schema(SpacecraftKind::Spin);
-    const auto separation = scenario_schema(SpacecraftKind::ThreeAxis);
-    if (!spin || !separation) {
-      return Unexpected{spin ? separation.error() : spin.error()};
-    }
-    auto document = parse_document(path, std::move(text), *spin);
-    if (document && is_three_axis(*document)) {
-      return parse_document(path, std::move(document->text), *separation);
+    auto document = parsed(path, std::move(text), ScenarioKind::Spin);
+    if (document && kind_of(document->table) != ScenarioKind::Spin) {
+      return parsed(path, std::move(document->text), kind_of(document->table));
     }
     return document;
   };
   return read_text_file(path).and_then(read);
 }
 
-std::variant<SpinScenario, SeparationScenario> flight_of(const TomlDocument& document,
-                                                         TaiTime start) {
-  if (is_three_axis(document)) {
-    return separation_scenario(document.values, start);
+void check_flight(TomlDocument& document) {
+  switch (kind_of(document.table)) {
+    case ScenarioKind::Spin:
+      return check_spin_scenario(document);
+    case ScenarioKind::Separation:
+      return check_separation_scenario(document);
+    case ScenarioKind::Tumbling:
+      return check_tumbling_scenario(document);
+    case ScenarioKind::Orientation:
+      return check_orientation_scenario(document);
+  }
+}
+
+decltype(Scenario::flight) flight_of(const TomlDocument& document, TaiTime start) {
+  switch (kind_of(document.table)) {
+    case ScenarioKind::Separation:
+      return separation_scenario(document.values, start);
+    case ScenarioKind::Tumbling:
+      return tumbling_scenario(document.values, start);
+    case ScenarioKind::Orientation:
+      return orientation_scenario(document.values, start);
+    case ScenarioKind::Spin:
+      break;
   }
   return spin_scenario(document.values, start);
 }
@@ -146,7 +172,7 @@ Expected<Scenario> load_scenario(const std::filesystem::path& path,
   } else if (orbit->orbit) {
     check_coverage(*document, *orbit->orbit, start);
   }
-  is_three_axis(*document) ? check_separation_scenario(*document) : check_spin_scenario(*document);
+  check_flight(*document);
   if (auto sound = soundness(*document); !sound) {
     return Unexpected{std::move(sound.error())};
   }

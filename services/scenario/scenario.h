@@ -12,8 +12,10 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/time/tai_time.h"
+#include "services/scenario/orientation_scenario.h"
 #include "services/scenario/separation_scenario.h"
 #include "services/scenario/spin_scenario.h"
+#include "services/scenario/tumbling_scenario.h"
 
 namespace spindrift {
 
@@ -23,13 +25,14 @@ struct Scenario {
   std::optional<std::filesystem::path> oem;  ///< The orbit's file, where it is as in one.
   TaiTime start;
   double duration_s;
-  std::variant<SpinScenario, SeparationScenario> flight;  ///< In the order of SpacecraftKind.
+  /// In the order of ScenarioKind.
+  std::variant<SpinScenario, SeparationScenario, TumblingScenario, OrientationScenario> flight;
   /// The mission file that goes with it, but for what a separation tells; its orbit is orbit.oem.
   std::string mission_toml;
 };
 
-/// Reads a scenario, and the orbit file that it names, by the rules of schemas/scenario.schema.toml
-/// or schemas/separation.schema.toml, and schemas/mission.schema.toml.
+/// Reads a scenario, and the orbit file that it names, by the rules of its kind
+/// (scenario_schema.h).
 /// @param other_start In the place of the scenario's. The orbit moves with it: the spacecraft is
 ///        where it would have been as long after the scenario's start, in ICRF; the Sun is where it
 ///        is then.

@@ -1,12 +1,17 @@
 #include "services/scenario/scenario_schema.h"
 
+#include <utility>
+
 #include "services/mission/mission_schema.h"
 
 namespace spindrift {
 
 namespace embedded {
 extern const char* const scenario_schema_toml;
+extern const char* const three_axis_schema_toml;
 extern const char* const separation_schema_toml;
+extern const char* const tumbling_schema_toml;
+extern const char* const orientation_schema_toml;
 }  // namespace embedded
 
 namespace {
@@ -15,38 +20,60 @@ void share(const TableRule& from, const char* table, TableRule& with) {
   with.tables.emplace(table, from.tables.at(table));
 }
 
-/// A body is needed, and each sensor that a separation always has.
-void require_sensors(TableRule& three_axis) {
-  for (const char* const table : {"gyro", "sun_sensor", "star_tracker", "inertia"}) {
-    three_axis.tables.at(table).required = "always";
+const char* model_schema(ScenarioKind kind) {
+  switch (kind) {
+    case ScenarioKind::Spin:
+    case ScenarioKind::Separation:
+      return embedded::separation_schema_toml;
+    case ScenarioKind::Tumbling:
+      return embedded::tumbling_schema_toml;
+    case ScenarioKind::Orientation:
+      return embedded::orientation_schema_toml;
+  }
+  return nullptr;
+}
+
+/// A body is needed, and of a separation each sensor that tells its events.
+void require_sensors(ScenarioKind kind, TableRule& three_axis) {
+  three_axis.required = "always";
+  three_axis.tables.at("inertia").required = "always";
+  if (kind == ScenarioKind::Separation) {
+    for (const char* const table : {"gyro", "sun_sensor", "star_tracker"}) {
+      three_axis.tables.at(table).required = "always";
+    }
   }
 }
 
-Expected<TableRule> separation_schema(const TableRule& mission, const TableRule& spin) {
+Expected<TableRule> three_axis_schema(ScenarioKind kind, const TableRule& mission,
+                                      const TableRule& spin) {
   constexpr double kLongest_s = 86400.0;
-  return parse_schema(embedded::separation_schema_toml).map([&](TableRule&& schema) {
-    for (const char* const table : {"spacecraft", "orbit", "three_axis"}) {
-      share(mission, table, schema);
-    }
-    schema.tables.at("orbit").required = "always";
-    require_sensors(schema.tables.at("three_axis"));
-    share(spin, "pass", schema);
-    schema.tables.at("pass").keys.at("duration_s").upper = Bound{kLongest_s, true};
-    share(spin.tables.at("faults"), "silence", schema.tables.at("faults"));
-    return std::move(schema);
-  });
+  auto schema = parse_schema(embedded::three_axis_schema_toml);
+  const auto model = parse_schema(model_schema(kind));
+  if (!schema || !model) {
+    return schema ? model : schema;
+  }
+  schema->tables.insert(model->tables.begin(), model->tables.end());
+  for (const char* const table : {"spacecraft", "orbit", "three_axis"}) {
+    share(mission, table, *schema);
+  }
+  schema->tables.at("orbit").required = "always";
+  require_sensors(kind, schema->tables.at("three_axis"));
+  share(spin, "pass", *schema);
+  schema->tables.at("pass").keys.at("duration_s").upper = Bound{kLongest_s, true};
+  share(spin.tables.at("faults"), "silence", schema->tables.at("faults"));
+  return schema;
 }
 
 }  // namespace
 
-Expected<TableRule> scenario_schema(SpacecraftKind kind) {
+Expected<TableRule> scenario_schema(ScenarioKind kind) {
   auto spin = parse_schema(embedded::scenario_schema_toml);
   const auto mission = mission_schema();
   if (!spin || !mission) {
     return spin ? mission : spin;
   }
-  if (kind == SpacecraftKind::ThreeAxis) {
-    return separation_schema(*mission, *spin);
+  if (kind != ScenarioKind::Spin) {
+    return three_axis_schema(kind, *mission, *spin);
   }
   for (const char* const table : {"spacecraft", "orbit", "spin"}) {
     share(*mission, table, *spin);

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "pipelines/ground_model/separation/flown_separation.h"
+#include "pipelines/ground_model/flights/three_axis_flights.h"
 #include "pipelines/time/tai_time.h"
 #include "services/toml_schema/document.h"
 #include "services/toml_schema/scalar.h"

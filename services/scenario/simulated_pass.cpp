@@ -2,8 +2,10 @@
 
 #include <utility>
 
+#include "services/scenario/orientation_pass.h"
 #include "services/scenario/separation_pass.h"
 #include "services/scenario/spin_pass.h"
+#include "services/scenario/tumbling_pass.h"
 
 namespace spindrift {
 

@@ -54,7 +54,7 @@ AttitudeControl control() {
       .value();
 }
 
-Measured read(Measured truth, Chance& chance) {
+MeasuredBody read(MeasuredBody truth, Chance& chance) {
   truth.rate_body_rad_s =
       gyro_reading(truth.rate_body_rad_s, chance.normal_vector(3e-5), std::nullopt);
   truth.q_icrf_body =
@@ -71,7 +71,7 @@ void measure(benchmark::State& state, const Actuators& actuators) {
     AttitudeControl laws = control();
     Chance chance{1};
     for (int i = 0; i < kPeriods; ++i) {
-      const Measured measured = read(loop.measured(Vector3d::UnitX()), chance);
+      const MeasuredBody measured = read(loop.measured(Vector3d::UnitX()), chance);
       loop.fly(laws.torque_body_nm(loop.t_s(), measured), surroundings);
     }
     benchmark::DoNotOptimize(loop.body().last());

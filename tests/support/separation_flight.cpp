@@ -5,9 +5,9 @@
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/ground_model/flights/separation_motion.h"
 #include "pipelines/ground_model/link/chance.h"
 #include "pipelines/ground_model/link/three_axis_telemetry.h"
-#include "pipelines/ground_model/separation/separation_motion.h"
 
 namespace spindrift::testing {
 namespace {
@@ -42,31 +42,31 @@ Orbit along_the_terminator() {
 SeparationTruth truth_of(const FlightPlan& plan, Chance& chance) {
   const Vector3d turn_rad = chance.normal_vector(2.0);
   const Vector3d rate_deg_s = chance.normal_vector(0.35) + Vector3d{0.3, -0.2, 0.05};
-  return {.separation = kSeparation,
-          .at_separation = {.q_icrf_body = quaternion_by(turn_rad),
-                            .rate_body_rad_s = rate_deg_s * kRadPerDeg},
-          .inertia_kg_m2 = kMoments_kg_m2.asDiagonal(),
+  return {.body = {.start = kSeparation,
+                   .at_start = {.q_icrf_body = quaternion_by(turn_rad),
+                                .rate_body_rad_s = rate_deg_s * kRadPerDeg},
+                   .inertia_kg_m2 = kMoments_kg_m2.asDiagonal(),
+                   .end_s = plan.end_s},
           .control = {.thrusters = {.torque_nm = 0.08, .shortest_s = 0.01, .longest_s = 1.0},
                       .dead_band_rad_s = 0.03 * kRadPerDeg,
                       .slew_rad_s = 0.5 * kRadPerDeg},
-          .phases = {.control_on_s = plan.control_on_s,
-                     .acquisition_s = plan.acquisition_s,
-                     .end_s = plan.end_s}};
+          .control_on_s = plan.control_on_s,
+          .acquisition_s = plan.acquisition_s};
 }
 
 ThreeAxisSensors true_sensors(const FlightPlan& plan, const ThreeAxisConfig& said,
                               const Vector3d& bias_rad_s) {
   const double star_step_s = plan.star_fix_step_s > 0.0 ? plan.star_fix_step_s : 2.0 * plan.end_s;
-  return {.gyro = {.sampling = {plan.control_on_s, plan.gyro_step_s},
-                   .noise_rad_s = said.gyro->noise_rad_s,
-                   .bias_rad_s = bias_rad_s,
-                   .range_rad_s = std::nullopt},
-          .sun_sensor = {.sampling = {plan.acquisition_s, plan.sun_step_s},
-                         .noise_rad = said.sun_sensor->noise_rad,
-                         .half_cone_rad = kTurn_rad},
-          .star_tracker = {.sampling = {plan.first_star_fix_s, star_step_s},
-                           .noise_rad = said.star_tracker->noise_rad,
-                           .q_body_sensor = said.star_tracker->q_body_sensor}};
+  return {.gyro = TrueGyro{.sampling = {plan.control_on_s, plan.gyro_step_s},
+                           .noise_rad_s = said.gyro->noise_rad_s,
+                           .bias_rad_s = bias_rad_s,
+                           .range_rad_s = std::nullopt},
+          .sun_sensor = TrueSunSensor{.sampling = {plan.acquisition_s, plan.sun_step_s},
+                                      .noise_rad = said.sun_sensor->noise_rad,
+                                      .half_cone_rad = kTurn_rad},
+          .star_tracker = TrueStarTracker{.sampling = {plan.first_star_fix_s, star_step_s},
+                                          .noise_rad = said.star_tracker->noise_rad,
+                                          .q_body_sensor = said.star_tracker->q_body_sensor}};
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // `spindrift simulate`, as a user runs it.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,6 +27,8 @@ const std::filesystem::path kScenarios = scenarios();
 const std::string kNominal = (kScenarios / "gto-nominal.toml").string();
 const std::string kDirty = (kScenarios / "gto-dirty.toml").string();
 const std::string kSeparation = (kScenarios / "separation.toml").string();
+const std::string kTumbling = (kScenarios / "tumbling.toml").string();
+const std::string kUpperStage = (kScenarios / "upper-stage.toml").string();
 const std::string kLastMean =
     " FROM spin_estimate WHERE estimator = 'mean' ORDER BY t_tai_ns DESC LIMIT 1";
 
@@ -228,6 +231,60 @@ TEST(Simulate, MakesASeparationThatIsReconstructed) {
   }
 }
 
+/// Of the attitudes that `process` makes of a pass, those at the instants of its true history: how
+/// many there are, and how many are off by more than four sigma.
+struct Judged {
+  int count = 0;
+  int wrong = 0;
+};
+
+Judged judged_attitudes(const TemporaryFolder& folder, const std::filesystem::path& out) {
+  const auto db = folder.path() / "pass.db";
+  Program process{{"process", "--mission", (out / "mission.toml").string(), "--telemetry",
+                   out.string(), "--db", db.string(), "--strict"}};
+  EXPECT_EQ(process.exit_status(), 0) << process.log();
+  Judged judged;
+  for (const auto& truth : nlohmann::json::parse(text_of(out / "truth.json"))["history"]) {
+    const auto row = [&](const char* column) {
+      return real_of(db, fmt::format("SELECT {} FROM attitude WHERE t_tai_ns = {}", column,
+                                     truth[0].get<std::int64_t>()));
+    };
+    if (number_of(db, fmt::format("SELECT count(*) FROM attitude WHERE t_tai_ns = {}",
+                                  truth[0].get<std::int64_t>())) == 1) {
+      const double off_rad =
+          angle_between_rad(Eigen::Quaterniond{row("qw"), row("qx"), row("qy"), row("qz")},
+                            Eigen::Quaterniond{truth[4], truth[1], truth[2], truth[3]});
+      ++judged.count;
+      judged.wrong += degrees(off_rad) > 4.0 * row("sigma_deg") ? 1 : 0;
+    }
+  }
+  return judged;
+}
+
+TEST(Simulate, MakesATumblingSatelliteWhoseAttitudeIsFound) {
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "pass";
+  const auto summary = simulated(kTumbling, out);
+  EXPECT_EQ(summary["files"].size(), 7U);
+  EXPECT_EQ(summary["gyro_samples"], lines_of(out / "gyro.csv").size() - 1);
+  const Judged judged = judged_attitudes(folder, out);
+  // At the latest from the first star fix on.
+  EXPECT_GT(judged.count, 50);
+  EXPECT_EQ(judged.wrong, 0);
+}
+
+TEST(Simulate, MakesAnOrientationToTheUpperStage) {
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "pass";
+  simulated(kUpperStage, out);
+  const auto truth = nlohmann::json::parse(text_of(out / "truth.json"));
+  EXPECT_LT(truth["settled_s"], 240.0);
+  EXPECT_LT(truth["last_off_deg"], 1.0);
+  const Judged judged = judged_attitudes(folder, out);
+  EXPECT_GT(judged.count, 70);
+  EXPECT_EQ(judged.wrong, 0);
+}
+
 /// A service of the pass in `out` that hears what `simulate --publish` sends of its scenario, and
 /// stops behind it. @return What was said of it.
 nlohmann::json served(const std::string& scenario, const std::filesystem::path& out,
@@ -245,18 +302,22 @@ nlohmann::json served(const std::string& scenario, const std::filesystem::path& 
   return nlohmann::json::parse(publishing.out());
 }
 
-TEST(Simulate, PublishesTheSamplesOfASeparation) {
-  const TemporaryFolder folder;
-  const auto out = folder.path() / "pass";
-  const auto summary = simulated(kSeparation, out);
-  const auto db = folder.path() / "served.db";
-  served(kSeparation, out, db);
-  for (const auto& [table, counted] :
-       {std::pair{"gyro_sample", "gyro_samples"}, std::pair{"sun_sample", "sun_vectors"},
-        std::pair{"star_sample", "star_fixes"}}) {
-    EXPECT_EQ(number_of(db, std::string{"SELECT count(*) FROM "} + table),
-              summary[counted].get<std::int64_t>())
-        << table;
+TEST(Simulate, PublishesTheSamplesOfAThreeAxisSatellite) {
+  for (const std::string& scenario : {kSeparation, kTumbling, kUpperStage}) {
+    SCOPED_TRACE(scenario);
+    const TemporaryFolder folder;
+    const auto out = folder.path() / "pass";
+    const auto summary = simulated(scenario, out);
+    const auto db = folder.path() / "served.db";
+    served(scenario, out, db);
+    for (const auto& [table, counted] :
+         {std::pair{"gyro_sample", "gyro_samples"}, std::pair{"sun_sample", "sun_vectors"},
+          std::pair{"star_sample", "star_fixes"},
+          std::pair{"magnetometer_sample", "magnetometer_samples"}}) {
+      EXPECT_EQ(number_of(db, std::string{"SELECT count(*) FROM "} + table),
+                summary.value(counted, std::int64_t{0}))
+          << table;
+    }
   }
 }
 

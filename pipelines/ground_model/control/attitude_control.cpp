@@ -8,7 +8,7 @@ namespace {
 using Eigen::Vector3d;
 
 template <class... Laws>
-Vector3d torque_of(const std::variant<Laws...>& law, const Measured& measured) {
+Vector3d torque_of(const std::variant<Laws...>& law, const MeasuredBody& measured) {
   return std::visit([&](const auto& is) { return is.torque_body_nm(measured); }, law);
 }
 
@@ -28,7 +28,7 @@ Expected<AttitudeControl> AttitudeControl::make(const ControlPlan& plan, const D
   return AttitudeControl{plan, damping, pointing};
 }
 
-Vector3d AttitudeControl::torque_body_nm(double t_s, const Measured& measured) {
+Vector3d AttitudeControl::torque_body_nm(double t_s, const MeasuredBody& measured) {
   // Tells instants that are multiples of the period from the periods before.
   constexpr double kRounding_s = 1e-6;
   const double now_s = t_s + kRounding_s;

@@ -31,7 +31,7 @@ class AttitudeControl {
                                         const PointingLaw& pointing);
 
   /// What is asked for in the period that begins at `t_s`, behind separation; in order of time.
-  Eigen::Vector3d torque_body_nm(double t_s, const Measured& measured);
+  Eigen::Vector3d torque_body_nm(double t_s, const MeasuredBody& measured);
 
   ControlMode mode() const { return mode_; }
 

@@ -10,6 +10,7 @@
 
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/control/control_laws.h"
+#include "pipelines/ground_model/control/held_momentum.h"
 #include "pipelines/ground_model/control/thrusters.h"
 #include "pipelines/ground_model/control/wheels.h"
 #include "pipelines/ground_model/dynamics/disturbances.h"
@@ -17,7 +18,7 @@
 
 namespace spindrift {
 
-using Actuators = std::variant<Thrusters, Wheels>;
+using Actuators = std::variant<Thrusters, Wheels, HeldMomentum>;
 
 /// @tparam Body BodyMotion, where what was flown is asked for later, or SteppedBody.
 template <class Body>
@@ -35,7 +36,7 @@ class ClosedLoop {
   double t_s() const { return static_cast<double>(periods_) * period_s(); }
 
   /// What sensors without errors measure now.
-  Measured measured(const Eigen::Vector3d& sun_icrf) const {
+  MeasuredBody measured(const Eigen::Vector3d& sun_icrf) const {
     const BodyState& now = body_.last();
     return {
         .q_icrf_body = now.q_icrf_body,
@@ -45,7 +46,8 @@ class ClosedLoop {
   }
 
   Eigen::Vector3d wheels_body_nms() const {
-    return std::visit([](const auto& is) { return is.momentum_body_nms(); }, actuators_);
+    return std::visit([](const auto& is) -> Eigen::Vector3d { return is.momentum_body_nms(); },
+                      actuators_);
   }
 
   /// On by a period. @param torque_body_nm What the law asks for.

@@ -17,7 +17,7 @@ struct AttitudeError {
   Vector3d rate_rad_s;
 };
 
-AttitudeError error_of(const AttitudeTarget& target, const Measured& measured) {
+AttitudeError error_of(const AttitudeTarget& target, const MeasuredBody& measured) {
   const Eigen::Quaterniond q_target_body = target.q_icrf_target.conjugate() * measured.q_icrf_body;
   return {
       .quaternion = q_target_body.w() < 0.0 ? Vector3d{-q_target_body.vec()} : q_target_body.vec(),
@@ -38,17 +38,17 @@ Vector3d wanted_rate_rad_s(const SunAcquisition& law, const Vector3d& sun_body) 
 
 }  // namespace
 
-Vector3d RateFeedback::torque_body_nm(const Measured& measured) const {
+Vector3d RateFeedback::torque_body_nm(const MeasuredBody& measured) const {
   return -gain_nms.cwiseProduct(measured.rate_body_rad_s);
 }
 
-Vector3d RelayDamping::torque_body_nm(const Measured& measured) const {
+Vector3d RelayDamping::torque_body_nm(const MeasuredBody& measured) const {
   return measured.rate_body_rad_s.unaryExpr([&](double rate_rad_s) {
     return std::abs(rate_rad_s) > dead_band_rad_s ? -std::copysign(torque_nm, rate_rad_s) : 0.0;
   });
 }
 
-Vector3d SunAcquisition::torque_body_nm(const Measured& measured) const {
+Vector3d SunAcquisition::torque_body_nm(const MeasuredBody& measured) const {
   return inertia_kg_m2 * (wanted_rate_rad_s(*this, measured.sun_body) - measured.rate_body_rad_s) /
          period_s;
 }
@@ -58,14 +58,14 @@ PdGains PdGains::of(const Vector3d& moments_kg_m2, double frequency_rad_s, doubl
           .kd_nms = 2.0 * damping * frequency_rad_s * moments_kg_m2};
 }
 
-Vector3d SaturatedPd::torque_body_nm(const Measured& measured) const {
+Vector3d SaturatedPd::torque_body_nm(const MeasuredBody& measured) const {
   const AttitudeError error = error_of(target, measured);
   return -gains.kp_nm.cwiseProduct(within_largest(error.quaternion, error_most)) -
          gains.kd_nms.cwiseProduct(error.rate_rad_s) +
          measured.rate_body_rad_s.cross(measured.momentum_body_nms);
 }
 
-Vector3d VariableLimitPd::torque_body_nm(const Measured& measured) const {
+Vector3d VariableLimitPd::torque_body_nm(const MeasuredBody& measured) const {
   const AttitudeError error = error_of(target, measured);
   const Vector3d braked_rad_s =
       (4.0 * torque_nm_most * error.quaternion.cwiseAbs().cwiseQuotient(moments_kg_m2)).cwiseSqrt();

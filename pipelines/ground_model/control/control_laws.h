@@ -8,7 +8,7 @@
 
 namespace spindrift {
 
-struct Measured {
+struct MeasuredBody {
   Eigen::Quaterniond q_icrf_body;
   Eigen::Vector3d rate_body_rad_s;
   Eigen::Vector3d momentum_body_nms;  ///< Of body and wheels.
@@ -19,7 +19,7 @@ struct Measured {
 struct RateFeedback {
   Eigen::Vector3d gain_nms;  ///< About each axis.
 
-  Eigen::Vector3d torque_body_nm(const Measured& measured) const;
+  Eigen::Vector3d torque_body_nm(const MeasuredBody& measured) const;
 };
 
 /// All the torque against the rate about each axis that turns faster than the dead band.
@@ -27,7 +27,7 @@ struct RelayDamping {
   double torque_nm;
   double dead_band_rad_s;
 
-  Eigen::Vector3d torque_body_nm(const Measured& measured) const;
+  Eigen::Vector3d torque_body_nm(const MeasuredBody& measured) const;
 };
 
 /// Turns -Z to the Sun by the short way. In the plane of angle and rate it follows a curve,
@@ -42,7 +42,7 @@ struct SunAcquisition {
   double slew_rad_s;
   double period_s;
 
-  Eigen::Vector3d torque_body_nm(const Measured& measured) const;
+  Eigen::Vector3d torque_body_nm(const MeasuredBody& measured) const;
 };
 
 struct AttitudeTarget {
@@ -66,7 +66,7 @@ struct SaturatedPd {
   PdGains gains;
   double error_most;  ///< Of an element of the quaternion; (0, 1].
 
-  Eigen::Vector3d torque_body_nm(const Measured& measured) const;
+  Eigen::Vector3d torque_body_nm(const MeasuredBody& measured) const;
 };
 
 /// Seed 001, after Wie: -sat(kp sat_L(qe) + kd we), by the length of the torque outside and about
@@ -82,7 +82,7 @@ struct VariableLimitPd {
   double torque_nm_most;
   Eigen::Vector3d rate_rad_s_most;
 
-  Eigen::Vector3d torque_body_nm(const Measured& measured) const;
+  Eigen::Vector3d torque_body_nm(const MeasuredBody& measured) const;
 };
 
 }  // namespace spindrift

@@ -133,9 +133,15 @@ Expected<ThreeAxisTelemetry> three_axis_telemetry(const BodyMotion& motion, TaiT
                                                   const ThreeAxisFaults& faults, const Orbit& orbit,
                                                   Chance& chance) {
   Downlink downlink{motion, start, faults, chance};
-  downlink.send_stars(sensors.star_tracker);
-  downlink.send_gyro(sensors.gyro);
-  return downlink.send_sun(sensors.sun_sensor, orbit)
+  if (sensors.star_tracker) {
+    downlink.send_stars(*sensors.star_tracker);
+  }
+  if (sensors.gyro) {
+    downlink.send_gyro(*sensors.gyro);
+  }
+  const auto done =
+      sensors.sun_sensor ? downlink.send_sun(*sensors.sun_sensor, orbit) : Expected<void>{};
+  return done
       .and_then([&] {
         return sensors.magnetometer ? downlink.send_field(*sensors.magnetometer, orbit)
                                     : Expected<void>{};

@@ -57,11 +57,12 @@ struct TrueMagnetometer {
   MainFieldModel field;
 };
 
+// A sensor that is empty is not on board.
 struct ThreeAxisSensors {
-  TrueGyro gyro;
-  TrueSunSensor sun_sensor;
-  TrueStarTracker star_tracker;
-  std::optional<TrueMagnetometer> magnetometer = std::nullopt;  ///< Empty: not on board.
+  std::optional<TrueGyro> gyro;
+  std::optional<TrueSunSensor> sun_sensor;
+  std::optional<TrueStarTracker> star_tracker;
+  std::optional<TrueMagnetometer> magnetometer = std::nullopt;
 };
 
 struct ThreeAxisFaults {

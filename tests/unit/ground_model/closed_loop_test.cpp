@@ -160,9 +160,9 @@ TEST(ClosedLoop, OrientsItByAnAttitudeOfTheGyroAlone) {
   for (const GyroPropagation by : {GyroPropagation::Composition, GyroPropagation::RungeKutta}) {
     ClosedLoop<SteppedBody> loop = loop_of(kMoments_kg_m2, {});
     AttitudeControl control = sequence(orientation());
-    Measured measured = loop.measured(Vector3d::UnitX());
+    MeasuredBody measured = loop.measured(Vector3d::UnitX());
     while (loop.t_s() < 800.0) {
-      const Measured before = measured;
+      const MeasuredBody before = measured;
       loop.fly(control.torque_body_nm(loop.t_s(), measured), {});
       measured = loop.measured(Vector3d::UnitX());
       measured.q_icrf_body = propagated(by, before.q_icrf_body,
@@ -200,7 +200,7 @@ TEST(ClosedLoop, DampsTheSatelliteOfSeed000In18SecondsAndHoldsMinusZAtTheSun) {
   double damped_s = 0.0;
   double most_off_deg = 0.0;
   while (loop.t_s() < 1200.0) {
-    const Measured measured = loop.measured(Vector3d{0.6, -0.48, 0.64});
+    const MeasuredBody measured = loop.measured(Vector3d{0.6, -0.48, 0.64});
     loop.fly(control.torque_body_nm(loop.t_s(), measured), {});
     if (control.mode() != ControlMode::Pointing) {
       damped_s = loop.t_s();
@@ -235,10 +235,10 @@ TEST(AttitudeControl, PointsAtTheLatestWhenDampingHasHadItsTime) {
       AttitudeControl::make({.control_on_s = 2.0, .damped_rad_s = 0.0, .pointing_at_s = 3.0},
                             RateFeedback{kGains.kd_nms}, orientation())
           .value();
-  const Measured still{.q_icrf_body = kTarget,
-                       .rate_body_rad_s = Vector3d::Zero(),
-                       .momentum_body_nms = Vector3d::Zero(),
-                       .sun_body = Vector3d::UnitX()};
+  const MeasuredBody still{.q_icrf_body = kTarget,
+                           .rate_body_rad_s = Vector3d::Zero(),
+                           .momentum_body_nms = Vector3d::Zero(),
+                           .sun_body = Vector3d::UnitX()};
   for (const auto& [t_s, mode] : {std::pair{1.9, ControlMode::Drift},
                                   {2.0, ControlMode::Damping},
                                   {2.9, ControlMode::Damping},

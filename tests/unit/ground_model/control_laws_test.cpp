@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 const Vector3d kMoments_kg_m2{0.6, 1.2, 1.12};
 const PdGains kGains = PdGains::of(kMoments_kg_m2, 0.1, 0.6716);
 
-Measured off_by(const Vector3d& turn_rad, const Vector3d& rate_rad_s) {
+MeasuredBody off_by(const Vector3d& turn_rad, const Vector3d& rate_rad_s) {
   return {.q_icrf_body = quaternion_by(turn_rad),
           .rate_body_rad_s = rate_rad_s,
           .momentum_body_nms = kMoments_kg_m2.cwiseProduct(rate_rad_s),
@@ -51,7 +51,7 @@ TEST(SaturatedPd, IsOfSecondOrderNearTheTarget) {
 
 TEST(SaturatedPd, TurnsTheShortWayAndKeepsTheDirectionOfALargeError) {
   const SaturatedPd law{.target = at_rest(), .gains = kGains, .error_most = 0.1};
-  Measured far = off_by({3.0, 0.6, 0.0}, Vector3d::Zero());
+  MeasuredBody far = off_by({3.0, 0.6, 0.0}, Vector3d::Zero());
   const Vector3d torque_nm = law.torque_body_nm(far);
   EXPECT_LT((torque_nm.cwiseQuotient(kGains.kp_nm) - Vector3d{-0.1, -0.02, 0.0}).norm(), 1e-12);
   far.q_icrf_body.coeffs() *= -1.0;
@@ -61,7 +61,7 @@ TEST(SaturatedPd, TurnsTheShortWayAndKeepsTheDirectionOfALargeError) {
 TEST(SaturatedPd, AddsWhatTheTurningMomentumTakes) {
   const SaturatedPd law{
       .target = at_rest(), .gains = {Vector3d::Zero(), Vector3d::Zero()}, .error_most = 0.1};
-  Measured turning = off_by(Vector3d::Zero(), {0.01, 0.02, 0.0});
+  MeasuredBody turning = off_by(Vector3d::Zero(), {0.01, 0.02, 0.0});
   turning.momentum_body_nms = {0.0, 0.0, 0.5};
   EXPECT_LT((law.torque_body_nm(turning) - Vector3d{0.01, -0.005, 0.0}).norm(), 1e-15);
 }
@@ -72,10 +72,10 @@ TEST(SaturatedPd, FollowsATargetThatTurns) {
       .target = {.q_icrf_target = quaternion_by({0.5, 0.0, 0.0}), .rate_target_rad_s = rate_rad_s},
       .gains = kGains,
       .error_most = 0.1};
-  const Measured with = {.q_icrf_body = quaternion_by({0.5, 0.0, 0.0}),
-                         .rate_body_rad_s = rate_rad_s,
-                         .momentum_body_nms = Vector3d::Zero(),
-                         .sun_body = Vector3d::UnitX()};
+  const MeasuredBody with = {.q_icrf_body = quaternion_by({0.5, 0.0, 0.0}),
+                             .rate_body_rad_s = rate_rad_s,
+                             .momentum_body_nms = Vector3d::Zero(),
+                             .sun_body = Vector3d::UnitX()};
   EXPECT_LT(law.torque_body_nm(with).norm(), 1e-15);
 }
 
@@ -110,7 +110,7 @@ TEST(SunAcquisition, AsksForTheRateThatTurnsMinusZToTheSun) {
                            .torque_nm_most = 0.07,
                            .slew_rad_s = 0.01,
                            .period_s = 0.05};
-  Measured measured = off_by(Vector3d::Zero(), Vector3d::Zero());
+  MeasuredBody measured = off_by(Vector3d::Zero(), Vector3d::Zero());
   EXPECT_EQ(law.torque_body_nm(measured), Vector3d::Zero());
   measured.sun_body = {0.0, 1.0, 0.0};
   EXPECT_LT((law.torque_body_nm(measured) * 0.05 - Vector3d{120.0 * 0.01, 0.0, 0.0}).norm(), 1e-12);

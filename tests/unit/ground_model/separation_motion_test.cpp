@@ -1,4 +1,4 @@
-#include "pipelines/ground_model/separation/separation_motion.h"
+#include "pipelines/ground_model/flights/separation_motion.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,16 +25,26 @@ const Orbit kOrbit{KeplerOrbit::make({.epoch = kSeparation,
                                       .mean_anomaly_rad = 0.0})
                        .value()};
 
+/// Seconds behind the start, in order.
+struct Phases {
+  double control_on_s;
+  double acquisition_s;
+  double end_s;
+};
+
 /// Of seed 000, which damps from these rates.
-SeparationTruth truth_at(const SeparationPhases& phases) {
-  return {.separation = kSeparation,
-          .at_separation = {.q_icrf_body = quaternion_by({2.0, -1.0, 0.5}),
-                            .rate_body_rad_s = kRadPerDeg * Vector3d{0.618844, -0.33139, 0.065912}},
-          .inertia_kg_m2 = Vector3d{120.0, 100.0, 140.0}.asDiagonal(),
+SeparationTruth truth_at(const Phases& phases) {
+  const Vector3d rate_deg_s{0.618844, -0.33139, 0.065912};
+  return {.body = {.start = kSeparation,
+                   .at_start = {.q_icrf_body = quaternion_by({2.0, -1.0, 0.5}),
+                                .rate_body_rad_s = kRadPerDeg * rate_deg_s},
+                   .inertia_kg_m2 = Vector3d{120.0, 100.0, 140.0}.asDiagonal(),
+                   .end_s = phases.end_s},
           .control = {.thrusters = {.torque_nm = 0.07, .shortest_s = 0.01, .longest_s = 1.0},
                       .dead_band_rad_s = 0.03 * kRadPerDeg,
                       .slew_rad_s = 0.5 * kRadPerDeg},
-          .phases = phases};
+          .control_on_s = phases.control_on_s,
+          .acquisition_s = phases.acquisition_s};
 }
 
 double fastest_deg_s(const BodyState& state) {
@@ -52,7 +62,7 @@ TEST(SeparationMotion, DriftsWithoutTorqueUntilControlIsOn) {
       truth_at({.control_on_s = 60.0, .acquisition_s = 100.0, .end_s = 60.0});
   const BodyMotion motion = separation_motion(truth, kOrbit).value();
   const BodyState expected =
-      torque_free_arc(start_of_arc(truth.at_separation), truth.inertia_kg_m2, 60.0).body;
+      torque_free_arc(start_of_arc(truth.body.at_start), truth.body.inertia_kg_m2, 60.0).body;
   EXPECT_LT(angle_between_rad(motion.last().q_icrf_body, expected.q_icrf_body), 1e-9);
   EXPECT_LT((motion.last().rate_body_rad_s - expected.rate_body_rad_s).norm(), 1e-11);
 }
@@ -70,7 +80,7 @@ TEST(SeparationMotion, RelaysDampTheFlightsRatesIn18Seconds) {
 TEST(SeparationMotion, TurnsToTheSunFromAnywhereAndStays) {
   for (int i = 0; i < 12; ++i) {
     SeparationTruth truth = truth_at({.control_on_s = 0.0, .acquisition_s = 18.0, .end_s = 700.0});
-    truth.at_separation.q_icrf_body = quaternion_by(0.5 * i * Vector3d{0.8, -0.3, 0.52});
+    truth.body.at_start.q_icrf_body = quaternion_by(0.5 * i * Vector3d{0.8, -0.3, 0.52});
     const BodyMotion motion = separation_motion(truth, kOrbit).value();
     EXPECT_LT(sun_off_deg(motion, 600.0), 0.2) << i;
     EXPECT_LT(sun_off_deg(motion, 700.0), 0.2) << i;
@@ -99,21 +109,21 @@ TEST(SeparationMotion, AcquiresTheSunByPulsesOfAPeriodOfASecond) {
 }
 
 TEST(SeparationMotion, RefusesWhatCannotBe) {
-  const SeparationPhases phases{.control_on_s = 10.0, .acquisition_s = 20.0, .end_s = 30.0};
+  const Phases phases{.control_on_s = 10.0, .acquisition_s = 20.0, .end_s = 30.0};
   const auto error_of = [](const SeparationTruth& truth) {
     return separation_motion(truth, kOrbit).error();
   };
   SeparationTruth truth = truth_at(phases);
-  truth.inertia_kg_m2(0, 0) = 300.0;
+  truth.body.inertia_kg_m2(0, 0) = 300.0;
   EXPECT_THAT(error_of(truth).message, HasSubstr("not above the sum of the others"));
   truth = truth_at(phases);
-  truth.phases.acquisition_s = 5.0;
+  truth.acquisition_s = 5.0;
   EXPECT_EQ(error_of(truth).code, ErrorCode::InvalidConfiguration);
   truth = truth_at(phases);
   truth.control.thrusters.shortest_s = 0.0;
   EXPECT_THAT(error_of(truth).message, HasSubstr("thrusters of 0.07 N m"));
   truth = truth_at(phases);
-  truth.at_separation.rate_body_rad_s = {0.0, 0.0, 3.0};
+  truth.body.at_start.rate_body_rad_s = {0.0, 0.0, 3.0};
   EXPECT_THAT(error_of(truth).message, HasSubstr("too coarse for a body that turns by"));
 }
 

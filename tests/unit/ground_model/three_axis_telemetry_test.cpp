@@ -45,14 +45,17 @@ BodyMotion turning() {
 }
 
 ThreeAxisSensors sensors() {
-  return {.gyro = {.sampling = {0.0, 0.1},
-                   .noise_rad_s = kNoise,
-                   .bias_rad_s = {0.003, 0.0, -0.002},
-                   .range_rad_s = std::nullopt},
-          .sun_sensor = {.sampling = {100.0, 0.1}, .noise_rad = kNoise, .half_cone_rad = kTurn_rad},
-          .star_tracker = {.sampling = {200.0, 0.1},
-                           .noise_rad = kNoise,
-                           .q_body_sensor = Eigen::Quaterniond{0.5, -0.5, 0.1, 0.7}.normalized()}};
+  return {
+      .gyro = TrueGyro{.sampling = {0.0, 0.1},
+                       .noise_rad_s = kNoise,
+                       .bias_rad_s = {0.003, 0.0, -0.002},
+                       .range_rad_s = std::nullopt},
+      .sun_sensor =
+          TrueSunSensor{.sampling = {100.0, 0.1}, .noise_rad = kNoise, .half_cone_rad = kTurn_rad},
+      .star_tracker =
+          TrueStarTracker{.sampling = {200.0, 0.1},
+                          .noise_rad = kNoise,
+                          .q_body_sensor = Eigen::Quaterniond{0.5, -0.5, 0.1, 0.7}.normalized()}};
 }
 
 ThreeAxisTelemetry sent(const ThreeAxisSensors& sensors, const ThreeAxisFaults& faults,
@@ -84,14 +87,14 @@ TEST(ThreeAxisTelemetry, IsOffByBiasAndNoise) {
   double gyro = 0.0;
   for (const GyroSample& sample : telemetry.gyro) {
     const Vector3d truth = motion.at(seconds_between(kStart, sample.t)).rate_body_rad_s;
-    gyro += ((sample.rate_body_rad_s - said.gyro.bias_rad_s - truth) / kNoise).squaredNorm();
+    gyro += ((sample.rate_body_rad_s - said.gyro->bias_rad_s - truth) / kNoise).squaredNorm();
   }
   expect_one(gyro, 3.0 * 5001.0);
   double stars = 0.0;
   for (const StarFix& fix : telemetry.stars) {
     const auto truth = motion.at(seconds_between(kStart, fix.t)).q_icrf_body;
     stars += std::pow(
-        angle_between_rad(truth * said.star_tracker.q_body_sensor, fix.q_icrf_sensor) / kNoise, 2);
+        angle_between_rad(truth * said.star_tracker->q_body_sensor, fix.q_icrf_sensor) / kNoise, 2);
   }
   expect_one(stars, 3.0 * 3001.0);
   double suns = 0.0;
@@ -147,7 +150,7 @@ TEST(ThreeAxisTelemetry, OfAMagnetometerNeedsTheFieldsModel) {
 
 TEST(ThreeAxisTelemetry, OfAGyroStopsAtItsRange) {
   ThreeAxisSensors narrow = sensors();
-  narrow.gyro.range_rad_s = 0.012;
+  narrow.gyro->range_rad_s = 0.012;
   const ThreeAxisTelemetry telemetry = sent(narrow, {});
   const auto stopped =
       std::count_if(telemetry.gyro.begin(), telemetry.gyro.end(), [](const GyroSample& sample) {
@@ -196,13 +199,13 @@ TEST(ThreeAxisTelemetry, NamesItsSunOutliers) {
 
 TEST(ThreeAxisTelemetry, HasNoSunOutOfViewOrInTheShadow) {
   ThreeAxisSensors narrow = sensors();
-  narrow.sun_sensor.half_cone_rad = 60.0 * kRadPerDeg;
+  narrow.sun_sensor->half_cone_rad = 60.0 * kRadPerDeg;
   const ThreeAxisTelemetry telemetry = sent(narrow, {});
   EXPECT_LT(telemetry.sun.size(), 4001U);
   EXPECT_EQ(telemetry.missing, 0);
   for (const SunDirection& sun : telemetry.sun) {
     EXPECT_LT(angle_between_rad(sun.sun_body, -Vector3d::UnitZ()),
-              narrow.sun_sensor.half_cone_rad + 5.0 * kNoise);
+              narrow.sun_sensor->half_cone_rad + 5.0 * kNoise);
   }
   EXPECT_TRUE(sent(sensors(), {}, orbit_at(160.0 * kRadPerDeg)).sun.empty());
 }

@@ -83,10 +83,12 @@ std::string truth_text(const Scenario& scenario) {
 }
 
 TEST(Scenario, SchemasOfTheProgramAreSound) {
-  for (const auto kind : {SpacecraftKind::Spin, SpacecraftKind::ThreeAxis}) {
+  for (const auto& [kind, tables] :
+       {std::pair{ScenarioKind::Spin, 8U}, std::pair{ScenarioKind::Separation, 11U},
+        std::pair{ScenarioKind::Tumbling, 10U}, std::pair{ScenarioKind::Orientation, 12U}}) {
     const auto schema = scenario_schema(kind);
     ASSERT_TRUE(schema) << schema.error().message;
-    EXPECT_EQ(schema->tables.size(), kind == SpacecraftKind::Spin ? 8U : 10U);
+    EXPECT_EQ(schema->tables.size(), tables);
   }
 }
 
@@ -100,7 +102,7 @@ TEST(Scenario, LoadsThoseThatComeWithTheProgram) {
       ++count;
     }
   }
-  EXPECT_EQ(count, 5);
+  EXPECT_EQ(count, 7);
 }
 
 TEST(Scenario, TakesWhatIsLeftOutAsTheMissionFileHasIt) {

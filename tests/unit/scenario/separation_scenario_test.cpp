@@ -48,14 +48,14 @@ TEST(SeparationScenario, TakesWhatIsLeftOutAsTheMissionFileHasIt) {
   const auto scenario = loaded(kWhole);
   ASSERT_TRUE(scenario) << scenario.error().message;
   const SeparationScenario& flight = separation(scenario);
-  EXPECT_DOUBLE_EQ(flight.sensors.gyro.noise_rad_s, 0.002 * kRadPerDeg);
-  EXPECT_EQ(flight.sensors.gyro.sampling.from_s, 60.0);
-  EXPECT_EQ(flight.sensors.gyro.sampling.step_s, 0.25);
-  EXPECT_DOUBLE_EQ(flight.sensors.sun_sensor.noise_rad, 0.5 * kRadPerDeg);
-  EXPECT_DOUBLE_EQ(flight.sensors.star_tracker.noise_rad, 20.0 / 3600.0 * kRadPerDeg);
-  EXPECT_DOUBLE_EQ(flight.bias_sigma_rad_s, 0.01 * kRadPerDeg);
-  EXPECT_FALSE(flight.bias_rad_s);
-  EXPECT_EQ(flight.truth.inertia_kg_m2.diagonal(), Eigen::Vector3d(120.0, 100.0, 140.0));
+  EXPECT_DOUBLE_EQ(flight.view.sensors.gyro->noise_rad_s, 0.002 * kRadPerDeg);
+  EXPECT_EQ(flight.view.sensors.gyro->sampling.from_s, 60.0);
+  EXPECT_EQ(flight.view.sensors.gyro->sampling.step_s, 0.25);
+  EXPECT_DOUBLE_EQ(flight.view.sensors.sun_sensor->noise_rad, 0.5 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(flight.view.sensors.star_tracker->noise_rad, 20.0 / 3600.0 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(flight.view.bias_sigma_rad_s, 0.01 * kRadPerDeg);
+  EXPECT_FALSE(flight.view.bias_rad_s);
+  EXPECT_EQ(flight.truth.body.inertia_kg_m2.diagonal(), Eigen::Vector3d(120.0, 100.0, 140.0));
   EXPECT_FALSE(flight.launcher->off_rad);
 }
 
@@ -73,11 +73,11 @@ noise_arcsec = 100
 )");
   ASSERT_TRUE(scenario) << scenario.error().message;
   const SeparationScenario& flight = separation(scenario);
-  EXPECT_EQ(flight.sensors.gyro.noise_rad_s, 0.0);
-  EXPECT_DOUBLE_EQ(flight.bias_rad_s->z(), 0.004 * kRadPerDeg);
-  EXPECT_DOUBLE_EQ(flight.sensors.sun_sensor.noise_rad, kRadPerDeg);
-  EXPECT_DOUBLE_EQ(flight.sensors.sun_sensor.half_cone_rad, 60.0 * kRadPerDeg);
-  EXPECT_DOUBLE_EQ(flight.sensors.star_tracker.noise_rad, 100.0 / 3600.0 * kRadPerDeg);
+  EXPECT_EQ(flight.view.sensors.gyro->noise_rad_s, 0.0);
+  EXPECT_DOUBLE_EQ(flight.view.bias_rad_s->z(), 0.004 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(flight.view.sensors.sun_sensor->noise_rad, kRadPerDeg);
+  EXPECT_DOUBLE_EQ(flight.view.sensors.sun_sensor->half_cone_rad, 60.0 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(flight.view.sensors.star_tracker->noise_rad, 100.0 / 3600.0 * kRadPerDeg);
   EXPECT_DOUBLE_EQ(flight.launcher->off_rad->z(), 5.0 * kRadPerDeg);
   EXPECT_THAT(scenario->mission_toml, AllOf(HasSubstr("noise_deg = 0.5"), Not(HasSubstr("truth"))));
 }
@@ -119,7 +119,7 @@ TEST(SeparationScenario, SimulatesAMagnetometerWhereThereIsOne) {
   const std::string with_field = kWhole + "[three_axis.magnetometer]\nnoise_nt = 100\n";
   const auto scenario = loaded(with_field);
   ASSERT_TRUE(scenario) << scenario.error().message;
-  const TrueMagnetometer& as_said = separation(scenario).sensors.magnetometer.value();
+  const TrueMagnetometer& as_said = separation(scenario).view.sensors.magnetometer.value();
   EXPECT_EQ(as_said.noise_nt, 100.0);
   EXPECT_EQ(as_said.bias_nt, Eigen::Vector3d::Zero());
   EXPECT_EQ(as_said.sampling.from_s, 60.0);
@@ -130,7 +130,7 @@ TEST(SeparationScenario, SimulatesAMagnetometerWhereThereIsOne) {
                                      "[truth.magnetometer]\nnoise_nt = 10\nbias_nt = [1, 2, 3]\n"
                                      "[three_axis.gyro]"));
   ASSERT_TRUE(other) << other.error().message;
-  const TrueMagnetometer& really = separation(other).sensors.magnetometer.value();
+  const TrueMagnetometer& really = separation(other).view.sensors.magnetometer.value();
   EXPECT_EQ(really.noise_nt, 10.0);
   EXPECT_EQ(really.bias_nt, Eigen::Vector3d(1.0, 2.0, 3.0));
   EXPECT_EQ(really.sampling.step_s, 0.5);

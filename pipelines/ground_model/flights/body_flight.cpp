@@ -1,0 +1,46 @@
+#include "pipelines/ground_model/flights/body_flight.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "pipelines/geomagnetism/field_at_spacecraft.h"
+
+namespace spindrift {
+
+double fastest_rad_s(const Eigen::Matrix3d& inertia_kg_m2, const Eigen::Vector3d& rate_body_rad_s) {
+  const Eigen::Vector3d moments = inertia_kg_m2.selfadjointView<Eigen::Lower>().eigenvalues();
+  return rate_body_rad_s.norm() * std::sqrt(moments[2] / moments[0]);
+}
+
+Expected<ClosedLoop<BodyMotion>> loop_of(const BodyTruth& truth, const Actuators& actuators,
+                                         double period_s) {
+  constexpr double kLongestStep_s = 0.05;
+  const int steps = static_cast<int>(std::ceil(period_s / kLongestStep_s));
+  const double step_s = period_s / steps;
+  const auto body = RigidBody::make(truth.inertia_kg_m2);
+  if (!body) {
+    return Unexpected{body.error()};
+  }
+  if (const auto fine =
+          check_step(step_s, fastest_rad_s(truth.inertia_kg_m2, truth.at_start.rate_body_rad_s));
+      !fine) {
+    return Unexpected{fine.error()};
+  }
+  return ClosedLoop<BodyMotion>{BodyMotion{*body, truth.at_start, step_s}, actuators,
+                                truth.disturbances, steps};
+}
+
+Expected<Surroundings> surroundings_at(TaiTime t, const BodyTruth& truth, const Orbit& orbit,
+                                       TurningEarth& earth) {
+  return orbit.at(t).and_then([&](const OrbitState& spacecraft) -> Expected<Surroundings> {
+    if (!truth.field) {
+      return Surroundings{.spacecraft = spacecraft};
+    }
+    return field_icrf_nt(*truth.field, t, spacecraft.position_icrf_km, earth)
+        .map([&](const Eigen::Vector3d& field) {
+          return Surroundings{.spacecraft = spacecraft, .field_icrf_nt = field};
+        });
+  });
+}
+
+}  // namespace spindrift

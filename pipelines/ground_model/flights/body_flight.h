@@ -1,0 +1,67 @@
+/// @file
+/// A body along its orbit, whatever turns it.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/earth_orientation.h"
+#include "pipelines/ephemeris/orbit.h"
+#include "pipelines/frames/body_state.h"
+#include "pipelines/geomagnetism/main_field_model.h"
+#include "pipelines/ground_model/control/closed_loop.h"
+#include "pipelines/ground_model/dynamics/body_motion.h"
+#include "pipelines/ground_model/dynamics/coarse_step.h"
+#include "pipelines/ground_model/dynamics/disturbances.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+struct BodyTruth {
+  TaiTime start;
+  BodyState at_start;
+  Eigen::Matrix3d inertia_kg_m2;
+  double end_s;  ///< Behind the start.
+  Disturbances disturbances = {};
+  std::optional<MainFieldModel> field = std::nullopt;  ///< That a residual dipole feels.
+};
+
+/// Without torque a body turns at most this much faster than it does now.
+double fastest_rad_s(const Eigen::Matrix3d& inertia_kg_m2, const Eigen::Vector3d& rate_body_rad_s);
+
+/// Steps of at most 0.05 s.
+/// @return InvalidConfiguration for a body that cannot be, or turns too fast for the step.
+Expected<ClosedLoop<BodyMotion>> loop_of(const BodyTruth& truth, const Actuators& actuators,
+                                         double period_s);
+
+/// @param earth Remembers what is dear to compute.
+/// @return NoCoverage where orbit or field do not reach.
+Expected<Surroundings> surroundings_at(TaiTime t, const BodyTruth& truth, const Orbit& orbit,
+                                       TurningEarth& earth);
+
+/// On to the end.
+/// @param torque_body_nm What a law asks for in the period that begins at `t`: called with `t` and
+///        where the spacecraft is, in order of time.
+/// @return as surroundings_at; InvalidConfiguration once the body turns too fast for the step.
+template <class Law>
+Expected<void> fly(ClosedLoop<BodyMotion>& loop, const BodyTruth& truth, const Orbit& orbit,
+                   Law&& torque_body_nm) {
+  TurningEarth earth;
+  while (loop.t_s() < truth.end_s) {
+    const TaiTime t = shifted(truth.start, loop.t_s());
+    const auto surroundings = surroundings_at(t, truth, orbit, earth);
+    if (!surroundings) {
+      return Unexpected{surroundings.error()};
+    }
+    if (auto fine = check_step(loop.body().step_s(), loop.body().last().rate_body_rad_s.norm());
+        !fine) {
+      return fine;
+    }
+    loop.fly(torque_body_nm(t, surroundings->spacecraft), *surroundings);
+  }
+  return {};
+}
+
+}  // namespace spindrift

@@ -1,0 +1,162 @@
+#include "pipelines/ground_model/flights/orientation_motion.h"
+
+#include <algorithm>
+#include <deque>
+#include <utility>
+
+#include "pipelines/frames/angle.h"
+#include "pipelines/ground_model/control/control_period.h"
+#include "pipelines/ground_model/sensors/three_axis_reading.h"
+
+namespace spindrift {
+namespace {
+
+using Eigen::Vector3d;
+
+Eigen::Quaterniond q_icrf_target(const OrientationTruth& truth) {
+  return truth.body.at_start.q_icrf_body * truth.control.q_start_target;
+}
+
+PointingLaw pointing_law(const OrientationTruth& truth) {
+  const OrientationControl& control = truth.control;
+  const AttitudeTarget target{.q_icrf_target = q_icrf_target(truth)};
+  if (control.variable_limit) {
+    return VariableLimitPd{.target = target,
+                           .gains = control.gains(),
+                           .moments_kg_m2 = control.moments_kg_m2,
+                           .torque_nm_most = control.wheels.torque_nm_most,
+                           .rate_rad_s_most = Vector3d::Constant(control.slew_rad_s)};
+  }
+  // kd / kp of each axis.
+  const double rate_s = control.damping / control.frequency_rad_s;
+  return SaturatedPd{.target = target,
+                     .gains = control.gains(),
+                     .error_most = std::min(1.0, rate_s * control.slew_rad_s)};
+}
+
+/// What the computer on board takes for true.
+class OnBoard {
+ public:
+  OnBoard(const OrientationTruth& truth, const std::optional<TrueGyro>& gyro, Chance& chance)
+      : control_{truth.control},
+        gyro_{gyro},
+        chance_{chance},
+        q_icrf_body_{truth.body.at_start.q_icrf_body} {}
+
+  MeasuredBody measured(const ClosedLoop<BodyMotion>& loop) {
+    // No law here looks at the Sun.
+    MeasuredBody now = loop.measured(Vector3d::UnitX());
+    if (!control_.by_gyro) {
+      return now;
+    }
+    now.rate_body_rad_s = gyro_reading(
+        now.rate_body_rad_s, gyro_->bias_rad_s + chance_.normal_vector(gyro_->noise_rad_s),
+        gyro_->range_rad_s);
+    if (rate_rad_s_) {
+      q_icrf_body_ = propagated(
+          *control_.by_gyro, q_icrf_body_,
+          {.dt_s = loop.period_s(), .from_rad_s = *rate_rad_s_, .to_rad_s = now.rate_body_rad_s});
+    }
+    rate_rad_s_ = now.rate_body_rad_s;
+    now.q_icrf_body = q_icrf_body_;
+    now.momentum_body_nms =
+        control_.moments_kg_m2.cwiseProduct(now.rate_body_rad_s) + loop.wheels_body_nms();
+    return now;
+  }
+
+ private:
+  const OrientationControl& control_;
+  const std::optional<TrueGyro>& gyro_;
+  Chance& chance_;
+  Eigen::Quaterniond q_icrf_body_;
+  std::optional<Vector3d> rate_rad_s_;  ///< A period before; empty: none yet.
+};
+
+/// Comes so many periods late.
+class LateTorque {
+ public:
+  explicit LateTorque(int periods)
+      : asked_nm_(static_cast<std::size_t>(periods), Vector3d::Zero()) {}
+
+  Vector3d after(const Vector3d& now_nm) {
+    asked_nm_.push_back(now_nm);
+    const Vector3d due_nm = asked_nm_.front();
+    asked_nm_.pop_front();
+    return due_nm;
+  }
+
+ private:
+  std::deque<Vector3d> asked_nm_;
+};
+
+ControlRecord record_of(const ClosedLoop<BodyMotion>& loop, ControlMode mode) {
+  const Wheels& wheels = std::get<Wheels>(loop.actuators());
+  return {.t_s = loop.t_s(),
+          .mode = mode,
+          .momenta_nms = wheels.momenta_nms(),
+          .speeds_rad_s = wheels.speeds_rad_s(),
+          .told_rad_s = wheels.told_rad_s()};
+}
+
+}  // namespace
+
+Expected<Orientation> orientation_motion(const OrientationTruth& truth,
+                                         const std::optional<TrueGyro>& gyro, const Orbit& orbit,
+                                         Chance& chance) {
+  const OrientationControl& control = truth.control;
+  if (const auto good = check_control_period(control.period_s, control.frequency_rad_s); !good) {
+    return Unexpected{good.error()};
+  }
+  const auto wheels = Wheels::make(control.wheels);
+  if (!wheels) {
+    return Unexpected{wheels.error()};
+  }
+  auto laws = AttitudeControl::make(control.plan, RateFeedback{.gain_nms = control.gains().kd_nms},
+                                    pointing_law(truth));
+  if (!laws) {
+    return Unexpected{std::move(laws.error())};
+  }
+  auto loop = loop_of(truth.body, *wheels, control.period_s);
+  if (!loop) {
+    return Unexpected{std::move(loop.error())};
+  }
+  OnBoard on_board{truth, gyro, chance};
+  LateTorque late{control.periods_late};
+  std::vector<ControlRecord> record;
+  return fly(*loop, truth.body, orbit,
+             [&](TaiTime, const OrbitState&) {
+               const Vector3d asked_nm =
+                   laws->torque_body_nm(loop->t_s(), on_board.measured(*loop));
+               record.push_back(record_of(*loop, laws->mode()));
+               return late.after(asked_nm);
+             })
+      .map([&] {
+        record.push_back(record_of(*loop, laws->mode()));
+        return Orientation{.motion = std::move(*loop).body(), .record = std::move(record)};
+      });
+}
+
+OrientationOutcome outcome_of(const Orientation& orientation, const OrientationTruth& truth) {
+  const Eigen::Quaterniond target = q_icrf_target(truth);
+  OrientationOutcome outcome{.pointing_s = std::nullopt,
+                             .settled_s = std::nullopt,
+                             .last_off_rad = 0.0,
+                             .most_nms = 0.0,
+                             .most_rad_s = 0.0};
+  for (const ControlRecord& now : orientation.record) {
+    if (now.mode == ControlMode::Pointing && !outcome.pointing_s) {
+      outcome.pointing_s = now.t_s;
+    }
+    outcome.last_off_rad = angle_between_rad(orientation.motion.at(now.t_s).q_icrf_body, target);
+    if (outcome.last_off_rad > kRadPerDeg) {
+      outcome.settled_s.reset();
+    } else if (!outcome.settled_s) {
+      outcome.settled_s = now.t_s;
+    }
+    outcome.most_nms = std::max(outcome.most_nms, now.momenta_nms.lpNorm<Eigen::Infinity>());
+    outcome.most_rad_s = std::max(outcome.most_rad_s, now.speeds_rad_s.lpNorm<Eigen::Infinity>());
+  }
+  return outcome;
+}
+
+}  // namespace spindrift

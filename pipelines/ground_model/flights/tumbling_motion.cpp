@@ -1,0 +1,35 @@
+#include "pipelines/ground_model/flights/tumbling_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "pipelines/ground_model/control/held_momentum.h"
+
+namespace spindrift {
+namespace {
+
+/// It ends with a step.
+double step_s(const BodyTruth& truth) {
+  constexpr double kTurn_rad = 0.02;
+  constexpr double kLongest_s = 1.0;
+  const double fastest = fastest_rad_s(truth.inertia_kg_m2, truth.at_start.rate_body_rad_s);
+  const double wanted_s = std::min(kLongest_s, kTurn_rad / std::max(fastest, 1e-6));
+  return truth.end_s / std::ceil(truth.end_s / wanted_s);
+}
+
+}  // namespace
+
+Expected<BodyMotion> tumbling_motion(const TumblingTruth& truth, const Orbit& orbit) {
+  const auto body = RigidBody::make(truth.body.inertia_kg_m2);
+  if (!body) {
+    return Unexpected{body.error()};
+  }
+  ClosedLoop<BodyMotion> loop{BodyMotion{*body, truth.body.at_start, step_s(truth.body)},
+                              HeldMomentum{truth.wheels_body_nms}, truth.body.disturbances, 1};
+  return fly(loop, truth.body, orbit,
+             [](TaiTime, const OrbitState&) { return Eigen::Vector3d::Zero().eval(); })
+      .map([&] { return std::move(loop).body(); });
+}
+
+}  // namespace spindrift

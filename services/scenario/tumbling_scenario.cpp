@@ -1,0 +1,24 @@
+#include "services/scenario/tumbling_scenario.h"
+
+#include <vector>
+
+#include "services/mission/mission_three_axis.h"
+#include "services/scenario/three_axis_scenario.h"
+#include "services/toml_schema/values.h"
+
+namespace spindrift {
+
+void check_tumbling_scenario(TomlDocument& document) {
+  check_within_pass(document, "tumbling.first_star_fix_s");
+  check_has_sensor(document);
+}
+
+TumblingScenario tumbling_scenario(const TomlValues& values, TaiTime start) {
+  const ThreeAxisConfig said = three_axis_config(values);
+  return {.view = three_axis_view(values, said,
+                                  {.star_s = number(values, "tumbling.first_star_fix_s")}),
+          .truth = {.body = body_truth(values, said, start),
+                    .wheels_body_nms = vector_or_zero(values, "tumbling.wheels_nms")}};
+}
+
+}  // namespace spindrift

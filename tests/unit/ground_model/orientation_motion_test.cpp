@@ -1,0 +1,155 @@
+// The figures of seed 004 that a flight of its sequence must reach.
+
+#include "pipelines/ground_model/flights/orientation_motion.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipelines/frames/angle.h"
+#include "pipelines/frames/celestial.h"
+#include "pipelines/frames/rotation_vector.h"
+
+namespace spindrift::orientation_motion_test {
+
+using Eigen::Vector3d;
+using ::testing::HasSubstr;
+
+constexpr TaiTime kStart = tai_from_ns(1'772'337'637'000'000'000);
+const Vector3d kMoments_kg_m2{0.6, 1.2, 1.12};
+const double kMostSpeed_rad_s = 6000.0 / 60.0 * kTurn_rad;
+
+const Orbit kOrbit{KeplerOrbit::make({.epoch = kStart,
+                                      .semi_major_axis_km = 6878.137,
+                                      .eccentricity = 0.001,
+                                      .inclination_rad = 42.0 * kRadPerDeg,
+                                      .raan_rad = 10.0 * kRadPerDeg,
+                                      .argument_of_perigee_rad = 0.0,
+                                      .mean_anomaly_rad = 0.0})
+                       .value()};
+
+OrientationTruth truth() {
+  return {
+      .body = {.start = kStart,
+               .at_start = {.q_icrf_body = quaternion_by({2.0, -1.0, 0.5}),
+                            .rate_body_rad_s = kRadPerDeg * Vector3d{3.0, -3.0, 3.0}},
+               .inertia_kg_m2 = kMoments_kg_m2.asDiagonal(),
+               .end_s = 800.0},
+      .control = {
+          .plan = {.control_on_s = 2.0, .damped_rad_s = 0.1 * kRadPerDeg, .pointing_at_s = 100.0},
+          .q_start_target = Eigen::Quaterniond{0.7071, 0.7071, 0.0, 0.0}.normalized(),
+          .wheels = {.axes_body = Eigen::Matrix3d::Identity(),
+                     .inertia_kg_m2 = 0.3 / kMostSpeed_rad_s,
+                     .torque_nm_most = 0.01,
+                     .speed_rad_s_most = kMostSpeed_rad_s},
+          .moments_kg_m2 = kMoments_kg_m2,
+          .frequency_rad_s = 0.1,
+          .damping = 0.6716,
+          .slew_rad_s = kRadPerDeg,
+          .variable_limit = false,
+          .period_s = 0.1,
+          .periods_late = 0,
+          .by_gyro = GyroPropagation::RungeKutta}};
+}
+
+TrueGyro gyro_with(const Vector3d& bias_deg_s, double noise_deg_s = 0.0) {
+  return {.sampling = {0.0, 0.1},
+          .noise_rad_s = noise_deg_s * kRadPerDeg,
+          .bias_rad_s = bias_deg_s * kRadPerDeg,
+          .range_rad_s = std::nullopt};
+}
+
+Orientation flown(const OrientationTruth& truth, const TrueGyro& gyro) {
+  Chance chance{3};
+  return orientation_motion(truth, gyro, kOrbit, chance).value();
+}
+
+std::string refusal_of(const OrientationTruth& truth) {
+  Chance chance{3};
+  return orientation_motion(truth, gyro_with(Vector3d::Zero()), kOrbit, chance).error().message;
+}
+
+TEST(OrientationMotion, PointsTheSatelliteOfSeed004ByItsGyroAlone) {
+  const OrientationTruth undisturbed = truth();
+  const Orientation flight = flown(undisturbed, gyro_with(Vector3d::Zero()));
+  const OrientationOutcome outcome = outcome_of(flight, undisturbed);
+  EXPECT_EQ(flight.record.size(), 8001U);
+  EXPECT_DOUBLE_EQ(flight.motion.end_s(), 800.0);
+  EXPECT_GT(*outcome.pointing_s, 20.0);
+  EXPECT_LT(*outcome.pointing_s, 60.0);
+  EXPECT_LT(*outcome.settled_s, 240.0);
+  EXPECT_LT(degrees(outcome.last_off_rad), 0.01);
+  EXPECT_LT(outcome.most_nms, 0.11);
+  EXPECT_LT(outcome.most_rad_s, kMostSpeed_rad_s);
+}
+
+TEST(OrientationMotion, HoldsItAgainstAConstantTorque) {
+  constexpr double kTorque_nm = 5e-5;
+  OrientationTruth disturbed = truth();
+  disturbed.body.disturbances.constant_body_nm = Vector3d::Constant(kTorque_nm);
+  const OrientationOutcome outcome =
+      outcome_of(flown(disturbed, gyro_with(Vector3d::Zero())), disturbed);
+  EXPECT_LT(*outcome.settled_s, 240.0);
+  EXPECT_LT(outcome.most_nms, 0.17);
+  // No integral term: the error balances the torque.
+  const double expected_rad = (kTorque_nm / (0.1 * 0.1) * kMoments_kg_m2.cwiseInverse()).norm();
+  EXPECT_NEAR(degrees(outcome.last_off_rad), degrees(expected_rad), 0.02);
+}
+
+TEST(OrientationMotion, DriftsByTheBiasThatItsComputerTakesForARate) {
+  constexpr double kBias_deg_s = 1e-3;
+  const OrientationTruth undisturbed = truth();
+  const OrientationOutcome outcome =
+      outcome_of(flown(undisturbed, gyro_with({0.0, 0.0, kBias_deg_s})), undisturbed);
+  // In 800 s, less a little for the turn in which the axis lay elsewhere.
+  EXPECT_NEAR(degrees(outcome.last_off_rad), 800.0 * kBias_deg_s, 0.05);
+
+  OrientationTruth knowing = undisturbed;
+  knowing.control.by_gyro.reset();
+  EXPECT_LT(
+      degrees(outcome_of(flown(knowing, gyro_with({0.0, 0.0, kBias_deg_s})), knowing).last_off_rad),
+      0.001);
+}
+
+TEST(OrientationMotion, SettlesWithInertiaAFifthOffLateTorqueEitherLawAndEitherPropagation) {
+  for (const double factor : {0.8, 1.2}) {
+    for (const bool variable_limit : {false, true}) {
+      OrientationTruth other = truth();
+      other.body.inertia_kg_m2 *= factor;
+      other.control.periods_late = 1;
+      other.control.variable_limit = variable_limit;
+      other.control.by_gyro = GyroPropagation::Composition;
+      const OrientationOutcome outcome =
+          outcome_of(flown(other, gyro_with(Vector3d::Zero(), 0.001)), other);
+      EXPECT_LT(*outcome.settled_s, 240.0) << factor << variable_limit;
+      EXPECT_LT(degrees(outcome.last_off_rad), 0.1) << factor << variable_limit;
+    }
+  }
+}
+
+TEST(OrientationMotion, TellsThatItNeverSettles) {
+  OrientationTruth brief = truth();
+  brief.body.end_s = 30.0;
+  const OrientationOutcome outcome = outcome_of(flown(brief, gyro_with(Vector3d::Zero())), brief);
+  EXPECT_FALSE(outcome.settled_s);
+  EXPECT_GT(degrees(outcome.last_off_rad), 1.0);
+}
+
+TEST(OrientationMotion, RefusesWhatCannotBe) {
+  OrientationTruth other = truth();
+  other.control.period_s = 5.0;
+  EXPECT_THAT(refusal_of(other), HasSubstr("a control period of 5 s is too long"));
+  other = truth();
+  other.control.wheels.axes_body.col(2) = Vector3d::UnitX();
+  EXPECT_THAT(refusal_of(other), HasSubstr("do not span space"));
+  other = truth();
+  other.control.plan.control_on_s = -1.0;
+  EXPECT_THAT(refusal_of(other), HasSubstr("control is on at -1 s"));
+  other = truth();
+  other.body.at_start.rate_body_rad_s = {0.0, 0.0, 3.0};
+  EXPECT_THAT(refusal_of(other), HasSubstr("too coarse for a body that turns by"));
+  other = truth();
+  other.body.inertia_kg_m2(0, 0) = 3.0;
+  EXPECT_THAT(refusal_of(other), HasSubstr("not above the sum of the others"));
+}
+
+}  // namespace spindrift::orientation_motion_test
