@@ -81,6 +81,14 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
     testing::write_three_axis_pass(pass_, kLongPass);
     sent_ = in_batches(disordered_samples(pass_));
     first_ns_ = tai_ns(sent_.front().samples.of<GyroSample>().front().value.t);
+    said_ = parse_action({{"spacecraft", "SAT"},
+                          {"by", "shift"},
+                          {"action", "exclude_segment"},
+                          {"channel", "sun"},
+                          {"from_tai_ns", first_ns_ + 40'000'000'000},
+                          {"to_tai_ns", first_ns_ + 80'000'000'000}},
+                         {{"SAT", SpacecraftKind::ThreeAxis}})
+                .value();
   }
 
   Processor new_processor() const {
@@ -110,14 +118,7 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
       }
       if (i == says_at_) {
         SampleBatch said;
-        said.actions = {parse_action({{"spacecraft", "SAT"},
-                                      {"by", "shift"},
-                                      {"action", "exclude_segment"},
-                                      {"channel", "sun"},
-                                      {"from_tai_ns", first_ns_ + 100'000'000'000},
-                                      {"to_tai_ns", first_ns_ + 300'000'000'000}},
-                                     {{"SAT", SpacecraftKind::ThreeAxis}})
-                            .value()};
+        said.actions = {said_};
         work(processor, processor.route(std::move(said)), out);
       }
       work(processor, processor.route(sent_[i]), out);
@@ -147,7 +148,8 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
 
   std::filesystem::path pass_;
   std::vector<SampleBatch> sent_;
-  std::optional<std::size_t> says_at_;  ///< That batch, of a segment long before.
+  OperatorAction said_;                 ///< Of a segment of what the reconstruction rests on.
+  std::optional<std::size_t> says_at_;  ///< Before that batch, long behind the segment.
   std::int64_t first_ns_ = 0;
 };
 
@@ -168,10 +170,12 @@ TEST_F(ThreeAxisRestart, KilledAtAnyPointGivesWhatNoRestartWouldHave) {
   ASSERT_EQ(rows_of(whole_db, "SELECT DISTINCT rejected_by FROM rejected_sample ORDER BY 1"),
             (std::vector<std::string>{"innovation|", "late|", "saturated|"}));
 
+  // Two minutes behind the first star fix are used.
   EXPECT_EQ(
       number_of(whole_db, "SELECT sun_vectors FROM reconstruction WHERE method = 'batch'"),
-      number_of(whole_db, fmt::format("SELECT count(*) FROM sun_sample WHERE t_tai_ns - {} NOT"
-                                      " BETWEEN 100000000000 AND 299999999999",
+      number_of(whole_db, fmt::format("SELECT count(*) FROM sun_sample WHERE t_tai_ns - {0} <= "
+                                      "120000000000 AND t_tai_ns - {0} NOT BETWEEN 40000000000 "
+                                      "AND 79999999999",
                                       first_ns_)));
 
   for (const std::size_t killed :

@@ -244,7 +244,8 @@ Judged judged_attitudes(const TemporaryFolder& folder, const std::filesystem::pa
                    out.string(), "--db", db.string(), "--strict"}};
   EXPECT_EQ(process.exit_status(), 0) << process.log();
   Judged judged;
-  for (const auto& truth : nlohmann::json::parse(text_of(out / "truth.json"))["history"]) {
+  const auto told = nlohmann::json::parse(text_of(out / "truth.json"));
+  for (const auto& truth : told["history"]) {
     const auto row = [&](const char* column) {
       return real_of(db, fmt::format("SELECT {} FROM attitude WHERE t_tai_ns = {}", column,
                                      truth[0].get<std::int64_t>()));

@@ -100,7 +100,7 @@ TEST(ServeTerminal, RewritesOneLineAndScrollsWhatChanges) {
   ASSERT_TRUE(front_end.send_until(0.5));
   EXPECT_TRUE(terminal.shows("Z SILENT ")) << terminal.text();
   EXPECT_TRUE(terminal.shows(" SPINNER: link.silent: no telemetry: ")) << terminal.text();
-  EXPECT_TRUE(terminal.shows(" batch OK ")) << terminal.text();
+  EXPECT_TRUE(terminal.shows(" OK 0.")) << terminal.text();
   ASSERT_TRUE(front_end.send_until(0.6));
   EXPECT_TRUE(terminal.shows(" SPINNER: link.silent: over at ")) << terminal.text();
   service.signal(SIGTERM);
