@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "pipelines/time/utc.h"
+#include "services/plot/colours.h"
 
 namespace spindrift::plot {
 namespace {
@@ -24,11 +25,6 @@ constexpr double kBar = 16.0;
 constexpr double kBetweenBars = 5.0;
 constexpr double kSeam = 0.7;  // Between states of the same colour.
 constexpr int kMostTimes = 9;
-
-constexpr std::string_view kInk = "#222222";
-constexpr std::string_view kFaint = "#666666";
-constexpr std::string_view kGrid = "#e6e6e6";
-constexpr std::string_view kFrame = "#999999";
 
 int digits_at(std::string_view text, std::size_t begin) {
   int number = 0;
@@ -89,8 +85,7 @@ void TimePage::frame(std::string_view title, double height) {
 void TimePage::panel(double height, const ValueAxis& axis, const std::vector<Curve>& curves,
                      const std::vector<Limit>& limits) {
   frame(axis.title, height);
-  const Scale y = axis.is_logarithmic ? Scale::logarithmic(axis.low, axis.high, bottom_, top_)
-                                      : Scale::linear(axis.low, axis.high, bottom_, top_);
+  const Scale y = axis.scale(bottom_, top_);
   for (const double tick : axis.ticks) {
     const double at = y.pixel_of(tick);
     svg_.line({kLeft, at}, {kRight, at}, {.colour = kGrid});

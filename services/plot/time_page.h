@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipelines/time/tai_time.h"
+#include "services/plot/axis.h"
 #include "services/plot/scale.h"
 #include "services/plot/svg.h"
 
@@ -27,20 +28,6 @@ struct Curve {
 struct Mark {
   TaiTime t;
   std::string name;
-};
-
-struct Limit {
-  std::string name;
-  std::string_view colour;
-  double value;
-};
-
-struct ValueAxis {
-  std::string title;
-  bool is_logarithmic;
-  double low;
-  double high;
-  std::vector<double> ticks;
 };
 
 /// One state for each time of the page; it lasts until the next.

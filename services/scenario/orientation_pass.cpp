@@ -28,8 +28,10 @@ Expected<SimulatedPass> played_pass(const Scenario& scenario, const OrientationS
   return flown(flight, scenario.orbit).and_then([&](FlownOrientation&& orientation) {
     return start_and_end(scenario, orientation.body.motion).map([&](ordered_json&& truth) {
       add_outcome(orientation.outcome, truth);
-      return three_axis_pass(flight.view.sensors, std::move(orientation.body), std::move(truth),
-                             scenario.mission_toml);
+      SimulatedPass pass = three_axis_pass(flight.view.sensors, std::move(orientation.body),
+                                           std::move(truth), scenario.mission_toml);
+      pass.control = std::move(orientation.record);
+      return pass;
     });
   });
 }

@@ -11,6 +11,7 @@
 #include "services/input_file/input_file.h"
 #include "services/mission/mission_orbit.h"
 #include "services/mission/spacecraft_kind.h"
+#include "services/scenario/dispersions.h"
 #include "services/scenario/mission_text.h"
 #include "services/scenario/scenario_schema.h"
 #include "services/toml_schema/document.h"
@@ -111,24 +112,6 @@ std::optional<std::filesystem::path> oem_of(const TomlDocument& document) {
   return oem ? std::optional{document.path.parent_path() / *oem} : std::nullopt;
 }
 
-Expected<TomlDocument> parsed(const std::filesystem::path& path, std::string text,
-                              ScenarioKind kind) {
-  return scenario_schema(kind).and_then(
-      [&](const TableRule& schema) { return parse_document(path, std::move(text), schema); });
-}
-
-/// Its values by the rules of its kind.
-Expected<TomlDocument> read_scenario(const std::filesystem::path& path) {
-  const auto read = [&path](std::string&& text) -> Expected<TomlDocument> {
-    auto document = parsed(path, std::move(text), ScenarioKind::Spin);
-    if (document && kind_of(document->table) != ScenarioKind::Spin) {
-      return parsed(path, std::move(document->text), kind_of(document->table));
-    }
-    return document;
-  };
-  return read_text_file(path).and_then(read);
-}
-
 void check_flight(TomlDocument& document) {
   switch (kind_of(document.table)) {
     case ScenarioKind::Spin:
@@ -158,31 +141,52 @@ decltype(Scenario::flight) flight_of(const TomlDocument& document, TaiTime start
 
 }  // namespace
 
-Expected<Scenario> load_scenario(const std::filesystem::path& path,
-                                 std::optional<TaiTime> other_start) {
-  auto document = read_scenario(path);
-  if (!document) {
-    return Unexpected{std::move(document.error())};
-  }
-  const auto own_start = start_of(*document);
+Expected<TomlDocument> checked_scenario(const std::filesystem::path& path, toml::table table) {
+  return scenario_schema(kind_of(table)).map([&](const TableRule& schema) {
+    auto [values, problems] = check_document(schema, table);
+    return TomlDocument{.path = path,
+                        .text = {},
+                        .table = std::move(table),
+                        .values = std::move(values),
+                        .problems = std::move(problems)};
+  });
+}
+
+Expected<TomlDocument> read_scenario(const std::filesystem::path& path) {
+  return read_text_file(path).and_then([&](std::string&& text) {
+    return parsed_toml(path, text).and_then([&](toml::table&& table) {
+      return checked_scenario(path, std::move(table));
+    });
+  });
+}
+
+Expected<Scenario> scenario_of(TomlDocument document, std::optional<TaiTime> other_start) {
+  const auto own_start = start_of(document);
   const auto start = other_start ? other_start : own_start;
-  auto orbit = orbit_at(*document, own_start, start);
+  auto orbit = orbit_at(document, own_start, start);
   if (!orbit) {
-    add_problem(*document, orbit_key(document->values), std::move(orbit.error().message));
+    add_problem(document, orbit_key(document.values), std::move(orbit.error().message));
   } else if (orbit->orbit) {
-    check_coverage(*document, *orbit->orbit, start);
+    check_coverage(document, *orbit->orbit, start);
   }
-  check_flight(*document);
-  if (auto sound = soundness(*document); !sound) {
+  check_flight(document);
+  check_dispersions(document);
+  if (auto sound = soundness(document); !sound) {
     return Unexpected{std::move(sound.error())};
   }
-  return Scenario{.spacecraft_id = value_of<std::string>(document->values, "spacecraft.id"),
+  return Scenario{.spacecraft_id = value_of<std::string>(document.values, "spacecraft.id"),
                   .orbit = std::move(*orbit->orbit),
-                  .oem = other_start ? std::nullopt : oem_of(*document),
+                  .oem = other_start ? std::nullopt : oem_of(document),
                   .start = *start,
-                  .duration_s = number(document->values, "pass.duration_s"),
-                  .flight = flight_of(*document, *start),
-                  .mission_toml = mission_text(document->table)};
+                  .duration_s = number(document.values, "pass.duration_s"),
+                  .flight = flight_of(document, *start),
+                  .mission_toml = mission_text(document.table)};
+}
+
+Expected<Scenario> load_scenario(const std::filesystem::path& path,
+                                 std::optional<TaiTime> other_start) {
+  return read_scenario(path).and_then(
+      [&](TomlDocument&& document) { return scenario_of(std::move(document), other_start); });
 }
 
 }  // namespace spindrift

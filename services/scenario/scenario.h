@@ -16,6 +16,7 @@
 #include "services/scenario/separation_scenario.h"
 #include "services/scenario/spin_scenario.h"
 #include "services/scenario/tumbling_scenario.h"
+#include "services/toml_schema/document.h"
 
 namespace spindrift {
 
@@ -30,6 +31,16 @@ struct Scenario {
   /// The mission file that goes with it, but for what a separation tells; its orbit is orbit.oem.
   std::string mission_toml;
 };
+
+/// The file by the rules of its kind (scenario_schema.h); what breaks them stands in `problems`.
+/// @return InvalidConfiguration for what cannot be read or is not TOML.
+Expected<TomlDocument> read_scenario(const std::filesystem::path& path);
+
+/// Likewise of a table that is not as it stands in the file. @param path Named in problems.
+Expected<TomlDocument> checked_scenario(const std::filesystem::path& path, toml::table table);
+
+/// With the orbit file that it names. @return As load_scenario.
+Expected<Scenario> scenario_of(TomlDocument document, std::optional<TaiTime> other_start = {});
 
 /// Reads a scenario, and the orbit file that it names, by the rules of its kind
 /// (scenario_schema.h).

@@ -59,6 +59,7 @@ Expected<TableRule> three_axis_schema(ScenarioKind kind, const TableRule& missio
   schema->tables.at("orbit").required = "always";
   require_sensors(kind, schema->tables.at("three_axis"));
   share(spin, "pass", *schema);
+  share(spin, "dispersions", *schema);
   schema->tables.at("pass").keys.at("duration_s").upper = Bound{kLongest_s, true};
   share(spin.tables.at("faults"), "silence", schema->tables.at("faults"));
   return schema;

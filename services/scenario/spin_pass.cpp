@@ -1,6 +1,7 @@
 #include "services/scenario/spin_pass.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "pipelines/ground_model/link/coded_telemetry.h"
@@ -12,17 +13,23 @@ namespace {
 
 constexpr int kSlices = 200;
 
-Expected<ReceivedSpin> received(const Scenario& scenario, const SpinScenario& flight) {
+Expected<ReceivedSpin> received(const Scenario& scenario, const SpinScenario& flight,
+                                Progress progress) {
   SpinEdges source{flight.truth, scenario.orbit};
   std::vector<TrueEdge> edges;
-  ProgressBar progress{"simulating", kSlices};
+  std::optional<ProgressBar> bar;
+  if (progress == Progress::Shown) {
+    bar.emplace("simulating", kSlices);
+  }
   for (int slice = 1; slice <= kSlices; ++slice) {
     const auto more = source.until(scenario.duration_s * slice / kSlices);
     if (!more) {
       return Unexpected{more.error()};
     }
     edges.insert(edges.end(), more->begin(), more->end());
-    progress.advance_to(static_cast<std::uint64_t>(slice));
+    if (bar) {
+      bar->advance_to(static_cast<std::uint64_t>(slice));
+    }
   }
   return ReceivedSpin{.pass = receive(flight.link, edges, scenario.start, scenario.duration_s,
                                       source.revolutions()),
@@ -76,8 +83,9 @@ std::vector<Counted> faults_of(const ReceivedPass& pass) {
 
 }  // namespace
 
-Expected<SimulatedPass> played_pass(const Scenario& scenario, const SpinScenario& flight) {
-  const auto spin = received(scenario, flight);
+Expected<SimulatedPass> played_pass(const Scenario& scenario, const SpinScenario& flight,
+                                    Progress progress) {
+  const auto spin = received(scenario, flight, progress);
   if (!spin) {
     return Unexpected{spin.error()};
   }

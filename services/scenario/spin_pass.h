@@ -11,6 +11,7 @@ namespace spindrift {
 
 /// As simulated_pass. @return NoCoverage or Unobservable where the orbit ends before, or dips below
 /// the horizon.
-Expected<SimulatedPass> played_pass(const Scenario& scenario, const SpinScenario& flight);
+Expected<SimulatedPass> played_pass(const Scenario& scenario, const SpinScenario& flight,
+                                    Progress progress);
 
 }  // namespace spindrift

@@ -109,6 +109,7 @@ SimulatedPass three_axis_pass(const ThreeAxisSensors& sensors, FlownBody flown, 
     append(received.fields, pass);
   }
   put_in_order(pass.telemetry);
+  pass.motion = std::move(flown.motion);
   return pass;
 }
 

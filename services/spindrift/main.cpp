@@ -27,6 +27,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "services/processor/version.h"
@@ -207,8 +208,9 @@ void add_simulate(CLI::App& app, Request& request) {
   CLI::App& command = *app.add_subcommand("simulate", "Make a pass from a scenario");
   command.add_option("scenario", options.scenario, "Scenario file")->check(check_path)->required();
   CLI::Option_group& where = *command.add_option_group("Output", "At least one of these is needed");
-  where.add_option("--out", options.out, "Folder to write, made where there is none")
-      ->check(check_path);
+  CLI::Option* const out =
+      where.add_option("--out", options.out, "Folder to write, made where there is none")
+          ->check(check_path);
   CLI::Option* const publish = where.add_flag("--publish", options.publish, "Onto DDS");
   where.require_option(1, 2);
   CLI::Option* const speed =
@@ -224,6 +226,21 @@ void add_simulate(CLI::App& app, Request& request) {
   add_bus_options(command, options.domain, options.partition);
   command.get_option("--domain")->needs(publish);
   command.get_option("--partition")->needs(publish);
+  CLI::Option* const runs =
+      command
+          .add_option("--runs", options.runs,
+                      "Make and process so many passes, of seeds and [[dispersions]]")
+          ->check(check_count)
+          ->needs(out)
+          ->excludes(publish);
+  options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  command.add_option("--jobs", options.jobs, "Runs at the same time; without, one a processor")
+      ->check(CLI::Range(1, 64))
+      ->needs(runs);
+  command
+      .add_flag("--plots", options.plots, "Plots (SVG) of a three-axis spacecraft's flight, too")
+      ->needs(out)
+      ->excludes(runs);
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] {
     check_speed(options.speed);

@@ -9,14 +9,20 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "pipelines/core/shown.h"
 #include "services/clock/wall_clock.h"
+#include "services/flight_plot/flight_plot.h"
+#include "services/flight_plot/loop_plot.h"
+#include "services/monte_carlo/monte_carlo_text.h"
 #include "services/progress/progress_bar.h"
+#include "services/scenario/output_file.h"
 #include "services/scenario/pass_files.h"
 #include "services/scenario/scenario.h"
 #include "services/scenario/simulated_pass.h"
+#include "services/spindrift/refused.h"
 #include "services/spindrift/telemetry_output.h"
 #include "services/standard_error/warning.h"
 #include "services/words/counted.h"
@@ -59,14 +65,37 @@ void report(const Scenario& scenario, const SimulatedPass& pass, Output output, 
   fmt::print("{}", output.text);
 }
 
+/// Of a flight by wheels the loops of its control, too. @return their paths.
+Expected<std::vector<std::filesystem::path>> write_plots(const std::filesystem::path& out,
+                                                         const Scenario& scenario,
+                                                         const SimulatedPass& pass) {
+  std::vector<std::filesystem::path> paths = {out / "flight.svg"};
+  auto written = write_file(paths.back(), flight_plot(scenario, pass));
+  if (const auto* const flight = std::get_if<OrientationScenario>(&scenario.flight)) {
+    paths.push_back(out / "loops.svg");
+    written = written.and_then([&] { return channel_margins(flight->truth.control); })
+                  .and_then([&](const auto& channels) {
+                    return write_file(paths.back(), loop_plot(scenario.spacecraft_id, channels));
+                  });
+  }
+  return written.map([&] { return std::move(paths); });
+}
+
 Expected<void> to_files(const SimulateOptions& options, const Scenario& scenario,
                         const SimulatedPass& pass, Output& output) {
   if (options.out.empty()) {
     return {};
   }
-  const auto paths = write_pass(options.out, scenario, pass);
+  auto paths = write_pass(options.out, scenario, pass);
   if (!paths) {
     return Unexpected{paths.error()};
+  }
+  if (options.plots) {
+    const auto plots = write_plots(options.out, scenario, pass);
+    if (!plots) {
+      return Unexpected{plots.error()};
+    }
+    paths->insert(paths->end(), plots->begin(), plots->end());
   }
   for (const std::filesystem::path& path : *paths) {
     output.json["files"].push_back(path.string());
@@ -108,15 +137,42 @@ Expected<void> to_bus(const SimulateOptions& options, const Scenario& scenario,
       });
 }
 
+/// Beside the folders of the runs: runs.csv and histograms.svg.
+Expected<void> many(const SimulateOptions& options) {
+  // What the pipelines notice of a run is no news of this command.
+  spdlog::set_level(spdlog::level::err);
+  return monte_carlo({.scenario = options.scenario,
+                      .out = options.out,
+                      .runs = options.runs,
+                      .jobs = options.jobs})
+      .and_then([&](const MonteCarloResult& result) {
+        return write_file(options.out / "runs.csv", runs_csv(result))
+            .and_then(
+                [&] { return write_file(options.out / "histograms.svg", histograms(result)); })
+            .map([&] {
+              fmt::print("{}", options.json ? json_line(statistics_json(result))
+                                            : statistics_text(result));
+            });
+      });
+}
+
 TaiTime next_second() { return std::chrono::ceil<std::chrono::seconds>(tai_now()); }
 
 }  // namespace
 
 Expected<void> simulate(const SimulateOptions& options) {
+  if (options.runs > 0) {
+    return many(options);
+  }
   const auto start = options.now ? std::optional{next_second()} : std::nullopt;
   const auto scenario = load_scenario(options.scenario, start);
   if (!scenario) {
     return Unexpected{scenario.error()};
+  }
+  if (options.plots && std::holds_alternative<SpinScenario>(scenario->flight)) {
+    return refused(
+        fmt::format("--plots: {} is a spinner: there are plots of three-axis spacecraft only",
+                    shown(scenario->spacecraft_id)));
   }
   const auto pass = simulated_pass(*scenario);
   if (!pass) {

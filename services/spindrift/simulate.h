@@ -19,6 +19,9 @@ struct SimulateOptions {
   bool now = false;    ///< The pass is of the present.
   std::uint32_t domain = 0;
   std::string partition = "replay";
+  std::int64_t runs = 0;  ///< So many, of seeds and dispersions; 0: one pass, as it stands.
+  int jobs = 1;           ///< Threads for them.
+  bool plots = false;     ///< With the files of one pass, of a three-axis spacecraft.
   bool json = false;
 };
 

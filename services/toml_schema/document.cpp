@@ -10,9 +10,8 @@
 #include "services/toml_schema/nesting.h"
 
 namespace spindrift {
-namespace {
 
-Expected<toml::table> parse(const std::filesystem::path& path, const std::string& text) {
+Expected<toml::table> parsed_toml(const std::filesystem::path& path, const std::string& text) {
   if (const auto line = line_nested_too_deep(text)) {
     return Unexpected{{ErrorCode::InvalidConfiguration,
                        fmt::format("{}:{}: tables and arrays must not stand deeper than {} in each "
@@ -29,8 +28,6 @@ Expected<toml::table> parse(const std::filesystem::path& path, const std::string
   }
 }
 
-}  // namespace
-
 Expected<TomlDocument> read_document(const std::filesystem::path& path, const TableRule& schema) {
   return read_text_file(path).and_then(
       [&](std::string&& text) { return parse_document(path, std::move(text), schema); });
@@ -38,7 +35,7 @@ Expected<TomlDocument> read_document(const std::filesystem::path& path, const Ta
 
 Expected<TomlDocument> parse_document(const std::filesystem::path& path, std::string text,
                                       const TableRule& schema) {
-  auto table = parse(path, text);
+  auto table = parsed_toml(path, text);
   if (!table) {
     return Unexpected{std::move(table.error())};
   }

@@ -25,6 +25,9 @@ struct TomlDocument {
   std::vector<TomlProblem> problems;
 };
 
+/// @param path Named in problems. @return InvalidConfiguration for what is not TOML.
+Expected<toml::table> parsed_toml(const std::filesystem::path& path, const std::string& text);
+
 /// @return InvalidConfiguration for what cannot be read or is not TOML; what breaks the schema
 ///         stands in `problems`.
 Expected<TomlDocument> read_document(const std::filesystem::path& path, const TableRule& schema);

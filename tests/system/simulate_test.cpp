@@ -198,6 +198,10 @@ TEST(Simulate, RefusesABadCommandLine) {
   for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{
            {"simulate"},
            {"simulate", kNominal},
+           {"simulate", kNominal, "--out", "x", "--runs", "0"},
+           {"simulate", kNominal, "--out", "x", "--jobs", "2"},
+           {"simulate", kNominal, "--out", "x", "--publish", "--runs", "2"},
+           {"simulate", kNominal, "--out", "x", "--runs", "2", "--plots"},
            {"simulate", kNominal, "--out", "x", "--speed", "2"},
            {"simulate", kNominal, "--out", "x", "--partition", "replay"},
            {"simulate", kNominal, "--publish", "--speed", "-1"},
@@ -284,6 +288,54 @@ TEST(Simulate, MakesAnOrientationToTheUpperStage) {
   const Judged judged = judged_attitudes(folder, out);
   EXPECT_GT(judged.count, 70);
   EXPECT_EQ(judged.wrong, 0);
+}
+
+TEST(Simulate, RunsManyOfAScenarioEachAsProcessMakesOfIt) {
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "runs";
+  Program program{{"simulate",
+                   changed(folder, kNominal, "[attitude]",
+                           "[[dispersions]]\nkey = \"attitude.dec_deg\"\nsigma = 1\n"
+                           "[attitude]"),
+                   "--runs", "3", "--jobs", "2", "--out", out.string(), "--json"}};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  const auto answer = nlohmann::json::parse(program.out());
+  ASSERT_EQ(answer["runs"].size(), 3U);
+  EXPECT_EQ(answer["runs"][2]["seed"], 3);
+  EXPECT_EQ(answer["statistics"]["batch_error_deg"]["runs"], 3);
+  EXPECT_EQ(lines_of(out / "runs.csv").size(), 4U);
+  EXPECT_THAT(text_of(out / "histograms.svg"), HasSubstr("batch_error_deg"));
+
+  const auto pass = out / "0002";
+  const auto db = folder.path() / "pass.db";
+  Program process{{"process", "--mission", (pass / "mission.toml").string(), "--telemetry",
+                   pass.string(), "--db", db.string(), "--json"}};
+  ASSERT_EQ(process.exit_status(), 0) << process.log();
+  const auto batch = nlohmann::json::parse(process.out())["runs"][0]["batch"];
+  const auto truth = nlohmann::json::parse(text_of(pass / "truth.json"));
+  const auto place = [](const nlohmann::json& axis) {
+    return direction_icrf({.ra_rad = axis["ra_deg"].get<double>() * kRadPerDeg,
+                           .dec_rad = axis["dec_deg"].get<double>() * kRadPerDeg});
+  };
+  EXPECT_NE(truth["dec_deg"], -55.0);
+  EXPECT_NEAR(answer["runs"][2]["batch_error_deg"],
+              degrees(angle_between_rad(place(batch), place(truth))), 1e-9);
+}
+
+TEST(Simulate, PlotsHowTheBodyTurnedAndTheLoopsOfItsControl) {
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "pass";
+  Program program{{"simulate", kUpperStage, "--out", out.string(), "--plots", "--json"}};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  EXPECT_EQ(nlohmann::json::parse(program.out())["files"].size(), 7U);
+  EXPECT_THAT(text_of(out / "flight.svg"), HasSubstr("Momenta of the wheels"));
+  EXPECT_THAT(text_of(out / "loops.svg"),
+              HasSubstr("not sampled: phase margin 63.6 deg, gain infinite"));
+
+  Program spinner{{"simulate", kNominal, "--out", (folder.path() / "no").string(), "--plots"}};
+  EXPECT_EQ(spinner.exit_status(), 2);
+  EXPECT_THAT(spinner.log(), HasSubstr("--plots: SPINNER is a spinner"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "no"));
 }
 
 /// A service of the pass in `out` that hears what `simulate --publish` sends of its scenario, and

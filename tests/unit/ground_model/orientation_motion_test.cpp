@@ -8,6 +8,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "tests/support/low_orbit.h"
 
 namespace spindrift::orientation_motion_test {
 
@@ -18,14 +19,7 @@ constexpr TaiTime kStart = tai_from_ns(1'772'337'637'000'000'000);
 const Vector3d kMoments_kg_m2{0.6, 1.2, 1.12};
 const double kMostSpeed_rad_s = 6000.0 / 60.0 * kTurn_rad;
 
-const Orbit kOrbit{KeplerOrbit::make({.epoch = kStart,
-                                      .semi_major_axis_km = 6878.137,
-                                      .eccentricity = 0.001,
-                                      .inclination_rad = 42.0 * kRadPerDeg,
-                                      .raan_rad = 10.0 * kRadPerDeg,
-                                      .argument_of_perigee_rad = 0.0,
-                                      .mean_anomaly_rad = 0.0})
-                       .value()};
+const Orbit kOrbit = testing::low_orbit(kStart);
 
 OrientationTruth truth() {
   return {

@@ -8,6 +8,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/reconstruction/torque_free_arc.h"
+#include "tests/support/low_orbit.h"
 
 namespace spindrift::separation_motion_test {
 
@@ -16,14 +17,7 @@ using ::testing::HasSubstr;
 
 constexpr TaiTime kSeparation = tai_from_ns(1'772'337'637'000'000'000);
 
-const Orbit kOrbit{KeplerOrbit::make({.epoch = kSeparation,
-                                      .semi_major_axis_km = 7028.137,
-                                      .eccentricity = 0.001,
-                                      .inclination_rad = 97.9 * kRadPerDeg,
-                                      .raan_rad = 10.0 * kRadPerDeg,
-                                      .argument_of_perigee_rad = 0.0,
-                                      .mean_anomaly_rad = 0.0})
-                       .value()};
+const Orbit kOrbit = testing::low_orbit(kSeparation);
 
 /// Seconds behind the start, in order.
 struct Phases {

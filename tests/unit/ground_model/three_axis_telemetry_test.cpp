@@ -11,6 +11,7 @@
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/geomagnetism/field_at_spacecraft.h"
 #include "services/geomagnetism/igrf.h"
+#include "tests/support/low_orbit.h"
 
 namespace spindrift::three_axis_telemetry_test {
 
@@ -19,19 +20,8 @@ using Eigen::Vector3d;
 constexpr TaiTime kStart = tai_from_ns(1'772'337'637'000'000'000);
 constexpr double kNoise = 0.002;
 
-Orbit orbit_at(double mean_anomaly_rad) {
-  return Orbit{KeplerOrbit::make({.epoch = kStart,
-                                  .semi_major_axis_km = 7028.137,
-                                  .eccentricity = 0.001,
-                                  .inclination_rad = 97.9 * kRadPerDeg,
-                                  .raan_rad = 10.0 * kRadPerDeg,
-                                  .argument_of_perigee_rad = 0.0,
-                                  .mean_anomaly_rad = mean_anomaly_rad})
-                   .value()};
-}
-
 /// In the Sun for all of the motion.
-const Orbit kOrbit = orbit_at(0.0);
+const Orbit kOrbit = testing::low_orbit(kStart);
 
 /// Turns once in ten minutes, for five hundred seconds.
 BodyMotion turning() {
@@ -207,7 +197,7 @@ TEST(ThreeAxisTelemetry, HasNoSunOutOfViewOrInTheShadow) {
     EXPECT_LT(angle_between_rad(sun.sun_body, -Vector3d::UnitZ()),
               narrow.sun_sensor->half_cone_rad + 5.0 * kNoise);
   }
-  EXPECT_TRUE(sent(sensors(), {}, orbit_at(160.0 * kRadPerDeg)).sun.empty());
+  EXPECT_TRUE(sent(sensors(), {}, testing::low_orbit(kStart, 160.0 * kRadPerDeg)).sun.empty());
 }
 
 }  // namespace spindrift::three_axis_telemetry_test

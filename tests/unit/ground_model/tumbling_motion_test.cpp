@@ -7,6 +7,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/reconstruction/torque_free_arc.h"
+#include "tests/support/low_orbit.h"
 
 namespace spindrift::tumbling_motion_test {
 
@@ -16,14 +17,7 @@ using ::testing::HasSubstr;
 constexpr TaiTime kStart = tai_from_ns(1'772'337'637'000'000'000);
 constexpr double kEnd_s = 900.0;
 
-const Orbit kOrbit{KeplerOrbit::make({.epoch = kStart,
-                                      .semi_major_axis_km = 7028.137,
-                                      .eccentricity = 0.001,
-                                      .inclination_rad = 97.9 * kRadPerDeg,
-                                      .raan_rad = 10.0 * kRadPerDeg,
-                                      .argument_of_perigee_rad = 0.0,
-                                      .mean_anomaly_rad = 0.0})
-                       .value()};
+const Orbit kOrbit = testing::low_orbit(kStart);
 
 TumblingTruth truth_at(const Vector3d& rate_deg_s) {
   return {.body = {.start = kStart,
