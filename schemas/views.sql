@@ -125,9 +125,10 @@ WITH last AS (
 SELECT spacecraft_id, finished_utc IS NOT NULL AS finished, spin_estimate_utc.*
 FROM last JOIN spin_estimate_utc USING (run_id, estimator, t_tai_ns) JOIN run USING (run_id)
 WHERE NOT EXISTS (
-  SELECT * FROM operator_action AS marked
-  WHERE marked.run_id = last.run_id AND marked.action = 'mark_manoeuvre' AND marked.t_tai_ns > last.t_tai_ns
-    AND marked.t_tai_ns <= (SELECT max(t_tai_ns) FROM spin_estimate WHERE spin_estimate.run_id = marked.run_id));
+  SELECT * FROM operator_action AS marked JOIN run AS told ON told.run_id = marked.run_id
+  WHERE marked.spacecraft_id = run.spacecraft_id AND told.mode = run.mode AND told.first_arrival <= run.first_arrival
+    AND marked.action = 'mark_manoeuvre' AND marked.t_tai_ns > last.t_tai_ns
+    AND marked.t_tai_ns <= (SELECT max(t_tai_ns) FROM spin_estimate WHERE spin_estimate.run_id = last.run_id));
 
 -- The answers of a run two by two: apart in degrees and in the larger sigma of the two, since estimators of
 -- the same edges differ by no more than the worse of them errs (Hausman 1978: the variance of the difference
@@ -171,11 +172,11 @@ FROM run JOIN attitude_utc ON attitude_utc.run_id = run.run_id
 -- one of a run that failed to compute (run_fault) is DOUBTFUL, unless it is LOST. One that claims its axis is no
 -- better than the contradictions among the estimators allow: DOUBTFUL where axes disagree, else AMBIGUOUS. NULL from
 -- estimator to sigma_deg: the run has no answer; quality is then that of the run that failed. A spin axis leaves qx
--- to qw NULL, an attitude ra_deg and dec_deg. `why` is first what speaks against the answer, then its own status;
+-- to qw NULL, an attitude ra_deg, dec_deg and the rates. `why` is first what speaks against the answer, then its own status;
 -- `against` what speaks against it alone, with its own status unless that is OK: empty where nothing does.
 CREATE VIEW pass_verdict AS
 SELECT run_id, spacecraft_id, started_utc, finished, estimator, quality, ra_deg, dec_deg, qx, qy, qz, qw, sigma_deg,
-  others || status AS why,
+  spin_rate_rpm, sigma_rpm, others || status AS why,
   CASE own_quality WHEN 'OK' THEN rtrim(others, '; ') ELSE others || status END AS against
 FROM (
   SELECT run.run_id, run.spacecraft_id, run.started_utc, run.finished_utc IS NOT NULL AS finished,
@@ -189,7 +190,7 @@ FROM (
     coalesce(axis.quality, attitude.quality, separation.quality) AS own_quality,
     ra_deg, dec_deg, ifnull(attitude.qx, event.qx) AS qx, ifnull(attitude.qy, event.qy) AS qy,
     ifnull(attitude.qz, event.qz) AS qz, ifnull(attitude.qw, event.qw) AS qw,
-    coalesce(axis.sigma_deg, attitude.sigma_deg, event.sigma_deg) AS sigma_deg,
+    coalesce(axis.sigma_deg, attitude.sigma_deg, event.sigma_deg) AS sigma_deg, spin_rate_rpm, sigma_rpm,
     ifnull('computing failed' || ifnull(' at ' || fault.utc, '') || ': ' || fault.what || '; ', '')
       || ifnull((SELECT group_concat(
         CASE WHEN disagree THEN format('%s and %s disagree by %.3f deg, %.1f sigma; ', one, other, apart_deg, apart_sigmas)

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <iterator>
 
 #include "pipelines/time/utc.h"
@@ -23,17 +23,18 @@ std::string epoch(TaiTime t) {
 
 Expected<std::vector<EphemerisPoint>> sampled_orbit(const Orbit& orbit, TaiTime from, TaiTime to,
                                                     std::chrono::seconds step) {
+  // Two points close to each other would spoil the interpolation between them.
+  const std::int64_t steps = (to - from + step - std::chrono::nanoseconds{1}) / step;
   std::vector<EphemerisPoint> points;
-  for (TaiTime t = from;; t = std::min<TaiTime>(t + step, to)) {
+  for (std::int64_t i = 0; i <= steps; ++i) {
+    const TaiTime t = i == steps ? to : from + (to - from) / steps * i;
     const auto state = orbit.at(t);
     if (!state) {
       return Unexpected{state.error()};
     }
     points.push_back({.t = t, .state = *state});
-    if (t >= to) {
-      return points;
-    }
   }
+  return points;
 }
 
 std::string oem_text(std::string_view object, TaiTime created,

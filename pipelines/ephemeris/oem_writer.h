@@ -15,7 +15,7 @@
 
 namespace spindrift {
 
-/// States every `step` from `from` on, and at `to`.
+/// States at even steps from `from` to `to`, which is later; each at most `step`.
 /// @return NoCoverage where the orbit ends before.
 Expected<std::vector<EphemerisPoint>> sampled_orbit(const Orbit& orbit, TaiTime from, TaiTime to,
                                                     std::chrono::seconds step);

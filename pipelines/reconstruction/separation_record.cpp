@@ -5,7 +5,7 @@
 
 #include "pipelines/reconstruction/event_times.h"
 #include "pipelines/reconstruction/observations.h"
-#include "pipelines/three_axis/three_axis_pass.h"
+#include "pipelines/three_axis/sample_kind.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -65,13 +65,12 @@ bool SeparationRecord::push(const StarFix& fix) {
 
 bool SeparationRecord::forget(const Exclusions<SampleKind>& excluded) {
   const auto erase = [&](auto& samples) {
-    return std::erase_if(samples, [&](const auto& sample) {
-      return excluded.hold(sample.t, OrderedSample{sample.t, sample}.kind());
-    });
+    return std::erase_if(
+        samples, [&](const auto& sample) { return excluded.hold(sample.t, kind_of(sample)); });
   };
   const auto gone = erase(request_.gyro) + erase(request_.sun_directions) +
                     erase(request_.star_fixes) + erase(request_.orbit_states);
-  return gone > 0 && due_at_fixes_ > 1;
+  return gone > 0 && due_at_fixes_ > 1 && !awaited_;
 }
 
 bool SeparationRecord::is_due(TaiTime reached) {

@@ -17,12 +17,6 @@ namespace {
 constexpr double kToSpare_rad = 1.0 * kRadPerDeg;
 constexpr double kSigmasToSpare = 3.0;
 
-/// Of the beams' channels.
-Side side_of(PulseChannel channel) {
-  const bool is_north = channel == PulseChannel::NorthIn || channel == PulseChannel::NorthOut;
-  return is_north ? Side::North : Side::South;
-}
-
 /// Slit 2 ends as far from the axis as it is canted, slit 1 at the axis.
 bool slit_sees(PulseChannel channel, const SunSensor& sensor, double sun_angle_rad,
                double to_spare_rad) {

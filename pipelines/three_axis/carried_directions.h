@@ -27,8 +27,7 @@ class CarriedDirections {
 
   void forget() { directions_.clear(); }
 
-  /// @return Unobservable for fewer than two, nearly in line, or further from or nearer to each
-  /// other
+  /// @return Unobservable for fewer than two, nearly in line, or at another angle to each other
   ///         than noise explains.
   Expected<UncertainAttitude> attitude() const;
 

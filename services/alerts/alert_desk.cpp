@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "pipelines/three_axis/sample_kind.h"
 #include "services/words/alert_words.h"
 
 namespace spindrift {
@@ -39,32 +40,15 @@ Occurrence occurrence_of(const ConditionChange& change, const std::string& run_i
           .evidence = evidence_json(change.evidence, mission.sha256)};
 }
 
-/// The sensor of a three-axis spacecraft that gives such values.
-template <class Value>
-constexpr std::optional<SampleKind> sample_kind() {
-  if constexpr (std::is_same_v<Value, GyroSample>) {
-    return SampleKind::Gyro;
-  } else if constexpr (std::is_same_v<Value, StarFix>) {
-    return SampleKind::Star;
-  } else if constexpr (std::is_same_v<Value, SunDirection>) {
-    return SampleKind::Sun;
-  } else if constexpr (std::is_same_v<Value, MagneticField>) {
-    return SampleKind::Magnetometer;
-  } else {
-    return std::nullopt;
-  }
-}
-
 /// Samples that are left out have a negative arrival, and tell nothing of when it is.
 /// @param samples TelemetrySamples or TelemetryValues.
 template <class Samples>
 ConditionChanges changes_by_samples(AttitudeConditions& conditions, const Samples& samples) {
   ConditionChanges all;
   in_order_of_arrival(samples, [&](const auto& sample) {
-    constexpr auto kKind = sample_kind<std::remove_cvref_t<decltype(sample.value)>>();
-    if constexpr (kKind.has_value()) {
-      if (sample.arrival >= 0) {
-        ConditionChanges changes = conditions.see(*kKind, sample.value.t);
+    if constexpr (requires { kind_of(sample.value); }) {
+      if (sample.arrival >= 0 && kind_of(sample.value) != SampleKind::OrbitState) {
+        ConditionChanges changes = conditions.see(kind_of(sample.value), sample.value.t);
         std::move(changes.begin(), changes.end(), std::back_inserter(all));
       }
     }

@@ -4,13 +4,13 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
 #include <map>
-#include <numbers>
+#include <span>
 #include <variant>
+#include <vector>
 
-#include "pipelines/statistics/significance.h"
+#include "pipelines/spin/disambiguation/chosen_root.h"
 #include "services/archive/connection.h"
 #include "services/archive/stored_pass.h"
 #include "services/products/named.h"
@@ -88,8 +88,8 @@ bool has_come_to(SQLite::Database& database, const std::string& run_id, TaiTime 
   return query.getColumn(0).getInt() != 0;
 }
 
-/// What SpinPass made of a choice: at the first fix that it settled the prior is its axis, and a
-/// third of the way to the next candidate the sigma. Empty: there was nothing to choose.
+/// What SpinPass made of a choice, at the first fix that it settled. Empty: there was nothing to
+/// choose.
 std::optional<SpinPrior> chosen_root(SQLite::Database& database, const std::string& run_id,
                                      TaiTime from, TaiTime to) {
   SQLite::Statement query{
@@ -100,17 +100,13 @@ std::optional<SpinPrior> chosen_root(SQLite::Database& database, const std::stri
   query.bind(1, run_id);
   query.bind(2, tai_ns(from));
   query.bind(3, tai_ns(to));
-  std::optional<SpinPrior> prior;
+  std::vector<Eigen::Vector3d> axes_icrf;
   while (query.executeStep()) {
-    const Eigen::Vector3d axis_icrf = axis_of(query);
-    if (!prior) {
-      prior = SpinPrior{.axis_icrf = axis_icrf, .sigma_rad = std::numbers::pi};
-    } else {
-      prior->sigma_rad =
-          std::min(prior->sigma_rad, angle_between_rad(prior->axis_icrf, axis_icrf) / kPriorSigmas);
-    }
+    axes_icrf.push_back(axis_of(query));
   }
-  return prior && prior->sigma_rad < std::numbers::pi ? prior : std::nullopt;
+  return axes_icrf.size() > 1
+             ? std::optional{prior_choosing(axes_icrf.front(), std::span{axes_icrf}.subspan(1))}
+             : std::nullopt;
 }
 
 bool is_of_prior(const SpinAction& action) {

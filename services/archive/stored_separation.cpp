@@ -6,7 +6,7 @@
 
 #include "pipelines/core/shown.h"
 #include "pipelines/exclusions/exclusions.h"
-#include "pipelines/three_axis/three_axis_pass.h"
+#include "pipelines/three_axis/sample_kind.h"
 #include "services/archive/connection.h"
 #include "services/archive/stored_pass.h"
 #include "services/archive/stored_rows.h"
@@ -45,7 +45,7 @@ std::vector<Value> read_from(const SQLite::Database& database, const std::string
   std::vector<Value> values;
   while (query.executeStep()) {
     const Value value = read_arrived<Value>(query).value;
-    if (!excluded.hold(value.t, OrderedSample{value.t, value}.kind())) {
+    if (!excluded.hold(value.t, kind_of(value))) {
       values.push_back(value);
     }
   }

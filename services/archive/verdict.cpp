@@ -11,10 +11,8 @@ namespace spindrift {
 PassVerdict verdict_in(SQLite::Database& archive, const std::string& run_id) {
   SQLite::Statement query{
       archive,
-      "SELECT verdict.finished, ifnull(estimator, ''), ifnull(verdict.quality, ''),"
-      " verdict.sigma_deg, verdict.ra_deg, verdict.dec_deg, spin_rate_rpm, sigma_rpm, why, against"
-      " FROM pass_verdict AS verdict LEFT JOIN pass_answer USING (run_id, estimator)"
-      " WHERE run_id = ?"};
+      "SELECT finished, ifnull(estimator, ''), ifnull(quality, ''), sigma_deg, ra_deg, dec_deg,"
+      " spin_rate_rpm, sigma_rpm, why, against FROM pass_verdict WHERE run_id = ?"};
   query.bind(1, run_id);
   if (!query.executeStep()) {
     return {};

@@ -30,8 +30,8 @@ Expected<OperatorWord> operator_word(const AlertPath& path, std::string_view bod
     return bad("the body must be a JSON object: {\"by\":\"...\",\"note\":\"...\",\"minutes\":N}");
   }
   const auto by = json.find("by");
-  if (by == json.end() || !by->is_string() || by->get_ref<const std::string&>().empty()) {
-    return bad("by: must be a text, not empty: who says so");
+  if (by == json.end() || !by->is_string()) {
+    return bad("by: must be a text: who says so");
   }
   const auto note = json.find("note");
   if (note != json.end() && !note->is_string()) {

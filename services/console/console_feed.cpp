@@ -188,14 +188,6 @@ std::optional<SpacecraftKind> ConsoleFeed::kind_of(const std::string& spacecraft
   return kind == kinds_.end() ? std::nullopt : std::optional{kind->second};
 }
 
-std::vector<std::string> ConsoleFeed::spacecraft() const {
-  std::vector<std::string> all;
-  for (const auto& [spacecraft, kind] : kinds_) {
-    all.push_back(spacecraft);
-  }
-  return all;
-}
-
 EventRing::News ConsoleFeed::after(std::uint64_t id) const {
   const std::lock_guard lock{mutex_};
   return ring_.after(id);

@@ -60,7 +60,6 @@ class ConsoleFeed {
   /// Of a spacecraft. Empty: none yet. @return nothing where there is no such spacecraft.
   std::optional<std::string> run_of(const std::string& spacecraft) const;
   std::optional<SpacecraftKind> kind_of(const std::string& spacecraft) const;
-  std::vector<std::string> spacecraft() const;
 
   /// As those of EventRing.
   EventRing::News after(std::uint64_t id) const;

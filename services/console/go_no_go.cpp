@@ -33,9 +33,12 @@ void see_answer(const nlohmann::json& shown, nlohmann::json& against) {
   const auto quality = shown.value("quality", "");
   if (quality.empty() || !number_of(shown, "sigma_deg")) {
     add(against, "quality", "no answer yet");
-  } else if (quality != "OK") {
-    const auto why = shown.value("why", "");
-    add(against, "quality", why.starts_with(quality) ? why : fmt::format("{}: {}", quality, why));
+    return;
+  }
+  const auto said = shown.value("against", "");
+  const bool has_quality = quality == "OK" || said.starts_with(quality);
+  if (quality != "OK" || !said.empty()) {
+    add(against, "quality", has_quality ? said : fmt::format("{}: {}", quality, said));
   }
 }
 

@@ -134,7 +134,7 @@ std::string metrics_text(const nlohmann::json& state, const ArchiveStatistics& a
   add_service(state.at("service"), all);
   add_archive(archive, all);
   Family{"latency_seconds",
-         "From the arrival of the last sample that a result rests on to its announcement",
+         "From when the last sample that a result rests on was queued to its announcement",
          MetricType::Histogram}
       .add(latencies)
       .put_into(all);

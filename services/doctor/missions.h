@@ -27,7 +27,7 @@ struct MissionFacts {
   std::optional<Coverage> ephemeris;  ///< Absent where the orbit is given otherwise, or not at all.
   bool orbit_given = true;            ///< By the mission file.
   std::optional<TaiTime> no_orbit_at;  ///< The first time of the pass without one; empty: none is.
-  bool no_orbit_ever = false;          ///< Nor has any other time of the pass one.
+  bool never_an_orbit = false;         ///< Of the pass.
   /// Of the model of the Earth's field; empty: no magnetometer.
   std::optional<TaiTime> field_to = {};
   bool infrared = true;                        ///< It has an infrared sensor.
@@ -40,6 +40,9 @@ struct ComingPass {
   TaiTime from;
   TaiTime to;
 };
+
+/// When the model of the Earth's field does; empty: the spacecraft has no magnetometer.
+std::optional<TaiTime> field_end(const Mission& mission);
 
 MissionFacts mission_facts(const Mission& mission, const ComingPass& pass);
 

@@ -47,7 +47,7 @@ Check check_orbit(const MissionFacts& mission, const ComingPass& pass) {
   }
   const bool is_now = pass.from == pass.to;
   if (mission.no_orbit_at) {
-    const bool nothing = mission.no_orbit_ever && !is_now && mission.kind == SpacecraftKind::Spin;
+    const bool nothing = mission.never_an_orbit && !is_now && mission.kind == SpacecraftKind::Spin;
     return (nothing ? failure : warning)(
         name,
         fmt::format("{}: {}", coverage, no_orbit_text(*mission.no_orbit_at, *mission.ephemeris)),

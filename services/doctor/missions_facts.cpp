@@ -20,21 +20,15 @@ std::vector<std::string> idle_tables(const Mission& mission) {
   return idle;
 }
 
-std::optional<TaiTime> field_end(const Mission& mission) {
-  const auto* const three_axis = std::get_if<ThreeAxisConfig>(&mission.config);
-  return three_axis != nullptr && three_axis->magnetometer ? std::optional{igrf_end()}
-                                                           : std::nullopt;
-}
-
 /// Holes of an ephemeris that are shorter than this many steps of the pass are not looked for.
 constexpr int kLooks = 1000;
 
 void look_for_orbit(const Orbit& orbit, const ComingPass& pass, MissionFacts& facts) {
-  facts.no_orbit_ever = true;
+  facts.never_an_orbit = true;
   for (int i = 0; i <= kLooks; ++i) {
     const TaiTime t = shifted(pass.from, elapsed_s(pass.from, pass.to) * i / kLooks);
     if (orbit.at(t)) {
-      facts.no_orbit_ever = false;
+      facts.never_an_orbit = false;
     } else if (!facts.no_orbit_at) {
       facts.no_orbit_at = t;
     }
@@ -42,6 +36,12 @@ void look_for_orbit(const Orbit& orbit, const ComingPass& pass, MissionFacts& fa
 }
 
 }  // namespace
+
+std::optional<TaiTime> field_end(const Mission& mission) {
+  const ThreeAxisConfig* const three_axis = mission.three_axis();
+  return three_axis != nullptr && three_axis->magnetometer ? std::optional{igrf_end()}
+                                                           : std::nullopt;
+}
 
 MissionFacts mission_facts(const Mission& mission, const ComingPass& pass) {
   MissionFacts facts{

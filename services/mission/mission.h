@@ -39,6 +39,7 @@ struct Mission {
   SpacecraftKind kind() const { return static_cast<SpacecraftKind>(config.index()); }
   /// Null for any other spacecraft.
   const SpinConfig* spin() const { return std::get_if<SpinConfig>(&config); }
+  const ThreeAxisConfig* three_axis() const { return std::get_if<ThreeAxisConfig>(&config); }
 };
 
 /// Reads a mission file, and the orbit file that it names, by the rules of

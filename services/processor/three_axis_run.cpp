@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "pipelines/three_axis/sample_kind.h"
 #include "services/clock/wall_clock.h"
 #include "services/geomagnetism/igrf.h"
 #include "services/processor/separation_solving.h"
@@ -96,8 +97,7 @@ void ThreeAxisRun::record(const PassInput& input) {
 template <class Value>
 void ThreeAxisRun::record(const Arrived<Value>& arrived) {
   if constexpr (requires { record_->push(arrived.value); }) {
-    const OrderedSample sample{arrived.value.t, arrived.value};
-    if (!excluded_.hold(sample.t, sample.kind()) && record_->push(arrived.value) &&
+    if (!excluded_.hold(arrived.value.t, kind_of(arrived.value)) && record_->push(arrived.value) &&
         plan_ == SolvingPlan::Meanwhile) {
       hand_out_solutions();
     }

@@ -54,11 +54,18 @@ Expected<void> write_orbit(const std::filesystem::path& path, const Scenario& sc
   if (scenario.oem) {
     return copy_orbit(*scenario.oem, path);
   }
+  const TaiTime end = shifted(scenario.start, scenario.duration_s);
   TaiTime from = scenario.start - kOrbitBefore;
-  TaiTime to = shifted(scenario.start, scenario.duration_s) + kOrbitBehind;
+  TaiTime to = end + kOrbitBehind;
   if (const OrbitEphemeris* const ephemeris = scenario.orbit.ephemeris()) {
-    from = std::max(from, ephemeris->usable_from());
-    to = std::min(to, ephemeris->usable_to());
+    // No further than the solutions that the pass begins and ends in.
+    for (const OemSegment& segment : ephemeris->segments()) {
+      const auto holds = [&](TaiTime t) {
+        return segment.usable_from <= t && t <= segment.usable_to;
+      };
+      from = holds(scenario.start) ? std::max(from, segment.usable_from) : from;
+      to = holds(end) ? std::min(to, segment.usable_to) : to;
+    }
   }
   return sampled_orbit(scenario.orbit, from, to, kOrbitStep)
       .and_then([&](const std::vector<EphemerisPoint>& points) {

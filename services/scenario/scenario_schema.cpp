@@ -20,17 +20,11 @@ void share(const TableRule& from, const char* table, TableRule& with) {
   with.tables.emplace(table, from.tables.at(table));
 }
 
+/// Of a three-axis spacecraft.
 const char* model_schema(ScenarioKind kind) {
-  switch (kind) {
-    case ScenarioKind::Spin:
-    case ScenarioKind::Separation:
-      return embedded::separation_schema_toml;
-    case ScenarioKind::Tumbling:
-      return embedded::tumbling_schema_toml;
-    case ScenarioKind::Orientation:
-      return embedded::orientation_schema_toml;
-  }
-  return nullptr;
+  return kind == ScenarioKind::Tumbling      ? embedded::tumbling_schema_toml
+         : kind == ScenarioKind::Orientation ? embedded::orientation_schema_toml
+                                             : embedded::separation_schema_toml;
 }
 
 /// A body is needed, and of a separation each sensor that tells its events.

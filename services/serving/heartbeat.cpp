@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <string>
 #include <utility>
 
+#include "services/clock/every.h"
 #include "services/clock/wall_clock.h"
 #include "services/queue/contained.h"
 #include "services/serving/service_manager.h"
@@ -40,13 +39,7 @@ Heartbeat::Heartbeat(const Watched& watched, ThreadFailures& failures)
 Heartbeat::~Heartbeat() = default;
 
 void Heartbeat::run(const std::stop_token& stop) {
-  std::mutex mutex;
-  std::condition_variable_any stopped;
-  std::unique_lock lock{mutex};
-  while (!stop.stop_requested()) {
-    beat();
-    stopped.wait_for(lock, stop, kPeriod, [] { return false; });
-  }
+  every(kPeriod, stop, [this] { beat(); });
 }
 
 void Heartbeat::beat() {

@@ -11,7 +11,7 @@
 #include "pipelines/time/utc.h"
 #include "services/clock/wall_clock.h"
 #include "services/doctor/leap_seconds.h"
-#include "services/geomagnetism/igrf.h"
+#include "services/doctor/missions.h"
 
 namespace spindrift {
 namespace {
@@ -47,9 +47,8 @@ ServiceWatch::ServiceWatch(const Watched& watched) : watched_{watched} {
     if (mission.orbit && mission.orbit->ephemeris() != nullptr) {
       until.emplace("orbit", mission.orbit->ephemeris()->usable_to());
     }
-    if (const auto* const three_axis = std::get_if<ThreeAxisConfig>(&mission.config);
-        three_axis != nullptr && three_axis->magnetometer) {
-      until.emplace("field_coefficients", igrf_end());
+    if (const auto end = doctor::field_end(mission)) {
+      until.emplace("field_coefficients", *end);
     }
   }
 }

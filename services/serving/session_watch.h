@@ -36,8 +36,7 @@ class SessionWatch {
   /// Of a spacecraft, by source.
   /// @param missing By source, of all spacecraft: nobody can say of which of those that it brings.
   std::map<std::string, SourceRecord> report(
-      const std::string& spacecraft,
-      const std::map<std::string, std::uint64_t>& missing = {}) const;
+      const std::string& spacecraft, const std::map<std::string, std::uint64_t>& missing) const;
 
   /// All that were noted.
   std::uint64_t samples() const;

@@ -1,10 +1,10 @@
 #include "services/serving/verdict_watch.h"
 
 #include <chrono>
-#include <condition_variable>
 #include <utility>
 
 #include "services/archive/verdict.h"
+#include "services/clock/every.h"
 #include "services/queue/contained.h"
 #include "services/serving/background_solving.h"
 
@@ -33,20 +33,22 @@ PassVerdict VerdictWatch::of(const std::string& spacecraft) const {
 
 void VerdictWatch::run(const std::stop_token& stop) {
   let_samples_come_first();
-  std::mutex mutex;
-  std::condition_variable_any stopped;
-  std::unique_lock lock{mutex};
-  while (!stop.stop_requested()) {
-    look();
-    stopped.wait_for(lock, stop, kBetweenVerdicts, [] { return false; });
-  }
+  every(kBetweenVerdicts, stop, [&] { look(stop); });
 }
 
-void VerdictWatch::look() {
+void VerdictWatch::look(const std::stop_token& stop) {
   for (const std::string& spacecraft : spacecraft_) {
+    if (stop.stop_requested()) {
+      return;
+    }
     const std::string run_id = desk_.run_of(spacecraft);
     const auto read = [&](SQLite::Database& archive) { return verdict_in(archive, run_id); };
-    const PassVerdict verdict = archive_.read(read).value_or(PassVerdict{});
+    const PassVerdict verdict =
+        archive_.read(read)
+            .or_else([](const Error& error) -> Expected<PassVerdict> {
+              return PassVerdict{.why = error.message, .against = error.message};
+            })
+            .value();
     {
       const std::lock_guard lock{mutex_};
       verdicts_.insert_or_assign(spacecraft, verdict);

@@ -30,13 +30,13 @@ class VerdictWatch {
   VerdictWatch(const std::filesystem::path& db, std::vector<std::string> spacecraft,
                const AlertDesk& desk, OnVerdict on_verdict, ThreadFailures& failures);
 
-  /// The last that was read. Of a spacecraft without one, or that cannot be read, that of no
-  /// answer.
+  /// The last that was read. Of a spacecraft without one that of no answer; where it cannot be
+  /// read, that says why.
   PassVerdict of(const std::string& spacecraft) const;
 
  private:
   void run(const std::stop_token& stop);
-  void look();
+  void look(const std::stop_token& stop);
 
   const std::vector<std::string> spacecraft_;
   const AlertDesk& desk_;

@@ -33,7 +33,7 @@ spdlog::level::level_enum level_of(AlertSeverity severity) {
 /// What has come of it, and by whom.
 std::string what_changed(const Alert& alert) {
   if (!alert.from) {
-    return shown(alert.message);
+    return alert.message;
   }
   if (alert.state == AlertState::Cleared) {
     return shown(alert.note);
@@ -111,12 +111,12 @@ void ServiceTerminal::remind(const SpacecraftHealth& health) {
 
 void ServiceTerminal::draw(const Health& health) {
   const auto& all = health.spacecraft;
-  const auto is_heard = [](const SpacecraftHealth& one) { return one.link != LinkState::Waiting; };
+  const auto is_heard = [](const SpacecraftHealth& one) { return one.data_age_s.has_value(); };
   const auto heard = static_cast<std::size_t>(std::count_if(all.begin(), all.end(), is_heard));
   const std::size_t turn = heard == 0 ? 0 : turn_++ % heard;
   std::size_t place = 0;
   for (const SpacecraftHealth& one : all) {
-    const Arrivals arrivals = arrivals_.of(one.spacecraft);
+    const TalliedArrivals arrivals = arrivals_.of(one.spacecraft);
     const auto rate =
         rate_hz(counts_[one.spacecraft], std::chrono::steady_clock::now(), arrivals.samples);
     const auto mission = std::find_if(

@@ -17,7 +17,7 @@
 #include "services/mission/mission.h"
 #include "services/products/alert.h"
 #include "services/publisher/health.h"
-#include "services/terminal/arrivals.h"
+#include "services/terminal/arrival_tally.h"
 
 namespace spindrift {
 

@@ -26,7 +26,7 @@ struct Sensor {
   std::vector<std::string_view> channels;
 };
 
-std::vector<Sensor> sensors_of(const Mission& mission, const Arrivals& arrivals) {
+std::vector<Sensor> sensors_of(const Mission& mission, const TalliedArrivals& arrivals) {
   std::vector<Sensor> sensors;
   if (const SpinConfig* const spin = mission.spin()) {
     sensors.push_back({"sun", {"sun1", "sun2"}});
@@ -56,7 +56,7 @@ std::string short_age(double age_s) {
 }
 
 /// @param now By the clock of the telemetry.
-std::string ages(const std::vector<Sensor>& sensors, const Arrivals& arrivals, TaiTime now) {
+std::string ages(const std::vector<Sensor>& sensors, const TalliedArrivals& arrivals, TaiTime now) {
   std::vector<std::string> texts;
   for (const Sensor& sensor : sensors) {
     std::vector<std::string> of_channels;
@@ -107,7 +107,7 @@ std::string fitted(std::vector<Part> parts, std::size_t columns) {
 }  // namespace
 
 std::string status_line(const Mission& mission, const SpacecraftHealth& health,
-                        const Arrivals& arrivals, std::optional<double> rate_hz,
+                        const TalliedArrivals& arrivals, std::optional<double> rate_hz,
                         std::size_t columns) {
   std::vector<Part> parts{{Need::Name, health.spacecraft}};
   if (!health.last_sample || !health.data_age_s) {

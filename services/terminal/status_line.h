@@ -9,7 +9,7 @@
 
 #include "services/mission/mission.h"
 #include "services/publisher/health.h"
-#include "services/terminal/arrivals.h"
+#include "services/terminal/arrival_tally.h"
 
 namespace spindrift {
 
@@ -20,7 +20,7 @@ namespace spindrift {
 /// @param rate_hz Edges or samples. @param columns At most so many characters: what is needed least
 /// goes first.
 std::string status_line(const Mission& mission, const SpacecraftHealth& health,
-                        const Arrivals& arrivals, std::optional<double> rate_hz,
+                        const TalliedArrivals& arrivals, std::optional<double> rate_hz,
                         std::size_t columns);
 
 }  // namespace spindrift

@@ -5,11 +5,10 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <utility>
 
 #include "pipelines/core/shown.h"
+#include "services/clock/every.h"
 #include "services/clock/wall_clock.h"
 #include "services/queue/contained.h"
 #include "services/standard_error/warning.h"
@@ -95,13 +94,10 @@ Webhook::~Webhook() = default;
 void Webhook::run(const std::stop_token& stop) {
   FiringAlerts firing{service_};
   std::string failure;  // As last said.
-  std::mutex mutex;
-  std::condition_variable_any stopped;
-  std::unique_lock lock{mutex};
-  for (; !stop.stop_requested(); stopped.wait_for(lock, stop, kPeriod, [] { return false; })) {
+  every(kPeriod, stop, [&] {
     const nlohmann::json due = firing.due(desk_.open(), tai_now());
     if (due.empty()) {
-      continue;
+      return;
     }
     const auto sent =
         post(url_, due.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -115,7 +111,7 @@ void Webhook::run(const std::stop_token& stop) {
            fmt::format("{} alerts wait, the webhook {} does not take them: {}", due.size(), url_,
                        failure));
     }
-  }
+  });
 }
 
 }  // namespace spindrift

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -63,18 +64,35 @@ constexpr std::array<Words, kAlertCodes> kWords{{
     {ArchiveWrite, "the archive does not store", "look at the log, and at the disk of the archive"},
     {ArchiveDisk, "free space at the archive", "make room"},
     {ClockJump, "the clock of this host was stepped", "look at its time service"},
-    {DataOutdated, "what the service needs ends", "get the next ephemeris"},
+    {DataOutdated, "what the service needs ends", "get it anew"},
 }};
+
+/// What may end of that which the service needs.
+struct Ending {
+  std::string_view about;
+  std::string_view what;
+  std::string_view to_do;
+};
+constexpr std::array<Ending, 3> kEndings{{
+    {"orbit", "the orbit", "get the next ephemeris"},
+    {"leap_seconds", "the table of leap seconds", "install a newer tzdata"},
+    {"field_coefficients", "the model of the Earth's field",
+     "install a program with the next generation of it"},
+}};
+
+/// Null: the change is of something else.
+const Ending* ending_of(const ConditionChange& change) {
+  const auto* const found = std::find_if(kEndings.begin(), kEndings.end(), [&](const Ending& one) {
+    return one.about == change.about;
+  });
+  return change.code == DataOutdated && found != kEndings.end() ? found : nullptr;
+}
 
 std::string value_text(const ConditionChange& change) {
   const Evidence& evidence = change.evidence;
-  if (change.code == DataOutdated) {
+  if (const Ending* const ending = ending_of(change)) {
     const bool is_over = evidence.value < 0.0;
-    const std::string_view what = change.about == "orbit" ? "the orbit"
-                                  : change.about == "leap_seconds"
-                                      ? "the table of leap seconds"
-                                      : "the model of the Earth's field";
-    return fmt::format(": {} {}{}{}", what, is_over ? "ended " : "ends in ",
+    return fmt::format(": {} {}{}{}", ending->what, is_over ? "ended " : "ends in ",
                        duration_text(std::abs(evidence.value) * kHour_s), is_over ? " ago" : "");
   }
   if (evidence.limit <= 0.0) {
@@ -87,10 +105,8 @@ std::string value_text(const ConditionChange& change) {
 }
 
 std::string_view what_to_do(const ConditionChange& change) {
-  return change.about == "leap_seconds" ? "install a newer tzdata"
-         : change.about == "field_coefficients"
-             ? "install a program with the next generation of it"
-             : kWords.at(static_cast<std::size_t>(change.code)).to_do;
+  const Ending* const ending = ending_of(change);
+  return ending != nullptr ? ending->to_do : kWords.at(static_cast<std::size_t>(change.code)).to_do;
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ Expected<FlownSeparation> flown(const SeparationScenario& scenario, const Orbit&
   const BodyTruth& body = scenario.truth.body;
   Chance chance{scenario.view.seed};
   const ThreeAxisSensors sensors = sensors_of(scenario.view, chance);
-  // Likewise.
+  // Where the launcher is said to be wrong by a turn, too: all else is then the same.
   const Vector3d drawn = chance.normal_vector(1.0);
   std::optional<Euler312> told;
   if (const auto& launcher = scenario.launcher) {

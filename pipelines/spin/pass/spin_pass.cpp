@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/disambiguation/chosen_root.h"
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "pipelines/spin/pass/revolution_products.h"
 #include "pipelines/spin/types/model_allowance.h"
@@ -405,20 +406,20 @@ void SpinPass::choose_root(TaiTime t, const AxisCandidates& found) {
     return;
   }
   std::vector<AxisCandidate> candidates = found.candidates;
-  const auto is_nearer_to = [](const Eigen::Vector3d& axis_icrf) {
-    return [&axis_icrf](const AxisCandidate& a, const AxisCandidate& b) {
-      return angle_between_rad(axis_icrf, a.axis_icrf) < angle_between_rad(axis_icrf, b.axis_icrf);
-    };
-  };
-  const auto chosen = std::min_element(candidates.begin(), candidates.end(),
-                                       is_nearer_to(root_to_choose_->axis_icrf));
+  const auto chosen = std::min_element(
+      candidates.begin(), candidates.end(),
+      [&wanted = root_to_choose_->axis_icrf](const AxisCandidate& a, const AxisCandidate& b) {
+        return angle_between_rad(wanted, a.axis_icrf) < angle_between_rad(wanted, b.axis_icrf);
+      });
   const AxisCandidate root = *chosen;
   candidates.erase(chosen);
-  const auto next =
-      std::min_element(candidates.begin(), candidates.end(), is_nearer_to(root.axis_icrf));
-  const double sigma_rad = angle_between_rad(root.axis_icrf, next->axis_icrf) / kPriorSigmas;
-  if (sigma_rad > std::sqrt(root.covariance_rad2.trace())) {
-    apply(t, SetPrior{{.axis_icrf = root.axis_icrf, .sigma_rad = sigma_rad}});
+  std::vector<Eigen::Vector3d> others_icrf;
+  for (const AxisCandidate& other : candidates) {
+    others_icrf.push_back(other.axis_icrf);
+  }
+  const SpinPrior prior = prior_choosing(root.axis_icrf, others_icrf);
+  if (prior.sigma_rad > std::sqrt(root.covariance_rad2.trace())) {
+    apply(t, SetPrior{prior});
   }
 }
 

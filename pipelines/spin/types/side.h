@@ -25,6 +25,12 @@ inline constexpr std::array<PulseChannel, 2> kOutChannels = {PulseChannel::North
                                                              PulseChannel::SouthOut};
 constexpr std::size_t index_of(Side side) { return static_cast<std::size_t>(side); }
 
+/// Of a channel of a beam.
+constexpr Side side_of(PulseChannel channel) {
+  const bool is_north = channel == PulseChannel::NorthIn || channel == PulseChannel::NorthOut;
+  return is_north ? Side::North : Side::South;
+}
+
 /// The sensor of a side; empty when the mission has none.
 inline const std::optional<InfraredSensor>& sensor_of(const SpinConfig& config, Side side) {
   return side == Side::North ? config.north : config.south;

@@ -53,10 +53,12 @@ TEST(GoNoGo, IsNeverGoWhenItIsNotKnown) {
 }
 
 TEST(GoNoGo, SaysWhyTheAnswerIsNotToBeUsed) {
-  EXPECT_EQ(against({{"quality", "AMBIGUOUS"}, {"why", "AMBIGUOUS, another axis fits"}}),
+  EXPECT_EQ(against({{"quality", "AMBIGUOUS"}, {"against", "AMBIGUOUS, another axis fits"}}),
             Reasons{"quality: AMBIGUOUS, another axis fits"});
-  EXPECT_EQ(against({{"quality", "DOUBTFUL"}, {"why", "mean and batch disagree"}}),
+  EXPECT_EQ(against({{"quality", "DOUBTFUL"}, {"against", "mean and batch disagree"}}),
             Reasons{"quality: DOUBTFUL: mean and batch disagree"});
+  EXPECT_EQ(against({{"against", "sequential and batch disagree"}}),
+            Reasons{"quality: sequential and batch disagree"});
 }
 
 TEST(GoNoGo, HoldsAnAxisAgainstTheLimitsOfTheMission) {

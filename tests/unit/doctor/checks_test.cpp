@@ -146,7 +146,7 @@ TEST(DoctorMissions, WarnsWhenThereIsNoOrbitNow) {
   MissionFacts facts = spinner(48h);
   facts.ephemeris->from = kNow + 3s;
   facts.no_orbit_at = kNow;
-  facts.no_orbit_ever = true;
+  facts.never_an_orbit = true;
   const Check orbit = named(check_one(facts), "orbit of SPINNER");
   EXPECT_EQ(orbit.verdict, Verdict::Warning);
   EXPECT_THAT(orbit.found, HasSubstr("no orbit at 2026-11-20T03:00:00Z, 3 s before it begins"));
@@ -158,7 +158,7 @@ TEST(DoctorMissions, FailsOnAPassOfWhichNoTimeHasAnOrbit) {
   facts.no_orbit_at = pass.from;
   EXPECT_EQ(named(check_missions(std::vector{facts}, pass), "orbit of SPINNER").verdict,
             Verdict::Warning);
-  facts.no_orbit_ever = true;
+  facts.never_an_orbit = true;
   const auto checks = check_missions(std::vector{facts}, pass);
   const Check orbit = named(checks, "orbit of SPINNER");
   EXPECT_EQ(orbit.verdict, Verdict::Failure);

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "pipelines/ephemeris/oem.h"
+#include "pipelines/ephemeris/oem_writer.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/time/utc.h"
@@ -350,6 +351,20 @@ TEST(Scenario, MovesItsOrbitWithItsStart) {
   EXPECT_LT(moved_by_km(folder, replaced(replaced(kWhole, kOrbit, "[orbit]\noem = \"gms5.oem\"\n"),
                                          "2026-11-20T03:00:00Z", "1996-02-17T23:30:00Z")),
             1e-3);
+}
+
+TEST(Scenario, WritesTheOrbitOfThePassWhereItsFileGoesOnBehindAHole) {
+  const TemporaryFolder folder;
+  const Scenario elements = loaded(kWhole).value();
+  const auto oem_of = [&](std::chrono::minutes from, std::chrono::minutes to) {
+    const auto points = sampled_orbit(elements.orbit, elements.start + from, elements.start + to,
+                                      std::chrono::seconds{60});
+    return oem_text("SPINNER", elements.start, points.value());
+  };
+  const std::string first = oem_of(std::chrono::minutes{-10}, std::chrono::minutes{30});
+  const std::string behind = oem_of(std::chrono::minutes{60}, std::chrono::minutes{90});
+  folder.write("two.oem", first + "\n" + behind.substr(behind.find("META_START")));
+  EXPECT_LT(moved_by_km(folder, replaced(kWhole, kOrbit, "[orbit]\noem = \"two.oem\"\n")), 1e-3);
 }
 
 TEST(Scenario, RefusesToSimulateBelowTheHorizon) {

@@ -20,15 +20,15 @@ ArchiveBatch batch(const std::string& source, std::uint64_t session, double from
 TEST(SessionWatch, CountsSessionsAndWhatTheyBringAgain) {
   SessionWatch sessions;
   sessions.note(batch("front-end", 1, 0.0, 10));
-  SourceRecord record = sessions.report("SPINNER").at("front-end");
+  SourceRecord record = sessions.report("SPINNER", {}).at("front-end");
   EXPECT_EQ(record.restarts, 0);
   EXPECT_EQ(record.repeated, 0);
   sessions.note(batch("front-end", 2, 5.0, 10));
-  record = sessions.report("SPINNER").at("front-end");
+  record = sessions.report("SPINNER", {}).at("front-end");
   EXPECT_EQ(record.restarts, 1);
   EXPECT_EQ(record.repeated, 5);
   EXPECT_EQ(sessions.samples(), 20U);
-  EXPECT_TRUE(sessions.report("OTHER").empty());
+  EXPECT_TRUE(sessions.report("OTHER", {}).empty());
 }
 
 TEST(SessionWatch, DoesNotTakeTwoThatSendTheSameForRepetition) {
@@ -38,8 +38,8 @@ TEST(SessionWatch, DoesNotTakeTwoThatSendTheSameForRepetition) {
     sessions.note(batch("front-end", 1, i, 1));
     sessions.note(batch("standby", 7, i, 1));
   }
-  EXPECT_EQ(sessions.report("SPINNER").at("standby").repeated, 1);
-  EXPECT_EQ(sessions.report("SPINNER").at("front-end").restarts, 0);
+  EXPECT_EQ(sessions.report("SPINNER", {}).at("standby").repeated, 1);
+  EXPECT_EQ(sessions.report("SPINNER", {}).at("front-end").restarts, 0);
 }
 
 TEST(SessionWatch, TellsOfAGapTheSpacecraftThatTheSourceBrings) {
@@ -60,11 +60,11 @@ TEST(SessionWatch, KnowsTheSessionsOfBeforeARestart) {
   origins[kTelemetryKind<Pulse>] = {{.source = "front-end", .session = 1, .seq = 9}};
   sessions.go_on("SPINNER", origins, at(9.0));
   sessions.note(batch("front-end", 1, 5.0, 10));
-  EXPECT_EQ(sessions.report("SPINNER").at("front-end").restarts, 0);
-  EXPECT_EQ(sessions.report("SPINNER").at("front-end").repeated, 0);
+  EXPECT_EQ(sessions.report("SPINNER", {}).at("front-end").restarts, 0);
+  EXPECT_EQ(sessions.report("SPINNER", {}).at("front-end").repeated, 0);
   sessions.note(batch("front-end", 2, 5.0, 10));
-  EXPECT_EQ(sessions.report("SPINNER").at("front-end").restarts, 1);
-  EXPECT_EQ(sessions.report("SPINNER").at("front-end").repeated, 10);
+  EXPECT_EQ(sessions.report("SPINNER", {}).at("front-end").restarts, 1);
+  EXPECT_EQ(sessions.report("SPINNER", {}).at("front-end").repeated, 10);
 }
 
 }  // namespace spindrift::session_watch_test

@@ -31,13 +31,13 @@ class StatusLine : public ::testing::Test {
                                        .sigma_deg = 0.0418,
                                        .ra_deg = 100.1464,
                                        .dec_deg = -54.9244}};
-  Arrivals arrivals_{.samples = 3600,
-                     .revolution = 597,
-                     .last = {{"sun1", t_},
-                              {"sun2", shifted(t_, -12.0)},
-                              {"north_in", shifted(t_, -120.0)},
-                              {"south_in", shifted(t_, -36'000.0)},
-                              {"south_out", shifted(t_, 2.0)}}};
+  TalliedArrivals arrivals_{.samples = 3600,
+                            .revolution = 597,
+                            .last = {{"sun1", t_},
+                                     {"sun2", shifted(t_, -12.0)},
+                                     {"north_in", shifted(t_, -120.0)},
+                                     {"south_in", shifted(t_, -36'000.0)},
+                                     {"south_out", shifted(t_, 2.0)}}};
 };
 
 TEST_F(StatusLine, HasAllThatItKnowsWhereThereIsRoom) {
@@ -90,7 +90,7 @@ TEST(StatusLineOfThreeAxes, ShowsTheSensorsThatHaveCome) {
   const auto mission = load_mission(test_data() / "three-axis/separation/mission.toml").value();
   const SpacecraftHealth health{
       .spacecraft = "SAT", .link = LinkState::Live, .last_sample = t, .data_age_s = 0.0};
-  const Arrivals arrivals{
+  const TalliedArrivals arrivals{
       .samples = 10, .revolution = {}, .last = {{"gyro", t}, {"magnetometer", shifted(t, -3.0)}}};
   EXPECT_THAT(status_line(mission, health, arrivals, 21.0, kUsual),
               StartsWith("SAT 2026-11-20 03:24:04Z age 0.0s 21.0/s gyro 0 mag 3 no answer"));

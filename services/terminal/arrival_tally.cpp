@@ -1,4 +1,4 @@
-#include "services/terminal/arrivals.h"
+#include "services/terminal/arrival_tally.h"
 
 #include <algorithm>
 #include <type_traits>
@@ -7,14 +7,14 @@
 namespace spindrift {
 namespace {
 
-void note_at(std::string_view channel, TaiTime t, Arrivals& arrivals) {
+void note_at(std::string_view channel, TaiTime t, TalliedArrivals& arrivals) {
   ++arrivals.samples;
   const auto place = arrivals.last.try_emplace(channel, t).first;
   place->second = std::max(place->second, t);
 }
 
 template <class Value>
-void note_value(const Value& value, Arrivals& arrivals) {
+void note_value(const Value& value, TalliedArrivals& arrivals) {
   if constexpr (std::is_same_v<Value, Pulse>) {
     note_at(name_of(value.channel), value.t, arrivals);
   } else if constexpr (std::is_same_v<Value, CodedFrame>) {
@@ -28,7 +28,7 @@ void note_value(const Value& value, Arrivals& arrivals) {
 
 /// @param samples TelemetrySamples or TelemetryValues.
 template <class Samples>
-void note_samples(const Samples& samples, Arrivals& arrivals) {
+void note_samples(const Samples& samples, TalliedArrivals& arrivals) {
   samples.for_each([&](const auto& of_kind) {
     for (const auto& sample : of_kind) {
       // A sample that is left out has a negative one.
@@ -43,7 +43,7 @@ void note_samples(const Samples& samples, Arrivals& arrivals) {
 
 void ArrivalTally::note(const ArchiveBatch& batch) {
   const std::lock_guard lock{mutex_};
-  Arrivals& arrivals = by_spacecraft_[batch.spacecraft_id];
+  TalliedArrivals& arrivals = by_spacecraft_[batch.spacecraft_id];
   if (batch.start || batch.continuation) {
     arrivals = {.run_id = batch.run_id, .samples = arrivals.samples};
   }
@@ -62,10 +62,10 @@ void ArrivalTally::note(const ArchiveBatch& batch) {
   }
 }
 
-Arrivals ArrivalTally::of(const std::string& spacecraft) const {
+TalliedArrivals ArrivalTally::of(const std::string& spacecraft) const {
   const std::lock_guard lock{mutex_};
   const auto found = by_spacecraft_.find(spacecraft);
-  return found == by_spacecraft_.end() ? Arrivals{} : found->second;
+  return found == by_spacecraft_.end() ? TalliedArrivals{} : found->second;
 }
 
 }  // namespace spindrift

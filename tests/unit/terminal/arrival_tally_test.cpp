@@ -1,4 +1,4 @@
-#include "services/terminal/arrivals.h"
+#include "services/terminal/arrival_tally.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TEST(ArrivalTally, KnowsTheLastOfEachChannelWhateverTheOrder) {
   add(batch, 3, frame);
   ArrivalTally tally;
   tally.note(batch);
-  const Arrivals found = tally.of("SPINNER");
+  const TalliedArrivals found = tally.of("SPINNER");
   EXPECT_EQ(found.samples, 4);
   EXPECT_THAT(found.last, ElementsAre(Pair("sun1", at(3.0)), Pair("sun2", at(3.25))));
   EXPECT_FALSE(found.revolution);

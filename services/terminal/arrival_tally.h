@@ -15,7 +15,7 @@
 
 namespace spindrift {
 
-struct Arrivals {
+struct TalliedArrivals {
   std::string run_id = {};   ///< Of which all but `samples` is.
   std::int64_t samples = 0;  ///< Edges, those of coded frames too; or samples of sensors.
   std::optional<std::int64_t> revolution = {};    ///< The last that is known of the run.
@@ -28,11 +28,11 @@ class ArrivalTally {
   /// Its samples and revolutions; of samples that are left out none.
   void note(const ArchiveBatch& batch);
 
-  Arrivals of(const std::string& spacecraft) const;
+  TalliedArrivals of(const std::string& spacecraft) const;
 
  private:
   mutable std::mutex mutex_;
-  std::map<std::string, Arrivals> by_spacecraft_;
+  std::map<std::string, TalliedArrivals> by_spacecraft_;
 };
 
 }  // namespace spindrift
