@@ -166,7 +166,7 @@ class SupervisedPass {
                        .pass_t = now,
                        .silent_s = seconds_between(last_came_, now),
                        .late_s = late_s_,
-                       .sources = sessions_.report(id_)};
+                       .sources = sessions_.report(id_, {})};
     for (const auto& [source, missing] : gaps_.beat(tracker_.by_source())) {
       state.sources[source].missing = static_cast<std::int64_t>(missing);
     }

@@ -42,7 +42,7 @@ TEST(AlertRequest, SaysWhatIsWrongWithABody) {
   for (const char* const body : {"", "by=me", "[]", "{\"by\":\"\xff\"}"}) {
     EXPECT_THAT(wrong(body), HasSubstr("JSON object")) << body;
   }
-  for (const char* const body : {"{}", R"({"by":""})", R"({"by":7})"}) {
+  for (const char* const body : {"{}", R"({"by":7})"}) {
     EXPECT_THAT(wrong(body), HasSubstr("by:")) << body;
   }
   EXPECT_THAT(wrong(R"({"by":"a","note":1})"), HasSubstr("note:"));

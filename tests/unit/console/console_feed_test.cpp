@@ -177,7 +177,7 @@ TEST_F(Feed, IsGoWhenNothingStandsAgainstIt) {
   put_link(LinkState::Live);
   put(estimate_at(kT, SpinEstimator::Mean));
   EXPECT_EQ(shown()["go"]["is_go"], false);
-  feed_->put("SPINNER", "run", PassVerdict{.quality = "OK", .sigma_deg = 0.1});
+  feed_->put("SPINNER", "run", PassVerdict{.quality = "OK", .sigma_deg = 0.1, .against = ""});
   EXPECT_EQ(shown()["go"], (nlohmann::json{{"is_go", true}, {"against", nlohmann::json::array()}}));
   put(Alert{.alert_id = "00ff",
             .key = "spin.nutation",
