@@ -19,7 +19,7 @@ using plot::Point;
 using plot::Series;
 using plot::ValueAxis;
 
-constexpr std::string_view kContinuous = "#0072b2";
+constexpr std::string_view kDesigned = "#0072b2";
 constexpr std::string_view kFlown = "#d55e00";
 constexpr std::string_view kOther = "#222222";
 constexpr std::string_view kFaint = "#666666";
@@ -33,7 +33,7 @@ double decibel(double gain) { return 20.0 * std::log10(gain); }
 
 /// A decade and a half on both sides of where the gain is 1.
 std::pair<double, double> frequencies_rad_s(const ChannelMargins& channel) {
-  const double middle = channel.continuous_margins.crossover_rad_s;
+  const double middle = channel.designed_margins.crossover_rad_s;
   const double span = std::pow(10.0, 1.5);
   return {middle / span, middle * span};
 }
@@ -84,7 +84,7 @@ ValueAxis phase_axis() {
 
 std::string margins_text(const LoopMargins& margins) {
   return fmt::format(
-      "{:.1f} deg, {}", kDegPerRad * margins.phase_rad,
+      "phase margin {:.1f} deg, gain margin {}", kDegPerRad * margins.phase_rad,
       margins.gain ? fmt::format("{:.1f} dB", decibel(*margins.gain)) : std::string{"infinite"});
 }
 
@@ -97,7 +97,7 @@ plot::XyPanel bode_panel(const ChannelMargins& channel, std::string title, std::
       .note = std::move(note),
       .x = frequency_axis(range_rad_s),
       .y = std::move(y),
-      .series = {series_of(bode_of(channel.continuous, range_rad_s), kContinuous, value),
+      .series = {series_of(bode_of(channel.designed, range_rad_s), kDesigned, value),
                  series_of(bode_of(channel.flown, range_rad_s), kFlown, value)},
       .across = {std::move(limit)}};
   // It lies over the other, mostly.
@@ -139,13 +139,13 @@ plot::XyPanel locus_panel(const ChannelMargins& channel) {
   }
   // A fifth more and less inertia, and as it is meant.
   const std::vector<double> bodies = {1.0 / 1.2, 1.0, 1.0 / 0.8};
-  const double size = 2.5 * std::abs(closed_loop_poles(channel.continuous, 1.0).front());
+  const double size = 2.5 * std::abs(closed_loop_poles(channel.designed, 1.0).front());
   plot::XyPanel panel{
       .title = "Root locus",
       .note = fmt::format("gain by {} to {}; black: inertia 120, 100, 80 %", kLeast, kMost),
       .x = linear_axis("real part, 1/s", -1.6 * size, 0.4 * size, 5),
       .y = linear_axis("imaginary part, rad/s", -size, size, 5),
-      .series = {locus_of(channel.continuous, factors, kContinuous, 2.4),
+      .series = {locus_of(channel.designed, factors, kDesigned, 2.4),
                  locus_of(channel.flown, factors, kFlown, 1.0),
                  locus_of(channel.flown, bodies, kOther, 3.0)}};
   panel.series.push_back(
@@ -174,35 +174,13 @@ std::string_view channel_name(int row) {
 
 }  // namespace
 
-Expected<std::array<ChannelMargins, 3>> channel_margins(const OrientationControl& control) {
-  const PdGains gains = control.gains();
-  std::array<ChannelMargins, 3> channels;
-  for (int i = 0; i < 3; ++i) {
-    ChannelMargins& channel = channels.at(static_cast<std::size_t>(i));
-    channel.continuous = {.moment_kg_m2 = control.moments_kg_m2[i],
-                          .kp_nm = gains.kp_nm[i],
-                          .kd_nms = gains.kd_nms[i]};
-    channel.flown = channel.continuous;
-    channel.flown.sampling =
-        LoopSampling{.period_s = control.period_s, .periods_late = control.periods_late};
-    const auto continuous = loop_margins(channel.continuous);
-    const auto flown = loop_margins(channel.flown);
-    if (!continuous || !flown) {
-      return Unexpected{continuous ? flown.error() : continuous.error()};
-    }
-    channel.continuous_margins = *continuous;
-    channel.flown_margins = *flown;
-  }
-  return channels;
-}
-
 std::string loop_plot(const std::string& spacecraft_id,
                       const std::array<ChannelMargins, 3>& channels) {
   plot::Svg svg;
   const std::string title = spacecraft_id + ": the loop about each axis";
   const LoopSampling& sampling = *channels.front().flown.sampling;
   svg.text({70.0, 28.0}, title, {.colour = kOther, .size = 17.0, .bold = true});
-  svg.text({70.0, 50.0}, "blue: as if it were not sampled", {.colour = kContinuous});
+  svg.text({70.0, 50.0}, "blue: as designed", {.colour = kDesigned});
   svg.text({320.0, 50.0},
            fmt::format("orange: as it is flown, every {:.4g} s, {} periods late", sampling.period_s,
                        sampling.periods_late),
@@ -210,7 +188,7 @@ std::string loop_plot(const std::string& spacecraft_id,
   for (int row = 0; row < 3; ++row) {
     const ChannelMargins& channel = channels.at(static_cast<std::size_t>(row));
     draw(bode_panel(channel, fmt::format("{}: gain", channel_name(row)),
-                    "not sampled: " + margins_text(channel.continuous_margins),
+                    "designed: " + margins_text(channel.designed_margins),
                     linear_axis("gain, dB", -40.0, 60.0, 5), {"", kFaint, 0.0}, gain_db),
          box_of(row, 0), svg);
     draw(bode_panel(channel, "Phase", "flown: " + margins_text(channel.flown_margins), phase_axis(),

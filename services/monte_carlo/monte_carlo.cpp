@@ -56,20 +56,37 @@ Expected<std::vector<Measure>> measured(const Scenario& scenario,
   });
 }
 
+std::int64_t seed_of(const TomlDocument& document, std::int64_t run) {
+  return value_of<std::int64_t>(document.values, "pass.seed") + run;
+}
+
+Error error_of_run(const TomlDocument& document, std::int64_t run, const Error& error) {
+  return {error.code,
+          fmt::format("run {}, seed {}: {}", run, seed_of(document, run), error.message)};
+}
+
+/// Nothing is flown where a draw of any run is not allowed.
+Expected<void> check_draws(const TomlDocument& document, std::int64_t runs) {
+  for (std::int64_t run = 0; run < runs; ++run) {
+    if (const auto sound = dispersed(document, run).and_then(soundness); !sound) {
+      return Unexpected{error_of_run(document, run, sound.error())};
+    }
+  }
+  return {};
+}
+
 Expected<RunResult> result_of(const TomlDocument& document, const std::filesystem::path& out,
                               std::int64_t run) {
-  const std::int64_t seed = value_of<std::int64_t>(document.values, "pass.seed") + run;
   return dispersed(document, run)
       .and_then([](TomlDocument&& own) { return scenario_of(std::move(own)); })
       .and_then([&](const Scenario& scenario) {
         return measured(scenario, out / fmt::format("{:04}", run));
       })
       .map([&](std::vector<Measure>&& measures) {
-        return RunResult{.run = run, .seed = seed, .measures = std::move(measures)};
+        return RunResult{
+            .run = run, .seed = seed_of(document, run), .measures = std::move(measures)};
       })
-      .map_error([&](Error&& error) {
-        return Error{error.code, fmt::format("run {}, seed {}: {}", run, seed, error.message)};
-      });
+      .map_error([&](const Error& error) { return error_of_run(document, run, error); });
 }
 
 /// Files of other runs would be taken for those of these.
@@ -141,6 +158,9 @@ Expected<MonteCarloResult> monte_carlo(const MonteCarloPlan& plan) {
   }
   if (auto empty = check_empty(plan.out); !empty) {
     return Unexpected{std::move(empty.error())};
+  }
+  if (auto drawn = check_draws(*document, plan.runs); !drawn) {
+    return Unexpected{std::move(drawn.error())};
   }
   Runs runs{*document, plan};
   {

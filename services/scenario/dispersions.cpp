@@ -74,20 +74,29 @@ bool holds_numbers(const Scalar& value) {
          std::holds_alternative<std::vector<double>>(value);
 }
 
+/// Their elements belong together: drawn one by one they are no inertia, and no quaternion.
+bool is_one(const std::string& key) {
+  const std::size_t name = key.rfind('.') + 1;
+  return key == "three_axis.inertia.kg_m2" || key.compare(name, 2, "q_") == 0;
+}
+
 }  // namespace
 
 void check_dispersions(TomlDocument& document) {
   const std::vector<Dispersion> all = dispersions_of(document.values);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto value = document.values.find(all[i].key);
+    if (value == document.values.end() && document.table.at_path(all[i].key)) {
+      continue;  // What is wrong with it has been said.
+    }
     // Of an array of tables, or of one that is not there, nothing can be set.
     const bool can_be = value != document.values.end() && holds_numbers(value->second) &&
-                        all[i].key.find('[') == std::string::npos;
+                        all[i].key.find('[') == std::string::npos && !is_one(all[i].key);
     if (!can_be) {
       const std::string key = table_name(i) + ".key";
       add_problem(document, key,
                   fmt::format("{} = \"{}\": must be a key of this scenario that holds a number, or "
-                              "an array of numbers",
+                              "an array of numbers that is no inertia and no quaternion",
                               key, shown(all[i].key)));
     }
   }

@@ -1,7 +1,10 @@
 #include "services/scenario/orientation_pass.h"
 
+#include <array>
+#include <cmath>
 #include <utility>
 
+#include "pipelines/ground_model/flights/channel_margins.h"
 #include "services/scenario/three_axis_pass.h"
 #include "services/units/degrees.h"
 
@@ -22,14 +25,30 @@ void add_outcome(const OrientationOutcome& outcome, ordered_json& truth) {
   truth["wheel_rpm_most"] = kRpmPerRad_s * outcome.most_rad_s;
 }
 
+/// As it is flown, about X, Y and Z.
+Expected<void> add_margins(const OrientationTruth& flight, ordered_json& truth) {
+  return channel_margins(flight).map([&](const std::array<ChannelMargins, 3>& channels) {
+    for (const ChannelMargins& channel : channels) {
+      const LoopMargins& margins = channel.flown_margins;
+      truth["phase_margin_deg"].push_back(kDegPerRad * margins.phase_rad);
+      truth["gain_margin_db"].push_back(20.0 * std::log10(*margins.gain));
+      truth["crossover_rad_s"].push_back(margins.crossover_rad_s);
+    }
+  });
+}
+
 }  // namespace
 
 Expected<SimulatedPass> played_pass(const Scenario& scenario, const OrientationScenario& flight) {
   return flown(flight, scenario.orbit).and_then([&](FlownOrientation&& orientation) {
-    return start_and_end(scenario, orientation.body.motion).map([&](ordered_json&& truth) {
-      add_outcome(orientation.outcome, truth);
+    auto truth = start_and_end(scenario, orientation.body.motion);
+    if (!truth) {
+      return Expected<SimulatedPass>{Unexpected{std::move(truth.error())}};
+    }
+    add_outcome(orientation.outcome, *truth);
+    return add_margins(flight.truth, *truth).map([&] {
       SimulatedPass pass = three_axis_pass(flight.view.sensors, std::move(orientation.body),
-                                           std::move(truth), scenario.mission_toml);
+                                           *std::move(truth), scenario.mission_toml);
       pass.control = std::move(orientation.record);
       return pass;
     });

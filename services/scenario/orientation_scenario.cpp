@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/ground_model/control/control_period.h"
+#include "pipelines/ground_model/flights/channel_margins.h"
 #include "services/mission/mission_three_axis.h"
 #include "services/scenario/three_axis_scenario.h"
 #include "services/toml_schema/values.h"
@@ -84,15 +84,16 @@ void check_wheels(TomlDocument& document) {
   }
 }
 
-void check_period(TomlDocument& document) {
-  const auto period_s = value_if<double>(document.values, "control.period_s");
-  const auto frequency_rad_s = value_if<double>(document.values, "control.frequency_rad_s");
-  if (!period_s || !frequency_rad_s) {
+/// Once nothing else stands against the scenario.
+void check_loop(TomlDocument& document) {
+  if (!document.problems.empty()) {
     return;
   }
-  if (const auto good = check_control_period(*period_s, *frequency_rad_s); !good) {
+  const OrientationTruth truth = orientation_scenario(document.values, TaiTime{}).truth;
+  if (const auto stable = check_margins(truth); !stable) {
     add_problem(document, "control.period_s",
-                fmt::format("control.period_s = {}: {}", *period_s, good.error().message));
+                fmt::format("control.period_s = {}, periods_late = {}: {}", truth.control.period_s,
+                            truth.control.periods_late, stable.error().message));
   }
 }
 
@@ -109,12 +110,14 @@ void check_gyro(TomlDocument& document) {
 }  // namespace
 
 void check_orientation_scenario(TomlDocument& document) {
-  check_within_pass(document, "orientation.first_star_fix_s");
-  check_has_sensor(document);
+  for (const char* const key : {"first_star_fix_s", "control_on_s", "pointing_at_s"}) {
+    check_within_pass(document, fmt::format("orientation.{}", key));
+  }
+  check_sensors(document);
   check_wheels(document);
-  check_period(document);
   check_body_step(document, "control.period_s");
   check_gyro(document);
+  check_loop(document);
 }
 
 OrientationScenario orientation_scenario(const TomlValues& values, TaiTime start) {

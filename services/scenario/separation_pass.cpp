@@ -33,8 +33,10 @@ Expected<nlohmann::ordered_json> truth_of(const Scenario& scenario,
 
 std::string reconstruction_text(const Scenario& scenario, const SeparationScenario& flight,
                                 const std::optional<Euler312>& told) {
-  // No torque turns this body from T1 to T2.
-  std::string text = "\n[reconstruction]\ndisturbance_deg_s2 = 0\n";
+  std::string text = "\n[reconstruction]\n";
+  if (!disturbs(flight.truth.body.disturbances)) {
+    text += "disturbance_deg_s2 = 0\n";
+  }
   int number = 1;
   for (const double t_s : events_s(flight)) {
     text += fmt::format("t{}_tai_ns = {}\n", number++, tai_ns(shifted(scenario.start, t_s)));

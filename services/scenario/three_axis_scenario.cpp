@@ -9,6 +9,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/euler312.h"
 #include "pipelines/frames/inertia.h"
+#include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/control/held_momentum.h"
 #include "services/geomagnetism/igrf.h"
 #include "services/scenario/silences.h"
@@ -34,7 +35,8 @@ std::optional<TrueGyro> gyro_of(const TomlValues& values, const std::optional<Gy
       .sampling = sampling_of(values, from_s, "telemetry.gyro_step_s"),
       .noise_rad_s = radians_if(values, "truth.gyro.noise_deg_s").value_or(said->noise_rad_s),
       .bias_rad_s = Vector3d::Zero(),
-      .range_rad_s = said->range_rad_s};
+      .range_rad_s = said->range_rad_s,
+      .resolution_rad_s = radians(values, "truth.gyro.resolution_deg_s")};
 }
 
 std::optional<TrueSunSensor> sun_sensor_of(const TomlValues& values,
@@ -46,7 +48,10 @@ std::optional<TrueSunSensor> sun_sensor_of(const TomlValues& values,
   return TrueSunSensor{
       .sampling = sampling_of(values, from_s, "telemetry.sun_step_s"),
       .noise_rad = radians_if(values, "truth.sun_sensor.noise_deg").value_or(said->noise_rad),
-      .half_cone_rad = radians(values, "truth.sun_sensor.half_cone_deg")};
+      .half_cone_rad = radians(values, "truth.sun_sensor.half_cone_deg"),
+      .misalignment_rad =
+          radians_vector_if(values, "truth.sun_sensor.misalignment_deg").value_or(Vector3d::Zero()),
+      .resolution = number(values, "truth.sun_sensor.resolution")};
 }
 
 std::optional<TrueStarTracker> star_tracker_of(const TomlValues& values,
@@ -59,7 +64,10 @@ std::optional<TrueStarTracker> star_tracker_of(const TomlValues& values,
   return TrueStarTracker{
       .sampling = sampling_of(values, from_s, "telemetry.star_step_s"),
       .noise_rad = noise_arcsec ? *noise_arcsec / kArcsecPerDeg * kRadPerDeg : said->noise_rad,
-      .q_body_sensor = said->q_body_sensor};
+      .q_body_sensor =
+          said->q_body_sensor *
+          quaternion_by(radians_vector_if(values, "truth.star_tracker.misalignment_deg")
+                            .value_or(Vector3d::Zero()))};
 }
 
 std::optional<TrueMagnetometer> magnetometer_of(const TomlValues& values,
@@ -72,7 +80,8 @@ std::optional<TrueMagnetometer> magnetometer_of(const TomlValues& values,
       .sampling = sampling_of(values, from_s, "telemetry.magnetometer_step_s"),
       .noise_nt = value_if<double>(values, "truth.magnetometer.noise_nt").value_or(said->noise_nt),
       .bias_nt = vector_or_zero(values, "truth.magnetometer.bias_nt"),
-      .field = igrf().value()};
+      .field = igrf().value(),
+      .resolution_nt = number(values, "truth.magnetometer.resolution_nt")};
 }
 
 PeriodicTorque periodic_of(const TomlValues& values) {
@@ -167,14 +176,22 @@ void check_within_pass(TomlDocument& document, std::string_view key) {
   }
 }
 
-void check_has_sensor(TomlDocument& document) {
+void check_sensors(TomlDocument& document) {
+  bool has_any = false;
   for (const char* const sensor : {"gyro", "sun_sensor", "star_tracker", "magnetometer"}) {
-    if (document.table.at_path(fmt::format("three_axis.{}", sensor))) {
-      return;
+    const bool is_on_board{document.table.at_path(fmt::format("three_axis.{}", sensor))};
+    has_any = has_any || is_on_board;
+    const std::string truth = fmt::format("truth.{}", sensor);
+    if (!is_on_board && document.table.at_path(truth)) {
+      add_problem(document, truth,
+                  fmt::format("[{}]: there is no [three_axis.{}] that it could differ from", truth,
+                              sensor));
     }
   }
-  add_problem(document, "three_axis",
-              "[three_axis]: must have gyro, sun_sensor, star_tracker or magnetometer");
+  if (!has_any) {
+    add_problem(document, "three_axis",
+                "[three_axis]: must have gyro, sun_sensor, star_tracker or magnetometer");
+  }
 }
 
 void check_body_step(TomlDocument& document, std::string_view key) {

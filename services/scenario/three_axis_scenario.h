@@ -38,8 +38,9 @@ BodyTruth body_truth(const TomlValues& values, const ThreeAxisConfig& said, TaiT
 /// Adds a problem for the instant of `key` where it is beyond the pass.
 void check_within_pass(TomlDocument& document, std::string_view key);
 
-/// Adds one where there is no sensor to send anything.
-void check_has_sensor(TomlDocument& document);
+/// Adds one where there is no sensor to send anything, and for the truth of a sensor that is not
+/// there.
+void check_sensors(TomlDocument& document);
 
 /// Adds one where the body at the start turns too fast for steps of the period of `key`.
 void check_body_step(TomlDocument& document, std::string_view key);

@@ -46,6 +46,21 @@ struct Output {
   std::string text;
 };
 
+std::string since_text(const nlohmann::ordered_json& t_s) {
+  return t_s.is_number() ? fmt::format("since {:.1f} s", t_s.get<double>()) : "never";
+}
+
+/// What the control of an orientation reached.
+std::string control_text(const nlohmann::ordered_json& truth) {
+  return fmt::format(
+      "  points {}, within 1 deg {}, {:.2g} deg off at the end\n"
+      "  wheels at most {:.3g} N m s, {:.0f} rpm; phase margins {:.1f} deg\n",
+      since_text(truth["pointing_s"]), since_text(truth["settled_s"]),
+      truth["last_off_deg"].get<double>(), truth["wheel_nms_most"].get<double>(),
+      truth["wheel_rpm_most"].get<double>(),
+      fmt::join(truth["phase_margin_deg"].get<std::vector<double>>(), ", "));
+}
+
 void report(const Scenario& scenario, const SimulatedPass& pass, Output output, bool json) {
   if (json) {
     output.json.update(counts_json(pass.made));
@@ -62,6 +77,9 @@ void report(const Scenario& scenario, const SimulatedPass& pass, Output output, 
   for (const auto& [plural, count] : pass.faults) {
     fmt::print("  {}: {}\n", plural, count);
   }
+  if (!pass.control.empty()) {
+    fmt::print("{}", control_text(pass.truth));
+  }
   fmt::print("{}", output.text);
 }
 
@@ -73,7 +91,7 @@ Expected<std::vector<std::filesystem::path>> write_plots(const std::filesystem::
   auto written = write_file(paths.back(), flight_plot(scenario, pass));
   if (const auto* const flight = std::get_if<OrientationScenario>(&scenario.flight)) {
     paths.push_back(out / "loops.svg");
-    written = written.and_then([&] { return channel_margins(flight->truth.control); })
+    written = written.and_then([&] { return channel_margins(flight->truth); })
                   .and_then([&](const auto& channels) {
                     return write_file(paths.back(), loop_plot(scenario.spacecraft_id, channels));
                   });

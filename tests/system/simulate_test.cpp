@@ -330,7 +330,7 @@ TEST(Simulate, PlotsHowTheBodyTurnedAndTheLoopsOfItsControl) {
   EXPECT_EQ(nlohmann::json::parse(program.out())["files"].size(), 7U);
   EXPECT_THAT(text_of(out / "flight.svg"), HasSubstr("Momenta of the wheels"));
   EXPECT_THAT(text_of(out / "loops.svg"),
-              HasSubstr("not sampled: 63.6 deg, infinite"));
+              HasSubstr("designed: phase margin 63.6 deg, gain margin infinite"));
 
   Program spinner{{"simulate", kNominal, "--out", (folder.path() / "no").string(), "--plots"}};
   EXPECT_EQ(spinner.exit_status(), 2);

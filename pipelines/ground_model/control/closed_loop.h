@@ -5,6 +5,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <variant>
 
@@ -19,6 +22,11 @@
 namespace spindrift {
 
 using Actuators = std::variant<Thrusters, Wheels, HeldMomentum>;
+
+inline Eigen::Vector3d wheels_body_nms(const Actuators& actuators) {
+  return std::visit([](const auto& is) -> Eigen::Vector3d { return is.momentum_body_nms(); },
+                    actuators);
+}
 
 /// @tparam Body BodyMotion, where what was flown is asked for later, or SteppedBody.
 template <class Body>
@@ -45,9 +53,13 @@ class ClosedLoop {
         .sun_body = now.q_icrf_body.conjugate() * sun_icrf};
   }
 
-  Eigen::Vector3d wheels_body_nms() const {
-    return std::visit([](const auto& is) -> Eigen::Vector3d { return is.momentum_body_nms(); },
-                      actuators_);
+  Eigen::Vector3d wheels_body_nms() const { return spindrift::wheels_body_nms(actuators_); }
+
+  /// So that no step up to `end_s` allocates.
+  void reserve(double end_s) {
+    if constexpr (requires { body_.reserve(std::size_t{}); }) {
+      body_.reserve(static_cast<std::size_t>(std::ceil(end_s / period_s())) * steps_);
+    }
   }
 
   /// On by a period. @param torque_body_nm What the law asks for.

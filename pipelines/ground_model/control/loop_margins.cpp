@@ -49,6 +49,13 @@ Expected<void> check(const ChannelLoop& loop) {
                      "must fall to 1 within half the sampling frequency",
                      loop.kd_nms / loop.moment_kg_m2, period_s)}};
   }
+  const double late_s = loop.sampling ? (0.5 + loop.sampling->periods_late) * period_s : 0.0;
+  if (const double lead_s = 2.0 * loop.kd_nms / loop.kp_nm; !(lead_s > late_s)) {
+    return Unexpected{{ErrorCode::InvalidConfiguration,
+                       fmt::format("a loop that leads by 2 kd / kp = {:.4g} s swings with any gain "
+                                   "where its torque comes {:.4g} s late: must come earlier",
+                                   lead_s, late_s)}};
+  }
   return {};
 }
 

@@ -52,8 +52,9 @@ struct LoopMargins {
   std::optional<double> gain;  ///< Factor up to the loop's swinging; empty: infinite.
 };
 
-/// @return InvalidConfiguration where moment, gains or period are not positive, or the gain of the
-///         sampled loop is above 1 up to half the frequency of the sampling.
+/// @return InvalidConfiguration where moment, gains or period are not positive; where the gain of
+///         the sampled loop is above 1 up to half the frequency of the sampling, or its torque
+///         comes later than kd leads, so that it swings with any gain.
 Expected<LoopMargins> loop_margins(const ChannelLoop& loop);
 
 /// Of the closed loop with its gain multiplied by `factor`: in the plane of s, stable on its left;

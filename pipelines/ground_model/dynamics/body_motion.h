@@ -16,6 +16,12 @@ class BodyMotion {
   BodyMotion(const RigidBody& body, const BodyState& start, double step_s)
       : body_{body}, step_s_{step_s}, states_{start} {}
 
+  /// So that the next `steps` do not allocate.
+  void reserve(std::size_t steps) {
+    states_.reserve(states_.size() + steps);
+    torques_.reserve(torques_.size() + steps);
+  }
+
   /// On by a step.
   void step(const BodyTorques& torques) {
     states_.push_back(body_.after(states_.back(), torques, step_s_));

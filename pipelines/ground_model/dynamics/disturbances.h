@@ -44,6 +44,13 @@ struct Disturbances {
   PeriodicTorque periodic = {};
 };
 
+/// Any torque at all.
+inline bool disturbs(const Disturbances& disturbances) {
+  return disturbances.gravity_gradient || disturbances.drag ||
+         !disturbances.dipole_body_a_m2.isZero(0.0) || !disturbances.constant_body_nm.isZero(0.0) ||
+         !disturbances.periodic.amplitude_body_nm.isZero(0.0);
+}
+
 /// Where the body is: of a control period, in which it hardly changes.
 struct Surroundings {
   OrbitState spacecraft = {.position_icrf_km = Eigen::Vector3d::Zero(),

@@ -28,10 +28,20 @@ struct BodyTruth {
   std::optional<MainFieldModel> field = std::nullopt;  ///< That a residual dipole feels.
 };
 
-/// Without torque a body turns at most this much faster than it does now.
-double fastest_rad_s(const Eigen::Matrix3d& inertia_kg_m2, const Eigen::Vector3d& rate_body_rad_s);
+/// No body is stepped more coarsely where a law controls it.
+inline constexpr double kLongestStep_s = 0.05;
 
-/// Steps of at most 0.05 s.
+/// At most as fast a body turns without torque, and swings where its wheels hold a momentum.
+double fastest_rad_s(const Eigen::Matrix3d& inertia_kg_m2, const Eigen::Vector3d& rate_body_rad_s,
+                     const Eigen::Vector3d& wheels_body_nms);
+
+double least_moment_kg_m2(const Eigen::Matrix3d& inertia_kg_m2);
+
+/// @return InvalidConfiguration where the body now turns or swings too fast for the step of the
+///         loop, or is no longer finite.
+Expected<void> check_now(const ClosedLoop<BodyMotion>& loop, double least_moment_kg_m2);
+
+/// Steps of at most kLongestStep_s.
 /// @return InvalidConfiguration for a body that cannot be, or turns too fast for the step.
 Expected<ClosedLoop<BodyMotion>> loop_of(const BodyTruth& truth, const Actuators& actuators,
                                          double period_s);
@@ -49,14 +59,15 @@ template <class Law>
 Expected<void> fly(ClosedLoop<BodyMotion>& loop, const BodyTruth& truth, const Orbit& orbit,
                    Law&& torque_body_nm) {
   TurningEarth earth;
+  loop.reserve(truth.end_s);
+  const double least_kg_m2 = least_moment_kg_m2(truth.inertia_kg_m2);
   while (loop.t_s() < truth.end_s) {
     const TaiTime t = shifted(truth.start, loop.t_s());
     const auto surroundings = surroundings_at(t, truth, orbit, earth);
     if (!surroundings) {
       return Unexpected{surroundings.error()};
     }
-    if (auto fine = check_step(loop.body().step_s(), loop.body().last().rate_body_rad_s.norm());
-        !fine) {
+    if (auto fine = check_now(loop, least_kg_m2); !fine) {
       return fine;
     }
     loop.fly(torque_body_nm(t, surroundings->spacecraft), *surroundings);

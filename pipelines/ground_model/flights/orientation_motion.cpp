@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "pipelines/frames/angle.h"
-#include "pipelines/ground_model/control/control_period.h"
+#include "pipelines/ground_model/flights/channel_margins.h"
 #include "pipelines/ground_model/sensors/three_axis_reading.h"
 
 namespace spindrift {
@@ -104,8 +104,8 @@ Expected<Orientation> orientation_motion(const OrientationTruth& truth,
                                          const std::optional<TrueGyro>& gyro, const Orbit& orbit,
                                          Chance& chance) {
   const OrientationControl& control = truth.control;
-  if (const auto good = check_control_period(control.period_s, control.frequency_rad_s); !good) {
-    return Unexpected{good.error()};
+  if (auto good = check_margins(truth); !good) {
+    return Unexpected{std::move(good.error())};
   }
   const auto wheels = Wheels::make(control.wheels);
   if (!wheels) {
@@ -123,6 +123,7 @@ Expected<Orientation> orientation_motion(const OrientationTruth& truth,
   OnBoard on_board{truth, gyro, chance};
   LateTorque late{control.periods_late};
   std::vector<ControlRecord> record;
+  record.reserve(static_cast<std::size_t>(truth.body.end_s / control.period_s) + 2);
   return fly(*loop, truth.body, orbit,
              [&](TaiTime, const OrbitState&) {
                const Vector3d asked_nm =

@@ -74,7 +74,9 @@ Expected<FlownBody> flown(const TumblingScenario& scenario, const Orbit& orbit) 
 Expected<FlownOrientation> flown(const OrientationScenario& scenario, const Orbit& orbit) {
   Chance chance{scenario.view.seed};
   const ThreeAxisSensors sensors = sensors_of(scenario.view, chance);
-  return orientation_motion(scenario.truth, sensors.gyro, orbit, chance)
+  // Other draws than the telemetry's, which is then the same whatever the computer does.
+  Chance on_board{~scenario.view.seed};
+  return orientation_motion(scenario.truth, sensors.gyro, orbit, on_board)
       .and_then([&](Orientation&& orientation) {
         const OrientationOutcome outcome = outcome_of(orientation, scenario.truth);
         return seen(std::move(orientation.motion), scenario.truth.body.start, sensors,

@@ -10,12 +10,11 @@ namespace spindrift {
 namespace {
 
 /// It ends with a step.
-double step_s(const BodyTruth& truth) {
-  constexpr double kTurn_rad = 0.02;
+double step_s(double end_s, double fastest_rad_s) {
+  constexpr double kTurn_rad = 0.01;
   constexpr double kLongest_s = 1.0;
-  const double fastest = fastest_rad_s(truth.inertia_kg_m2, truth.at_start.rate_body_rad_s);
-  const double wanted_s = std::min(kLongest_s, kTurn_rad / std::max(fastest, 1e-6));
-  return truth.end_s / std::ceil(truth.end_s / wanted_s);
+  const double wanted_s = std::min(kLongest_s, kTurn_rad / std::max(fastest_rad_s, 1e-6));
+  return end_s / std::ceil(end_s / wanted_s);
 }
 
 }  // namespace
@@ -25,8 +24,14 @@ Expected<BodyMotion> tumbling_motion(const TumblingTruth& truth, const Orbit& or
   if (!body) {
     return Unexpected{body.error()};
   }
-  ClosedLoop<BodyMotion> loop{BodyMotion{*body, truth.body.at_start, step_s(truth.body)},
-                              HeldMomentum{truth.wheels_body_nms}, truth.body.disturbances, 1};
+  const double fastest = fastest_rad_s(truth.body.inertia_kg_m2,
+                                       truth.body.at_start.rate_body_rad_s, truth.wheels_body_nms);
+  if (const auto fine = check_step(kLongestStep_s, fastest); !fine) {
+    return Unexpected{fine.error()};
+  }
+  ClosedLoop<BodyMotion> loop{
+      BodyMotion{*body, truth.body.at_start, step_s(truth.body.end_s, fastest)},
+      HeldMomentum{truth.wheels_body_nms}, truth.body.disturbances, 1};
   return fly(loop, truth.body, orbit,
              [](TaiTime, const OrbitState&) { return Eigen::Vector3d::Zero().eval(); })
       .map([&] { return std::move(loop).body(); });

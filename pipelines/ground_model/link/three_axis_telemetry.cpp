@@ -38,7 +38,8 @@ class Downlink {
       if (arrives(t_s, !is_silent(faults_.gyro_gaps, t_s))) {
         telemetry_.gyro.push_back(
             {shifted(start_, t_s),
-             gyro_reading(motion_.at(t_s).rate_body_rad_s, error_rad_s, gyro.range_rad_s)});
+             rounded(gyro_reading(motion_.at(t_s).rate_body_rad_s, error_rad_s, gyro.range_rad_s),
+                     gyro.resolution_rad_s)});
       }
     }
   }
@@ -56,7 +57,9 @@ class Downlink {
       const auto [off_rad, is_outlier] = sun_error(sensor);
       if (arrives(t_s, !is_in_shadow(spacecraft->position_icrf_km, sun_icrf) &&
                            is_in_view(sensor, sun_body))) {
-        telemetry_.sun.push_back({t, direction_reading(sun_body, off_rad)});
+        const Vector3d sun_sensor = quaternion_by(sensor.misalignment_rad).conjugate() * sun_body;
+        telemetry_.sun.push_back(
+            {t, rounded(direction_reading(sun_sensor, off_rad), sensor.resolution).normalized()});
         if (is_outlier) {
           telemetry_.sun_outliers.push_back(t);
         }
@@ -78,7 +81,8 @@ class Downlink {
       const Vector3d error_nt = magnetometer.bias_nt + chance_.normal_vector(magnetometer.noise_nt);
       if (arrives(t_s, true)) {
         telemetry_.fields.push_back(
-            {t, motion_.at(t_s).q_icrf_body.conjugate() * *true_icrf_nt + error_nt});
+            {t, rounded(motion_.at(t_s).q_icrf_body.conjugate() * *true_icrf_nt + error_nt,
+                        magnetometer.resolution_nt)});
       }
     }
     return {};

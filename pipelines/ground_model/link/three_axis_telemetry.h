@@ -28,25 +28,29 @@ struct Sampling {
   double step_s;
 };
 
-/// Noise is one standard deviation about each axis, of a magnetometer along it.
+/// Noise is one standard deviation about each axis, of a magnetometer along it. What is read is
+/// rounded to whole multiples of the resolution; 0: it is not.
 struct TrueGyro {
   Sampling sampling;
   double noise_rad_s;
   Eigen::Vector3d bias_rad_s;
   std::optional<double> range_rad_s;  ///< It stops there; empty: nowhere.
+  double resolution_rad_s = 0.0;      ///< About each axis.
 };
 
 /// Sees the Sun unless the Earth hides it.
 struct TrueSunSensor {
   Sampling sampling;
   double noise_rad;
-  double half_cone_rad;  ///< Of its field of view about -Z.
+  double half_cone_rad;                                        ///< Of its field of view about -Z.
+  Eigen::Vector3d misalignment_rad = Eigen::Vector3d::Zero();  ///< The small turn of its axes.
+  double resolution = 0.0;  ///< Of each element of the unit vector.
 };
 
 struct TrueStarTracker {
   Sampling sampling;
   double noise_rad;
-  Eigen::Quaterniond q_body_sensor;
+  Eigen::Quaterniond q_body_sensor;  ///< The true one.
 };
 
 /// Reads the main field of the Earth.
@@ -55,6 +59,7 @@ struct TrueMagnetometer {
   double noise_nt;
   Eigen::Vector3d bias_nt;  ///< Body axes.
   MainFieldModel field;
+  double resolution_nt = 0.0;  ///< Along each axis.
 };
 
 // A sensor that is empty is not on board.

@@ -12,6 +12,12 @@
 
 namespace spindrift {
 
+/// To the nearest whole multiple of `resolution`; as it is, where that is 0.
+inline Eigen::Vector3d rounded(const Eigen::Vector3d& reading, double resolution) {
+  return resolution > 0.0 ? Eigen::Vector3d{resolution * (reading / resolution).array().round()}
+                          : reading;
+}
+
 /// @param range_rad_s Where it stops about each axis; empty: nowhere.
 inline Eigen::Vector3d gyro_reading(const Eigen::Vector3d& rate_body_rad_s,
                                     const Eigen::Vector3d& error_rad_s,

@@ -9,7 +9,6 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/control/attitude_control.h"
-#include "pipelines/ground_model/control/control_period.h"
 #include "pipelines/ground_model/control/gyro_propagation.h"
 #include "pipelines/ground_model/dynamics/stepped_body.h"
 
@@ -211,12 +210,6 @@ TEST(ClosedLoop, DampsTheSatelliteOfSeed000In18SecondsAndHoldsMinusZAtTheSun) {
   }
   EXPECT_NEAR(damped_s, 18.0, 0.5);
   EXPECT_LT(most_off_deg, 0.2);
-}
-
-TEST(ControlPeriod, IsSaidToBeTooLongForItsLoop) {
-  EXPECT_TRUE(check_control_period(1.0, 0.1));
-  EXPECT_THAT(check_control_period(5.0, 0.1).error().message, HasSubstr("must not be above 2 s"));
-  EXPECT_THAT(check_control_period(-1.0, 0.1).error().message, HasSubstr("must be above 0"));
 }
 
 TEST(AttitudeControl, RefusesTimesThatCannotBe) {

@@ -151,6 +151,39 @@ TEST(ThreeAxisTelemetry, OfAGyroStopsAtItsRange) {
   EXPECT_GT(stopped, 2000);
 }
 
+TEST(ThreeAxisTelemetry, ComesInStepsOfTheResolutionFromSensorsThatAreTurned) {
+  constexpr double kStep_rad_s = 1e-3;
+  constexpr double kStep = 1e-2;
+  const Vector3d misalignment_rad{0.02, -0.01, 0.03};
+  ThreeAxisSensors rough = sensors();
+  rough.gyro->resolution_rad_s = kStep_rad_s;
+  rough.sun_sensor->noise_rad = 0.0;
+  rough.sun_sensor->misalignment_rad = misalignment_rad;
+  const ThreeAxisTelemetry telemetry = sent(rough, {});
+  const ThreeAxisTelemetry fine = sent(sensors(), {});
+  for (std::size_t i = 0; i < telemetry.gyro.size(); ++i) {
+    const Vector3d steps = telemetry.gyro[i].rate_body_rad_s / kStep_rad_s;
+    EXPECT_LT((steps - Vector3d{steps.array().round()}).norm(), 1e-9);
+    EXPECT_LE((telemetry.gyro[i].rate_body_rad_s - fine.gyro[i].rate_body_rad_s)
+                  .lpNorm<Eigen::Infinity>(),
+              0.5001 * kStep_rad_s);
+  }
+  const BodyMotion motion = turning();
+  const auto truth_of = [&](const SunDirection& sun) {
+    return Vector3d{motion.at(seconds_between(kStart, sun.t)).q_icrf_body.conjugate() *
+                    ApparentSun{}.direction_icrf(sun.t, kOrbit.at(sun.t).value())};
+  };
+  for (const SunDirection& sun : telemetry.sun) {
+    EXPECT_LT((quaternion_by(misalignment_rad) * sun.sun_body - truth_of(sun)).norm(), 1e-12);
+  }
+  rough.sun_sensor->misalignment_rad.setZero();
+  rough.sun_sensor->resolution = kStep;
+  for (const SunDirection& sun : sent(rough, {}).sun) {
+    EXPECT_NEAR(sun.sun_body.norm(), 1.0, 1e-12);
+    EXPECT_LT((sun.sun_body - truth_of(sun)).norm(), std::sqrt(3.0) * kStep);
+  }
+}
+
 TEST(ThreeAxisTelemetry, LosesSamplesAndLeavesAllOthersAsTheyWere) {
   const ThreeAxisTelemetry whole = sent(sensors(), {});
   const ThreeAxisTelemetry some =

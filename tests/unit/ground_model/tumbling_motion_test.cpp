@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
@@ -34,6 +36,10 @@ MainFieldModel dipole_field() {
   return MainFieldModel::make({{2020.0, coefficients}, {2030.0, coefficients}}).value();
 }
 
+double energy_j(const TumblingTruth& truth, const BodyState& body) {
+  return 0.5 * body.rate_body_rad_s.dot(truth.body.inertia_kg_m2 * body.rate_body_rad_s);
+}
+
 Vector3d momentum_icrf_nms(const TumblingTruth& truth, const BodyState& body) {
   return body.q_icrf_body *
          (truth.body.inertia_kg_m2 * body.rate_body_rad_s + truth.wheels_body_nms);
@@ -61,6 +67,24 @@ TEST(TumblingMotion, KeepsTheMomentumOfBodyAndWheelsInSpace) {
   EXPECT_GT(angle_between_rad(motion.last().q_icrf_body,
                               tumbling_motion(truth, kOrbit).value().last().q_icrf_body),
             0.1);
+}
+
+TEST(TumblingMotion, KeepsEnergyAndMomentumHoweverFastTheWheelsMakeItSwing) {
+  for (const double wheels_nms : {0.4, 4.0, 20.0}) {
+    TumblingTruth truth = truth_at({1.2, -0.7, 0.9});
+    truth.wheels_body_nms = {0.0, -wheels_nms, 0.0};
+    const BodyMotion motion = tumbling_motion(truth, kOrbit).value();
+    const double at_first_j = energy_j(truth, truth.body.at_start);
+    const Vector3d at_first_nms = momentum_icrf_nms(truth, truth.body.at_start);
+    EXPECT_LT(std::abs(energy_j(truth, motion.last()) - at_first_j), 1e-9 * at_first_j)
+        << wheels_nms;
+    EXPECT_LT((momentum_icrf_nms(truth, motion.last()) - at_first_nms).norm(),
+              1e-9 * at_first_nms.norm())
+        << wheels_nms;
+  }
+  TumblingTruth truth = truth_at({1.2, -0.7, 0.9});
+  truth.wheels_body_nms = {0.0, -100.0, 0.0};
+  EXPECT_THAT(tumbling_motion(truth, kOrbit).error().message, HasSubstr("too coarse"));
 }
 
 TEST(TumblingMotion, GainsTheMomentumThatTheSurroundingsGive) {

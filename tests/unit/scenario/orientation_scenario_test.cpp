@@ -92,20 +92,28 @@ TEST(OrientationScenario, RefusesWheelsThatLeaveADirectionWithoutTorque) {
 
 TEST(OrientationScenario, ReportsMistakesAtOnce) {
   std::string text = replaced(kWhole, "control_on_s = 2.0", "control_on_s = -2.0");
-  text = replaced(text, "period_s = 0.1", "period_s = 4.0");
   text = replaced(text, "q_start_target = [0.7071, 0.0", "q_start_target = [0.5, 0.0");
   text = replaced(text, "speed_rpm_most = 6000.0", "speed_rpm_most = 0");
   text = replaced(text, "[three_axis.gyro]\nnoise_deg_s = 0.001\nbias_sigma_deg_s = 0.001\n", "");
   const std::string error = error_of(text);
   for (const char* const problem :
        {"orientation.control_on_s = -2.0: must lie in [0, 86400] s",
-        "control.period_s = 4: a control period of 4 s is too long for a loop of 0.1 rad/s: must "
-        "not "
-        "be above 2 s",
         "orientation.q_start_target = ", "wheels.speed_rpm_most = 0: must lie in (0, 1000000] rpm",
         "control.attitude_by = \"runge_kutta\": there is no [three_axis.gyro]"}) {
     EXPECT_THAT(error, HasSubstr(problem));
   }
+}
+
+TEST(OrientationScenario, RefusesWhatWouldDoNothing) {
+  EXPECT_THAT(error_of(kWhole + "\n[truth.sun_sensor]\nnoise_deg = 1\n"),
+              HasSubstr("[truth.sun_sensor]: there is no [three_axis.sun_sensor]"));
+  EXPECT_THAT(error_of(replaced(kWhole, "control_on_s = 2.0", "control_on_s = 2000.0")),
+              HasSubstr("orientation.control_on_s = 2000: must not be above pass.duration_s"));
+}
+
+TEST(OrientationScenario, RefusesALoopThatSwings) {
+  EXPECT_THAT(error_of(replaced(kWhole, "period_s = 0.1", "period_s = 2.0\nperiods_late = 4")),
+              HasSubstr("control.period_s = 2, periods_late = 4: a loop of 0.1517 rad/s"));
 }
 
 TEST(OrientationScenario, RefusesABodyThatTurnsTooFastForItsSteps) {
