@@ -33,6 +33,7 @@ enum class AlertCode {
   AttitudeLost,
   AttitudeDiverged,
   ReconstructionLauncher,
+  ModelDeparture,  ///< About a channel.
   ArchiveBacklog,
   ArchiveWrite,
   ArchiveDisk,
@@ -54,9 +55,9 @@ constexpr std::string_view name_of(AlertCode code) {
       "spin.off_target",   "spin.nutation",
       "spin.rate",         "attitude.lost",
       "attitude.diverged", "reconstruction.launcher",
-      "archive.backlog",   "archive.write",
-      "archive.disk",      "clock.jump",
-      "data.outdated"};
+      "model.departure",   "archive.backlog",
+      "archive.write",     "archive.disk",
+      "clock.jump",        "data.outdated"};
   return kNames.at(static_cast<std::size_t>(code));
 }
 

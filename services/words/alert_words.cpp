@@ -60,6 +60,8 @@ constexpr std::array<Words, kAlertCodes> kWords{{
      "check noise, mounting and bias of the sensors in the mission file"},
     {ReconstructionLauncher, "attitude at separation away from the launcher's",
      "check [reconstruction.launcher] and the mounting of star tracker and sun sensor"},
+    {ModelDeparture, "flight away from the ground model",
+     "look at the channel, at what was commanded, and at the scenario of the model"},
     {ArchiveBacklog, "samples wait to be committed", "look at disk and load of this host"},
     {ArchiveWrite, "the archive does not store", "look at the log, and at the disk of the archive"},
     {ArchiveDisk, "free space at the archive", "make room"},

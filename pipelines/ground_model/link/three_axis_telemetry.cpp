@@ -107,10 +107,6 @@ class Downlink {
     return is_measured && !is_lost;
   }
 
-  static bool is_in_view(const TrueSunSensor& sensor, const Vector3d& sun_body) {
-    return angle_between_rad(-Vector3d::UnitZ(), sun_body) <= sensor.half_cone_rad;
-  }
-
   std::pair<Eigen::Vector2d, bool> sun_error(const TrueSunSensor& sensor) {
     const double first_rad = sensor.noise_rad * chance_.normal();
     const double second_rad = sensor.noise_rad * chance_.normal();
@@ -131,6 +127,10 @@ class Downlink {
 };
 
 }  // namespace
+
+bool is_in_view(const TrueSunSensor& sensor, const Vector3d& sun_body) {
+  return angle_between_rad(-Vector3d::UnitZ(), sun_body) <= sensor.half_cone_rad;
+}
 
 Expected<ThreeAxisTelemetry> three_axis_telemetry(const BodyMotion& motion, TaiTime start,
                                                   const ThreeAxisSensors& sensors,

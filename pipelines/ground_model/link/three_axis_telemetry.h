@@ -47,6 +47,9 @@ struct TrueSunSensor {
   double resolution = 0.0;  ///< Of each element of the unit vector.
 };
 
+/// @param sun_body Unit.
+bool is_in_view(const TrueSunSensor& sensor, const Eigen::Vector3d& sun_body);
+
 struct TrueStarTracker {
   Sampling sampling;
   double noise_rad;

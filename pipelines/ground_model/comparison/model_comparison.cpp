@@ -1,0 +1,34 @@
+#include "pipelines/ground_model/comparison/model_comparison.h"
+
+namespace spindrift {
+
+ModelComparison::Comparison ModelComparison::comparison_with(const GroundModel& model) {
+  if (const auto* const spin = std::get_if<SpinModel>(&model)) {
+    return SpinComparison{*spin};
+  }
+  return ThreeAxisComparison{std::get<ThreeAxisModel>(model)};
+}
+
+std::vector<ComparedChannel> ModelComparison::channels_of(const Comparison& comparison) {
+  return std::visit([](const auto& is) { return is.channels(); }, comparison);
+}
+
+ModelComparison::ModelComparison(std::shared_ptr<const GroundModel> model, double band_sigmas)
+    : model_{std::move(model)},
+      comparison_{comparison_with(*model_)},
+      watch_{channels_of(comparison_), band_sigmas} {}
+
+ModelComparison::Compared ModelComparison::finish() {
+  auto* const spin = std::get_if<SpinComparison>(&comparison_);
+  return spin == nullptr ? Compared{} : judged(spin->finish());
+}
+
+ModelComparison::Compared ModelComparison::judged(std::vector<ComparedSample> samples) {
+  Compared compared{.samples = std::move(samples), .changes = {}};
+  for (const ComparedSample& sample : compared.samples) {
+    add(watch_.see(sample), compared.changes);
+  }
+  return compared;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,235 @@
+#include "pipelines/ground_model/comparison/spin_comparison.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "pipelines/ephemeris/earth_pole.h"
+#include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/frames/angle.h"
+#include "pipelines/frames/celestial.h"
+#include "pipelines/ground_model/comparison/model_comparison.h"
+#include "pipelines/ground_model/link/coded_telemetry.h"
+
+namespace spindrift::spin_comparison_test {
+
+using enum PulseChannel;
+
+constexpr TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+constexpr double kEnd_s = 600.0;
+constexpr double kChange_s = 300.0;
+constexpr double kRate_rad_s = kTurn_rad;  // A turn a second.
+constexpr double kResolution_s = 1e-4;
+
+/// The transfer orbit of the scenarios.
+const Orbit kOrbit{KeplerOrbit::make({.epoch = kStart,
+                                      .semi_major_axis_km = 24'400.0,
+                                      .eccentricity = 0.73,
+                                      .inclination_rad = 28.5 * kRadPerDeg,
+                                      .raan_rad = 300.0 * kRadPerDeg,
+                                      .argument_of_perigee_rad = 178.0 * kRadPerDeg,
+                                      .mean_anomaly_rad = 30.0 * kRadPerDeg})
+                       .value()};
+
+SpinTruth truth() {
+  return {
+      .start = kStart,
+      .motion = {.axis_icrf =
+                     direction_icrf({.ra_rad = 100.0 * kRadPerDeg, .dec_rad = -55.0 * kRadPerDeg}),
+                 .rate_rad_s = kRate_rad_s,
+                 .rate_drift_rad_s2 = 0.0,
+                 .first_azimuth_rad = 0.0},
+      .sun_sensor = {.slit_cant_rad = 45.0 * kRadPerDeg, .slit_separation_rad = 35.0 * kRadPerDeg},
+      .north = TrueInfrared{.mount_angle_rad = 85.0 * kRadPerDeg, .azimuth_rad = 90.0 * kRadPerDeg},
+      .south = TrueInfrared{.mount_angle_rad = 95.0 * kRadPerDeg, .azimuth_rad = 92.0 * kRadPerDeg},
+      .horizon = infrared_horizon({.model = HorizonModel::Sphere, .co2_altitude_km = 40.0},
+                                  earth_pole_icrf(kStart))};
+}
+
+PulseLink link(std::uint64_t seed) {
+  return {
+      .seed = seed, .noise = {.sun_s = 1e-4, .infrared_s = 5e-4}, .channels = {}, .silences = {}};
+}
+
+std::vector<TrueEdge> edges_of(const SpinTruth& truth) {
+  return SpinEdges{truth, kOrbit}.until(kEnd_s).value();
+}
+
+ReceivedPass sent(const std::vector<TrueEdge>& edges, std::uint64_t seed) {
+  return receive(link(seed), edges, kStart, kEnd_s, 600);
+}
+
+std::vector<Pulse> pulses(const std::vector<TrueEdge>& edges, std::uint64_t seed = 1) {
+  std::vector<Pulse> all;
+  for (const ReceivedPulse& received : sent(edges, seed).pulses) {
+    all.push_back(received.pulse);
+  }
+  return all;
+}
+
+template <class Sample>
+std::map<std::string, ChannelComparison> compared(const std::vector<Sample>& flight) {
+  static const auto model = std::make_shared<const GroundModel>(
+      spin_model(truth(), link(0), kResolution_s, kOrbit, kEnd_s).value());
+  ModelComparison comparison{model, 5.0};
+  for (const Sample& sample : flight) {
+    comparison.see(sample);
+  }
+  comparison.finish();
+  std::map<std::string, ChannelComparison> all;
+  for (const ChannelComparison& channel : comparison.channels()) {
+    all.emplace(channel.channel.name, channel);
+  }
+  return all;
+}
+
+/// Since when each channel is away that is, behind the start.
+std::map<std::string, double> departures_s(const std::map<std::string, ChannelComparison>& all) {
+  std::map<std::string, double> departed;
+  for (const auto& [name, channel] : all) {
+    if (channel.departure) {
+      departed.emplace(name, seconds_between(kStart, channel.departure->since));
+    }
+  }
+  return departed;
+}
+
+void expect_only(const std::map<std::string, ChannelComparison>& all, const std::string& channel,
+                 double within_s = 2.0) {
+  const auto departed = departures_s(all);
+  ASSERT_EQ(departed.size(), 1U) << ::testing::PrintToString(departed);
+  EXPECT_EQ(departed.begin()->first, channel);
+  EXPECT_GE(departed.begin()->second, kChange_s);
+  EXPECT_LE(departed.begin()->second, kChange_s + within_s);
+}
+
+/// In 20 passes of 600 revolutions; each is 12 periods and phases, which share edges of sun1: twice
+/// the variance that independent ones would have.
+TEST(SpinComparison, IsOfUnitVarianceInTheModelsOwnPasses) {
+  std::map<std::string, double> squares;
+  std::map<std::string, double> counts;
+  const auto edges = edges_of(truth());
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (const auto& [name, channel] : compared(pulses(edges, seed))) {
+      EXPECT_FALSE(channel.departure) << name << " of seed " << seed;
+      const auto count = static_cast<double>(channel.residuals.count());
+      squares[name] += count * std::pow(channel.residuals.normalised_rms(), 2);
+      counts[name] += count;
+    }
+  }
+  ASSERT_EQ(counts.size(), 7U);
+  for (const auto& [name, count] : counts) {
+    if (name != "sun1") {
+      EXPECT_GT(count, 20 * 595);
+      EXPECT_NEAR(squares[name] / count, 1.0, 5.0 * std::sqrt(4.0 / count)) << name;
+    }
+  }
+}
+
+TEST(SpinComparison, IsOfUnitVarianceInCodedTelemetry) {
+  const auto edges = edges_of(truth());
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (const auto& [name, channel] :
+         compared(coded_telemetry(sent(edges, seed), kResolution_s))) {
+      EXPECT_FALSE(channel.departure) << name;
+      const auto number = static_cast<double>(channel.residuals.count());
+      squares += number * std::pow(channel.residuals.normalised_rms(), 2);
+      count += number;
+    }
+  }
+  EXPECT_NEAR(squares / count, 1.0, 5.0 * std::sqrt(4.0 / count));
+}
+
+/// The absolute phase is another one, and nothing else.
+TEST(SpinComparison, DoesNotCompareTheAbsolutePhase) {
+  SpinTruth turned = truth();
+  turned.motion.first_azimuth_rad = 2.0;
+  EXPECT_THAT(departures_s(compared(pulses(edges_of(turned)))), ::testing::IsEmpty());
+}
+
+TEST(SpinComparison, FindsARateStep) {
+  SpinTruth after = truth();
+  after.motion.rate_rad_s = 1.002 * kRate_rad_s;
+  after.motion.first_azimuth_rad = (kRate_rad_s - after.motion.rate_rad_s) * kChange_s;
+  std::vector<TrueEdge> flight = edges_of(truth());
+  std::erase_if(flight, [](const TrueEdge& edge) { return edge.t_s >= kChange_s; });
+  for (const TrueEdge& edge : edges_of(after)) {
+    if (edge.t_s >= kChange_s) {
+      flight.push_back(edge);
+    }
+  }
+  const auto all = compared(pulses(flight));
+  expect_only(all, "period");
+  EXPECT_NEAR(all.at("period").departure->value, 0.002, 0.0005);
+  EXPECT_NEAR(all.at("period").departure->limit, 5.0 * std::sqrt(2.0) * 1e-4, 1e-9);
+}
+
+TEST(SpinComparison, FindsTheChannelThatIsBiased) {
+  for (const PulseChannel channel : {Sun2, NorthIn, SouthOut}) {
+    std::vector<TrueEdge> flight = edges_of(truth());
+    for (TrueEdge& edge : flight) {
+      edge.t_s += edge.channel == channel && edge.t_s > kChange_s ? 0.005 : 0.0;
+    }
+    const auto all = compared(pulses(flight));
+    expect_only(all, std::string{name_of(channel)});
+    EXPECT_NEAR(all.at(std::string{name_of(channel)}).departure->value, 0.005 * 360.0, 1.0);
+  }
+}
+
+TEST(SpinComparison, FindsTheChannelThatDies) {
+  for (const PulseChannel channel : {Sun1, Sun2, NorthOut}) {
+    std::vector<TrueEdge> flight = edges_of(truth());
+    std::erase_if(flight, [channel](const TrueEdge& edge) {
+      return edge.channel == channel && edge.t_s > kChange_s;
+    });
+    const auto all = compared(pulses(flight));
+    expect_only(all, std::string{name_of(channel)});
+    EXPECT_EQ(all.at(std::string{name_of(channel)}).departure->unit, "s silent");
+  }
+}
+
+TEST(SpinComparison, IsNotMovedByLostAndSpuriousEdges) {
+  PulseLink dirty = link(3);
+  for (ChannelFaults& channel : dirty.channels) {
+    channel = {.lost = 0.05, .spoilt = 0.03, .doubled = 0.01, .spurious = 0.02};
+  }
+  dirty.spoilt_min_s = 0.002;
+  dirty.spoilt_max_s = 0.05;
+  dirty.doubled_max_s = 0.002;
+  std::vector<Pulse> flight;
+  for (const ReceivedPulse& received :
+       receive(dirty, edges_of(truth()), kStart, kEnd_s, 600).pulses) {
+    flight.push_back(received.pulse);
+  }
+  EXPECT_THAT(departures_s(compared(flight)), ::testing::IsEmpty());
+}
+
+TEST(SpinComparison, SaysNothingOutsideTheModelsTime) {
+  std::vector<Pulse> flight = pulses(edges_of(truth()));
+  for (Pulse& pulse : flight) {
+    pulse.t += std::chrono::hours{1};
+  }
+  for (const auto& [name, channel] : compared(flight)) {
+    EXPECT_EQ(channel.residuals.count(), 0) << name;
+    EXPECT_FALSE(channel.departure) << name;
+  }
+}
+
+TEST(SpinComparison, RefusesAModelWithoutNoiseOrRevolutions) {
+  PulseLink quiet = link(0);
+  quiet.noise.sun_s = 0.0;
+  EXPECT_EQ(spin_model(truth(), quiet, kResolution_s, kOrbit, kEnd_s).error().code,
+            ErrorCode::InvalidConfiguration);
+  PulseLink blind = link(0);
+  blind.channels.front().dead = true;
+  EXPECT_THAT(spin_model(truth(), blind, kResolution_s, kOrbit, kEnd_s).error().message,
+              ::testing::HasSubstr("sun1"));
+}
+
+}  // namespace spindrift::spin_comparison_test
