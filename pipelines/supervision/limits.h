@@ -39,6 +39,7 @@ struct AlertLimits {
   double diverged_percent = 99.9;
   double diverged_s = 60.0;
   double launcher_percent = 99.0;
+  double departure_sigmas = 5.0;
   double backlog_s = 10.0;
   double disk_gib = 1.0;
   double clock_jump_s = 1.0;

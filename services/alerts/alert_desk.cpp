@@ -132,6 +132,15 @@ void AlertDesk::see(ArchiveBatch& batch) {
   }
 }
 
+void AlertDesk::tell(const ConditionChanges& changes, ArchiveBatch& batch) {
+  const std::lock_guard lock{mutex_};
+  const auto desk = desks_.find(batch.spacecraft_id);
+  if (desk != desks_.end() && desk->second.supervised &&
+      desk->second.supervised->run_id == batch.run_id) {
+    append(settled(changes, desk->second), batch.products);
+  }
+}
+
 void AlertDesk::go_on(const std::string& spacecraft, const std::string& run_id,
                       const TelemetryValues& samples) {
   const std::lock_guard lock{mutex_};

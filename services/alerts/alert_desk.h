@@ -45,6 +45,9 @@ class AlertDesk {
   /// without samples; as what was taken back is.
   void see(ArchiveBatch& batch);
 
+  /// Adds to `batch`, of the run that it sees, the alerts that these changes raise and clear.
+  void tell(const ConditionChanges& changes, ArchiveBatch& batch);
+
   /// Samples of before a restart, which do not come again. After the batch that says that the run
   /// goes on.
   void go_on(const std::string& spacecraft, const std::string& run_id,

@@ -3,13 +3,18 @@
 
 #pragma once
 
+#include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>
+#include <fmt/format.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <vector>
 
+#include "pipelines/core/expected.h"
 #include "services/telemetry/by_kind.h"
 
 namespace spindrift {
@@ -45,5 +50,30 @@ Arrived<Value> read_arrived(SQLite::Statement& row) {
   });
   return arrived;
 }
+
+/// Of a spacecraft in order of time, whatever run took them, both ends included; without those that
+/// a run left out since the time of their source was wrong.
+template <class Value>
+std::vector<Value> read_between(const SQLite::Database& database, const std::string& spacecraft_id,
+                                TaiTime from, TaiTime to) {
+  SQLite::Statement query{
+      database, fmt::format("SELECT {} FROM {} WHERE spacecraft_id = ? AND t_tai_ns BETWEEN ? AND ?"
+                            " AND arrival >= 0 ORDER BY t_tai_ns",
+                            arrived_columns<Value>(), Telemetry<Value>::kTable)};
+  query.bind(1, spacecraft_id);
+  query.bind(2, tai_ns(from));
+  query.bind(3, tai_ns(to));
+  std::vector<Value> values;
+  while (query.executeStep()) {
+    values.push_back(read_arrived<Value>(query).value);
+  }
+  return values;
+}
+
+/// All kinds likewise, arrived in order of time.
+/// @return As open_for_reading; Unavailable when reading fails.
+Expected<TelemetryValues> find_telemetry(const std::filesystem::path& archive,
+                                         const std::string& spacecraft_id, TaiTime from,
+                                         TaiTime to);
 
 }  // namespace spindrift

@@ -4,6 +4,8 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "pipelines/core/shown.h"
 #include "pipelines/exclusions/exclusions.h"
 #include "pipelines/three_axis/sample_kind.h"
@@ -36,19 +38,8 @@ Exclusions<SampleKind> read_exclusions(SQLite::Database& database,
 template <class Value>
 std::vector<Value> read_from(const SQLite::Database& database, const std::string& spacecraft_id,
                              TaiTime from, const Exclusions<SampleKind>& excluded) {
-  SQLite::Statement query{database,
-                          fmt::format("SELECT {} FROM {} WHERE spacecraft_id = ? AND t_tai_ns >= ?"
-                                      " AND arrival >= 0 ORDER BY t_tai_ns",
-                                      arrived_columns<Value>(), Telemetry<Value>::kTable)};
-  query.bind(1, spacecraft_id);
-  query.bind(2, tai_ns(from));
-  std::vector<Value> values;
-  while (query.executeStep()) {
-    const Value value = read_arrived<Value>(query).value;
-    if (!excluded.hold(value.t, kind_of(value))) {
-      values.push_back(value);
-    }
-  }
+  auto values = read_between<Value>(database, spacecraft_id, from, TaiTime::max());
+  std::erase_if(values, [&](const Value& value) { return excluded.hold(value.t, kind_of(value)); });
   return values;
 }
 

@@ -41,6 +41,7 @@ AlertLimits alert_limits(const TomlValues& values) {
       .diverged_percent = number(values, "alerts.attitude.diverged.percent"),
       .diverged_s = number(values, "alerts.attitude.diverged.seconds"),
       .launcher_percent = number(values, "alerts.reconstruction.launcher.percent"),
+      .departure_sigmas = number(values, "alerts.model.departure.sigmas"),
       .backlog_s = number(values, "alerts.archive.backlog.seconds"),
       .disk_gib = number(values, "alerts.archive.disk.gib"),
       .clock_jump_s = number(values, "alerts.clock.jump.seconds")};

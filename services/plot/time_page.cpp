@@ -178,6 +178,9 @@ void TimePage::name_curves(const std::vector<Curve>& curves, const Scale& y) {
   };
   std::vector<Name> names;
   for (const Curve& curve : curves) {
+    if (curve.name.empty()) {
+      continue;
+    }
     const auto last = std::find_if(curve.values.rbegin(), curve.values.rend(),
                                    [](const auto& value) { return value.has_value(); });
     const bool none = last == curve.values.rend();

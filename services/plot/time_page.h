@@ -16,7 +16,7 @@
 namespace spindrift::plot {
 
 struct Curve {
-  std::string name;
+  std::string name;  ///< Beside it; empty: none.
   std::string_view colour;
   std::vector<std::optional<double>> values;  ///< One for each time of the page; empty: a gap.
   std::string_view dashes = {};               ///< As of Stroke.

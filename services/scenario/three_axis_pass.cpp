@@ -1,10 +1,10 @@
 #include "services/scenario/three_axis_pass.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/celestial.h"
+#include "services/telemetry/time_order.h"
 #include "services/units/degrees.h"
 
 namespace spindrift {
@@ -14,20 +14,6 @@ using nlohmann::ordered_json;
 
 ordered_json elements_of(const Eigen::Vector3d& vector) {
   return {vector.x(), vector.y(), vector.z()};
-}
-
-/// In order of time as files are merged.
-void put_in_order(TelemetryValues& all) {
-  std::vector<std::pair<TelemetryOrder, std::int64_t*>> places;
-  all.for_each([&](auto& of_kind) {
-    for (auto& arrived : of_kind) {
-      places.emplace_back(order_of(arrived.value), &arrived.arrival);
-    }
-  });
-  std::sort(places.begin(), places.end());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    *places[i].second = static_cast<std::int64_t>(i);
-  }
 }
 
 /// Adds a kind that the spacecraft has a sensor of.

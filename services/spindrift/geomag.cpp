@@ -29,13 +29,14 @@ namespace {
 
 constexpr std::string_view kHeader = "lat_deg,lon_deg,height_km";
 
-struct Column {
+struct PointColumn {
   std::string_view name;
   double least;
   double most;
 };
-constexpr std::array kColumns = {Column{"lat_deg", -90.0, 90.0}, Column{"lon_deg", -360.0, 360.0},
-                                 Column{"height_km", -100.0, 1e6}};
+constexpr std::array kColumns = {PointColumn{"lat_deg", -90.0, 90.0},
+                                 PointColumn{"lon_deg", -360.0, 360.0},
+                                 PointColumn{"height_km", -100.0, 1e6}};
 
 /// As kColumns.
 using Point = std::array<double, kColumns.size()>;

@@ -36,6 +36,7 @@
 #include "services/spindrift/act.h"
 #include "services/spindrift/alerts.h"
 #include "services/spindrift/batch.h"
+#include "services/spindrift/compare.h"
 #include "services/spindrift/doctor.h"
 #include "services/spindrift/geomag.h"
 #include "services/spindrift/geometry.h"
@@ -71,6 +72,7 @@ struct Request {
   spindrift::GeomagFieldOptions geomag_field;
   spindrift::GeometryOptions geometry;
   spindrift::ReconstructOptions reconstruct;
+  spindrift::CompareOptions compare;
   spindrift::AlertsOptions alerts;
   spindrift::ActOptions act;
   std::function<Expected<void>()> run;
@@ -334,6 +336,28 @@ void add_reconstruct(CLI::App& app, Request& request) {
   });
 }
 
+void add_compare(CLI::App& app, Request& request) {
+  spindrift::CompareOptions& options = request.compare;
+  CLI::App& command = *app.add_subcommand(
+      "compare", "Hold flight against the ground model, and say since when it is away");
+  command.add_option("--mission", options.mission, "Mission file")->check(check_path)->required();
+  CLI::Option_group& flight = *command.add_option_group("Flight", "One of these is needed");
+  flight.add_option("--telemetry", options.telemetry, "CSV files, or directories of them")
+      ->check(check_path);
+  flight
+      .add_option("--db", options.db,
+                  "Archive with the telemetry; what departs is stored there as alerts")
+      ->check(check_path);
+  flight.require_option(1);
+  command.add_option("--model", options.model, "Scenario file, by which flight should go")
+      ->check(check_path)
+      ->required();
+  command.add_option("--plot", options.plot, "SVG file to write, its name ending in .svg")
+      ->check(check_svg);
+  command.add_flag("--json", options.json, "Print one JSON object");
+  command.callback([&] { request.run = [&] { return compare(request.compare); }; });
+}
+
 void add_alert_change(CLI::App& alerts, Request& request, const char* name, const char* about) {
   spindrift::AlertsOptions& options = request.alerts;
   CLI::App& command = *alerts.add_subcommand(name, about);
@@ -448,6 +472,7 @@ int run(int argc, char** argv) {
   add_geomag(app, request);
   add_geometry(app, request);
   add_reconstruct(app, request);
+  add_compare(app, request);
   add_alerts(app, request);
   add_act(app, request);
   try {

@@ -48,21 +48,35 @@ std::optional<ConditionChange> DepartureWatch::see(const ComparedSample& sample)
   if ((!is_away && !is_back) || (watched.last && sample.t < *watched.last)) {
     return std::nullopt;
   }
+  if (is_away && watched.leaving &&
+      seconds_between(*watched.last, sample.t) > watched.comparison.channel.holding_s) {
+    begin_anew(sample.t, watched);
+  }
   watched.last = sample.t;
   return judge(sample, is_away, watched);
 }
 
+/// Nobody knows what was in between. What is said of the channel stays said.
+void DepartureWatch::begin_anew(TaiTime t, Watched& watched) {
+  watched.watch.see(t, false);
+  watched.leaving.reset();
+  watched.away = 0;
+}
+
 std::optional<ConditionChange> DepartureWatch::judge(const ComparedSample& sample, bool is_away,
                                                      Watched& watched) const {
-  auto change = watched.watch.see(sample.t, is_away);
   const auto evidence = [&](double held_s) {
     return evidence_of(sample, watched.comparison.channel, band_sigmas_, held_s);
   };
+  watched.away = is_away ? watched.away + 1 : 0;
   if (!is_away) {
     watched.leaving.reset();
   } else if (!watched.leaving) {
     watched.leaving = evidence(0.0);
+  } else if (watched.away < kLeastSamples) {
+    return std::nullopt;
   }
+  auto change = watched.watch.see(sample.t, is_away);
   if (!change) {
     return std::nullopt;
   }

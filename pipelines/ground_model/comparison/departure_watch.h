@@ -24,9 +24,12 @@ struct ChannelComparison {
 };
 
 /// A channel departs that is outside the band, or is silent where the model sends, at every sample
-/// for as long as it holds (ConditionWatch); it is back when it is within 0.8 of the band as long.
+/// for as long as it holds (ConditionWatch) and at kLeastSamples; behind a gap that is longer it is
+/// looked at anew. It is back when it is within 0.8 of the band as long.
 class DepartureWatch {
  public:
+  static constexpr int kLeastSamples = 5;
+
   /// @param band_sigmas Half-width of the band, in sigma of each residual.
   DepartureWatch(const std::vector<ComparedChannel>& channels, double band_sigmas);
 
@@ -42,7 +45,9 @@ class DepartureWatch {
     ConditionWatch watch;
     std::optional<TaiTime> last = {};
     std::optional<Evidence> leaving = {};  ///< Since it is away; empty: it is not.
+    int away = 0;                          ///< Samples since then.
   };
+  static void begin_anew(TaiTime t, Watched& watched);
   std::optional<ConditionChange> judge(const ComparedSample& sample, bool is_away,
                                        Watched& watched) const;
 

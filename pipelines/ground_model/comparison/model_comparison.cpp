@@ -2,6 +2,15 @@
 
 namespace spindrift {
 
+ModelSpan span_of(const GroundModel& model) {
+  if (const auto* const spin = std::get_if<SpinModel>(&model)) {
+    const ModelRevolution& last = spin->revolutions.back();
+    return {.from = spin->start, .to = shifted(spin->start, last.t_s + last.period_s)};
+  }
+  const auto& body = std::get<ThreeAxisModel>(model);
+  return {.from = body.start, .to = shifted(body.start, body.motion.end_s())};
+}
+
 ModelComparison::Comparison ModelComparison::comparison_with(const GroundModel& model) {
   if (const auto* const spin = std::get_if<SpinModel>(&model)) {
     return SpinComparison{*spin};

@@ -17,6 +17,13 @@ namespace spindrift {
 /// In the order of SpacecraftKind.
 using GroundModel = std::variant<SpinModel, ThreeAxisModel>;
 
+/// From where on the model says something, and up to where.
+struct ModelSpan {
+  TaiTime from;
+  TaiTime to;
+};
+ModelSpan span_of(const GroundModel& model);
+
 /// The times of both are what they are told to be: an offset between the clocks of flight and model
 /// is not looked for, and shows in the residuals.
 class ModelComparison {

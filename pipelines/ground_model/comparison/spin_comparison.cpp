@@ -185,7 +185,11 @@ void SpinComparison::compare(const Revolution& revolution, TaiTime end, Samples&
     return;
   }
   const ModelRevolution& model = model_->revolutions[*place];
-  all.push_back({.channel = *channel_of_.front(), .t = revolution.t, .came = true});
+  const bool is_whole = period_s <= kMissing_turns * model.period_s;
+  all.push_back({.channel = *channel_of_.front(), .t = end, .came = is_whole});
+  if (!is_whole) {
+    return;
+  }
   std::array<bool, kPulseChannels> came{};
   for (const Pulse& edge : revolution.edges) {
     const auto& channel = channel_of_.at(index_of(edge.channel));

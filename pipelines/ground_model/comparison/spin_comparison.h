@@ -45,8 +45,9 @@ Expected<SpinModel> spin_model(const SpinTruth& truth, const PulseLink& link, do
                                const Orbit& orbit, double duration_s);
 
 /// Takes pulses or frames, in about the order of their times: whichever come first, since they tell
-/// the same. Each interval between edges of sun1 is taken for a revolution; where one is lost or
-/// comes out of nothing it is away from the model, once.
+/// the same. Each interval between edges of sun1 of up to one and a half of the model's periods is
+/// taken for a revolution: where an edge comes out of nothing it is away from the model, once. In a
+/// longer one sun1 is missing.
 class SpinComparison {
  public:
   /// @param model Outlives it.

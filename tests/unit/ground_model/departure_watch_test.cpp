@@ -43,6 +43,19 @@ TEST_F(DepartureWatchTest, TakesNoOutlierForADeparture) {
   EXPECT_EQ(rate().outside, 10);
 }
 
+/// What bridges a gap is not for so long away: too few samples say so.
+TEST_F(DepartureWatchTest, TakesOutliersOnBothSidesOfAGapForNone) {
+  for (const double t_s : {0.0, 1.0, 2.0, 3.0, 61.0, 62.0}) {
+    see(t_s, 40.0);
+  }
+  see(63.0, 0.5);
+  for (const double t_s : {64.0, 74.0}) {
+    see(t_s, 40.0);
+  }
+  see(75.0, 0.5);
+  EXPECT_FALSE(rate().departure);
+}
+
 TEST_F(DepartureWatchTest, FindsTheFirstInstantOfADepartureThatStays) {
   see(19.0, 8.0);
   for (int t_s = 20; t_s < 50; ++t_s) {

@@ -14,9 +14,11 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/ground_model/comparison/model_comparison.h"
 #include "pipelines/ground_model/link/coded_telemetry.h"
+#include "tests/support/departures.h"
 
 namespace spindrift::spin_comparison_test {
 
+using testing::ByChannel;
 using enum PulseChannel;
 
 constexpr TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
@@ -72,7 +74,7 @@ std::vector<Pulse> pulses(const std::vector<TrueEdge>& edges, std::uint64_t seed
 }
 
 template <class Sample>
-std::map<std::string, ChannelComparison> compared(const std::vector<Sample>& flight) {
+ByChannel compared(const std::vector<Sample>& flight) {
   static const auto model = std::make_shared<const GroundModel>(
       spin_model(truth(), link(0), kResolution_s, kOrbit, kEnd_s).value());
   ModelComparison comparison{model, 5.0};
@@ -80,26 +82,14 @@ std::map<std::string, ChannelComparison> compared(const std::vector<Sample>& fli
     comparison.see(sample);
   }
   comparison.finish();
-  std::map<std::string, ChannelComparison> all;
-  for (const ChannelComparison& channel : comparison.channels()) {
-    all.emplace(channel.channel.name, channel);
-  }
-  return all;
+  return testing::by_channel(comparison.channels());
 }
 
-/// Since when each channel is away that is, behind the start.
-std::map<std::string, double> departures_s(const std::map<std::string, ChannelComparison>& all) {
-  std::map<std::string, double> departed;
-  for (const auto& [name, channel] : all) {
-    if (channel.departure) {
-      departed.emplace(name, seconds_between(kStart, channel.departure->since));
-    }
-  }
-  return departed;
+std::map<std::string, double> departures_s(const ByChannel& all) {
+  return testing::departures_s(all, kStart);
 }
 
-void expect_only(const std::map<std::string, ChannelComparison>& all, const std::string& channel,
-                 double within_s = 2.0) {
+void expect_only(const ByChannel& all, const std::string& channel, double within_s = 2.0) {
   const auto departed = departures_s(all);
   ASSERT_EQ(departed.size(), 1U) << ::testing::PrintToString(departed);
   EXPECT_EQ(departed.begin()->first, channel);

@@ -12,11 +12,13 @@
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/comparison/model_comparison.h"
 #include "services/geomagnetism/igrf.h"
+#include "tests/support/departures.h"
 #include "tests/support/low_orbit.h"
 
 namespace spindrift::three_axis_comparison_test {
 
 using Eigen::Vector3d;
+using testing::ByChannel;
 
 constexpr TaiTime kStart = tai_from_ns(1'772'337'637'000'000'000);
 constexpr double kEnd_s = 400.0;
@@ -60,7 +62,7 @@ ThreeAxisTelemetry flight(std::uint64_t seed = 1) {
 }
 
 /// Kind by kind: no kind ends before another begins, as in the order of their times.
-std::map<std::string, ChannelComparison> compared(const ThreeAxisTelemetry& flight) {
+ByChannel compared(const ThreeAxisTelemetry& flight) {
   static const auto model =
       std::make_shared<const GroundModel>(three_axis_model(scenario(99), kOrbit).value());
   ModelComparison comparison{model, 5.0};
@@ -77,21 +79,11 @@ std::map<std::string, ChannelComparison> compared(const ThreeAxisTelemetry& flig
   for (const Sample& sample : all) {
     std::visit([&](const auto& is) { comparison.see(is); }, sample);
   }
-  std::map<std::string, ChannelComparison> channels;
-  for (const ChannelComparison& channel : comparison.channels()) {
-    channels.emplace(channel.channel.name, channel);
-  }
-  return channels;
+  return testing::by_channel(comparison.channels());
 }
 
-std::map<std::string, double> departures_s(const std::map<std::string, ChannelComparison>& all) {
-  std::map<std::string, double> departed;
-  for (const auto& [name, channel] : all) {
-    if (channel.departure) {
-      departed.emplace(name, seconds_between(kStart, channel.departure->since));
-    }
-  }
-  return departed;
+std::map<std::string, double> departures_s(const ByChannel& all) {
+  return testing::departures_s(all, kStart);
 }
 
 void expect_only(const ThreeAxisTelemetry& flight, const std::string& channel, double within_s) {

@@ -1,0 +1,23 @@
+#include "services/archive/stored_rows.h"
+
+#include "services/archive/connection.h"
+#include "services/telemetry/time_order.h"
+
+namespace spindrift {
+
+Expected<TelemetryValues> find_telemetry(const std::filesystem::path& archive,
+                                         const std::string& spacecraft_id, TaiTime from,
+                                         TaiTime to) {
+  return read_archive(archive, [&](SQLite::Database& database) {
+    TelemetryValues all;
+    all.for_each([&]<class Value>(std::vector<Arrived<Value>>& of_kind) {
+      for (const Value& value : read_between<Value>(database, spacecraft_id, from, to)) {
+        of_kind.push_back({.arrival = 0, .value = value});
+      }
+    });
+    put_in_order(all);
+    return all;
+  });
+}
+
+}  // namespace spindrift
