@@ -16,7 +16,7 @@ namespace {
 
 /// Of a product that the conditions know; of any other none.
 template <class Conditions>
-ConditionChanges changes_by(Conditions& conditions, const Product& product) {
+ConditionChanges changes_by_product(Conditions& conditions, const Product& product) {
   return std::visit(
       [&](const auto& value) -> ConditionChanges {
         if constexpr (requires { conditions.see(value); }) {
@@ -40,20 +40,8 @@ Occurrence occurrence_of(const ConditionChange& change, const std::string& run_i
           .evidence = evidence_json(change.evidence, mission.sha256)};
 }
 
-/// Samples that are left out have a negative arrival, and tell nothing of when it is.
-/// @param samples TelemetrySamples or TelemetryValues.
-template <class Samples>
-ConditionChanges changes_by_samples(AttitudeConditions& conditions, const Samples& samples) {
-  ConditionChanges all;
-  in_order_of_arrival(samples, [&](const auto& sample) {
-    if constexpr (requires { kind_of(sample.value); }) {
-      if (sample.arrival >= 0 && kind_of(sample.value) != SampleKind::OrbitState) {
-        ConditionChanges changes = conditions.see(kind_of(sample.value), sample.value.t);
-        std::move(changes.begin(), changes.end(), std::back_inserter(all));
-      }
-    }
-  });
-  return all;
+void append(ConditionChanges changes, ConditionChanges& all) {
+  std::move(changes.begin(), changes.end(), std::back_inserter(all));
 }
 
 std::optional<Alert> settle(AlertBook& book, Change change, const Occurrence& occurrence) {
@@ -82,12 +70,17 @@ void apply(const OperatorAction& action, Conditions& conditions) {
 
 }  // namespace
 
-AlertDesk::AlertDesk(const std::vector<Mission>& missions, RunMode mode) : mode_{mode} {
+AlertDesk::AlertDesk(const std::vector<Mission>& missions, RunMode mode, const GroundModels& models)
+    : mode_{mode} {
   for (const Mission& mission : missions) {
-    desks_[mission.spacecraft_id].supervised =
-        Supervised{.mission = mission,
-                   .conditions = conditions_of(mission),
-                   .service = ServiceConditions{mission.alerts, mission.contact}};
+    const auto model = models.find(mission.spacecraft_id);
+    auto& supervised = desks_[mission.spacecraft_id].supervised;
+    supervised = Supervised{.mission = mission,
+                            .model = model == models.end() ? nullptr : model->second,
+                            .conditions = conditions_of(mission),
+                            .comparison = {},
+                            .service = ServiceConditions{mission.alerts, mission.contact}};
+    begin(*supervised);
   }
 }
 
@@ -96,6 +89,36 @@ AlertDesk::Conditions AlertDesk::conditions_of(const Mission& mission) {
     return SpinConditions{*spin, *mission.orbit, mission.alerts, mission.target};
   }
   return AttitudeConditions{mission.alerts, mission.orbit};
+}
+
+/// A run.
+void AlertDesk::begin(Supervised& supervised) {
+  supervised.conditions = conditions_of(supervised.mission);
+  if (supervised.model) {
+    supervised.comparison.emplace(supervised.model, supervised.mission.alerts.departure_sigmas);
+  }
+}
+
+/// Samples that are left out have a negative arrival, and tell nothing of when it is.
+/// @param samples TelemetrySamples or TelemetryValues.
+template <class Samples>
+ConditionChanges AlertDesk::changes_by(const Samples& samples, Supervised& supervised) {
+  auto* const attitude = std::get_if<AttitudeConditions>(&supervised.conditions);
+  ConditionChanges all;
+  in_order_of_arrival(samples, [&](const auto& sample) {
+    if (sample.arrival < 0) {
+      return;
+    }
+    if constexpr (requires { kind_of(sample.value); }) {
+      if (attitude != nullptr && kind_of(sample.value) != SampleKind::OrbitState) {
+        append(attitude->see(kind_of(sample.value), sample.value.t), all);
+      }
+    }
+    if (supervised.comparison) {
+      append(supervised.comparison->see(sample.value).changes, all);
+    }
+  });
+  return all;
 }
 
 void AlertDesk::take_up(const std::string& spacecraft, const std::string& run_id,
@@ -117,7 +140,7 @@ void AlertDesk::see(ArchiveBatch& batch) {
   const bool begins = batch.continuation || (batch.start && batch.start->mode == mode_);
   if (begins && supervised.run_id != batch.run_id) {
     supervised.run_id = batch.run_id;
-    supervised.conditions = conditions_of(supervised.mission);
+    begin(supervised);
   }
   if (supervised.run_id != batch.run_id) {
     return;
@@ -149,11 +172,8 @@ void AlertDesk::go_on(const std::string& spacecraft, const std::string& run_id,
       desk->second.supervised->run_id != run_id) {
     return;
   }
-  if (auto* const attitude =
-          std::get_if<AttitudeConditions>(&desk->second.supervised->conditions)) {
-    std::vector<Alert> alerts = settled(changes_by_samples(*attitude, samples), desk->second);
-    std::move(alerts.begin(), alerts.end(), std::back_inserter(desk->second.waiting));
-  }
+  std::vector<Alert> alerts = settled(changes_by(samples, *desk->second.supervised), desk->second);
+  std::move(alerts.begin(), alerts.end(), std::back_inserter(desk->second.waiting));
 }
 
 void AlertDesk::take_back(const ArchiveBatch& batch) {
@@ -214,16 +234,11 @@ std::vector<Alert> AlertDesk::changed_by(const ServiceState& state, Desk& desk) 
 
 std::vector<Alert> AlertDesk::changed_by(const ArchiveBatch& batch, Desk& desk) {
   Supervised& supervised = *desk.supervised;
-  ConditionChanges all;
-  const auto add_all = [&](ConditionChanges changes) {
-    std::move(changes.begin(), changes.end(), std::back_inserter(all));
-  };
-  if (auto* const attitude = std::get_if<AttitudeConditions>(&supervised.conditions)) {
-    add_all(changes_by_samples(*attitude, batch.samples));
-  }
+  ConditionChanges all = changes_by(batch.samples, supervised);
   for (const Product& product : batch.products) {
-    add_all(std::visit([&](auto& conditions) { return changes_by(conditions, product); },
-                       supervised.conditions));
+    append(std::visit([&](auto& conditions) { return changes_by_product(conditions, product); },
+                      supervised.conditions),
+           all);
   }
   return settled(all, desk);
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "pipelines/ground_model/comparison/model_comparison.h"
 #include "pipelines/supervision/alert_book.h"
 #include "pipelines/supervision/attitude_conditions.h"
 #include "pipelines/supervision/service_conditions.h"
@@ -30,7 +32,8 @@ struct OpenAlert {
 class AlertDesk {
  public:
   /// @param mode Of the runs it sees: those of other programs through the same archive it does not.
-  AlertDesk(const std::vector<Mission>& missions, RunMode mode);
+  /// @param models Of the spacecraft that are held against one.
+  AlertDesk(const std::vector<Mission>& missions, RunMode mode, const GroundModels& models = {});
   /// Supervises nothing: alerts that are taken up may be changed.
   AlertDesk() = default;
 
@@ -82,7 +85,9 @@ class AlertDesk {
   using Conditions = std::variant<SpinConditions, AttitudeConditions>;
   struct Supervised {
     Mission mission;
+    std::shared_ptr<const GroundModel> model;  ///< Null: there is none.
     Conditions conditions;
+    std::optional<ModelComparison> comparison;
     ServiceConditions service;
     std::string run_id = {};      ///< Empty: none yet.
     std::string stored_run = {};  ///< Likewise; the last that the archive holds.
@@ -96,6 +101,9 @@ class AlertDesk {
   };
 
   static Conditions conditions_of(const Mission& mission);
+  static void begin(Supervised& supervised);
+  template <class Samples>
+  static ConditionChanges changes_by(const Samples& samples, Supervised& supervised);
   static std::vector<Alert> changed_by(const ArchiveBatch& batch, Desk& desk);
   static std::vector<Alert> changed_by(const ServiceState& state, Desk& desk);
   static std::vector<Alert> settled(const ConditionChanges& changes, Desk& desk);

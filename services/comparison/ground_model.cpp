@@ -65,4 +65,23 @@ Expected<std::shared_ptr<const GroundModel>> load_ground_model(const std::filesy
   });
 }
 
+Expected<GroundModels> load_ground_models(std::span<const Mission> missions) {
+  GroundModels models;
+  std::string problems;
+  for (const Mission& mission : missions) {
+    if (!mission.ground_model) {
+      continue;
+    }
+    if (auto model = load_ground_model(*mission.ground_model, mission)) {
+      models.emplace(mission.spacecraft_id, *std::move(model));
+    } else {
+      problems += (problems.empty() ? "" : "\n") + model.error().message;
+    }
+  }
+  if (!problems.empty()) {
+    return Unexpected{{ErrorCode::InvalidConfiguration, problems}};
+  }
+  return models;
+}
+
 }  // namespace spindrift

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ground_model/comparison/model_comparison.h"
@@ -21,5 +22,8 @@ Expected<GroundModel> ground_model_of(const Scenario& scenario);
 ///         one of another kind.
 Expected<std::shared_ptr<const GroundModel>> load_ground_model(const std::filesystem::path& path,
                                                                const Mission& mission);
+
+/// Of the missions that name one. @return with every problem, one a line.
+Expected<GroundModels> load_ground_models(std::span<const Mission> missions);
 
 }  // namespace spindrift

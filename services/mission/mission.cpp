@@ -33,6 +33,12 @@ std::set<std::string> tables_of(const TomlValues& values) {
   return tables;
 }
 
+std::optional<std::filesystem::path> ground_model(const TomlValues& values,
+                                                  const std::filesystem::path& folder) {
+  const auto scenario = value_if<std::string>(values, "ground_model.scenario");
+  return scenario ? std::optional{folder / *scenario} : std::nullopt;
+}
+
 /// @param only The kind that is allowed; empty: any.
 Expected<void> allow(TomlDocument& document, std::optional<SpacecraftKind> only) {
   const auto kind = is_spinner(document.values) ? SpacecraftKind::Spin : SpacecraftKind::ThreeAxis;
@@ -96,6 +102,7 @@ Expected<Mission> parse(const std::filesystem::path& path, std::string text,
                  .alerts = alert_limits(values),
                  .target = spin_target(values),
                  .contact = contact,
+                 .ground_model = ground_model(values, path.parent_path()),
                  .path = std::filesystem::absolute(path)};
 }
 

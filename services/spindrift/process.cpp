@@ -12,6 +12,7 @@
 #include "services/archive/archive.h"
 #include "services/archive/stored_faults.h"
 #include "services/archive/submit_all.h"
+#include "services/comparison/ground_model.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
 #include "services/progress/progress_bar.h"
@@ -110,7 +111,11 @@ Expected<bool> process(const ProcessOptions& options) {
   if (!telemetry) {
     return Unexpected{telemetry.error()};
   }
-  AlertDesk desk{{*mission}, RunMode::Process};
+  const auto models = load_ground_models({&*mission, 1});
+  if (!models) {
+    return Unexpected{models.error()};
+  }
+  AlertDesk desk{{*mission}, RunMode::Process, *models};
   auto archive =
       Archive::open(options.db, {.on_submit = [&](ArchiveBatch& batch) { desk.see(batch); },
                                  .on_committed =

@@ -24,6 +24,7 @@
 #include "services/archive/stored_results.h"
 #include "services/archive/submit_all.h"
 #include "services/bus/participant.h"
+#include "services/comparison/ground_model.h"
 #include "services/ingest/other_services.h"
 #include "services/ingest/rehearsal_clocks.h"
 #include "services/mission/mission.h"
@@ -263,6 +264,10 @@ Expected<void> serve(const ServeOptions& options) {
   if (!processor) {
     return Unexpected{processor.error()};
   }
+  const auto models = load_ground_models(*missions);
+  if (!models) {
+    return Unexpected{models.error()};
+  }
   StopSignal stop_signal;
 
   const auto participant =
@@ -284,7 +289,7 @@ Expected<void> serve(const ServeOptions& options) {
   const auto feed = make_console_feed(options, *missions, service_name());
   ServiceTerminal terminal{*missions, tell_as};
   Announcer announcer{*publisher, feed.get(), terminal, failures};
-  AlertDesk desk{*missions, mode_of(options)};
+  AlertDesk desk{*missions, mode_of(options), *models};
   const auto webhook = start_webhook(options, desk);
   if (!webhook) {
     return Unexpected{webhook.error()};

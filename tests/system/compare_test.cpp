@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -16,7 +18,6 @@
 namespace spindrift::compare_test {
 
 using ::testing::AllOf;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 const std::string kNominal = (scenarios() / "gto-nominal.toml").string();
@@ -109,6 +110,32 @@ TEST(Compare, NamesTheSensorThatSendsNothing) {
   for (const auto& channel : json["channels"]) {
     EXPECT_EQ(!channel["departure"].is_null(), channel["channel"] == "star") << channel;
   }
+}
+
+TEST(Compare, IsMadeByProcessWhereTheMissionNamesAScenario) {
+  const TemporaryFolder folder;
+  const auto pass = faster_pass(folder);
+  const auto mission = pass / "mission.toml";
+  std::filesystem::copy_file(kNominal, pass / "model.toml");
+  std::ofstream{mission, std::ios::app} << "\n[ground_model]\nscenario = \"model.toml\"\n";
+  const auto db = (folder.path() / "pass.db").string();
+  Program process{
+      {"process", "--mission", mission.string(), "--telemetry", pass.string(), "--db", db}};
+  ASSERT_EQ(process.exit_status(), 0) << process.log();
+  const auto json =
+      compared({"--mission", mission.string(), "--telemetry", pass.string(), "--model", kNominal});
+  EXPECT_EQ(
+      rows_of(db,
+              "SELECT key, state, evidence ->> 'since_tai_ns' FROM alert WHERE key LIKE"
+              " 'model.%'"),
+      std::vector<std::string>{"model.departure:period|active|" +
+                               json["channels"][0]["departure"]["since_tai_ns"].dump() + "|"});
+
+  std::filesystem::remove(pass / "model.toml");
+  Program refused{
+      {"process", "--mission", mission.string(), "--telemetry", pass.string(), "--db", db}};
+  EXPECT_EQ(refused.exit_status(), 2);
+  EXPECT_THAT(refused.log(), HasSubstr("model.toml"));
 }
 
 void expect_refused(std::vector<std::string> arguments, const std::string& why) {

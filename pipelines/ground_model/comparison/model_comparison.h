@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -16,6 +18,8 @@ namespace spindrift {
 
 /// In the order of SpacecraftKind.
 using GroundModel = std::variant<SpinModel, ThreeAxisModel>;
+
+using GroundModels = std::map<std::string, std::shared_ptr<const GroundModel>>;  ///< By spacecraft.
 
 /// From where on the model says something, and up to where.
 struct ModelSpan {

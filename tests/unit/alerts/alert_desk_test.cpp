@@ -2,10 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "services/comparison/ground_model.h"
+#include "services/scenario/pass_files.h"
+#include "services/scenario/simulated_pass.h"
+#include "tests/support/scenario_text.h"
 #include "tests/support/test_paths.h"
+#include "tests/support/text_of.h"
 
 namespace spindrift::alert_desk_test {
 
@@ -156,6 +163,75 @@ TEST(AlertDesk, RaisesWhatWasNotStoredBeforeARestartAgainUnderTheSameId) {
   restarted.desk.go_on("LEOSAT", "run", again);
   ASSERT_EQ(restarted.desk.open().size(), 1U);
   EXPECT_EQ(restarted.desk.open()[0].alert.alert_id, before.desk.open().at(0).alert.alert_id);
+}
+
+/// A pass that turns a little faster than its ground model does.
+class FasterThanItsModel : public ::testing::Test {
+ protected:
+  FasterThanItsModel() {
+    const std::string text = text_of(scenarios() / "gto-nominal.toml");
+    models_.emplace("SPINNER", std::make_shared<const GroundModel>(
+                                   ground_model_of(testing::loaded(text).value()).value()));
+    const Scenario flight =
+        testing::loaded(testing::replaced(text, "rate_rpm = 60.0", "rate_rpm = 60.1")).value();
+    const SimulatedPass pass = simulated_pass(flight, Progress::Hidden).value();
+    write_pass(folder_.path() / "pass", flight, pass).value();
+    pulses_ = pass.telemetry.of<Pulse>();
+  }
+
+  AlertDesk desk() const {
+    return {
+        {load_mission(folder_.path() / "pass" / "mission.toml").value()}, RunMode::Live, models_};
+  }
+  /// Those from one place in the order of arrival up to another, in batches.
+  void send(AlertDesk& desk, std::size_t from, std::size_t to) const {
+    constexpr std::size_t kBatch = 100;
+    for (; from < to; from += kBatch) {
+      ArchiveBatch batch = batch_of_run();
+      for (std::size_t i = from; i < std::min(to, from + kBatch); ++i) {
+        batch.samples.of<Pulse>().push_back({.spacecraft = "SPINNER",
+                                             .origin = {},
+                                             .value = pulses_[i].value,
+                                             .arrival = pulses_[i].arrival});
+      }
+      desk.see(batch);
+    }
+  }
+  /// By key: id and evidence.
+  static std::map<std::string, std::string> open_in(const AlertDesk& desk) {
+    std::map<std::string, std::string> open;
+    for (const OpenAlert& one : desk.open()) {
+      open.emplace(one.alert.key, one.alert.alert_id + one.alert.evidence);
+    }
+    return open;
+  }
+
+  TemporaryFolder folder_;
+  GroundModels models_;
+  ArrivedOfKind<Pulse> pulses_;
+};
+
+TEST_F(FasterThanItsModel, IsToldAsADepartureAndTheSameAfterARestart) {
+  AlertDesk whole = desk();
+  ArchiveBatch start = beginning();
+  whole.see(start);
+  send(whole, 0, pulses_.size());
+  ASSERT_EQ(open_in(whole).size(), 1U);
+  EXPECT_EQ(open_in(whole).begin()->first, "model.departure:period");
+
+  // Before it is raised, and behind.
+  for (const std::size_t killed : {std::size_t{30}, std::size_t{1000}}) {
+    AlertDesk restarted = desk();
+    ArchiveBatch goes_on = batch_of_run();
+    goes_on.continuation.emplace();
+    restarted.see(goes_on);
+    TelemetryValues before;
+    before.of<Pulse>().assign(pulses_.begin(),
+                              pulses_.begin() + static_cast<std::ptrdiff_t>(killed));
+    restarted.go_on("SPINNER", "run", before);
+    send(restarted, killed, pulses_.size());
+    EXPECT_EQ(open_in(restarted), open_in(whole)) << killed;
+  }
 }
 
 }  // namespace spindrift::alert_desk_test
