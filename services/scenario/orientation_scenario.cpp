@@ -113,7 +113,7 @@ void check_orientation_scenario(TomlDocument& document) {
   for (const char* const key : {"first_star_fix_s", "control_on_s", "pointing_at_s"}) {
     check_within_pass(document, fmt::format("orientation.{}", key));
   }
-  check_sensors(document);
+  check_sensors_on_board(document);
   check_wheels(document);
   check_body_step(document, "control.period_s");
   check_gyro(document);

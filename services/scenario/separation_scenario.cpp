@@ -68,7 +68,7 @@ void check_relays(TomlDocument& document) {
 
 void check_separation_scenario(TomlDocument& document) {
   check_within_pass(document, "separation.first_star_fix_s");
-  check_sensors(document);
+  check_sensors_on_board(document);
   check_body_step(document, "control.period_s");
   check_relays(document);
 }

@@ -176,7 +176,7 @@ void check_within_pass(TomlDocument& document, std::string_view key) {
   }
 }
 
-void check_sensors(TomlDocument& document) {
+void check_sensors_on_board(TomlDocument& document) {
   bool has_any = false;
   for (const char* const sensor : {"gyro", "sun_sensor", "star_tracker", "magnetometer"}) {
     const bool is_on_board{document.table.at_path(fmt::format("three_axis.{}", sensor))};

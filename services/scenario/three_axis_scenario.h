@@ -40,7 +40,7 @@ void check_within_pass(TomlDocument& document, std::string_view key);
 
 /// Adds one where there is no sensor to send anything, and for the truth of a sensor that is not
 /// there.
-void check_sensors(TomlDocument& document);
+void check_sensors_on_board(TomlDocument& document);
 
 /// Adds one where the body at the start turns too fast for steps of the period of `key`.
 void check_body_step(TomlDocument& document, std::string_view key);

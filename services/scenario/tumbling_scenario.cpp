@@ -10,7 +10,7 @@ namespace spindrift {
 
 void check_tumbling_scenario(TomlDocument& document) {
   check_within_pass(document, "tumbling.first_star_fix_s");
-  check_sensors(document);
+  check_sensors_on_board(document);
 }
 
 TumblingScenario tumbling_scenario(const TomlValues& values, TaiTime start) {

@@ -1,11 +1,12 @@
 /// @file
 /// What a step of the ground model costs: the satellite of seed 004, its body in steps of 25 ms
 /// with all disturbances, wheels and thrusters at 10 Hz, a star tracker and a gyro with noise at 10
-/// Hz.
+/// Hz; and what a step of a whole flight costs, along its orbit and with the telemetry it sends.
 
 #include <benchmark/benchmark.h>
 
 #include <optional>
+#include <variant>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/ground_model/control/attitude_control.h"
@@ -13,6 +14,8 @@
 #include "pipelines/ground_model/dynamics/stepped_body.h"
 #include "pipelines/ground_model/link/chance.h"
 #include "pipelines/ground_model/sensors/three_axis_reading.h"
+#include "services/scenario/scenario.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift {
 namespace {
@@ -93,6 +96,19 @@ void BM_Thrusters(benchmark::State& state) {
           Thrusters::make({.torque_nm = 0.01, .shortest_s = 0.01, .longest_s = 1.0}).value());
 }
 BENCHMARK(BM_Thrusters)->Unit(benchmark::kMillisecond);
+
+void BM_WholeFlight(benchmark::State& state) {
+  const Scenario scenario = load_scenario(scenarios() / "upper-stage.toml").value();
+  const auto& flight = std::get<OrientationScenario>(scenario.flight);
+  double steps = 0.0;
+  for ([[maybe_unused]] const auto iteration : state) {
+    const FlownOrientation whole = flown(flight, scenario.orbit).value();
+    steps += whole.body.motion.end_s() / whole.body.motion.step_s();
+    benchmark::DoNotOptimize(whole.body.telemetry.gyro.data());
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(steps));
+}
+BENCHMARK(BM_WholeFlight)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace spindrift

@@ -59,16 +59,18 @@ Expected<ClosedLoop<BodyMotion>> loop_of(const BodyTruth& truth, const Actuators
                                 truth.disturbances, steps};
 }
 
-Expected<Surroundings> surroundings_at(TaiTime t, const BodyTruth& truth, const Orbit& orbit,
-                                       TurningEarth& earth) {
-  return orbit.at(t).and_then([&](const OrbitState& spacecraft) -> Expected<Surroundings> {
-    if (!truth.field) {
-      return Surroundings{.spacecraft = spacecraft};
+Expected<Surroundings> SurroundingsOnTheWay::at(TaiTime t) {
+  constexpr double kField_s = 1.0;
+  return orbit_.at(t).and_then([&](const OrbitState& spacecraft) -> Expected<Surroundings> {
+    if (truth_.field && (!field_of_ || seconds_between(*field_of_, t) >= kField_s)) {
+      const auto field = field_icrf_nt(*truth_.field, t, spacecraft.position_icrf_km, earth_);
+      if (!field) {
+        return Unexpected{field.error()};
+      }
+      field_icrf_nt_ = *field;
+      field_of_ = t;
     }
-    return field_icrf_nt(*truth.field, t, spacecraft.position_icrf_km, earth)
-        .map([&](const Eigen::Vector3d& field) {
-          return Surroundings{.spacecraft = spacecraft, .field_icrf_nt = field};
-        });
+    return Surroundings{.spacecraft = spacecraft, .field_icrf_nt = field_icrf_nt_};
   });
 }
 

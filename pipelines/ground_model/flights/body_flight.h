@@ -46,24 +46,37 @@ Expected<void> check_now(const ClosedLoop<BodyMotion>& loop, double least_moment
 Expected<ClosedLoop<BodyMotion>> loop_of(const BodyTruth& truth, const Actuators& actuators,
                                          double period_s);
 
-/// @param earth Remembers what is dear to compute.
-/// @return NoCoverage where orbit or field do not reach.
-Expected<Surroundings> surroundings_at(TaiTime t, const BodyTruth& truth, const Orbit& orbit,
-                                       TurningEarth& earth);
+/// Of a flight; asked in order of time. Refers to what it is made of.
+class SurroundingsOnTheWay {
+ public:
+  SurroundingsOnTheWay(const BodyTruth& truth, const Orbit& orbit) : truth_{truth}, orbit_{orbit} {}
+
+  /// The field is computed anew once a second, in which the spacecraft sees it change by a few
+  /// parts in a thousand.
+  /// @return NoCoverage where orbit or field do not reach.
+  Expected<Surroundings> at(TaiTime t);
+
+ private:
+  const BodyTruth& truth_;
+  const Orbit& orbit_;
+  TurningEarth earth_;
+  std::optional<TaiTime> field_of_;
+  Eigen::Vector3d field_icrf_nt_ = Eigen::Vector3d::Zero();
+};
 
 /// On to the end.
 /// @param torque_body_nm What a law asks for in the period that begins at `t`: called with `t` and
 ///        where the spacecraft is, in order of time.
-/// @return as surroundings_at; InvalidConfiguration once the body turns too fast for the step.
+/// @return as SurroundingsOnTheWay; InvalidConfiguration once the body turns too fast for the step.
 template <class Law>
 Expected<void> fly(ClosedLoop<BodyMotion>& loop, const BodyTruth& truth, const Orbit& orbit,
                    Law&& torque_body_nm) {
-  TurningEarth earth;
+  SurroundingsOnTheWay on_the_way{truth, orbit};
   loop.reserve(truth.end_s);
   const double least_kg_m2 = least_moment_kg_m2(truth.inertia_kg_m2);
   while (loop.t_s() < truth.end_s) {
     const TaiTime t = shifted(truth.start, loop.t_s());
-    const auto surroundings = surroundings_at(t, truth, orbit, earth);
+    const auto surroundings = on_the_way.at(t);
     if (!surroundings) {
       return Unexpected{surroundings.error()};
     }

@@ -113,7 +113,7 @@ TEST(OrientationScenario, RefusesWhatWouldDoNothing) {
 
 TEST(OrientationScenario, RefusesALoopThatSwings) {
   EXPECT_THAT(error_of(replaced(kWhole, "period_s = 0.1", "period_s = 2.0\nperiods_late = 4")),
-              HasSubstr("control.period_s = 2, periods_late = 4: a loop of 0.1517 rad/s"));
+              HasSubstr("control.period_s = 2, periods_late = 4: a loop of 0.1502 rad/s"));
 }
 
 TEST(OrientationScenario, RefusesABodyThatTurnsTooFastForItsSteps) {
