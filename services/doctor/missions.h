@@ -15,7 +15,7 @@
 
 namespace spindrift::doctor {
 
-/// Of an ephemeris; there may be holes between.
+/// Of an ephemeris, where there may be holes between; of the ground model.
 struct Coverage {
   TaiTime from;
   TaiTime to;
@@ -33,6 +33,8 @@ struct MissionFacts {
   bool infrared = true;                        ///< It has an infrared sensor.
   std::vector<std::string> idle;               ///< Tables of the file that nothing reads.
   std::vector<std::string> orbit_doubts = {};  ///< See mission.h.
+  std::optional<Coverage> ground_model = {};   ///< Of it; empty: there is none, or none that works.
+  std::string model_problem = {};              ///< Why; empty: nothing is wrong with it.
 };
 
 /// That is to come; without one, the moment of now.

@@ -72,6 +72,23 @@ Check check_field(const MissionFacts& mission, const ComingPass& pass) {
              : ok(name, found);
 }
 
+/// Of a mission that names one.
+Check check_model(const MissionFacts& mission, const ComingPass& pass) {
+  const std::string name = fmt::format("ground model of {}", mission.spacecraft);
+  if (!mission.ground_model) {
+    return failure(name, mission.model_problem,
+                   "mend the scenario, or take [ground_model] out: the service does not start");
+  }
+  const std::string found = fmt::format("from {} to {}", format_utc(mission.ground_model->from, 0),
+                                        format_utc(mission.ground_model->to, 0));
+  const bool is_now = pass.from == pass.to;
+  const bool covers =
+      (is_now || mission.ground_model->from <= pass.from) && pass.to <= mission.ground_model->to;
+  return covers ? ok(name, found)
+                : warning(name, fmt::format("{}: not for all of the pass", found),
+                          "correct [pass] of the scenario: beyond it nothing is compared");
+}
+
 std::vector<Check> check_settings(const MissionFacts& mission) {
   const std::string name = fmt::format("mission {}", mission.spacecraft);
   std::vector<Check> checks;
@@ -115,6 +132,9 @@ std::vector<Check> check_missions(std::span<const MissionFacts> missions, const 
     }
     if (mission.field_to) {
       checks.push_back(check_field(mission, pass));
+    }
+    if (mission.ground_model || !mission.model_problem.empty()) {
+      checks.push_back(check_model(mission, pass));
     }
   }
   return checks;

@@ -1,6 +1,7 @@
 #include <toml++/toml.h>
 
 #include "pipelines/time/time_span.h"
+#include "services/comparison/ground_model.h"
 #include "services/doctor/missions.h"
 #include "services/geomagnetism/igrf.h"
 
@@ -35,6 +36,18 @@ void look_for_orbit(const Orbit& orbit, const ComingPass& pass, MissionFacts& fa
   }
 }
 
+void look_at_model(const Mission& mission, MissionFacts& facts) {
+  if (!mission.ground_model) {
+    return;
+  }
+  if (const auto model = load_ground_model(*mission.ground_model, mission)) {
+    const ModelSpan span = span_of(**model);
+    facts.ground_model = {.from = span.from, .to = span.to};
+  } else {
+    facts.model_problem = model.error().message;
+  }
+}
+
 }  // namespace
 
 std::optional<TaiTime> field_end(const Mission& mission) {
@@ -53,6 +66,7 @@ MissionFacts mission_facts(const Mission& mission, const ComingPass& pass) {
       .infrared = mission.spin() == nullptr || mission.spin()->north || mission.spin()->south,
       .idle = idle_tables(mission),
       .orbit_doubts = mission.orbit_doubts};
+  look_at_model(mission, facts);
   if (!mission.orbit) {
     facts.orbit_given = false;
     return facts;

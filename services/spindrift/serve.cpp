@@ -160,6 +160,14 @@ Expected<Processor> make_processor(const ServeOptions& options,
                                                     options.partition)}});
 }
 
+void tell_models(const GroundModels& models) {
+  for (const auto& [spacecraft, model] : models) {
+    const ModelSpan span = span_of(*model);
+    spdlog::info("{}: held against its ground model from {} to {}", spacecraft,
+                 format_utc(span.from, 0), format_utc(span.to, 0));
+  }
+}
+
 /// None of a rehearsal: its alerts must not wake anybody.
 Expected<std::unique_ptr<Webhook>> start_webhook(const ServeOptions& options,
                                                  const AlertDesk& desk) {
@@ -268,6 +276,7 @@ Expected<void> serve(const ServeOptions& options) {
   if (!models) {
     return Unexpected{models.error()};
   }
+  tell_models(*models);
   StopSignal stop_signal;
 
   const auto participant =

@@ -224,4 +224,42 @@ TEST(ServeAlerts, SayThatAnotherServicePublishesTheSameSpacecraft) {
   EXPECT_EQ(twice.service->stop_when_computed(), 0) << twice.service->log();
 }
 
+/// A pass that turns a little faster than the model that its mission names.
+std::filesystem::path pass_off_its_model(const TemporaryFolder& folder) {
+  const auto nominal = scenarios() / "gto-nominal.toml";
+  const auto pass = folder.path() / "pass";
+  Program simulate{
+      {"simulate",
+       folder.write("faster.toml", replaced(text_of(nominal), {{"rpm = 60.0", "rpm = 60.1"}}))
+           .string(),
+       "--out", pass.string()}};
+  EXPECT_EQ(simulate.exit_status(), 0) << simulate.log();
+  std::ofstream{pass / "mission.toml", std::ios::app} << "\n[ground_model]\nscenario = \""
+                                                      << nominal.string() << "\"\n";
+  return pass;
+}
+
+TEST(ServeAlerts, AreOfTheGroundModelTheSameAsOfFilesOverARestart) {
+  const TemporaryFolder folder;
+  const auto pass = pass_off_its_model(folder);
+  const std::string query =
+      "SELECT key, raised_tai_ns, evidence, message, count FROM alert WHERE key LIKE 'model.%'";
+  const auto expected = rows_of(process(folder, pass).db, query);
+  ASSERT_EQ(expected.size(), 1U);
+  Service service{pass.string()};
+  FrontEnd front_end{service.bus(), "SPINNER", pulses_of(pass.string())};
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  ASSERT_TRUE(front_end.send_until(0.01));
+  ASSERT_TRUE(eventually([&] {
+    return number_of(service.db(), "SELECT count(*) FROM pulse") > 20;
+  })) << service.program().log();
+  service.program().signal(SIGKILL);
+  ASSERT_EQ(service.program().exit_status(), -1);
+  service.start();
+  ASSERT_TRUE(service.ready()) << service.program().log();
+  ASSERT_TRUE(front_end.send_until(1.0));
+  EXPECT_TRUE(eventually([&] { return rows_of(service.db(), query) == expected; }))
+      << service.program().log();
+}
+
 }  // namespace spindrift::serve_alerts_test

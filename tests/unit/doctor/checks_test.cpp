@@ -195,6 +195,25 @@ TEST(DoctorMissions, AsksTheOrbitOfAComingPassToReachItsEndOnly) {
   EXPECT_THAT(judged(kNow + 1h).found, HasSubstr("another 1 h behind the pass"));
 }
 
+TEST(DoctorMissions, JudgesTheGroundModelForThePass) {
+  MissionFacts facts = spinner(48h);
+  const auto judged = [&](TaiTime to) {
+    return named(check_missions(std::vector{facts}, {kNow, to}), "ground model of SPINNER");
+  };
+  facts.ground_model = Coverage{.from = kNow - 1h, .to = kNow + 2h};
+  EXPECT_EQ(judged(kNow + 2h).verdict, Verdict::Ok);
+  EXPECT_EQ(judged(kNow + 3h).verdict, Verdict::Warning);
+  // That of a pass to come says nothing of now.
+  facts.ground_model = Coverage{.from = kNow + 1h, .to = kNow + 2h};
+  EXPECT_EQ(judged(kNow).verdict, Verdict::Ok);
+  EXPECT_EQ(judged(kNow + 2h).verdict, Verdict::Warning);
+  facts.ground_model.reset();
+  facts.model_problem = "pass.toml: cannot be read";
+  EXPECT_EQ(judged(kNow).verdict, Verdict::Failure);
+  EXPECT_THAT(judged(kNow).found, HasSubstr("pass.toml"));
+  expect_advice(check_one(facts));
+}
+
 TEST(DoctorMissions, WarnsOfAnOrbitThatMayBeThatOfAnother) {
   MissionFacts facts = spinner(48h);
   facts.orbit_doubts = {"the orbit file says OBJECT_NAME = GMS-5"};
