@@ -453,6 +453,28 @@ CREATE TABLE run_fault (
   PRIMARY KEY (run_id, t_tai_ns)
 ) STRICT, WITHOUT ROWID;
 
+-- Flight against the ground model, of a run of `compare`. Flight minus model in the unit of the channel, all samples; outside: of
+-- those, not within the band; normalised_rms: over the noise that the model gives the channel; NULL: no samples, as of
+-- a channel that only has to come, unit ''. departed_...: the first instant from which on flight stays away, the
+-- residual and the half-width of the band then; unit 's silent': nothing came where the model sends; NULL: it does not.
+CREATE TABLE model_comparison (
+  run_id          TEXT NOT NULL REFERENCES run,
+  channel         TEXT NOT NULL,
+  unit            TEXT NOT NULL,
+  samples         INTEGER NOT NULL,
+  outside         INTEGER NOT NULL,
+  mean            REAL,
+  sigma           REAL,
+  rms             REAL,
+  most            REAL,
+  normalised_rms  REAL,
+  departed_tai_ns INTEGER,
+  departed_value  REAL,
+  departed_limit  REAL,
+  departed_unit   TEXT,
+  PRIMARY KEY (run_id, channel)
+) STRICT, WITHOUT ROWID;
+
 -- q_icrf_body; rates in body axes, NULL where they are not estimated. Of mekf at most ten a second of
 -- telemetry time, beside those at which it begins, falls silent or is lost.
 CREATE TABLE attitude (

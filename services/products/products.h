@@ -10,6 +10,7 @@
 #include "services/products/alert.h"
 #include "services/products/attitude.h"
 #include "services/products/batch_solution.h"
+#include "services/products/model_comparison.h"
 #include "services/products/product_kind.h"
 #include "services/products/pulse_use.h"
 #include "services/products/reconstruction.h"
@@ -23,9 +24,9 @@
 namespace spindrift {
 
 /// The list.
-using Product =
-    std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate, BatchProduct,
-                 RunFault, RejectedSample, AttitudeEstimate, ReconstructionProduct, Alert>;
+using Product = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate,
+                             BatchProduct, RunFault, RejectedSample, AttitudeEstimate,
+                             ReconstructionProduct, ChannelComparison, Alert>;
 
 /// Its place in the list.
 template <class Kind>

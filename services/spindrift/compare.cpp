@@ -94,9 +94,9 @@ Expected<void> see_archive(const CompareOptions& options, const std::string& spa
       });
 }
 
-/// A run of its own with the alerts. @return its id.
+/// A run of its own with what came of each channel, and the alerts. @return its id.
 Expected<std::string> store(const CompareOptions& options, const Mission& mission,
-                            const ConditionChanges& changes) {
+                            const Telling& telling) {
   auto processor =
       Processor::make({mission}, {.mode = RunMode::Process, .telemetry = {options.db.string()}});
   if (!processor) {
@@ -113,7 +113,10 @@ Expected<std::string> store(const CompareOptions& options, const Mission& missio
                                   return submit_all(*archive, std::move(begun));
                                 })
                                 .and_then([&] {
-                                  desk.tell(changes, last);
+                                  for (ChannelComparison& channel : telling.channels()) {
+                                    last.products.emplace_back(std::move(channel));
+                                  }
+                                  desk.tell(telling.changes(), last);
                                   last.finished_utc = utc_now();
                                   return archive->submit(last);
                                 });
@@ -183,8 +186,8 @@ Expected<void> compare(const CompareOptions& options) {
                                 .span = telling.span(),
                                 .band_sigmas = mission->alerts.departure_sigmas,
                                 .channels = telling.channels()};
-  const auto run_id = options.db.empty() ? Expected<std::string>{std::string{}}
-                                         : store(options, *mission, telling.changes());
+  const auto run_id =
+      options.db.empty() ? Expected<std::string>{std::string{}} : store(options, *mission, telling);
   if (!run_id) {
     return Unexpected{run_id.error()};
   }

@@ -20,7 +20,7 @@ struct CompareOptions {
 };
 
 /// Prints the residuals of each channel, and since when flight is away, on standard output. Of an
-/// archive a run is stored with an alert for each departure.
+/// archive a run is stored with both, and an alert for each departure.
 /// @return InvalidConfiguration for bad input, and where nothing can be compared; Unavailable for a
 ///         failure while running.
 Expected<void> compare(const CompareOptions& options);

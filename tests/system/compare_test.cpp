@@ -89,6 +89,15 @@ TEST(Compare, StoresADepartureInTheArchiveAsAnAlert) {
                             json["run_id"].get<std::string>() + "'"),
             std::vector<std::string>{"process|1|"});
 
+  EXPECT_EQ(rows_of(db,
+                    "SELECT channel, unit, samples, outside, departed_tai_ns FROM"
+                    " model_comparison WHERE departed_tai_ns IS NOT NULL"),
+            std::vector<std::string>{"period|s|599|599|" + departure["since_tai_ns"].dump() + "|"});
+  EXPECT_EQ(number_of(db,
+                      "SELECT count(*) FROM model_comparison WHERE (samples > 0) = (rms > 0)"
+                      " OR (samples = 0 AND rms IS NULL)"),
+            7);
+
   // From the files the same, but for what is stored.
   auto from_files =
       compared({"--mission", mission, "--telemetry", pass.string(), "--model", kNominal});
