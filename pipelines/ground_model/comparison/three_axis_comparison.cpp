@@ -54,6 +54,9 @@ Expected<ThreeAxisModel> model_of(const Scenario& scenario, const Orbit& orbit) 
       });
 }
 
+/// Noise of what is rounded to whole steps.
+double with_steps(double sigma, double step) { return std::hypot(sigma, step / std::sqrt(12.0)); }
+
 std::vector<double> elements_of(const Vector3d& vector) {
   return {vector.x(), vector.y(), vector.z()};
 }
@@ -86,16 +89,19 @@ Expected<ThreeAxisModel> three_axis_model(const OrientationScenario& scenario, c
 ThreeAxisComparison::ThreeAxisComparison(const ThreeAxisModel& model) : model_{&model} {
   const ThreeAxisSensors& sensors = model.sensors;
   if (const auto& gyro = sensors.gyro) {
-    add(SampleKind::Gyro, gyro->sampling, kDegPerRad * gyro->noise_rad_s, "deg/s", 3);
+    add(SampleKind::Gyro, gyro->sampling,
+        kDegPerRad * with_steps(gyro->noise_rad_s, gyro->resolution_rad_s), "deg/s", 3);
   }
   if (const auto& tracker = sensors.star_tracker) {
     add(SampleKind::Star, tracker->sampling, kDegPerRad * tracker->noise_rad, "deg", 3);
   }
   if (const auto& sensor = sensors.sun_sensor) {
-    add(SampleKind::Sun, sensor->sampling, kDegPerRad * sensor->noise_rad, "deg", 2);
+    add(SampleKind::Sun, sensor->sampling,
+        kDegPerRad * with_steps(sensor->noise_rad, sensor->resolution), "deg", 2);
   }
   if (const auto& magnetometer = sensors.magnetometer) {
-    add(SampleKind::Magnetometer, magnetometer->sampling, magnetometer->noise_nt, "nT", 3);
+    add(SampleKind::Magnetometer, magnetometer->sampling,
+        with_steps(magnetometer->noise_nt, magnetometer->resolution_nt), "nT", 3);
   }
 }
 
@@ -169,8 +175,13 @@ std::vector<ComparedSample> ThreeAxisComparison::see(const SunDirection& sun) {
     return {};
   }
   const auto expected = sun_body(sun.t, *t_s);
-  return expected ? compared(SampleKind::Sun, sun.t, turn_deg(*expected, sun.sun_body), {0.0, 0.0})
-                  : std::vector<ComparedSample>{};
+  if (!expected) {
+    return {};
+  }
+  const Eigen::Quaterniond q_body_sensor =
+      quaternion_by(model_->sensors.sun_sensor->misalignment_rad);
+  return compared(SampleKind::Sun, sun.t,
+                  turn_deg(q_body_sensor.conjugate() * *expected, sun.sun_body), {0.0, 0.0});
 }
 
 std::vector<ComparedSample> ThreeAxisComparison::see(const MagneticField& field) {
