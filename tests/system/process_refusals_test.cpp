@@ -288,7 +288,7 @@ TEST(CommandLine, NamesTheWordsThatItDoesNotKnowAndWhatIsMissing) {
   for (const auto& [words, message] : std::vector<Bad>{
            {{"foo"},
             "not known: foo\nA subcommand is required: process, batch, serve, replay, simulate, "
-            "doctor, geomag, geometry, reconstruct, alerts, act\n"},
+            "doctor, geomag, geometry, reconstruct, compare, alerts, act\n"},
            {{"process", "--misson", "m", "--db", "d"},
             "not known: --misson m\n--mission is required\n"},
            {{"simulate", "--seed", "3", "s", "--out", "o"}, "not known: --seed s\n"}}) {
