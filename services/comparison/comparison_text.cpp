@@ -56,9 +56,8 @@ nlohmann::json json_of(const ChannelComparison& compared) {
 
 std::string to_text(const ComparisonReport& report) {
   std::string text = fmt::format(
-      "{} against {}\n  model        {} to {}\n  band         {:.4g} sigma of the model's noise, "
-      "left "
-      "for ten seconds and five samples\n\n"
+      "{} against {}\n  model        {} to {}\n  band         {:.4g} sigma of the model's noise; "
+      "away is what is outside for most of ten seconds\n\n"
       "  {:<16}{:>8}  {:>11}{:>11}{:>11}{:>11}  {:<6}{:>10}{:>9}\n",
       report.spacecraft_id, shown(report.model.string()), format_utc(report.span.from, 0),
       format_utc(report.span.to, 0), report.band_sigmas, "flight - model", "samples", "mean",

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,6 +11,7 @@
 #include "pipelines/core/shown.h"
 #include "pipelines/time/utc.h"
 #include "services/alerts/alert_desk.h"
+#include "services/alerts/stored_alerts.h"
 #include "services/archive/archive.h"
 #include "services/archive/stored_rows.h"
 #include "services/archive/submit_all.h"
@@ -94,15 +96,33 @@ Expected<void> see_archive(const CompareOptions& options, const std::string& spa
       });
 }
 
+/// Those that are open of earlier runs: one that goes on is not raised twice, one that is over
+/// ends.
+Expected<void> take_up_departures(const std::filesystem::path& db, const std::string& spacecraft_id,
+                                  AlertDesk& desk) {
+  return find_alerts(db).map([&](const std::vector<StoredAlert>& alerts) {
+    for (const StoredAlert& stored : alerts) {
+      if (stored.mode == RunMode::Process && stored.spacecraft == spacecraft_id &&
+          stored.alert.key.starts_with(name_of(AlertCode::ModelDeparture))) {
+        desk.take_up(stored.spacecraft, stored.run_id, stored.alert);
+      }
+    }
+  });
+}
+
 /// A run of its own with what came of each channel, and the alerts. @return its id.
 Expected<std::string> store(const CompareOptions& options, const Mission& mission,
                             const Telling& telling) {
-  auto processor =
-      Processor::make({mission}, {.mode = RunMode::Process, .telemetry = {options.db.string()}});
+  auto processor = Processor::make(
+      {mission},
+      {.mode = RunMode::Process, .telemetry = {options.db.string(), options.model.string()}});
   if (!processor) {
     return Unexpected{processor.error()};
   }
   AlertDesk desk{{mission}, RunMode::Process};
+  if (const auto open = take_up_departures(options.db, mission.spacecraft_id, desk); !open) {
+    return Unexpected{open.error()};
+  }
   return Archive::open(options.db, {.on_submit = [&](ArchiveBatch& batch) { desk.see(batch); }})
       .and_then([&](std::unique_ptr<Archive>&& archive) {
         ArchiveBatch last{.run_id = {}, .spacecraft_id = mission.spacecraft_id};
@@ -122,6 +142,11 @@ Expected<std::string> store(const CompareOptions& options, const Mission& missio
                                 });
         return outcome_of(stored, archive->close()).map([&] { return last.run_id; });
       });
+}
+
+bool has_values(const ComparisonReport& report) {
+  return std::any_of(report.channels.begin(), report.channels.end(),
+                     [](const ChannelComparison& one) { return one.residuals.count() > 0; });
 }
 
 Expected<void> write_plot(const CompareOptions& options, const ComparisonReport& report,
@@ -186,6 +211,9 @@ Expected<void> compare(const CompareOptions& options) {
                                 .span = telling.span(),
                                 .band_sigmas = mission->alerts.departure_sigmas,
                                 .channels = telling.channels()};
+  if (!options.plot.empty() && !has_values(report)) {
+    return refused("--plot: flight has no value that the model has, too: there is nothing to draw");
+  }
   const auto run_id =
       options.db.empty() ? Expected<std::string>{std::string{}} : store(options, *mission, telling);
   if (!run_id) {

@@ -119,7 +119,9 @@ std::string sentence_of(const ConditionChange& change) {
     return fmt::format("over at {}", format_utc(change.t));
   }
   const std::string who = change.who.empty() ? "" : fmt::format(" ({})", shown(change.who));
-  return fmt::format("{}{}{} at {}: {}", words.what, who, value_text(change), format_utc(change.t),
+  // The value of a departure is that of its first instant.
+  const TaiTime t = change.code == ModelDeparture ? change.evidence.since : change.t;
+  return fmt::format("{}{}{} at {}: {}", words.what, who, value_text(change), format_utc(t),
                      what_to_do(change));
 }
 

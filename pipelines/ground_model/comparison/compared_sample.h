@@ -17,7 +17,7 @@ namespace spindrift {
 struct ComparedChannel {
   std::string name;       ///< "gyro_x"; of a sensor as a whole, "gyro", it is whether it sends.
   std::string_view unit;  ///< Of its values; empty: it has none, and only has to come.
-  double holding_s;       ///< Flight that is away for so long has departed.
+  double holding_s;       ///< Over which is judged whether flight has departed.
 };
 
 /// In the unit of the channel.
@@ -37,11 +37,11 @@ struct ComparedSample {
   std::optional<ComparedValue> value = {};
 };
 
-/// @param step_s From sample to sample. @return ten seconds, and five samples at least: one
-///        outlier, or two, are no departure.
+/// @param step_s From sample to sample. @return ten seconds, and twenty samples at least: outliers
+///        are no departure.
 inline double holding_s(double step_s) {
   constexpr double kLeast_s = 10.0;
-  constexpr double kSamples = 5.0;
+  constexpr double kSamples = 20.0;
   return std::max(kLeast_s, kSamples * step_s);
 }
 

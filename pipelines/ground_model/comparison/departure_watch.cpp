@@ -1,16 +1,17 @@
 #include "pipelines/ground_model/comparison/departure_watch.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace spindrift {
 namespace {
 
-/// @param held_s How long it was silent.
 Evidence evidence_of(const ComparedSample& sample, const ComparedChannel& channel,
-                     double band_sigmas, double held_s) {
+                     double band_sigmas) {
   if (!sample.value) {
-    return {.value = held_s,
+    return {.value = 0.0,
             .limit = channel.holding_s,
             .unit = "s silent",
             .since = sample.t,
@@ -24,77 +25,99 @@ Evidence evidence_of(const ComparedSample& sample, const ComparedChannel& channe
           .sigma = sample.value->sigma};
 }
 
+/// Behind which samples that are away outnumber the others by most. @param window Not empty.
+template <class Window>
+std::size_t change_point(const Window& window) {
+  std::size_t best = window.size() - 1;
+  int sum = 0;
+  int most = 0;
+  for (std::size_t i = window.size(); i-- > 0;) {
+    sum += window[i].is_away ? 1 : -1;
+    if (sum >= most) {
+      most = sum;
+      best = i;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 DepartureWatch::DepartureWatch(const std::vector<ComparedChannel>& channels, double band_sigmas)
     : band_sigmas_{band_sigmas} {
   for (const ComparedChannel& channel : channels) {
-    const Holding holding{.raise_s = channel.holding_s, .clear_s = channel.holding_s};
     watched_.push_back(
         {.comparison = {.channel = channel},
-         .watch = ConditionWatch{AlertCode::ModelDeparture, channel.unit, holding, channel.name}});
+         .watch = ConditionWatch{
+             AlertCode::ModelDeparture, channel.unit, {.clear_s = kClear_s}, channel.name}});
   }
 }
 
 std::optional<ConditionChange> DepartureWatch::see(const ComparedSample& sample) {
   Watched& watched = watched_.at(sample.channel);
-  const double off_sigmas = sample.value ? std::abs(sample.value->normalised()) : 0.0;
-  const bool is_away = !sample.came || off_sigmas >= band_sigmas_;
+  ChannelComparison& comparison = watched.comparison;
+  const bool is_sample_away =
+      !sample.came || (sample.value && std::abs(sample.value->normalised()) >= band_sigmas_);
   if (sample.value) {
-    watched.comparison.residuals.add(*sample.value);
-    watched.comparison.outside += is_away ? 1 : 0;
+    comparison.residuals.add(*sample.value);
+    comparison.outside += is_sample_away ? 1 : 0;
   }
-  const bool is_back = off_sigmas <= ConditionWatch::kClearShare * band_sigmas_;
-  if ((!is_away && !is_back) || (watched.last && sample.t < *watched.last)) {
+  const auto& window = watched.window;
+  if (!window.empty() && sample.t < window.back().evidence.last) {
     return std::nullopt;
   }
-  if (is_away && watched.leaving &&
-      seconds_between(*watched.last, sample.t) > watched.comparison.channel.holding_s) {
-    begin_anew(sample.t, watched);
-  }
-  watched.last = sample.t;
-  return judge(sample, is_away, watched);
-}
-
-/// Nobody knows what was in between. What is said of the channel stays said.
-void DepartureWatch::begin_anew(TaiTime t, Watched& watched) {
-  watched.watch.see(t, false);
-  watched.leaving.reset();
-  watched.away = 0;
-}
-
-std::optional<ConditionChange> DepartureWatch::judge(const ComparedSample& sample, bool is_away,
-                                                     Watched& watched) const {
-  const auto evidence = [&](double held_s) {
-    return evidence_of(sample, watched.comparison.channel, band_sigmas_, held_s);
-  };
-  watched.away = is_away ? watched.away + 1 : 0;
-  if (!is_away) {
-    watched.leaving.reset();
-  } else if (!watched.leaving) {
-    watched.leaving = evidence(0.0);
-  } else if (watched.away < kLeastSamples) {
-    return std::nullopt;
-  }
-  auto change = watched.watch.see(sample.t, is_away);
+  const Judged now{is_sample_away, evidence_of(sample, comparison.channel, band_sigmas_)};
+  const bool has_values = !comparison.channel.unit.empty();
+  const auto is_there = has_values ? is_away(now, watched) : is_silent(now, watched);
+  auto change = is_there ? watched.watch.see(sample.t, *is_there) : std::nullopt;
   if (!change) {
     return std::nullopt;
   }
-  const TaiTime since = change->evidence.since;
-  if (change->change == Change::Cleared) {
-    change->evidence = evidence(0.0);
-  } else {
-    change->evidence = *watched.leaving;
-    if (!watched.leaving->sigma) {
-      change->evidence.value = seconds_between(since, sample.t);
-    }
-  }
-  change->evidence.since = since;
+  const bool is_raised = change->change == Change::Raised;
+  change->evidence = is_raised ? window[change_point(window)].evidence : now.evidence;
   change->evidence.last = sample.t;
-  if (change->change == Change::Raised && !watched.comparison.departure) {
-    watched.comparison.departure = change->evidence;
+  if (is_raised && !change->evidence.sigma) {
+    change->evidence.value = seconds_between(change->evidence.since, sample.t);
+  }
+  if (is_raised && !comparison.departure) {
+    comparison.departure = change->evidence;
   }
   return change;
+}
+
+std::optional<bool> DepartureWatch::is_away(const Judged& now, Watched& watched) {
+  auto& window = watched.window;
+  while (!window.empty() && seconds_between(window.front().evidence.last, now.evidence.last) >
+                                watched.comparison.channel.holding_s) {
+    window.pop_front();
+  }
+  window.push_back(now);
+  const auto away =
+      std::count_if(window.begin(), window.end(), [](const Judged& one) { return one.is_away; });
+  const auto all = static_cast<std::ptrdiff_t>(window.size());
+  if (away - (all - away) >= kAhead) {
+    return true;
+  }
+  return 4 * away <= all ? std::optional{false} : std::nullopt;
+}
+
+std::optional<bool> DepartureWatch::is_silent(const Judged& now, Watched& watched) {
+  auto& window = watched.window;
+  if (!now.is_away) {
+    window.clear();
+    return false;
+  }
+  const double holding_s = watched.comparison.channel.holding_s;
+  if (!window.empty() &&
+      seconds_between(window.back().evidence.last, now.evidence.last) > holding_s) {
+    window.clear();  // Nobody knows what was in between.
+  }
+  if (window.size() > 1) {
+    window.pop_back();
+  }
+  window.push_back(now);
+  const double silent_s = seconds_between(window.front().evidence.last, now.evidence.last);
+  return silent_s >= holding_s ? std::optional{true} : std::nullopt;
 }
 
 std::vector<ChannelComparison> DepartureWatch::channels() const {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -23,12 +24,14 @@ struct ChannelComparison {
   std::optional<Evidence> departure = {};
 };
 
-/// A channel departs that is outside the band, or is silent where the model sends, at every sample
-/// for as long as it holds (ConditionWatch) and at kLeastSamples; behind a gap that is longer it is
-/// looked at anew. It is back when it is within 0.8 of the band as long.
+/// A channel of values departs once of its samples in the last `holding_s` those that are outside
+/// the band, or do not come, outnumber the others by kAhead; it is back when at most a quarter has
+/// been away for kClear_s. So flight that swings about the model departs, too, and outliers do not.
+/// A sensor departs that sends nothing for `holding_s` where the model sends.
 class DepartureWatch {
  public:
-  static constexpr int kLeastSamples = 5;
+  static constexpr int kAhead = 8;
+  static constexpr double kClear_s = 60.0;
 
   /// @param band_sigmas Half-width of the band, in sigma of each residual.
   DepartureWatch(const std::vector<ComparedChannel>& channels, double band_sigmas);
@@ -40,16 +43,18 @@ class DepartureWatch {
   std::vector<ChannelComparison> channels() const;
 
  private:
+  struct Judged {
+    bool is_away;
+    Evidence evidence;
+  };
   struct Watched {
     ChannelComparison comparison;
     ConditionWatch watch;
-    std::optional<TaiTime> last = {};
-    std::optional<Evidence> leaving = {};  ///< Since it is away; empty: it is not.
-    int away = 0;                          ///< Samples since then.
+    std::deque<Judged> window = {};  ///< Of a sensor the first and the last since it is silent.
   };
-  static void begin_anew(TaiTime t, Watched& watched);
-  std::optional<ConditionChange> judge(const ComparedSample& sample, bool is_away,
-                                       Watched& watched) const;
+  /// Empty: neither away nor back.
+  static std::optional<bool> is_away(const Judged& now, Watched& watched);
+  static std::optional<bool> is_silent(const Judged& now, Watched& watched);
 
   double band_sigmas_;
   std::vector<Watched> watched_;
