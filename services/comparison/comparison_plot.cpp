@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "pipelines/core/shown.h"
+#include "services/plot/colours.h"
 #include "services/plot/time_page.h"
 
 namespace spindrift {
@@ -17,12 +17,6 @@ namespace {
 
 using plot::Curve;
 using plot::TimePage;
-
-// Told apart by colour-blind people too (Okabe and Ito).
-constexpr std::array<std::string_view, 6> kColours = {"#d55e00", "#009e73", "#0072b2",
-                                                      "#e69f00", "#cc79a7", "#56b4e9"};
-constexpr std::string_view kModel = "#222222";
-constexpr std::string_view kGrey = "#777777";
 
 /// The samples of a channel that fall between two instants of the page.
 struct Bin {
@@ -157,7 +151,7 @@ std::string names_of(const ComparisonReport& report, const Group& group) {
 }
 
 std::string_view colour_of(const Group& group, std::size_t channel) {
-  return kColours.at((channel - group.first) % kColours.size());
+  return plot::kCurves.at((channel - group.first) % plot::kCurves.size());
 }
 
 /// Where the model is not zero by definition.
@@ -171,7 +165,7 @@ void add_values(TimePage& page, const ComparisonReport& report, const Group& gro
   for (std::size_t i = group.first; i < group.end; ++i) {
     flight.push_back(curve_of(report.channels[i].channel.name, colour_of(group, i), bins[i],
                               [](const Bin& bin) { return bin.last.flight; }));
-    model.push_back(curve_of(i == group.first ? "model" : "", kModel, bins[i],
+    model.push_back(curve_of(i == group.first ? "model" : "", plot::kInk, bins[i],
                              [](const Bin& bin) { return bin.last.model; }));
     model.back().dashes = "3 5";
     for (const auto& bin : bins[i]) {
@@ -209,8 +203,8 @@ void add_residuals(TimePage& page, const ComparisonReport& report, const Group& 
                                  most > high ? " (what is beyond stands at the end)" : ""),
                      -high, high),
              curves,
-             {{.name = "band", .colour = kGrey, .value = band},
-              {.name = "", .colour = kGrey, .value = -band}});
+             {{.name = "band", .colour = plot::kGrey, .value = band},
+              {.name = "", .colour = plot::kGrey, .value = -band}});
 }
 
 std::vector<plot::Mark> marks_of(const ComparisonReport& report) {

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "services/plot/colours.h"
 #include "services/plot/time_page.h"
 #include "services/units/degrees.h"
 
@@ -20,10 +21,6 @@ namespace {
 using plot::Curve;
 using plot::TimePage;
 
-// Told apart by colour-blind people too (Okabe and Ito).
-constexpr std::array<std::string_view, 8> kColours = {"#d55e00", "#009e73", "#0072b2", "#e69f00",
-                                                      "#cc79a7", "#56b4e9", "#777777", "#b2a800"};
-constexpr std::string_view kTold = "#222222";
 // More than there are pixels.
 constexpr std::size_t kMostPoints = 1000;
 
@@ -94,8 +91,9 @@ void add_attitude(TimePage& page, const BodyMotion& motion, const std::vector<do
   std::vector<Curve> curves;
   for (std::size_t i = 0; i < kElements.size(); ++i) {
     const auto& [name, element] = kElements.at(i);
-    Curve curve{
-        .name = std::string{name}, .colour = i == 0 ? kTold : kColours.at(i - 1), .values = {}};
+    Curve curve{.name = std::string{name},
+                .colour = i == 0 ? plot::kInk : plot::kCurves.at(i - 1),
+                .values = {}};
     for (const Eigen::Quaterniond& q : all) {
       curve.values.emplace_back(q.coeffs()[element]);
     }
@@ -108,7 +106,7 @@ void add_rates(TimePage& page, const BodyMotion& motion, const std::vector<doubl
   std::vector<Curve> curves;
   for (int i = 0; i < 3; ++i) {
     curves.push_back(
-        curve_of(std::string(1, "xyz"[i]), kColours.at(static_cast<std::size_t>(i)), times,
+        curve_of(std::string(1, "xyz"[i]), plot::kCurves.at(static_cast<std::size_t>(i)), times,
                  [&](double t_s) { return kDegPerRad * motion.at(t_s).rate_body_rad_s[i]; }));
   }
   add_panel(page, "Body rates, deg/s", curves, 0.1);
@@ -126,7 +124,9 @@ void add_wheels(TimePage& page, const std::vector<ControlRecord>& record,
                 const std::vector<double>& times) {
   const Eigen::Index wheels = record.front().momenta_nms.size();
   const auto name_of = [](Eigen::Index i) { return fmt::format("wheel {}", i + 1); };
-  const auto colour_of = [](Eigen::Index i) { return kColours.at(static_cast<std::size_t>(i)); };
+  const auto colour_of = [](Eigen::Index i) {
+    return plot::kCurves.at(static_cast<std::size_t>(i));
+  };
   std::vector<Curve> momenta;
   for (Eigen::Index i = 0; i < wheels; ++i) {
     momenta.push_back(curve_of(name_of(i), colour_of(i), times,
@@ -137,7 +137,7 @@ void add_wheels(TimePage& page, const std::vector<ControlRecord>& record,
     Curve is = curve_of("is", colour_of(i), times, [&](double t_s) {
       return kRpmPerRad_s * record_at(record, t_s).speeds_rad_s[i];
     });
-    Curve told = curve_of("told", kTold, times, [&](double t_s) {
+    Curve told = curve_of("told", plot::kInk, times, [&](double t_s) {
       return kRpmPerRad_s * record_at(record, t_s).told_rad_s[i];
     });
     told.dashes = "4 6";

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "services/plot/colours.h"
 #include "services/plot/xy_panel.h"
 #include "services/units/degrees.h"
 
@@ -19,10 +20,8 @@ using plot::Point;
 using plot::Series;
 using plot::ValueAxis;
 
-constexpr std::string_view kDesigned = "#0072b2";
-constexpr std::string_view kFlown = "#d55e00";
-constexpr std::string_view kOther = "#222222";
-constexpr std::string_view kFaint = "#666666";
+constexpr std::string_view kDesigned = plot::kBlue;
+constexpr std::string_view kFlown = plot::kVermilion;
 constexpr double kWidth = 1180.0;
 constexpr double kFirstRow = 118.0;
 constexpr double kRow = 290.0;
@@ -147,7 +146,7 @@ plot::XyPanel locus_panel(const ChannelMargins& channel) {
       .y = linear_axis("imaginary part, rad/s", -size, size, 5),
       .series = {locus_of(channel.designed, factors, kDesigned, 2.4),
                  locus_of(channel.flown, factors, kFlown, 1.0),
-                 locus_of(channel.flown, bodies, kOther, 3.0)}};
+                 locus_of(channel.flown, bodies, plot::kInk, 3.0)}};
   panel.series.push_back(
       {.points = {{0.0, -size}, {0.0, size}}, .colour = "#999999", .dashes = "5 4"});
   for (Series& series : panel.series) {
@@ -179,7 +178,7 @@ std::string loop_plot(const std::string& spacecraft_id,
   plot::Svg svg;
   const std::string title = spacecraft_id + ": the loop about each axis";
   const LoopSampling& sampling = *channels.front().flown.sampling;
-  svg.text({70.0, 28.0}, title, {.colour = kOther, .size = 17.0, .bold = true});
+  svg.text({70.0, 28.0}, title, {.colour = plot::kInk, .size = 17.0, .bold = true});
   svg.text({70.0, 50.0}, "blue: as designed", {.colour = kDesigned});
   svg.text({320.0, 50.0},
            fmt::format("orange: as it is flown, every {:.4g} s, {} periods late", sampling.period_s,
@@ -189,10 +188,10 @@ std::string loop_plot(const std::string& spacecraft_id,
     const ChannelMargins& channel = channels.at(static_cast<std::size_t>(row));
     draw(bode_panel(channel, fmt::format("{}: gain", channel_name(row)),
                     "designed: " + margins_text(channel.designed_margins),
-                    linear_axis("gain, dB", -40.0, 60.0, 5), {"", kFaint, 0.0}, gain_db),
+                    linear_axis("gain, dB", -40.0, 60.0, 5), {"", plot::kFaint, 0.0}, gain_db),
          box_of(row, 0), svg);
     draw(bode_panel(channel, "Phase", "flown: " + margins_text(channel.flown_margins), phase_axis(),
-                    {"", kFaint, -180.0}, phase_deg),
+                    {"", plot::kFaint, -180.0}, phase_deg),
          box_of(row, 1), svg);
     draw(locus_panel(channel), box_of(row, 2), svg);
   }

@@ -12,6 +12,7 @@
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "services/geometry/geometry_text.h"
+#include "services/plot/colours.h"
 #include "services/plot/time_page.h"
 #include "services/units/degrees.h"
 
@@ -23,12 +24,10 @@ using plot::Curve;
 using plot::State;
 using plot::TimePage;
 
-// Told apart by colour-blind people too (Okabe and Ito).
-constexpr std::string_view kSun = "#e69f00";
-constexpr std::string_view kEarth = "#009e73";
-constexpr std::string_view kNorth = "#0072b2";
-constexpr std::string_view kSouth = "#d55e00";
-constexpr std::string_view kGrey = "#777777";
+constexpr std::string_view kSun = plot::kOrange;
+constexpr std::string_view kEarth = plot::kGreen;
+constexpr std::string_view kNorth = plot::kBlue;
+constexpr std::string_view kSouth = plot::kVermilion;
 constexpr std::string_view kSeen = "#8fd0b5";
 constexpr std::string_view kHalf = "#f5d58a";
 constexpr std::string_view kSpoilt = "#e58f7b";
@@ -58,8 +57,10 @@ void add_angles(TimePage& page, const PlannedPass& pass) {
       angle("sun angle", kSun, [](const auto& s) { return deg(s.geometry.angles.sun_angle_rad); }),
       angle("earth angle", kEarth,
             [](const auto& s) { return deg(s.geometry.angles.earth_angle_rad); }),
-      angle("Sun to Earth", kGrey, [](const auto& s) { return deg(s.geometry.sun_earth_rad); }),
-      angle("disc half-angle", kGrey, [](const auto& s) { return deg(s.geometry.disc_rad); })};
+      angle("Sun to Earth", plot::kGrey,
+            [](const auto& s) { return deg(s.geometry.sun_earth_rad); }),
+      angle("disc half-angle", plot::kGrey,
+            [](const auto& s) { return deg(s.geometry.disc_rad); })};
   curves.back().dashes = "2 3";
   page.panel(170.0,
              {.title = "Angles, deg",
@@ -129,16 +130,16 @@ void add_delta(TimePage& page, const PlannedPass& pass) {
                                                : std::nullopt;
                            }),
              {{.name = fmt::format("usable from {}", limits.determinant_usable),
-               .colour = kGrey,
+               .colour = plot::kGrey,
                .value = limits.determinant_usable},
               {.name = fmt::format("ambiguous up to {}", limits.determinant_ambiguous),
-               .colour = kGrey,
+               .colour = plot::kGrey,
                .value = limits.determinant_ambiguous}});
 }
 
 void add_sigma(TimePage& page, const PlannedPass& pass) {
   const std::vector<Curve> curves = {
-      curve_of(pass, "fix of one turn", kGrey,
+      curve_of(pass, "fix of one turn", plot::kGrey,
                [](const PassStep& step) { return deg(step.geometry.fix.sigma_rad); }),
       curve_of(pass, "all edges so far", kNorth,
                [](const PassStep& step) { return deg(step.sigma_rad); })};

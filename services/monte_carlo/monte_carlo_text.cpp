@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/monte_carlo/statistics.h"
+#include "services/plot/colours.h"
 #include "services/plot/xy_panel.h"
 #include "services/words/counted.h"
 
@@ -119,7 +120,7 @@ std::string histograms(const MonteCarloResult& result) {
   plot::Svg svg;
   const std::string title =
       fmt::format("{}: {}", result.spacecraft_id, counted(result.runs.size(), "runs"));
-  svg.text({kLeft, 28.0}, title, {.colour = "#222222", .size = 17.0, .bold = true});
+  svg.text({kLeft, 28.0}, title, {.colour = plot::kInk, .size = 17.0, .bold = true});
   std::size_t place = 0;
   for (std::size_t i = 0; i < result.runs.front().measures.size(); ++i) {
     const std::vector<double> values = values_of(result, i);

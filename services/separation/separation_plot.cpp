@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pipelines/frames/rotation_vector.h"
+#include "services/plot/colours.h"
 #include "services/plot/time_page.h"
 #include "services/units/degrees.h"
 
@@ -21,13 +22,11 @@ using plot::Curve;
 using plot::Mark;
 using plot::TimePage;
 
-// Told apart by colour-blind people too (Okabe and Ito).
-constexpr std::string_view kPhi = "#0072b2";
-constexpr std::string_view kTheta = "#009e73";
-constexpr std::string_view kPsi = "#d55e00";
-constexpr std::string_view kFirst = "#0072b2";
-constexpr std::string_view kSecond = "#e69f00";
-constexpr std::string_view kGrey = "#777777";
+constexpr std::string_view kPhi = plot::kBlue;
+constexpr std::string_view kTheta = plot::kGreen;
+constexpr std::string_view kPsi = plot::kVermilion;
+constexpr std::string_view kFirst = plot::kBlue;
+constexpr std::string_view kSecond = plot::kOrange;
 
 using History = std::vector<ReconstructedAttitude>;
 
@@ -142,7 +141,7 @@ void add_errors(TimePage& page, const SeparationReport& report) {
       decades_of("Uncertainty of the attitude, all three axes together, deg", curves);
   if (report.methods.size() > 1) {
     curves.push_back(curve_beside(first, report.methods.back()->solution.history,
-                                  "the two apart by", kGrey,
+                                  "the two apart by", plot::kGrey,
                                   [](const auto& one, const auto& other) {
                                     return angle_between_rad(one.q_icrf_body, other.q_icrf_body);
                                   }));
