@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/frames/shortest_turn.h"
 
 namespace spindrift {
 
@@ -43,7 +44,7 @@ Eigen::Matrix2d tangent_from_tilts(const Eigen::Quaterniond& q_icrf_frame) {
 }
 
 Eigen::Quaterniond frame_about(const Eigen::Vector3d& axis_icrf) {
-  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis_icrf);
+  return shortest_turn(Eigen::Vector3d::UnitZ(), axis_icrf);
 }
 
 Eigen::Matrix2d anywhere_covariance_rad2() {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/frames/shortest_turn.h"
 
 namespace spindrift {
 namespace {
@@ -43,7 +44,7 @@ Expected<Eigen::Vector3d> sun_body_of(const SunPointing& pointing) {
 Eigen::Quaterniond turned_least(const Eigen::Quaterniond& q_ref_body, const Eigen::Vector3d& ref,
                                 const Eigen::Vector3d& body) {
   const Eigen::Vector3d expected_body = q_ref_body.conjugate() * ref;
-  return q_ref_body * Eigen::Quaterniond::FromTwoVectors(body, expected_body);
+  return q_ref_body * shortest_turn(body, expected_body);
 }
 
 Expected<Eigen::Quaterniond> attitude_with(const SunPointing& pointing,

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/statistics/symmetric_eigen.h"
 
 namespace spindrift {
 namespace {
@@ -85,8 +86,7 @@ Expected<UncertainAttitude> q_method(std::span<const ObservedDirection> directio
     davenport.topRightCorner<3, 1>() = turned;
     davenport.bottomLeftCorner<1, 3>() = turned.transpose();
     davenport(3, 3) = profile.trace();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver{davenport};
-    const Eigen::Vector4d best = solver.eigenvectors().col(3);
+    const Eigen::Vector4d best = symmetric_eigen(davenport).vectors.col(3);
     return UncertainAttitude{.q_ref_body = Eigen::Quaterniond{best},
                              .covariance_rad2 = covariance_rad2};
   });

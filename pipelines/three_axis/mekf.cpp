@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/frames/shortest_turn.h"
 
 namespace spindrift {
 namespace {
@@ -24,8 +25,7 @@ struct Seen {
 /// Of the turn across the direction.
 Seen<2> seen_from(const Eigen::Quaterniond& q_icrf_body, const ObservedDirection& direction) {
   const Vector3d expected = (q_icrf_body.conjugate() * direction.ref).normalized();
-  const Eigen::Quaterniond to_expected =
-      Eigen::Quaterniond::FromTwoVectors(direction.body, expected);
+  const Eigen::Quaterniond to_expected = shortest_turn(direction.body, expected);
   const Vector3d first = expected.unitOrthogonal();
   Seen<2> seen;
   seen.axes.row(0) = first;

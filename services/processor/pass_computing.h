@@ -86,7 +86,9 @@ class PassComputing {
   template <class Note>
   std::vector<ArchiveBatch> compute(const PassInput& input, const Note& note) {
     Computed computed;
-    computed.fill(batch());
+    for (ArchiveBatch& one : computed) {
+      one = batch();
+    }
     // What was made of the samples before one that fails is kept, however many came with it.
     compute_or_fail(computed.front().products, note, [&] { compute(input, note, computed); });
     std::vector<ArchiveBatch> batches;

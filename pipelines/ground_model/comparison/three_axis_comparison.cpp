@@ -9,6 +9,7 @@
 #include "pipelines/ephemeris/shadow.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/frames/shortest_turn.h"
 #include "pipelines/geomagnetism/field_at_spacecraft.h"
 #include "pipelines/ground_model/link/silence.h"
 #include "pipelines/ground_model/sensors/three_axis_reading.h"
@@ -64,7 +65,7 @@ std::vector<double> elements_of(const Vector3d& vector) {
 /// The turn from one direction to another, along X and Y as the least turn of -Z to `from` turns
 /// them, in deg. @param to Of any length.
 std::vector<double> turn_deg(const Vector3d& from, const Vector3d& to) {
-  const auto q = Eigen::Quaterniond::FromTwoVectors(-Vector3d::UnitZ(), from);
+  const auto q = shortest_turn(-Vector3d::UnitZ(), from);
   const Vector3d seen = q.conjugate() * to.normalized();
   const double across = std::hypot(seen.x(), seen.y());
   const double deg_per_one =

@@ -11,7 +11,8 @@ namespace spindrift {
 Wheels::Wheels(const WheelDesign& design)
     : design_{design},
       axes_body_{design.axes_body.colwise().normalized()},
-      shares_{axes_body_.completeOrthogonalDecomposition().pseudoInverse()},
+      shares_{axes_body_.transpose() *
+              Eigen::Matrix3d{axes_body_ * axes_body_.transpose()}.inverse()},
       momenta_nms_{WheelVector::Zero(design.axes_body.cols())},
       told_rad_s_{momenta_nms_},
       torques_nm_{momenta_nms_} {}

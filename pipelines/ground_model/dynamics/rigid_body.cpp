@@ -36,6 +36,9 @@ BodyState changed(const BodyState& state, const Change& change, double step_s) {
 
 }  // namespace
 
+RigidBody::RigidBody(const Matrix3d& inertia_kg_m2)
+    : inertia_kg_m2_{inertia_kg_m2}, inverse_{inertia_kg_m2.ldlt().solve(Matrix3d::Identity())} {}
+
 Expected<RigidBody> RigidBody::make(const Matrix3d& inertia_kg_m2) {
   if (!is_inertia(inertia_kg_m2)) {
     const Vector3d moments = inertia_kg_m2.selfadjointView<Eigen::Lower>().eigenvalues();

@@ -43,9 +43,7 @@ class RigidBody {
   BodyState after(const BodyState& state, const BodyTorques& torques, double step_s) const;
 
  private:
-  explicit RigidBody(const Eigen::Matrix3d& inertia_kg_m2)
-      : inertia_kg_m2_{inertia_kg_m2},
-        inverse_{inertia_kg_m2.ldlt().solve(Eigen::Matrix3d::Identity())} {}
+  explicit RigidBody(const Eigen::Matrix3d& inertia_kg_m2);
 
   Eigen::Matrix3d inertia_kg_m2_;
   Eigen::Matrix3d inverse_;

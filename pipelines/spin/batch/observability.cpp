@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/statistics/symmetric_eigen.h"
+
 namespace spindrift {
 namespace {
 
@@ -91,11 +93,11 @@ double Observability::rms_error_rad(const PassInformation& information,
 }
 
 std::vector<double> Observability::singular_values() const {
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver{scaled_, Eigen::EigenvaluesOnly};
+  const Eigen::VectorXd squares = symmetric_eigen(scaled_).values;
   std::vector<double> values;
   const auto unknowns = static_cast<Eigen::Index>(kMotionUnknowns + estimated_.size());
   for (Eigen::Index i = 0; i < unknowns; ++i) {
-    values.push_back(std::sqrt(std::max(solver.eigenvalues()[kBatchUnknowns - 1 - i], 0.0)));
+    values.push_back(std::sqrt(std::max(squares[kBatchUnknowns - 1 - i], 0.0)));
   }
   return values;
 }
@@ -133,12 +135,12 @@ std::vector<BiasSet> Observability::undetermined() const {
   if (count == 0) {
     return {};
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{of_biases()};
+  const SymmetricEigen information = symmetric_eigen(of_biases());
   std::vector<BiasSet> all;
-  for (Eigen::Index i = 0; i < count && solver.eigenvalues()[i] < 1.0; ++i) {
+  for (Eigen::Index i = 0; i < count && information.values[i] < 1.0; ++i) {
     BiasSet direction;
     for (Eigen::Index j = 0; j < count; ++j) {
-      if (std::abs(solver.eigenvectors()(j, i)) > kTakesPart) {
+      if (std::abs(information.vectors(j, i)) > kTakesPart) {
         direction |= unknowns_of(estimated_[static_cast<std::size_t>(j)]);
       }
     }

@@ -8,6 +8,7 @@
 
 #include "pipelines/statistics/distributions.h"
 #include "pipelines/statistics/significance.h"
+#include "pipelines/statistics/symmetric_eigen.h"
 
 namespace spindrift {
 namespace {
@@ -30,13 +31,15 @@ constexpr double kNoiseAngles = 300.0;
 class Spectrum {
  public:
   Spectrum(const SomeErrorsMatrix& information, const SomeErrors& score, double noise)
-      : noise_{noise}, solver_{information}, scores_{solver_.eigenvectors().transpose() * score} {}
+      : noise_{noise},
+        information_{symmetric_eigen(information)},
+        scores_{information_.vectors.transpose() * score} {}
 
   double freedom() const { return static_cast<double>(seen().count()); }
 
   /// Where each error has this variance besides the noise.
   double chi_square(double error_rad2) const {
-    const auto& informations = solver_.eigenvalues().array();
+    const auto& informations = information_.values.array();
     return seen()
         .select(scores_.array().square() / (informations * (noise_ + informations * error_rad2)),
                 0.0)
@@ -60,15 +63,15 @@ class Spectrum {
     const SomeErrors gain = gain_rad2(error_rad2);
     const SomeErrors seen_rad = gain.cwiseProduct(scores_);
     const SomeErrorsMatrix rest_rad2 = (noise_ * gain).asDiagonal();
-    return solver_.eigenvectors() * (rest_rad2 + seen_rad * seen_rad.transpose()) *
-           solver_.eigenvectors().transpose();
+    return information_.vectors * (rest_rad2 + seen_rad * seen_rad.transpose()) *
+           information_.vectors.transpose();
   }
 
   /// How much less the chi-square of the pass is with such errors than with none.
   double explained(double error_rad2) const {
     const SomeErrors seen_rad = gain_rad2(error_rad2).cwiseProduct(scores_);
     return (2.0 * seen_rad.dot(scores_) -
-            seen_rad.cwiseAbs2().dot(solver_.eigenvalues().cwiseMax(0.0))) /
+            seen_rad.cwiseAbs2().dot(information_.values.cwiseMax(0.0))) /
            noise_;
   }
 
@@ -76,14 +79,14 @@ class Spectrum {
   static constexpr int kHalvings = 30;
 
   Eigen::Array<bool, Eigen::Dynamic, 1> seen() const {
-    return solver_.eigenvalues().array() > 1.0 / (kUnseen_rad * kUnseen_rad);
+    return information_.values.array() > 1.0 / (kUnseen_rad * kUnseen_rad);
   }
   SomeErrors gain_rad2(double error_rad2) const {
-    return error_rad2 / (noise_ + error_rad2 * solver_.eigenvalues().array().max(0.0));
+    return error_rad2 / (noise_ + error_rad2 * information_.values.array().max(0.0));
   }
 
   double noise_;
-  Eigen::SelfAdjointEigenSolver<SomeErrorsMatrix> solver_;
+  SymmetricEigen information_;
   SomeErrors scores_;
 };
 

@@ -78,7 +78,8 @@ double chi_square(const TiltSignal& signal, double per_turn) {
   const double whole = columns.squaredNorm();
   signal.take_out_slow_changes(columns);
   const Eigen::Vector2d right = columns.transpose() * signal.off();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> normal{columns.transpose() * columns};
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> normal;
+  normal.computeDirect(columns.transpose() * columns);
   return normal.eigenvalues()[0] > kLeastShare * whole ? (normal.eigenvectors().transpose() * right)
                                                              .cwiseAbs2()
                                                              .cwiseQuotient(normal.eigenvalues())

@@ -76,7 +76,8 @@ ConedBeam as_coned(const InfraredSensor& beam, const Eigen::Vector2d& coning_rad
 
 ConingTest test_coning(const Eigen::Vector2d& coning_rad, const Eigen::Matrix2d& covariance_rad2) {
   const double hinge_rad = std::atan2(coning_rad.y(), coning_rad.x());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spectrum{covariance_rad2};
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spectrum;
+  spectrum.computeDirect(covariance_rad2);
   const Eigen::Vector2d along = spectrum.eigenvectors().transpose() * coning_rad;
   const double chi_square = along.cwiseAbs2().cwiseQuotient(spectrum.eigenvalues()).sum();
   return {.tilt_rad = coning_rad.norm(),

@@ -45,7 +45,8 @@ std::optional<Eigen::Matrix2d> EdgeInformation::axis_covariance_rad2() const {
   const Eigen::Matrix2d information =
       normal_.topLeftCorner<2, 2>() -
       shared * pseudo_inverse(normal_.bottomRightCorner<3, 3>()) * shared.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> directions{information};
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> directions;
+  directions.computeDirect(information, Eigen::EigenvaluesOnly);
   if (!(directions.eigenvalues().minCoeff() >
         1.0 / (kLeastDetermined_rad * kLeastDetermined_rad))) {
     return std::nullopt;

@@ -1,0 +1,15 @@
+/// @file
+/// The shortest turn from one direction to another.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace spindrift {
+
+/// Turns `from` into the direction of `to`; lengths do not matter. Of opposite directions the axis
+/// is any across them.
+Eigen::Quaterniond shortest_turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+}  // namespace spindrift
