@@ -223,7 +223,8 @@ TEST_P(ServeReplacedArchive, EndsAsACopyWhenTheServiceIsStopped) {
   EXPECT_THAT(log(), HasSubstr(copies[0].string()));
   EXPECT_EQ(text_of(replaced()), content());
   EXPECT_EQ(rows_of(copies[0], "PRAGMA integrity_check"), std::vector<std::string>{"ok|"});
-  EXPECT_EQ(fs::exists(log_of(db())), GetParam().of == "-wal");
+  // A reader of the other archive may have made an empty one.
+  EXPECT_EQ(fs::exists(log_of(db())) && fs::file_size(log_of(db())) > 0, GetParam().of == "-wal");
   // What was taken last may not have been accepted yet, and is sent again.
   fs::rename(replaced(), aside(replaced()));
   fs::rename(copies[0], db());
