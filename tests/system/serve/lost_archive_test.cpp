@@ -223,7 +223,7 @@ TEST_P(ServeReplacedArchive, EndsAsACopyWhenTheServiceIsStopped) {
   EXPECT_THAT(log(), HasSubstr(copies[0].string()));
   EXPECT_EQ(text_of(replaced()), content());
   EXPECT_EQ(rows_of(copies[0], "PRAGMA integrity_check"), std::vector<std::string>{"ok|"});
-  // A reader of the other archive may have made an empty one.
+  // SQLite leaves an empty one when the last reader closes, and the service itself may have looked.
   EXPECT_EQ(fs::exists(log_of(db())) && fs::file_size(log_of(db())) > 0, GetParam().of == "-wal");
   // What was taken last may not have been accepted yet, and is sent again.
   fs::rename(replaced(), aside(replaced()));
