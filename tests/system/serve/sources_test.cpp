@@ -157,6 +157,8 @@ TEST_P(ServeAlienWithin, IsLeftOutAndNamed) {
   send_alien(whole().pulses.at(half).t + ahead, count);
   ASSERT_TRUE(front_end.send_until(0.75));
   ASSERT_TRUE(has_stored(half + half / 2 + static_cast<std::size_t>(count)));
+  // A kill takes with it what was still to be said.
+  EXPECT_TRUE(service_.program().says("SPINNER: the samples of source 'alien' (session "));
   kill_and_restart();
   ASSERT_TRUE(front_end.send_until(1.0));
   expect_the_whole_pass();
