@@ -113,7 +113,7 @@ FROM rejected_input GROUP BY run_id, source, reason;
 
 -- The answer of a pass: the last estimate of each estimator of each run; finished = 0: of a run that goes
 -- on, or was interrupted. One of before a manoeuvre that was marked is of another axis, and no answer any more.
--- Each is looked for from the end of its run: all estimates of a day take most of a second.
+-- Each is looked for from the end of its run, and CROSS JOIN keeps it so: all estimates of a day take most of a second.
 CREATE VIEW pass_answer AS
 WITH last AS (
   SELECT run_id, one.estimator,
@@ -123,7 +123,7 @@ WITH last AS (
   FROM run, (SELECT 'mean' AS estimator UNION ALL SELECT 'sequential' UNION ALL SELECT 'batch') AS one
 )
 SELECT spacecraft_id, finished_utc IS NOT NULL AS finished, spin_estimate_utc.*
-FROM last JOIN spin_estimate_utc USING (run_id, estimator, t_tai_ns) JOIN run USING (run_id)
+FROM last CROSS JOIN spin_estimate_utc USING (run_id, estimator, t_tai_ns) JOIN run USING (run_id)
 WHERE NOT EXISTS (
   SELECT * FROM operator_action AS marked JOIN run AS told ON told.run_id = marked.run_id
   WHERE marked.spacecraft_id = run.spacecraft_id AND told.mode = run.mode AND told.first_arrival <= run.first_arrival

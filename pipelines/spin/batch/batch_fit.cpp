@@ -1,5 +1,6 @@
 #include "pipelines/spin/batch/batch_fit.h"
 
+#include <ceres/evaluation_callback.h>
 #include <ceres/loss_function.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
@@ -19,8 +20,9 @@
 namespace spindrift {
 namespace {
 
-// Beyond a hundredth of the sigma of a pass of 100,000 revolutions nothing changes any more.
-constexpr double kFunctionTolerance = 1e-10;
+// A last step of a tenth of the sigma of a pass of 150,000 revolutions: steps shrink tenfold and
+// more.
+constexpr double kFunctionTolerance = 1e-8;
 constexpr int kMostIterations = 50;
 // First so many edges, spread over the pass, whose far ones still pull.
 constexpr std::size_t kCoarse = 6000;
@@ -36,34 +38,38 @@ struct Parameters {
   Eigen::Vector4d none = Eigen::Vector4d::Zero();
 };
 
-class Fit {
+class Fit final : public ceres::EvaluationCallback {
  public:
   Fit(const PassModel& model, const SpinState& start)
       : model_{model},
         start_{start},
         parameters_{
-            .q_icrf_spin = start.q_icrf_spin, .biases = start.biases, .nutation = start.nutation} {}
+            .q_icrf_spin = start.q_icrf_spin, .biases = start.biases, .nutation = start.nutation},
+        here_{model.at(start)} {}
 
-  SpinState state_at(const double* q, const double* clock, const double* biases) const {
-    const double half_s = model_.half_s();
-    return {.q_icrf_spin = Eigen::Quaterniond{Eigen::Map<const Eigen::Vector4d>{q}},
-            .rate_rad_s = start_.rate_rad_s + clock[0] / half_s,
-            .drift_rad_s2 = start_.drift_rad_s2 + 2.0 * clock[1] / (half_s * half_s),
-            .biases = Eigen::Map<const SensorBiases>{biases}};
-  }
   SpinState state() const {
-    SpinState state = state_at(parameters_.q_icrf_spin.coeffs().data(), parameters_.clock.data(),
-                               parameters_.biases.data());
-    state.nutation = parameters_.nutation;
-    return state;
+    const double half_s = model_.half_s();
+    return {.q_icrf_spin = parameters_.q_icrf_spin,
+            .rate_rad_s = start_.rate_rad_s + parameters_.clock[0] / half_s,
+            .drift_rad_s2 = start_.drift_rad_s2 + 2.0 * parameters_.clock[1] / (half_s * half_s),
+            .biases = parameters_.biases,
+            .nutation = parameters_.nutation};
   }
-  const PassModel& model() const { return model_; }
   Parameters& parameters() { return parameters_; }
+
+  /// Ceres has written the parameters that it asks about: what all edges share there is found once.
+  void PrepareForEvaluation(bool /*jacobians*/, bool new_point) override {
+    if (new_point) {
+      here_ = model_.at(state());
+    }
+  }
+  const PassAtState& here() const { return here_; }
 
  private:
   const PassModel& model_;
   SpinState start_;
   Parameters parameters_;
+  PassAtState here_;
 };
 
 /// Turns of the sky's axes by half of what Ceres' manifold steps, as changes of the quaternion.
@@ -78,34 +84,29 @@ Eigen::Matrix<double, 4, 3> quaternion_per_turn(const Eigen::Quaterniond& q) {
 
 class EdgeCost final : public ceres::SizedCostFunction<1, 4, 2, kSensorBiases, kNutationUnknowns> {
  public:
-  /// @param stretch That it is in; or none.
-  EdgeCost(const Fit& fit, const Pulse& edge, const NutationStretch* stretch)
-      : fit_{&fit}, edge_{edge}, stretch_{stretch} {}
+  EdgeCost(const Fit& fit, const Pulse& edge) : fit_{&fit}, edge_{edge} {}
 
-  bool Evaluate(double const* const* at, double* residual, double** jacobians) const override {
-    SpinState state = fit_->state_at(at[0], at[1], at[2]);
-    if (stretch_ != nullptr) {
-      state.nutation = {*stretch_};
-      state.nutation.front().unknowns = Eigen::Map<const NutationSlopes>{at[3]}.transpose();
-    }
-    const auto edge = fit_->model().residual(edge_, state);
+  bool Evaluate(double const* const* /*at*/, double* residual, double** jacobians) const override {
+    const PassAtState& here = fit_->here();
+    const auto edge = here.residual(edge_);
     // Where there is no such edge it is an outlier, and nothing moves it.
     residual[0] = edge ? edge->off : kOutlierSigmas;
     if (jacobians != nullptr) {
-      write(edge.value_or(EdgeResidual{.off = 0.0, .slopes = EdgeSlopes::Zero()}), state,
-            jacobians);
+      write(edge.value_or(EdgeResidual{.off = 0.0, .slopes = EdgeSlopes::Zero()}),
+            here.state().q_icrf_spin, jacobians);
     }
     return std::isfinite(residual[0]);
   }
 
  private:
-  static void write(const EdgeResidual& edge, const SpinState& state, double** jacobians) {
+  static void write(const EdgeResidual& edge, const Eigen::Quaterniond& q_icrf_spin,
+                    double** jacobians) {
     const EdgeSlopes& slopes = edge.slopes;
     if (jacobians[0] != nullptr) {
       const Eigen::RowVector3d by_half_turn =
-          2.0 * slopes.head<3>() * state.q_icrf_spin.conjugate().toRotationMatrix();
+          2.0 * slopes.head<3>() * q_icrf_spin.conjugate().toRotationMatrix();
       Eigen::Map<Eigen::RowVector4d>{jacobians[0]} =
-          by_half_turn * quaternion_per_turn(state.q_icrf_spin).transpose();
+          by_half_turn * quaternion_per_turn(q_icrf_spin).transpose();
     }
     if (jacobians[1] != nullptr) {
       Eigen::Map<Eigen::RowVector2d>{jacobians[1]} = slopes.segment<2>(3);
@@ -121,7 +122,6 @@ class EdgeCost final : public ceres::SizedCostFunction<1, 4, 2, kSensorBiases, k
 
   const Fit* fit_;
   Pulse edge_;
-  const NutationStretch* stretch_;
 };
 
 class PriorCost final : public ceres::SizedCostFunction<kSensorBiases, kSensorBiases> {
@@ -167,7 +167,7 @@ void add_edges(Fit& fit, std::span<const PassEdge> edges, std::size_t stride,
       ++stretch;
     }
     const bool nutates = stretch != at.nutation.end() && stretch->holds(edge.t);
-    EdgeCost& cost = costs.emplace_back(fit, edge, nutates ? &*stretch : nullptr);
+    EdgeCost& cost = costs.emplace_back(fit, edge);
     problem.AddResidualBlock(&cost, &loss, at.q_icrf_spin.coeffs().data(), at.clock.data(),
                              at.biases.data(), nutates ? stretch->unknowns.data() : at.none.data());
   }
@@ -182,6 +182,7 @@ ceres::Solver::Summary solve(Fit& fit, std::span<const PassEdge> edges, std::siz
   keeping.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   keeping.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   keeping.disable_all_safety_checks = true;
+  keeping.evaluation_callback = &fit;
   std::deque<EdgeCost> costs;  // Where they are they stay.
   PriorCost prior;
   ceres::Problem problem{keeping};

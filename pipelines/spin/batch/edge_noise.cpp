@@ -22,8 +22,9 @@ double median_of(std::vector<double>& values) {
 PulseNoise noise_seen(const PassModel& model, std::span<const PassEdge> edges,
                       const SpinState& state) {
   std::array<std::vector<double>, kPulseChannels> off;  // In sigmas.
+  const PassAtState at = model.at(state);
   for (const PassEdge& edge : edges) {
-    if (const auto met = model.meet(edge.pulse, state)) {
+    if (const auto met = at.meet(edge.pulse)) {
       off.at(index_of(edge.pulse.channel)).push_back(met->off_rad / met->sigma_rad);
     }
   }

@@ -17,7 +17,7 @@ namespace {
 // So many tell a parabola to a fraction of a degree.
 constexpr std::size_t kEnough = 4000;
 // The first parabola is off by a turn at most from one end to the other: little within a span.
-constexpr int kSpans = 64;
+constexpr int kClockSpans = 64;
 constexpr int kPasses = 3;
 
 struct Counted {
@@ -51,15 +51,15 @@ double phase_at(const Eigen::Vector3d& clock, double part) {
 /// An edge may have been counted to the turn before or after. Each span of the pass has most of its
 /// edges in one place of the circle, which moves little from one to the next.
 void count_anew(const Eigen::Vector3d& clock, std::vector<Counted>& counted) {
-  std::array<std::complex<double>, kSpans> places{};
+  std::array<std::complex<double>, kClockSpans> places{};
   const auto span_of = [](const Counted& edge) {
-    const auto span = static_cast<int>(0.5 * (edge.part + 1.0) * kSpans);
-    return static_cast<std::size_t>(std::clamp(span, 0, kSpans - 1));
+    const auto span = static_cast<int>(0.5 * (edge.part + 1.0) * kClockSpans);
+    return static_cast<std::size_t>(std::clamp(span, 0, kClockSpans - 1));
   };
   for (const Counted& edge : counted) {
     places.at(span_of(edge)) += std::polar(1.0, edge.phase_rad - phase_at(clock, edge.part));
   }
-  std::array<double, kSpans> place_rad{};
+  std::array<double, kClockSpans> place_rad{};
   double last_rad = 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (places.at(i) != 0.0) {
@@ -79,13 +79,14 @@ Expected<SpinState> initial_state(const PassModel& model, std::span<const PassEd
                                   const Eigen::Vector3d& axis_icrf) {
   const Eigen::Quaterniond q_icrf_spin = frame_about(axis_icrf);
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin.conjugate().toRotationMatrix();
+  const PlacedSensors sensors{model.config(), SensorBiases::Zero()};
   const std::size_t stride = std::max<std::size_t>(edges.size() / kEnough, 1);
   const std::int64_t middle = edges[edges.size() / 2].revolution;
   std::vector<Counted> counted;
   for (std::size_t i = 0; i < edges.size(); i += stride) {
     const PassEdge& edge = edges[i];
     const Sky& sky = model.sky_at(edge.pulse.t);
-    const auto predicted = predict_edge(model.config(), sky, R_spin_icrf, edge.pulse);
+    const auto predicted = predict_edge(sensors, sky, R_spin_icrf, edge.pulse);
     if (predicted) {
       const Eigen::Vector3d sun_spin = R_spin_icrf * sky.sun_icrf;
       counted.push_back(

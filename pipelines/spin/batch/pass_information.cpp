@@ -43,9 +43,10 @@ double PassInformation::excess_noise(int unknowns) const {
 
 PassInformation information_of(const PassModel& model, std::span<const PassEdge> edges,
                                const SpinState& state, double outlier_sigmas) {
+  const PassAtState at = model.at(state);
   PassInformation sum;
   for (const PassEdge& edge : edges) {
-    const auto residual = model.residual(edge.pulse, state);
+    const auto residual = at.residual(edge.pulse);
     if (!residual || !(std::abs(residual->off) < outlier_sigmas)) {
       ++sum.outliers;
       continue;

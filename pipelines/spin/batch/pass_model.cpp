@@ -16,8 +16,9 @@ namespace {
 constexpr double kSkySpan_s = 10.0;
 
 const NutationStretch* stretch_at(const SpinState& state, TaiTime t) {
-  const auto found = std::find_if(state.nutation.begin(), state.nutation.end(),
-                                  [&](const NutationStretch& stretch) { return t < stretch.end; });
+  const auto found = std::upper_bound(
+      state.nutation.begin(), state.nutation.end(), t,
+      [](TaiTime time, const NutationStretch& stretch) { return time < stretch.end; });
   return found != state.nutation.end() && found->holds(t) ? &*found : nullptr;
 }
 
@@ -73,39 +74,47 @@ const Sky& PassModel::sky_at(TaiTime t) const {
   return skies_[std::min(span_of(t), skies_.size() - 1)];
 }
 
-std::optional<ComparedEdge> PassModel::meet(const Pulse& edge, const SpinState& state) const {
-  const double dt_s = seconds_between(middle_, edge.t);
-  const double rate_there_rad_s = state.rate_rad_s + state.drift_rad_s2 * dt_s;
-  const double phase_rad = (state.rate_rad_s + 0.5 * state.drift_rad_s2 * dt_s) * dt_s;
-  Eigen::Matrix3d R_tipped_icrf = state.q_icrf_spin.conjugate().toRotationMatrix();
+PassAtState::PassAtState(const PassModel& model, SpinState state)
+    : model_{&model},
+      state_{std::move(state)},
+      R_spin_icrf_{state_.q_icrf_spin.conjugate().toRotationMatrix()},
+      sensors_{model.config(), state_.biases} {}
+
+std::optional<ComparedEdge> PassAtState::meet(const Pulse& edge) const {
+  const double dt_s = seconds_between(model_->middle(), edge.t);
+  const double rate_there_rad_s = state_.rate_rad_s + state_.drift_rad_s2 * dt_s;
+  const double phase_rad = (state_.rate_rad_s + 0.5 * state_.drift_rad_s2 * dt_s) * dt_s;
+  Eigen::Matrix3d R_tipped_icrf = R_spin_icrf_;
   std::optional<NutationTilt> tilt;
-  if (const NutationStretch* const stretch = stretch_at(state, edge.t)) {
+  if (const NutationStretch* const stretch = stretch_at(state_, edge.t)) {
     tilt = tilt_at(*stretch, edge.t, phase_rad);
     R_tipped_icrf =
         rotation_by({-tilt->rotation_rad.x(), -tilt->rotation_rad.y(), 0.0}) * R_tipped_icrf;
   }
-  const auto expected = predict_edge(config_, sky_at(edge.t), R_tipped_icrf, edge, state.biases);
+  const auto expected = predict_edge(sensors_, model_->sky_at(edge.t), R_tipped_icrf, edge);
   if (!expected) {
     return std::nullopt;
   }
-  ComparedEdge met{.expected = *expected,
-                   .phase_rad = phase_rad,
-                   .off_rad = wrapped_rad(phase_rad - expected->phase_rad),
-                   .sigma_rad = rate_there_rad_s * edge_sigma_s(config_.noise, edge.channel),
-                   .rate_rad_s = rate_there_rad_s};
+  ComparedEdge met{
+      .expected = *expected,
+      .phase_rad = phase_rad,
+      .off_rad = wrapped_rad(phase_rad - expected->phase_rad),
+      .sigma_rad = rate_there_rad_s * edge_sigma_s(model_->config().noise, edge.channel),
+      .rate_rad_s = rate_there_rad_s};
   if (tilt) {
     untip(*tilt, met);
   }
   return met;
 }
 
-std::optional<EdgeResidual> PassModel::residual(const Pulse& edge, const SpinState& state) const {
-  const auto met = meet(edge, state);
+std::optional<EdgeResidual> PassAtState::residual(const Pulse& edge) const {
+  const auto met = meet(edge);
   if (!met) {
     return std::nullopt;
   }
-  const double dt_s = seconds_between(middle_, edge.t);
-  const double part = dt_s / half_s_;
+  const double dt_s = seconds_between(model_->middle(), edge.t);
+  const double half_s = model_->half_s();
+  const double part = dt_s / half_s;
   EdgeResidual residual;
   residual.off = met->off_rad / met->sigma_rad;
   residual.slopes << -met->expected.phase_per_rotation.transpose(), met->off_per_phase * part,
@@ -114,8 +123,8 @@ std::optional<EdgeResidual> PassModel::residual(const Pulse& edge, const SpinSta
   residual.nutation_slopes = met->off_per_nutation / met->sigma_rad;
   // What an angle is worth changes with the rate as well; to first order.
   const double by_rate = -residual.off / met->rate_rad_s;
-  residual.slopes[3] += by_rate / half_s_;
-  residual.slopes[4] += by_rate * 2.0 * dt_s / (half_s_ * half_s_);
+  residual.slopes[3] += by_rate / half_s;
+  residual.slopes[4] += by_rate * 2.0 * dt_s / (half_s * half_s);
   return residual;
 }
 

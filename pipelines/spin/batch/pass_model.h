@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "pipelines/core/expected.h"
@@ -71,6 +72,26 @@ struct EdgeResidual {
   NutationSlopes nutation_slopes = NutationSlopes::Zero();
 };
 
+class PassModel;
+
+/// The model at one state: what all its edges share is found once.
+class PassAtState {
+ public:
+  /// @param model Outlives it.
+  PassAtState(const PassModel& model, SpinState state);
+
+  const SpinState& state() const { return state_; }
+  /// @return Empty where the state has no such edge; likewise the following.
+  std::optional<ComparedEdge> meet(const Pulse& edge) const;
+  std::optional<EdgeResidual> residual(const Pulse& edge) const;
+
+ private:
+  const PassModel* model_;
+  SpinState state_;
+  Eigen::Matrix3d R_spin_icrf_;
+  PlacedSensors sensors_;
+};
+
 class PassModel {
  public:
   /// @param edges In order of time, at least one.
@@ -78,9 +99,7 @@ class PassModel {
   static Expected<PassModel> make(const SpinConfig& config, const Orbit& orbit,
                                   std::span<const PassEdge> edges);
 
-  /// @return Empty where the state has no such edge; likewise the following.
-  std::optional<ComparedEdge> meet(const Pulse& edge, const SpinState& state) const;
-  std::optional<EdgeResidual> residual(const Pulse& edge, const SpinState& state) const;
+  PassAtState at(SpinState state) const { return {*this, std::move(state)}; }
 
   const SpinConfig& config() const { return config_; }
   const Sky& sky_at(TaiTime t) const;

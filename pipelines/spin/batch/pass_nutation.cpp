@@ -86,13 +86,14 @@ FoundNutation as_fitted(const FoundNutation& found, const PassModel& model,
 
 PassInformation less_nutation(PassInformation information, const PassModel& model,
                               std::span<const PassEdge> edges, const SpinState& state) {
+  const PassAtState at = model.at(state);
   auto edge = edges.begin();
   for (const NutationStretch& stretch : state.nutation) {
     Eigen::Matrix4d own = Eigen::Matrix4d::Zero();
     Eigen::Matrix<double, kBatchUnknowns, kNutationUnknowns> shared =
         Eigen::Matrix<double, kBatchUnknowns, kNutationUnknowns>::Zero();
     for (; edge != edges.end() && edge->pulse.t < stretch.end; ++edge) {
-      const auto residual = model.residual(edge->pulse, state);
+      const auto residual = at.residual(edge->pulse);
       if (residual && std::abs(residual->off) < kOutlierSigmas) {
         own += residual->nutation_slopes.transpose() * residual->nutation_slopes;
         shared += residual->slopes.transpose() * residual->nutation_slopes;

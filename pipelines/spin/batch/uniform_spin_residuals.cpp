@@ -29,9 +29,10 @@ double scatter_of(std::span<const UniformSpinResidual> residuals) {
 std::vector<UniformSpinResidual> uniform_spin_residuals(const PassModel& model,
                                                         std::span<const PassEdge> edges,
                                                         const SpinState& state) {
+  const PassAtState at = model.at(state);
   std::vector<UniformSpinResidual> residuals;
   for (const PassEdge& edge : edges) {
-    const auto met = model.meet(edge.pulse, state);
+    const auto met = at.meet(edge.pulse);
     if (met) {
       const double expected_rad = met->phase_rad - met->off_rad;
       residuals.push_back({.channel = edge.pulse.channel,

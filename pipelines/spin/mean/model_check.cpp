@@ -26,6 +26,18 @@ constexpr double kUnseen_rad = 0.1;
 // The noise is judged by so many angles at most, lest a little more than stated be called wrong.
 constexpr double kNoiseAngles = 300.0;
 
+/// Of chi-square, by the number of errors that are seen.
+using Limits = std::array<double, kModelErrors + 1>;
+Limits limits_beyond(double chance) {
+  Limits limits{};
+  for (std::size_t freedom = 1; freedom < limits.size(); ++freedom) {
+    limits.at(freedom) = chi_square_beyond(chance, static_cast<double>(freedom));
+  }
+  return limits;
+}
+const Limits kLeast = limits_beyond(kCovered);
+const Limits kSignificant = limits_beyond(kFalseAlarm);
+
 /// Some of the errors, the axis eliminated and the others zero, along the axes of their
 /// information.
 class Spectrum {
@@ -35,7 +47,7 @@ class Spectrum {
         information_{symmetric_eigen(information)},
         scores_{information_.vectors.transpose() * score} {}
 
-  double freedom() const { return static_cast<double>(seen().count()); }
+  std::size_t freedom() const { return static_cast<std::size_t>(seen().count()); }
 
   /// Where each error has this variance besides the noise.
   double chi_square(double error_rad2) const {
@@ -48,7 +60,7 @@ class Spectrum {
 
   /// The greatest variance of the errors that is not unlikely.
   double upper_end_rad2() const {
-    const double least = chi_square_beyond(kCovered, freedom());
+    const double least = kLeast.at(freedom());
     double low_rad = 0.0;
     double high_rad = 1.0;
     for (int i = 0; i < kHalvings; ++i) {
@@ -113,7 +125,7 @@ void explain(const ErrorMatrix& information, const Errors& score, ModelTest& ver
   std::vector<Explanation> explanations;
   for (const std::vector<int>& mistake : kMistakes) {
     const Spectrum spectrum{information(mistake, mistake), score(mistake), verdict.excess_noise};
-    if (spectrum.freedom() > 0.0) {
+    if (spectrum.freedom() > 0) {
       const double error_rad2 = spectrum.upper_end_rad2();
       ErrorMatrix errors_rad2 = ErrorMatrix::Zero();
       errors_rad2(mistake, mistake) = spectrum.mean_products_rad2(error_rad2);
@@ -168,10 +180,10 @@ ModelTest test_model_errors(const ErrorInformation& errors, double excess_noise,
                             double allowed_rad) {
   ModelTest verdict{.excess_noise = excess_noise};
   const Spectrum spectrum{errors.information, errors.score, excess_noise};
-  if (spectrum.freedom() == 0.0) {
+  if (spectrum.freedom() == 0) {
     return verdict;
   }
-  const double significant = chi_square_beyond(kFalseAlarm, spectrum.freedom());
+  const double significant = kSignificant.at(spectrum.freedom());
   const double allowed_rad2 = allowed_rad * allowed_rad;
   if (!(spectrum.chi_square(allowed_rad2) > significant)) {
     return verdict;

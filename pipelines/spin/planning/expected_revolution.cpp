@@ -23,7 +23,7 @@ struct Mark {
 };
 
 struct Turning {
-  const SpinConfig& config;
+  PlacedSensors sensors;
   const Sky& sky;
   const Eigen::Matrix3d& R_spin_icrf;
   double rate_rad_s;
@@ -36,7 +36,7 @@ struct Turning {
     t = mark.t;
     std::optional<PredictedEdge> edge;
     for (int i = 0; i <= kApproaches; ++i) {
-      edge = predict_edge(config, sky, R_spin_icrf, {.t = t, .channel = channel});
+      edge = predict_edge(sensors, sky, R_spin_icrf, {.t = t, .channel = channel});
       if (!edge) {
         break;
       }
@@ -111,7 +111,7 @@ ExpectedRevolution expected_revolution(const SpinConfig& config, const Sky& sky,
                      .t_start = sky.t},
       .predicted = {},
       .meeting = {}};
-  const Turning turning{config, sky, R_spin_icrf, rate_rad_s};
+  const Turning turning{{config, SensorBiases::Zero()}, sky, R_spin_icrf, rate_rad_s};
   const Eigen::Vector3d sun_spin = R_spin_icrf * sky.sun_icrf;
   const Mark start{.t = sky.t, .phase_rad = std::atan2(sun_spin.y(), sun_spin.x())};
   if (!sun_hidden) {

@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/sensor_model/coning.h"
-#include "pipelines/spin/sensor_model/horizon.h"
 #include "pipelines/spin/types/side.h"
 
 namespace spindrift {
@@ -86,10 +84,7 @@ PerBias per_coning(const SlitView& view, const ConedSlit& as_coned) {
                     as_coned.separation_per_coning);
 }
 
-std::optional<PredictedEdge> sun1_edge(const Eigen::Vector3d& sun_spin,
-                                       const SensorBiases& biases) {
-  const ConedSlit slit =
-      as_coned(SunSensor{.slit_cant_rad = 0.0, .slit_separation_rad = 0.0}, coning_of(biases));
+std::optional<PredictedEdge> sun1_edge(const ConedSlit& slit, const Eigen::Vector3d& sun_spin) {
   const auto view = view_of_slit(slit.slit, sun_spin, 0.0);
   if (!view) {
     return std::nullopt;
@@ -100,9 +95,8 @@ std::optional<PredictedEdge> sun1_edge(const Eigen::Vector3d& sun_spin,
                        .phase_per_bias = per_coning(*view, slit)};
 }
 
-std::optional<PredictedEdge> sun2_edge(const SunSensor& sensor, const Eigen::Vector3d& sun_spin,
+std::optional<PredictedEdge> sun2_edge(const ConedSlit& slit, const Eigen::Vector3d& sun_spin,
                                        const SensorBiases& biases) {
-  const ConedSlit slit = as_coned(sensor, coning_of(biases));
   const auto view = view_of_slit(slit.slit, sun_spin, biases[SunAngleBias]);
   if (!view) {
     return std::nullopt;
@@ -142,19 +136,18 @@ BeamBiases biases_of(Side side) {
                              : BeamBiases{SouthMountAngleBias, SouthChordBias};
 }
 
-std::optional<PredictedEdge> beam_edge(const SpinConfig& config, Beam beam, const EarthView& earth,
-                                       const SensorBiases& biases) {
+std::optional<PredictedEdge> beam_edge(const PlacedSensors& sensors, Beam beam,
+                                       const EarthView& earth) {
   const auto [side, crossing] = beam;
-  if (!sensor_of(config, side)) {
+  const std::optional<ConedBeam>& placed = sensors.beams.at(index_of(side));
+  if (!placed) {
     return std::nullopt;
   }
-  const auto [sensor, mount_angle_per_coning, azimuth_per_coning] =
-      as_coned(*sensor_of(config, side), coning_of(biases));
+  const auto& [sensor, mount_angle_per_coning, azimuth_per_coning] = *placed;
+  const SensorBiases& biases = sensors.biases;
   const auto [mount_angle, chord] = biases_of(side);
-  Horizon horizon = config.horizon;
-  horizon.co2_altitude_km += biases[Co2HeightBias];
-  const auto limb = limb_crossing(horizon_axes(horizon), earth,
-                                  sensor.mount_angle_rad + biases[mount_angle], crossing);
+  const auto limb =
+      limb_crossing(sensors.horizon, earth, sensor.mount_angle_rad + biases[mount_angle], crossing);
   if (!limb) {
     return std::nullopt;
   }
@@ -174,19 +167,41 @@ std::optional<PredictedEdge> beam_edge(const SpinConfig& config, Beam beam, cons
           per_coning(limb->azimuth_per_mount * mount_angle_per_coning + azimuth_per_coning)};
 }
 
+std::optional<ConedBeam> placed_beam(const std::optional<InfraredSensor>& beam,
+                                     const SensorBiases& biases) {
+  return beam ? std::optional{as_coned(*beam, coning_of(biases))} : std::nullopt;
+}
+
+HorizonAxes biased_horizon(Horizon horizon, const SensorBiases& biases) {
+  horizon.co2_altitude_km += biases[Co2HeightBias];
+  return horizon_axes(horizon);
+}
+
 }  // namespace
 
-std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& sky,
-                                          const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge,
-                                          const SensorBiases& biases) {
+PlacedSensors::PlacedSensors(const SpinConfig& config, const SensorBiases& sensor_biases)
+    : biases{sensor_biases},
+      sun1{
+          as_coned(SunSensor{.slit_cant_rad = 0.0, .slit_separation_rad = 0.0}, coning_of(biases))},
+      sun2{as_coned(config.sun_sensor, coning_of(biases))},
+      beams{placed_beam(config.north, biases), placed_beam(config.south, biases)},
+      horizon{biased_horizon(config.horizon, biases)} {}
+
+std::optional<PredictedEdge> predict_edge(const PlacedSensors& sensors, const Sky& sky,
+                                          const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge) {
   const Eigen::Vector3d sun_spin = R_spin_icrf * sky.sun_icrf;
   if (edge.channel == PulseChannel::Sun1) {
-    return sun1_edge(sun_spin, biases);
+    return sun1_edge(sensors.sun1, sun_spin);
   }
   if (edge.channel == PulseChannel::Sun2) {
-    return sun2_edge(config.sun_sensor, sun_spin, biases);
+    return sun2_edge(sensors.sun2, sun_spin, sensors.biases);
   }
-  return beam_edge(config, beam_of(edge.channel), earth_view(sky, R_spin_icrf, edge.t), biases);
+  return beam_edge(sensors, beam_of(edge.channel), earth_view(sky, R_spin_icrf, edge.t));
+}
+
+std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& sky,
+                                          const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge) {
+  return predict_edge(PlacedSensors{config, SensorBiases::Zero()}, sky, R_spin_icrf, edge);
 }
 
 std::optional<PredictedEdge> linearise_by_depth(const SpinConfig& config, const Sky& sky,

@@ -15,8 +15,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 
+#include "pipelines/spin/sensor_model/coning.h"
+#include "pipelines/spin/sensor_model/horizon.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/model_allowance.h"
 #include "pipelines/spin/types/pulse.h"
@@ -37,12 +40,27 @@ struct PredictedEdge {
   Eigen::Matrix<double, 1, kSensorBiases> phase_per_bias;
 };
 
+/// Where the sensors look from the body and what they take for the horizon, with their biases: the
+/// same for all edges of a state.
+struct PlacedSensors {
+  PlacedSensors(const SpinConfig& config, const SensorBiases& biases);
+
+  SensorBiases biases;
+  ConedSlit sun1;
+  ConedSlit sun2;
+  std::array<std::optional<ConedBeam>, 2> beams;  ///< By Side; without the bias of the mounting.
+  HorizonAxes horizon;
+};
+
 /// @param edge Its time says where the Earth then stands.
 /// @return Empty when there is no such edge: the sensor does not exist, the slit cannot see so far
 ///         from its equator, or the beam misses the Earth; or one of these nearly.
+std::optional<PredictedEdge> predict_edge(const PlacedSensors& sensors, const Sky& sky,
+                                          const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge);
+
+/// Of one edge alone, by sensors without a bias.
 std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& sky,
-                                          const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge,
-                                          const SensorBiases& biases = SensorBiases::Zero());
+                                          const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge);
 
 /// For an observed edge that the state (nearly) does not have: the beam's depth in the disc when it
 /// came, linearised. Less curved than the edge time, which near the limb goes as a square root; but

@@ -150,11 +150,12 @@ SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prio
     tally.squared_innovations += gate_of(edge.channel);
     tally.squared_gates += gate_of(edge.channel);
   };
+  const PlacedSensors sensors{config, SensorBiases::Zero()};
   for (const Pulse& edge : edges) {
     const double dt_s = seconds_between(t_, edge.t);
     const double phase_rad = phase_rad_ + (rate_rad_s_ + 0.5 * drift_rad_s2_ * dt_s) * dt_s;
     const double sigma_rad = rate_rad_s_ * edge_sigma_s(config.noise, edge.channel);
-    auto predicted = predict_edge(config, sky, R_spin_icrf, edge);
+    auto predicted = predict_edge(sensors, sky, R_spin_icrf, edge);
     const bool exists = predicted.has_value();
     if (!exists && missing == Missing::Approached) {
       predicted = linearise_by_depth(config, sky, R_spin_icrf, edge, phase_rad, sigma_rad);

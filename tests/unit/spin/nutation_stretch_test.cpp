@@ -72,7 +72,7 @@ TEST(NutationStretch, TheTrueMotionLeavesNothingOver) {
   const SpinState state = scene.state(model);
   ASSERT_GT(scene.edges.size(), 300U);
   for (const PassEdge& edge : scene.edges) {
-    const auto residual = model.residual(edge.pulse, state);
+    const auto residual = model.at(state).residual(edge.pulse);
     ASSERT_TRUE(residual);
     // The sky stands still for ten seconds, the orbit's curvature counts.
     EXPECT_NEAR(residual->off, 0.0, 0.03) << name_of(edge.pulse.channel);
@@ -104,12 +104,12 @@ TEST(NutationStretch, SlopesAreThoseOfTheResidual) {
     state = stepped(model, state, i, i == kMotionUnknowns + Co2HeightBias ? 3.0 : 0.003);
   }
   for (const PassEdge& edge : scene.edges) {
-    const auto here = model.residual(edge.pulse, state);
+    const auto here = model.at(state).residual(edge.pulse);
     ASSERT_TRUE(here);
     for (int i = 0; i < kBatchUnknowns + kNutationUnknowns; ++i) {
       const double step = i == kMotionUnknowns + Co2HeightBias ? 1e-3 : 1e-6;
-      const auto after = model.residual(edge.pulse, stepped(model, state, i, step));
-      const auto before = model.residual(edge.pulse, stepped(model, state, i, -step));
+      const auto after = model.at(stepped(model, state, i, step)).residual(edge.pulse);
+      const auto before = model.at(stepped(model, state, i, -step)).residual(edge.pulse);
       ASSERT_TRUE(after && before);
       const double slope = (after->off - before->off) / (2.0 * step);
       const double given =

@@ -40,7 +40,7 @@ TEST_P(PassModels, TheTrueStateLeavesNothingOver) {
   const PassModel model = scene.model();
   const SpinState truth = testing::true_state(scene.body, model);
   for (const PassEdge& edge : scene.edges) {
-    const auto residual = model.residual(edge.pulse, truth);
+    const auto residual = model.at(truth).residual(edge.pulse);
     ASSERT_TRUE(residual);
     // A hundredth of the noise: the sky stands still for ten seconds.
     EXPECT_NEAR(residual->off, 0.0, 0.01) << name_of(edge.pulse.channel);
@@ -76,12 +76,12 @@ TEST_P(PassModels, SlopesAreThoseOfTheResidual) {
   }
   int compared = 0;
   for (const PassEdge& edge : scene.edges) {
-    const auto here = model.residual(edge.pulse, state);
+    const auto here = model.at(state).residual(edge.pulse);
     ASSERT_TRUE(here);
     for (int i = 0; i < kBatchUnknowns; ++i) {
       const double step = i == kMotionUnknowns + Co2HeightBias ? 1e-3 : 1e-6;
-      const auto after = model.residual(edge.pulse, stepped(model, state, i, step));
-      const auto before = model.residual(edge.pulse, stepped(model, state, i, -step));
+      const auto after = model.at(stepped(model, state, i, step)).residual(edge.pulse);
+      const auto before = model.at(stepped(model, state, i, -step)).residual(edge.pulse);
       ASSERT_TRUE(after && before);
       const double slope = (after->off - before->off) / (2.0 * step);
       EXPECT_NEAR(here->slopes[i], slope, 1e-6 * here->slopes.head<3>().norm())
