@@ -5,6 +5,7 @@
 
 #include <string>
 #include <tl/expected.hpp>
+#include <utility>
 
 namespace spindrift {
 
@@ -27,5 +28,9 @@ template <class T>
 using Expected = tl::expected<T, Error>;
 
 using Unexpected = tl::unexpected<Error>;
+
+inline Unexpected unobservable(std::string message) {
+  return Unexpected{{ErrorCode::Unobservable, std::move(message)}};
+}
 
 }  // namespace spindrift

@@ -164,8 +164,8 @@ State state_of(const PassGeometry& geometry, PulseChannel channel) {
 }
 
 State state_of(const PassGeometry& geometry, Side side) {
-  const BeamView view = geometry.beams.at(index_of(side)).view;
-  if (view == BeamView::NearTangent) {
+  const BeamSight view = geometry.beams.at(index_of(side)).view;
+  if (view == BeamSight::NearTangent) {
     return {.colour = kHalf};
   }
   const State in = state_of(geometry, kInChannels.at(index_of(side)));

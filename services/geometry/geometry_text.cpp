@@ -24,17 +24,17 @@ constexpr std::string_view kLegend =
     "south S s, x spoilt by interference; case: * several axes; sigma: both directions together,\n"
     "1 turn: of the fix that one turn gives, all: the least that all edges so far allow\n";
 
-std::string_view name_of(BeamView view) {
+std::string_view name_of(BeamSight view) {
   switch (view) {
-    case BeamView::NoSensor:
+    case BeamSight::NoSensor:
       return "none";
-    case BeamView::Misses:
+    case BeamSight::Misses:
       return "misses";
-    case BeamView::NearTangent:
+    case BeamSight::NearTangent:
       return "grazes";
-    case BeamView::Crosses:
+    case BeamSight::Crosses:
       return "crosses";
-    case BeamView::Inside:
+    case BeamSight::Inside:
       return "inside";
   }
   return {};
@@ -64,7 +64,7 @@ EdgeView view_of(const PassGeometry& geometry, PulseChannel channel) {
 
 std::string chord_text(const BeamGeometry& beam) {
   return beam.chord_rad ? fmt::format("{:.2f}", *beam.chord_rad * kDegPerRad)
-                        : std::string{beam.view == BeamView::NoSensor ? "-" : name_of(beam.view)};
+                        : std::string{beam.view == BeamSight::NoSensor ? "-" : name_of(beam.view)};
 }
 
 std::string delta_text(const SpinGeometry& limits, const BeamGeometry& beam) {

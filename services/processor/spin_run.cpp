@@ -27,7 +27,7 @@ Expected<BatchSolution> solve_edges(SpinConfig config, const Orbit& orbit, PassE
 }
 
 /// Its estimate, and what else it says.
-Expected<std::vector<Product>> products_of(const BatchSolution& solution) {
+Expected<std::vector<Product>> batch_products(const BatchSolution& solution) {
   return unless_withheld({solution.estimate, std::make_shared<const BatchSolution>(solution)});
 }
 
@@ -100,7 +100,7 @@ Expected<std::vector<Product>> SpinRun::solve(const PassEdges& edges,
                                               const std::optional<SpinPrior>& prior) const {
   return solved_or_fault(
       computing_.spacecraft_id(), "batch solution", edges.last().value_or(TaiTime{}),
-      [&] { return solve_edges(config_, orbit_, edges, prior).and_then(&products_of); });
+      [&] { return solve_edges(config_, orbit_, edges, prior).and_then(&batch_products); });
 }
 
 /// What was still held. Then the last batch solution is due, whatever became due before.

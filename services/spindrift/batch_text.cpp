@@ -12,13 +12,13 @@
 namespace spindrift {
 namespace {
 
-struct Readable {
+struct ReadableBias {
   double value;
   double sigma;
   const char* unit;
 };
 
-Readable readable(const BiasEstimate& bias) {
+ReadableBias readable(const BiasEstimate& bias) {
   const bool is_angle = prior_of(bias.bias).is_angle;
   const double to_unit = is_angle ? kDegPerRad : 1.0;
   return {.value = bias.value * to_unit,
@@ -112,7 +112,7 @@ std::string to_text(const BatchSolution& solution) {
   text += nutation_text(solution) + coning_text(solution.coning);
   std::string_view heading = "biases";
   for (const BiasEstimate& bias : solution.biases) {
-    const Readable shown = readable(bias);
+    const ReadableBias shown = readable(bias);
     text += bias.observable
                 ? fmt::format("  {:<13}{:<18}{} {}{}\n", heading, prior_of(bias.bias).name,
                               signed_with_sigma(shown.value, shown.sigma, 4), shown.unit,
@@ -129,7 +129,7 @@ std::string to_text(const BatchSolution& solution) {
 nlohmann::json to_json(const BatchSolution& solution) {
   nlohmann::json biases = nlohmann::json::object();
   for (const BiasEstimate& bias : solution.biases) {
-    const Readable shown = readable(bias);
+    const ReadableBias shown = readable(bias);
     biases[std::string{prior_of(bias.bias).name}] = {{"value", shown.value},
                                                      {"sigma", shown.sigma},
                                                      {"unit", shown.unit},

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/time/tai_time.h"
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
 
@@ -47,7 +48,6 @@ std::vector<Sensor> sensors_of(const Mission& mission, const TalliedArrivals& ar
 /// In whole s, min or h, of two digits.
 std::string short_age(double age_s) {
   constexpr double kMinute_s = 60.0;
-  constexpr double kHour_s = 3600.0;
   constexpr double kMost = 100.0;
   const double s = std::max(age_s, 0.0);
   return s < kMost               ? fmt::format("{:.0f}", std::min(s, kMost - 1.0))

@@ -8,13 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "pipelines/core/shown.h"
+#include "pipelines/time/tai_time.h"
 #include "pipelines/time/utc.h"
 #include "services/words/duration.h"
 
 namespace spindrift {
 namespace {
-
-constexpr double kHour_s = 3600.0;
 
 struct Words {
   AlertCode code;

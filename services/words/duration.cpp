@@ -12,9 +12,9 @@
 namespace spindrift {
 namespace {
 
-constexpr std::int64_t kMinute_s = 60;
-constexpr std::int64_t kHour_s = 3600;
-constexpr std::int64_t kDay_s = 86'400;
+constexpr std::int64_t kSeconds = 60;  // Of a minute, and so on.
+constexpr std::int64_t kMinutes = 60;
+constexpr std::int64_t kHours = 24;
 constexpr double kShort_s = 10.0;
 
 std::int64_t rounded(double seconds, std::int64_t unit_s) {
@@ -31,15 +31,15 @@ std::string duration_text(double seconds) {
   if (seconds < kShort_s) {
     return fmt::format("{:.3g} s", seconds);
   }
-  if (const auto s = rounded(seconds, 1); s < kHour_s) {
-    return s < kMinute_s ? fmt::format("{} s", s)
-                         : pair_of(fmt::format("{} min", s / kMinute_s), s % kMinute_s, "s");
+  if (const auto s = rounded(seconds, 1); s < kMinutes * kSeconds) {
+    return s < kSeconds ? fmt::format("{} s", s)
+                        : pair_of(fmt::format("{} min", s / kSeconds), s % kSeconds, "s");
   }
-  if (const auto min = rounded(seconds, kMinute_s); min < kDay_s / kMinute_s) {
-    return pair_of(fmt::format("{} h", min / 60), min % 60, "min");
+  if (const auto min = rounded(seconds, kSeconds); min < kHours * kMinutes) {
+    return pair_of(fmt::format("{} h", min / kMinutes), min % kMinutes, "min");
   }
-  const auto h = rounded(seconds, kHour_s);
-  return pair_of(counted(h / 24, "days"), h % 24, "h");
+  const auto h = rounded(seconds, kMinutes * kSeconds);
+  return pair_of(counted(h / kHours, "days"), h % kHours, "h");
 }
 
 }  // namespace spindrift

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "pipelines/ephemeris/earth_pole.h"
@@ -12,11 +11,7 @@
 #include "pipelines/frames/celestial.h"
 
 namespace spindrift::testing {
-namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-}  // namespace
+namespace {}  // namespace
 
 Sky sky_at(const Orbit& orbit, TaiTime t) {
   const OrbitState spacecraft = orbit.at(t).value();
@@ -83,7 +78,7 @@ Orbit orbit_across_the_earth() { return transfer_with_node(300.0); }
 SpinningBody body_across_the_earth() {
   return {
       .axis_icrf = direction_icrf({.ra_rad = 100.0 * kRadPerDeg, .dec_rad = -55.0 * kRadPerDeg}),
-      .rate_rad_s = 2.0 * kPi,
+      .rate_rad_s = kTurn_rad,
       .first_turn_rad = 0.0,
       .config = usual_config()};
 }
@@ -93,15 +88,15 @@ SpinningBody random_body(const SunEarthEphemeris& around, double tilt_rad, std::
   const Eigen::Vector3d sun_icrf = around.sun_icrf(0.0);
   const Eigen::Vector3d earth_icrf = around.earth_icrf_km(0.0).normalized();
   while (true) {
-    const double roll_rad = 2.0 * kPi * uniform(rng);
+    const double roll_rad = kTurn_rad * uniform(rng);
     const double tilted_rad = (2.0 * uniform(rng) - 1.0) * tilt_rad;
     const Eigen::Vector3d across =
         Eigen::AngleAxisd{roll_rad, earth_icrf} * earth_icrf.unitOrthogonal();
     const Eigen::Vector3d axis = Eigen::AngleAxisd{tilted_rad, across.cross(earth_icrf)} * across;
-    if (std::abs(angle_between_rad(axis, sun_icrf) - 0.5 * kPi) < 25.0 * kRadPerDeg) {
+    if (std::abs(angle_between_rad(axis, sun_icrf) - kQuarter_rad) < 25.0 * kRadPerDeg) {
       return {.axis_icrf = axis,
-              .rate_rad_s = 2.0 * kPi * (0.95 + 0.1 * uniform(rng)),
-              .first_turn_rad = 2.0 * kPi * uniform(rng),
+              .rate_rad_s = kTurn_rad * (0.95 + 0.1 * uniform(rng)),
+              .first_turn_rad = kTurn_rad * uniform(rng),
               .config = usual_config()};
     }
   }

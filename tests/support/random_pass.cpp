@@ -17,7 +17,6 @@
 namespace spindrift::testing {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kCo2_km = 40.0;
 constexpr double kRevolutions = 300.0;
 
@@ -41,10 +40,10 @@ Orbit random_orbit(Draw& draw) {
     const auto orbit = KeplerOrbit::make({.epoch = kTransferStart,
                                           .semi_major_axis_km = draw.between(15000.0, 42164.0),
                                           .eccentricity = draw.between(0.0, 0.7),
-                                          .inclination_rad = draw.between(0.0, kPi),
-                                          .raan_rad = draw.between(0.0, 2.0 * kPi),
-                                          .argument_of_perigee_rad = draw.between(0.0, 2.0 * kPi),
-                                          .mean_anomaly_rad = draw.between(0.0, 2.0 * kPi)});
+                                          .inclination_rad = draw.between(0.0, std::numbers::pi),
+                                          .raan_rad = draw.between(0.0, kTurn_rad),
+                                          .argument_of_perigee_rad = draw.between(0.0, kTurn_rad),
+                                          .mean_anomaly_rad = draw.between(0.0, kTurn_rad)});
     if (orbit && orbit->at(kTransferStart)->position_icrf_km.norm() > 9000.0) {
       return Orbit{*orbit};
     }
@@ -57,7 +56,7 @@ SpinConfig random_config(Draw& draw) {
   config.north->mount_angle_rad = draw.between(60.0, 110.0) * kRadPerDeg;
   config.south->mount_angle_rad =
       config.north->mount_angle_rad + draw.between(5.0, 30.0) * kRadPerDeg;
-  config.north->azimuth_rad = draw.between(-kPi, kPi);
+  config.north->azimuth_rad = draw.between(-std::numbers::pi, std::numbers::pi);
   config.south->azimuth_rad = config.north->azimuth_rad + draw.between(-5.0, 5.0) * kRadPerDeg;
   if (draw.between(0.0, 1.0) < 0.5) {
     config.horizon.model = HorizonModel::Ellipsoid;
@@ -100,7 +99,7 @@ bool is_observable_at(const RandomPass& pass, double t_s) {
 
 bool is_observable(const RandomPass& pass) {
   return is_observable_at(pass, 0.0) &&
-         is_observable_at(pass, kRevolutions * 2.0 * kPi / pass.body.rate_rad_s);
+         is_observable_at(pass, kRevolutions * kTurn_rad / pass.body.rate_rad_s);
 }
 
 bool sees_the_earth(const RandomPass& pass, const std::optional<InfraredSensor>& sensor,
@@ -113,7 +112,7 @@ bool sees_the_earth(const RandomPass& pass, const std::optional<InfraredSensor>&
 }
 
 bool crosses_the_limb(const RandomPass& pass) {
-  const double end_s = kRevolutions * 2.0 * kPi / pass.body.rate_rad_s;
+  const double end_s = kRevolutions * kTurn_rad / pass.body.rate_rad_s;
   const SpinConfig& config = pass.body.config;
   return sees_the_earth(pass, config.north, 0.0) != sees_the_earth(pass, config.north, end_s) ||
          sees_the_earth(pass, config.south, 0.0) != sees_the_earth(pass, config.south, end_s);
@@ -144,8 +143,8 @@ std::string draw_channels(Draw& draw, SpinningBody& body, std::vector<PulseChann
 RandomPass drawn_pass(Draw& draw) {
   const Orbit orbit = random_orbit(draw);
   SpinningBody body{.axis_icrf = draw.direction(),
-                    .rate_rad_s = 2.0 * kPi / 60.0 * 5.0 * std::pow(40.0, draw.between(0.0, 1.0)),
-                    .first_turn_rad = draw.between(0.0, 2.0 * kPi),
+                    .rate_rad_s = kTurn_rad / 60.0 * 5.0 * std::pow(40.0, draw.between(0.0, 1.0)),
+                    .first_turn_rad = draw.between(0.0, kTurn_rad),
                     .config = random_config(draw)};
   std::vector<PulseChannel> dead;
   const std::string channels = draw_channels(draw, body, dead);
@@ -154,22 +153,22 @@ RandomPass drawn_pass(Draw& draw) {
   const auto mount_deg = [](const std::optional<InfraredSensor>& sensor) {
     return sensor ? sensor->mount_angle_rad / kRadPerDeg : 0.0;
   };
-  return {
-      .name = fmt::format("{}, {}, {:.1f} rpm, axis {:.1f} {:.1f} deg, mounted {:.1f} {:.1f}",
-                          channels, sphere ? "sphere" : "ellipsoid", body.rate_rad_s * 30.0 / kPi,
-                          axis.ra_rad / kRadPerDeg, axis.dec_rad / kRadPerDeg,
-                          mount_deg(body.config.north), mount_deg(body.config.south)),
-      .orbit = orbit,
-      .around = seen_from(orbit,
-                          sphere ? spherical_horizon_km(kCo2_km) : ellipsoidal_horizon_km(kCo2_km)),
-      .body = body,
-      .dead = dead};
+  return {.name = fmt::format("{}, {}, {:.1f} rpm, axis {:.1f} {:.1f} deg, mounted {:.1f} {:.1f}",
+                              channels, sphere ? "sphere" : "ellipsoid",
+                              body.rate_rad_s * 30.0 / std::numbers::pi, axis.ra_rad / kRadPerDeg,
+                              axis.dec_rad / kRadPerDeg, mount_deg(body.config.north),
+                              mount_deg(body.config.south)),
+          .orbit = orbit,
+          .around = seen_from(
+              orbit, sphere ? spherical_horizon_km(kCo2_km) : ellipsoidal_horizon_km(kCo2_km)),
+          .body = body,
+          .dead = dead};
 }
 
 }  // namespace
 
 std::vector<Pulse> RandomPass::pulses(double revolutions, std::mt19937_64& rng) const {
-  auto edges = edges_between(body, around, 0.0, revolutions * 2.0 * kPi / body.rate_rad_s);
+  auto edges = edges_between(body, around, 0.0, revolutions * kTurn_rad / body.rate_rad_s);
   std::erase_if(edges, [&](const Edge& edge) {
     return std::find(dead.begin(), dead.end(), edge.channel) != dead.end();
   });

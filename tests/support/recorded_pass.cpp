@@ -18,7 +18,7 @@
 namespace spindrift::testing {
 namespace {
 
-std::string text_of(const std::filesystem::path& path) {
+std::string text_in(const std::filesystem::path& path) {
   std::ifstream file{path};
   file.exceptions(std::ios::failbit);
   std::ostringstream text;
@@ -98,13 +98,13 @@ SpinConfig config_in(const toml::table& mission) {
 
 RecordedPass recorded_pass(const std::string& name) {
   const std::filesystem::path folder = recorded_passes() / name;
-  const auto truth = nlohmann::json::parse(text_of(folder / "truth.json"));
+  const auto truth = nlohmann::json::parse(text_in(folder / "truth.json"));
   const bool coded = std::filesystem::exists(folder / "coded.csv");
   return {
-      .config = config_in(toml::parse(text_of(folder / "mission.toml"))),
-      .orbit = Orbit{parse_oem(text_of(folder / "orbit.oem")).value()},
-      .pulses = coded ? std::vector<Pulse>{} : pulses_in(text_of(folder / "pulses.csv")),
-      .frames = coded ? frames_in(text_of(folder / "coded.csv")) : std::vector<CodedFrame>{},
+      .config = config_in(toml::parse(text_in(folder / "mission.toml"))),
+      .orbit = Orbit{parse_oem(text_in(folder / "orbit.oem")).value()},
+      .pulses = coded ? std::vector<Pulse>{} : pulses_in(text_in(folder / "pulses.csv")),
+      .frames = coded ? frames_in(text_in(folder / "coded.csv")) : std::vector<CodedFrame>{},
       .bad_edges = bad_edges_in(truth),
       .true_axis_icrf = direction_icrf({.ra_rad = truth.at("ra_deg").get<double>() * kRadPerDeg,
                                         .dec_rad = truth.at("dec_deg").get<double>() * kRadPerDeg}),

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "pipelines/frames/angle.h"
@@ -12,7 +11,6 @@
 namespace spindrift::testing {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kEquatorialRadius_km = 6378.137;
 constexpr double kPolarRadius_km = 6356.752314245;
 constexpr double kStepsPerTurn = 720.0;
@@ -123,7 +121,7 @@ SpinConfig usual_config() {
 
 std::vector<Edge> edges_between(const SpinningBody& body, const SunEarthEphemeris& around,
                                 double from_s, double to_s) {
-  const double step_s = 2.0 * kPi / (body.rate_rad_s * kStepsPerTurn);
+  const double step_s = kTurn_rad / (body.rate_rad_s * kStepsPerTurn);
   std::vector<Edge> edges;
 
   const auto watch_sun = [&](const Slit& slit, PulseChannel channel) {
@@ -186,7 +184,7 @@ std::vector<Pulse> pulses_from(const std::vector<Edge>& edges, TaiTime start,
 Revolution revolution_seen(const SpinningBody& body, const SunEarthEphemeris& around,
                            TaiTime start) {
   using enum PulseChannel;
-  const double period_s = 2.0 * kPi / body.rate_rad_s;
+  const double period_s = kTurn_rad / body.rate_rad_s;
   const std::vector<Edge> edges = edges_between(body, around, 0.0, 4.0 * period_s);
   Revolution seen{.number = 0,
                   .edges = {},

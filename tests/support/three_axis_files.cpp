@@ -4,12 +4,12 @@
 
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <random>
 #include <string>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/ephemeris/sun.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/geomagnetism/field_at_spacecraft.h"
 #include "services/geomagnetism/igrf.h"
 #include "tests/support/turning_body.h"
@@ -17,7 +17,6 @@
 namespace spindrift::testing {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 // The third star fix, and this gyro sample.
 constexpr int kWrongStar = 3;
 constexpr int kSaturatedGyro = 70;
@@ -30,9 +29,9 @@ std::string mission_toml(const ThreeAxisConfig& config) {
       "[three_axis.sun_sensor]\nnoise_deg = {}\n"
       "[three_axis.star_tracker]\nq_body_sensor = [{}, {}, {}, {}]\nnoise_arcsec = {}\n"
       "[three_axis.magnetometer]\nnoise_nt = {}\n",
-      config.gyro->noise_rad_s / kDegree_rad, config.gyro->bias_sigma_rad_s / kDegree_rad,
-      *config.gyro->range_rad_s / kDegree_rad, config.sun_sensor->noise_rad / kDegree_rad, q.x(),
-      q.y(), q.z(), q.w(), config.star_tracker->noise_rad / kDegree_rad * 3600.0,
+      config.gyro->noise_rad_s / kRadPerDeg, config.gyro->bias_sigma_rad_s / kRadPerDeg,
+      *config.gyro->range_rad_s / kRadPerDeg, config.sun_sensor->noise_rad / kRadPerDeg, q.x(),
+      q.y(), q.z(), q.w(), config.star_tracker->noise_rad / kRadPerDeg * 3600.0,
       config.magnetometer->noise_nt);
 }
 

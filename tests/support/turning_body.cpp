@@ -5,12 +5,12 @@
 #include <numbers>
 #include <utility>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/ground_model/sensors/three_axis_reading.h"
 
 namespace spindrift::testing {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kStep_s = 5e-3;
 
 std::size_t step_at(double t_s) { return static_cast<std::size_t>(std::llround(t_s / kStep_s)); }
@@ -32,13 +32,13 @@ Eigen::Quaterniond any_attitude(std::mt19937_64& rng) {
 }
 
 ThreeAxisConfig usual_three_axis() {
-  return {.gyro = GyroSensor{.noise_rad_s = 0.002 * kDegree_rad,
-                             .bias_sigma_rad_s = 0.01 * kDegree_rad,
-                             .range_rad_s = 10.0 * kDegree_rad},
-          .sun_sensor = DigitalSunSensor{.noise_rad = 0.5 * kDegree_rad},
+  return {.gyro = GyroSensor{.noise_rad_s = 0.002 * kRadPerDeg,
+                             .bias_sigma_rad_s = 0.01 * kRadPerDeg,
+                             .range_rad_s = 10.0 * kRadPerDeg},
+          .sun_sensor = DigitalSunSensor{.noise_rad = 0.5 * kRadPerDeg},
           .star_tracker =
               StarTracker{.q_body_sensor = Eigen::Quaterniond{0.5, -0.5, 0.1, 0.7}.normalized(),
-                          .noise_rad = 20.0 / 3600.0 * kDegree_rad},
+                          .noise_rad = 20.0 / 3600.0 * kRadPerDeg},
           .magnetometer = std::nullopt,
           .inertia = std::nullopt};
 }

@@ -18,10 +18,6 @@ namespace {
 constexpr std::int64_t kFewestTurns = 3;
 constexpr int kMostChanges = 4;
 
-Unexpected unobservable(std::string message) {
-  return Unexpected{{ErrorCode::Unobservable, std::move(message)}};
-}
-
 /// A wrong bias lets residuals drift as the geometry turns, which is no change of the attitude.
 bool is_change(const std::optional<Changepoint>& change, const EvaluatedFit& found) {
   if (!change) {

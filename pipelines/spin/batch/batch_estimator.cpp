@@ -29,10 +29,6 @@ constexpr double kAxisOpen_rad = 10.0 * kRadPerDeg;
 // slits and beams wrongly against each other.
 constexpr double kLouder = 1.25;
 
-Unexpected unobservable(std::string message) {
-  return Unexpected{{ErrorCode::Unobservable, std::move(message)}};
-}
-
 /// @param bound_rad2 Of the axis.
 std::optional<Error> axis_left_open(const Eigen::Matrix2d& bound_rad2) {
   if (bound_rad2.trace() < kAxisOpen_rad * kAxisOpen_rad) {

@@ -14,17 +14,17 @@ NamedValue beam_value(Side side) {
   return {"beam", std::string{side == Side::North ? "north" : "south"}};
 }
 
-std::optional<PassConditionCode> beam_code(BeamView view) {
+std::optional<PassConditionCode> beam_code(BeamSight view) {
   switch (view) {
-    case BeamView::NoSensor:
+    case BeamSight::NoSensor:
       return std::nullopt;
-    case BeamView::Misses:
+    case BeamSight::Misses:
       return BeamMisses;
-    case BeamView::NearTangent:
+    case BeamSight::NearTangent:
       return BeamNearTangent;
-    case BeamView::Crosses:
+    case BeamSight::Crosses:
       return BeamCrosses;
-    case BeamView::Inside:
+    case BeamSight::Inside:
       return BeamInside;
   }
   return std::nullopt;

@@ -11,12 +11,12 @@ namespace spindrift {
 namespace {
 
 /// Where the beam's circle lies to the disc of a spherical Earth.
-BeamView view_without_edges(double mount_angle_rad, double earth_angle_rad, double disc_rad) {
+BeamSight view_without_edges(double mount_angle_rad, double earth_angle_rad, double disc_rad) {
   if (predict_chord_rad(mount_angle_rad, earth_angle_rad, disc_rad)) {
-    return BeamView::NearTangent;
+    return BeamSight::NearTangent;
   }
-  return std::abs(earth_angle_rad - mount_angle_rad) < disc_rad ? BeamView::Inside
-                                                                : BeamView::Misses;
+  return std::abs(earth_angle_rad - mount_angle_rad) < disc_rad ? BeamSight::Inside
+                                                                : BeamSight::Misses;
 }
 
 /// As `SunEarthEphemeris::sightlines`, but from the sky, which knows the end of the turn too where
@@ -67,7 +67,7 @@ PassScene::PassScene(SpinConfig config, Orbit orbit, const Eigen::Vector3d& axis
 BeamGeometry PassScene::beam(Side side, const PassGeometry& geometry) const {
   const auto& sensor = sensor_of(config_, side);
   if (!sensor) {
-    return {.view = BeamView::NoSensor, .chord_rad = {}, .delta = {}};
+    return {.view = BeamSight::NoSensor, .chord_rad = {}, .delta = {}};
   }
   const Revolution& turn = geometry.expected.revolution;
   const auto& in = turn.edge(kInChannels.at(index_of(side)));
@@ -79,7 +79,7 @@ BeamGeometry PassScene::beam(Side side, const PassGeometry& geometry) const {
             .delta = {}};
   }
   BeamGeometry found{
-      .view = BeamView::Crosses, .chord_rad = turn.turned_rad(*in, *out), .delta = {}};
+      .view = BeamSight::Crosses, .chord_rad = turn.turned_rad(*in, *out), .delta = {}};
   if (turn.edge(PulseChannel::Sun1) && turn.edge(PulseChannel::Sun2)) {
     found.delta = determinant(OneChordInput<double>{
         .chord = {.mount_angle_rad = sensor->mount_angle_rad, .chord_rad = *found.chord_rad},

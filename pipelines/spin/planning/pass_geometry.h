@@ -19,7 +19,7 @@
 
 namespace spindrift {
 
-enum class BeamView {
+enum class BeamSight {
   NoSensor,
   Misses,       ///< The Earth.
   NearTangent,  ///< Near-tangent to the limb: the edges say nothing of the axis.
@@ -31,7 +31,7 @@ enum class BeamView {
 enum class DeltaClass { Usable, TwoRoots, Ambiguous };
 
 struct BeamGeometry {
-  BeamView view;
+  BeamSight view;
   /// Phi, there when it crosses.
   std::optional<double> chord_rad;
   /// Determinant of the fix by this chord alone, there when the sun slits see the Sun besides.

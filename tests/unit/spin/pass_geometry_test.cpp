@@ -90,16 +90,16 @@ TEST(PassGeometry, SeesChordsByTheClosedForm) {
     const double farthest_rad = std::min(sum_rad, 2.0 * std::numbers::pi - sum_rad);
     const bool meets = nearest_rad < geometry.disc_rad && farthest_rad > geometry.disc_rad;
     switch (beam.view) {
-      case BeamView::Misses:
+      case BeamSight::Misses:
         EXPECT_GT(nearest_rad, geometry.disc_rad);
         break;
-      case BeamView::Inside:
+      case BeamSight::Inside:
         EXPECT_LT(farthest_rad, geometry.disc_rad);
         break;
-      case BeamView::NearTangent:
+      case BeamSight::NearTangent:
         EXPECT_TRUE(meets);
         break;
-      case BeamView::Crosses: {
+      case BeamSight::Crosses: {
         // In the 6 ms of a turn it moves by 6e-6 rad, to which a chord near the limb is ten times
         // as sensitive at either end.
         const auto chord_rad =
@@ -109,12 +109,12 @@ TEST(PassGeometry, SeesChordsByTheClosedForm) {
         EXPECT_NEAR(*chord_rad, beam.chord_rad.value(), 5e-4);
         break;
       }
-      case BeamView::NoSensor:
+      case BeamSight::NoSensor:
         FAIL();
     }
   }
-  for (const BeamView view :
-       {BeamView::Misses, BeamView::NearTangent, BeamView::Crosses, BeamView::Inside}) {
+  for (const BeamSight view :
+       {BeamSight::Misses, BeamSight::NearTangent, BeamSight::Crosses, BeamSight::Inside}) {
     EXPECT_GT(views.at(static_cast<std::size_t>(view)), 0) << static_cast<int>(view);
   }
 }
@@ -150,7 +150,7 @@ TEST(PassGeometry, WithOneBeamTheFixIsByItsChord) {
   const PassGeometry geometry =
       at(config, pass.orbit, pass.true_axis_icrf, pass.pulses.front().t, pass.true_rate_rad_s);
   EXPECT_EQ(geometry.fix.geometry_case, 2);
-  EXPECT_EQ(geometry.beams.at(index_of(Side::South)).view, BeamView::NoSensor);
+  EXPECT_EQ(geometry.beams.at(index_of(Side::South)).view, BeamSight::NoSensor);
   const auto words = sentences_of(config, geometry);
   EXPECT_THAT(words, Contains("fix by case 2: one axis"));
   EXPECT_THAT(words, Contains("north beam sees the Earth"));
