@@ -28,8 +28,11 @@ double angle_between_rad(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& axis_icrf) {
-  const RaDec place = ra_dec_of(axis_icrf);
-  const Eigen::Vector3d east{-std::sin(place.ra_rad), std::cos(place.ra_rad), 0.0};
+  const double equatorial = std::hypot(axis_icrf.x(), axis_icrf.y());
+  // At a pole the right ascension is 0, as above.
+  const Eigen::Vector3d east = equatorial > 0.0 ? Eigen::Vector3d{-axis_icrf.y() / equatorial,
+                                                                  axis_icrf.x() / equatorial, 0.0}
+                                                : Eigen::Vector3d::UnitY();
   Eigen::Matrix<double, 3, 2> basis;
   basis.col(0) = east;
   basis.col(1) = axis_icrf.normalized().cross(east);

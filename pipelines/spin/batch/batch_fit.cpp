@@ -20,9 +20,9 @@
 namespace spindrift {
 namespace {
 
-// A last step of a tenth of the sigma of a pass of 150,000 revolutions: steps shrink tenfold and
+// A last step of a fifth of the sigma of a pass of 150,000 revolutions: steps shrink tenfold and
 // more.
-constexpr double kFunctionTolerance = 1e-8;
+constexpr double kFunctionTolerance = 5e-8;
 constexpr int kMostIterations = 50;
 // First so many edges, spread over the pass, whose far ones still pull.
 constexpr std::size_t kCoarse = 6000;
