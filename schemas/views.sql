@@ -162,7 +162,7 @@ FROM (
 -- reconstructed of a separation. Looked for from the end, as above.
 CREATE VIEW attitude_answer AS
 SELECT spacecraft_id, finished_utc IS NOT NULL AS finished, attitude_utc.*
-FROM run JOIN attitude_utc ON attitude_utc.run_id = run.run_id
+FROM run CROSS JOIN attitude_utc ON attitude_utc.run_id = run.run_id
   AND (attitude_utc.t_tai_ns, attitude_utc.source) =
     (SELECT t_tai_ns, source FROM attitude WHERE attitude.run_id = run.run_id
      AND source NOT IN ('batch', 'sequential') ORDER BY t_tai_ns DESC, source LIMIT 1);

@@ -21,7 +21,7 @@
 namespace spindrift {
 namespace {
 
-constexpr int kUnlocked = -1;
+constexpr int kNoLockFile = -1;
 
 std::string text_of(const std::filesystem::path& path) {
   std::ifstream file{path, std::ios::binary};
@@ -59,7 +59,7 @@ Expected<WriteLock> WriteLock::acquire(const std::filesystem::path& archive) {
   const std::filesystem::path path = archive.string() + ".lock";
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): POSIX has no other open
   const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (file == kUnlocked) {
+  if (file == kNoLockFile) {
     return failure(path, errno);
   }
   WriteLock lock{file};
@@ -78,11 +78,11 @@ Expected<WriteLock> WriteLock::acquire(const std::filesystem::path& archive) {
   return lock;
 }
 
-WriteLock::WriteLock(WriteLock&& other) noexcept : file_{std::exchange(other.file_, kUnlocked)} {}
+WriteLock::WriteLock(WriteLock&& other) noexcept : file_{std::exchange(other.file_, kNoLockFile)} {}
 
 // The file stays: whoever removed it could take the name from under the next holder.
 WriteLock::~WriteLock() {
-  if (file_ != kUnlocked) {
+  if (file_ != kNoLockFile) {
     close(file_);
   }
 }

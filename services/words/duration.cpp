@@ -12,9 +12,10 @@
 namespace spindrift {
 namespace {
 
-constexpr std::int64_t kSeconds = 60;  // Of a minute, and so on.
-constexpr std::int64_t kMinutes = 60;
-constexpr std::int64_t kHours = 24;
+constexpr std::int64_t kSecondsPerMinute = 60;
+constexpr std::int64_t kMinutesPerHour = 60;
+constexpr std::int64_t kSecondsPerHour = kSecondsPerMinute * kMinutesPerHour;
+constexpr std::int64_t kHoursPerDay = 24;
 constexpr double kShort_s = 10.0;
 
 std::int64_t rounded(double seconds, std::int64_t unit_s) {
@@ -31,15 +32,16 @@ std::string duration_text(double seconds) {
   if (seconds < kShort_s) {
     return fmt::format("{:.3g} s", seconds);
   }
-  if (const auto s = rounded(seconds, 1); s < kMinutes * kSeconds) {
-    return s < kSeconds ? fmt::format("{} s", s)
-                        : pair_of(fmt::format("{} min", s / kSeconds), s % kSeconds, "s");
+  if (const auto s = rounded(seconds, 1); s < kSecondsPerHour) {
+    return s < kSecondsPerMinute
+               ? fmt::format("{} s", s)
+               : pair_of(fmt::format("{} min", s / kSecondsPerMinute), s % kSecondsPerMinute, "s");
   }
-  if (const auto min = rounded(seconds, kSeconds); min < kHours * kMinutes) {
-    return pair_of(fmt::format("{} h", min / kMinutes), min % kMinutes, "min");
+  if (const auto min = rounded(seconds, kSecondsPerMinute); min < kHoursPerDay * kMinutesPerHour) {
+    return pair_of(fmt::format("{} h", min / kMinutesPerHour), min % kMinutesPerHour, "min");
   }
-  const auto h = rounded(seconds, kMinutes * kSeconds);
-  return pair_of(counted(h / kHours, "days"), h % kHours, "h");
+  const auto h = rounded(seconds, kSecondsPerHour);
+  return pair_of(counted(h / kHoursPerDay, "days"), h % kHoursPerDay, "h");
 }
 
 }  // namespace spindrift

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
 #include <memory>
 #include <numbers>
@@ -18,6 +19,7 @@
 
 namespace spindrift::archive_products_test {
 
+using testing::batch_of;
 using testing::column;
 using ::testing::ElementsAre;
 using testing::pulse_at;
@@ -91,6 +93,19 @@ TEST_F(ArchiveProducts, VerdictOfAPassIsThatOfBatchElseOfSequentialElseOfMean) {
                           "mean 30 OK: ", "sequential 30 OK: ", "batch 30 OK: "));
 }
 
+/// What SQLite's machine does for the verdicts of an archive.
+int steps_to_verdict(const SQLite::Database& database) {
+  sqlite3_stmt* query = nullptr;
+  EXPECT_EQ(
+      sqlite3_prepare_v2(database.getHandle(), "SELECT * FROM pass_verdict", -1, &query, nullptr),
+      SQLITE_OK);
+  EXPECT_EQ(sqlite3_step(query), SQLITE_ROW);
+  EXPECT_EQ(sqlite3_step(query), SQLITE_DONE);
+  const int steps = sqlite3_stmt_status(query, SQLITE_STMTSTATUS_VM_STEP, 0);
+  sqlite3_finalize(query);
+  return steps;
+}
+
 AttitudeEstimate attitude_at(std::int64_t t_tai_ns, Quality quality) {
   return {
       .t = tai_from_ns(t_tai_ns),
@@ -98,6 +113,26 @@ AttitudeEstimate attitude_at(std::int64_t t_tai_ns, Quality quality) {
       .rate_body_rad_s = Eigen::Vector3d{0.25, -0.5, 1.0},
       .covariance_rad2 = Eigen::Vector3d{4.0, 16.0, 16.0}.asDiagonal() * (kRadPerDeg * kRadPerDeg),
       .assessment = {quality, {{ReasonCode::SensorGated, {{"sensor", std::string{"sun"}}}}}}};
+}
+
+TEST_F(ArchiveProducts, VerdictOfADayIsFoundAsFastAsThatOfAMinute) {
+  const auto archive = open();
+  std::vector<int> steps;
+  ArchiveBatch batch = start_of("run-1");
+  int t = 0;
+  for (const int last : {10, 1000}) {
+    for (; t < last; ++t) {
+      batch.products.emplace_back(estimate_at(t, SpinEstimator::Mean, 20.0));
+      batch.products.emplace_back(estimate_at(t, SpinEstimator::Sequential, 20.0));
+      batch.products.emplace_back(attitude_at(t, Quality::Ok));
+    }
+    batch.products.emplace_back(estimate_at(last, SpinEstimator::Batch, 20.0));
+    ASSERT_TRUE(archive->submit(batch));
+    ASSERT_TRUE(archive->flush());
+    batch = batch_of("run-1");
+    steps.push_back(steps_to_verdict(reader()));
+  }
+  EXPECT_LT(steps.back(), 2 * steps.front());
 }
 
 TEST_F(ArchiveProducts, AttitudeIsStoredAndComesBackAsItWasButForAnEvenCovariance) {

@@ -11,7 +11,6 @@
 #include "pipelines/frames/celestial.h"
 
 namespace spindrift::testing {
-namespace {}  // namespace
 
 Sky sky_at(const Orbit& orbit, TaiTime t) {
   const OrbitState spacecraft = orbit.at(t).value();

@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/coning.h"
 #include "tests/support/observed_spin.h"
@@ -13,7 +13,6 @@
 namespace spindrift::testing {
 namespace {
 
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 // The sky is good for a minute.
 constexpr double kSky_s = 30.0;
 

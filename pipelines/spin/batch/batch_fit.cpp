@@ -20,9 +20,9 @@
 namespace spindrift {
 namespace {
 
-// A last step of a fifth of the sigma of a pass of 150,000 revolutions: steps shrink tenfold and
-// more.
-constexpr double kFunctionTolerance = 5e-8;
+// The next step, which is not taken, would be of an eighth of the sigma of a pass of 150,000
+// revolutions at most: a hundredth of what its error is anyway.
+constexpr double kFunctionTolerance = 2e-8;
 constexpr int kMostIterations = 50;
 // First so many edges, spread over the pass, whose far ones still pull.
 constexpr std::size_t kCoarse = 6000;
@@ -233,9 +233,8 @@ Expected<BatchFit> fit(const PassModel& model, std::span<const PassEdge> edges,
   ceres::TukeyLoss fine{kOutlierSigmas};
   const ceres::Solver::Summary summary = solve(fit, edges, 1, fine, estimated);
   if (!summary.IsSolutionUsable()) {
-    return Unexpected{
-        {ErrorCode::Unobservable,
-         fmt::format("no state of the body explains the edges: {}", summary.message)}};
+    return unobservable(
+        fmt::format("no state of the body explains the edges: {}", summary.message));
   }
   const SpinState state = fit.state();
   return BatchFit{.state = state,

@@ -23,7 +23,7 @@ SpinState coarse_fit(const PassModel& model, std::span<const PassEdge> edges,
 /// @param start Near enough that edges are told from outliers within a few degrees.
 /// @param estimated The biases that are unknown, each about zero by its prior; the others stay as
 ///        they are at the start.
-/// @return Diverged where no minimum is found.
+/// @return Unobservable where no minimum is found.
 Expected<BatchFit> fit(const PassModel& model, std::span<const PassEdge> edges,
                        const SpinState& start, BiasSet estimated);
 

@@ -96,8 +96,7 @@ Expected<SpinState> initial_state(const PassModel& model, std::span<const PassEd
     }
   }
   if (counted.empty()) {
-    return Unexpected{
-        {ErrorCode::Unobservable, "no edge is one that a body about the first axis would give"}};
+    return unobservable("no edge is one that a body about the first axis would give");
   }
   Eigen::Vector3d clock = parabola(counted);
   for (int pass = 0; pass < kPasses; ++pass) {

@@ -40,15 +40,15 @@ struct PredictedEdge {
   Eigen::Matrix<double, 1, kSensorBiases> phase_per_bias;
 };
 
-/// Where the sensors look from the body and what they take for the horizon, with their biases: the
-/// same for all edges of a state.
+/// Where coning has the sensors look from the body, and the horizon with its bias: the same for all
+/// edges of a state. The other biases are added at each edge.
 struct PlacedSensors {
   PlacedSensors(const SpinConfig& config, const SensorBiases& biases);
 
   SensorBiases biases;
   ConedSlit sun1;
   ConedSlit sun2;
-  std::array<std::optional<ConedBeam>, 2> beams;  ///< By Side; without the bias of the mounting.
+  std::array<std::optional<ConedBeam>, 2> beams;  ///< By Side.
   HorizonAxes horizon;
 };
 
