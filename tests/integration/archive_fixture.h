@@ -10,11 +10,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
+#include "pipelines/frames/celestial.h"
 #include "services/archive/archive.h"
 #include "services/archive/connection.h"
 #include "tests/support/temporary_folder.h"
@@ -44,6 +47,25 @@ inline TelemetrySample<Pulse> pulse_at(std::int64_t t_tai_ns, std::uint64_t seq 
   return {.spacecraft = "SPINNER",
           .origin = {.source = "station", .session = 7, .seq = seq},
           .value = {.t = tai_from_ns(t_tai_ns), .channel = PulseChannel::Sun1}};
+}
+
+inline SpinEstimate estimate_at(std::int64_t t_tai_ns, SpinEstimator estimator, double dec_deg) {
+  return {.t = tai_from_ns(t_tai_ns),
+          .estimator = estimator,
+          .axis_icrf = direction_icrf({.ra_rad = 1.0, .dec_rad = dec_deg * kRadPerDeg}),
+          .covariance_rad2 = Eigen::Matrix2d{{4e-8, 1e-8}, {1e-8, 5e-8}},
+          .spin_rate_rad_s = 100.0 * std::numbers::pi / 30.0,
+          .spin_rate_sigma_rad_s = 0.01 * std::numbers::pi / 30.0,
+          .assessment = {Quality::Ok}};
+}
+
+inline AttitudeEstimate attitude_at(std::int64_t t_tai_ns, Quality quality) {
+  return {
+      .t = tai_from_ns(t_tai_ns),
+      .q_icrf_body = Eigen::Quaterniond{0.5, -0.5, 0.1, 0.7},
+      .rate_body_rad_s = Eigen::Vector3d{0.25, -0.5, 1.0},
+      .covariance_rad2 = Eigen::Vector3d{4.0, 16.0, 16.0}.asDiagonal() * (kRadPerDeg * kRadPerDeg),
+      .assessment = {quality, {{ReasonCode::SensorGated, {{"sensor", std::string{"sun"}}}}}}};
 }
 
 /// The first column of every row.

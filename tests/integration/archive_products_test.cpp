@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 
 #include <memory>
 #include <numbers>
@@ -19,9 +18,10 @@
 
 namespace spindrift::archive_products_test {
 
-using testing::batch_of;
+using testing::attitude_at;
 using testing::column;
 using ::testing::ElementsAre;
+using testing::estimate_at;
 using testing::pulse_at;
 using testing::start_of;
 
@@ -48,16 +48,6 @@ SpinFix fix_at(double ra_deg, double dec_deg) {
       .accepted = true};
 }
 
-SpinEstimate estimate_at(std::int64_t t_tai_ns, SpinEstimator estimator, double dec_deg) {
-  return {.t = tai_from_ns(t_tai_ns),
-          .estimator = estimator,
-          .axis_icrf = direction_icrf({.ra_rad = 1.0, .dec_rad = dec_deg * kRadPerDeg}),
-          .covariance_rad2 = Eigen::Matrix2d{{4e-8, 1e-8}, {1e-8, 5e-8}},
-          .spin_rate_rad_s = 100.0 * std::numbers::pi / 30.0,
-          .spin_rate_sigma_rad_s = 0.01 * std::numbers::pi / 30.0,
-          .assessment = {Quality::Ok}};
-}
-
 TEST_F(ArchiveProducts, ProductsOfTwoRunsStandSideBySide) {
   const auto archive = open();
   for (const std::string run_id : {"run-1", "run-2"}) {
@@ -68,71 +58,6 @@ TEST_F(ArchiveProducts, ProductsOfTwoRunsStandSideBySide) {
   ASSERT_TRUE(archive->flush());
 
   EXPECT_EQ(number("SELECT count(*) FROM spin_fix WHERE revolution = 12"), 2);
-}
-
-TEST_F(ArchiveProducts, VerdictOfAPassIsThatOfBatchElseOfSequentialElseOfMean) {
-  const auto archive = open();
-  ArchiveBatch batch = start_of("0");
-  ASSERT_TRUE(archive->submit(batch));
-  std::vector<Product> estimates;
-  for (const SpinEstimator estimator :
-       {SpinEstimator::Mean, SpinEstimator::Sequential, SpinEstimator::Batch}) {
-    estimates.emplace_back(estimate_at(1, estimator, 20.0));
-    estimates.emplace_back(estimate_at(2, estimator, 30.0));
-    batch = start_of(std::to_string(estimates.size()));
-    batch.products = estimates;
-    ASSERT_TRUE(archive->submit(batch));
-  }
-  ASSERT_TRUE(archive->flush());
-
-  SQLite::Database database = reader();
-  EXPECT_THAT(column(database,
-                     "SELECT format('%s %.3g %s: %s', ifnull(estimator, '-'), ifnull(dec_deg, 0),"
-                     " why, against) FROM pass_verdict ORDER BY run_id"),
-              ElementsAre("- 0 no estimate: no estimate",
-                          "mean 30 OK: ", "sequential 30 OK: ", "batch 30 OK: "));
-}
-
-/// What SQLite's machine does for the verdicts of an archive.
-int steps_to_verdict(const SQLite::Database& database) {
-  sqlite3_stmt* query = nullptr;
-  EXPECT_EQ(
-      sqlite3_prepare_v2(database.getHandle(), "SELECT * FROM pass_verdict", -1, &query, nullptr),
-      SQLITE_OK);
-  EXPECT_EQ(sqlite3_step(query), SQLITE_ROW);
-  EXPECT_EQ(sqlite3_step(query), SQLITE_DONE);
-  const int steps = sqlite3_stmt_status(query, SQLITE_STMTSTATUS_VM_STEP, 0);
-  sqlite3_finalize(query);
-  return steps;
-}
-
-AttitudeEstimate attitude_at(std::int64_t t_tai_ns, Quality quality) {
-  return {
-      .t = tai_from_ns(t_tai_ns),
-      .q_icrf_body = Eigen::Quaterniond{0.5, -0.5, 0.1, 0.7},
-      .rate_body_rad_s = Eigen::Vector3d{0.25, -0.5, 1.0},
-      .covariance_rad2 = Eigen::Vector3d{4.0, 16.0, 16.0}.asDiagonal() * (kRadPerDeg * kRadPerDeg),
-      .assessment = {quality, {{ReasonCode::SensorGated, {{"sensor", std::string{"sun"}}}}}}};
-}
-
-TEST_F(ArchiveProducts, VerdictOfADayIsFoundAsFastAsThatOfAMinute) {
-  const auto archive = open();
-  std::vector<int> steps;
-  ArchiveBatch batch = start_of("run-1");
-  int t = 0;
-  for (const int last : {10, 1000}) {
-    for (; t < last; ++t) {
-      batch.products.emplace_back(estimate_at(t, SpinEstimator::Mean, 20.0));
-      batch.products.emplace_back(estimate_at(t, SpinEstimator::Sequential, 20.0));
-      batch.products.emplace_back(attitude_at(t, Quality::Ok));
-    }
-    batch.products.emplace_back(estimate_at(last, SpinEstimator::Batch, 20.0));
-    ASSERT_TRUE(archive->submit(batch));
-    ASSERT_TRUE(archive->flush());
-    batch = batch_of("run-1");
-    steps.push_back(steps_to_verdict(reader()));
-  }
-  EXPECT_LT(steps.back(), 2 * steps.front());
 }
 
 TEST_F(ArchiveProducts, AttitudeIsStoredAndComesBackAsItWasButForAnEvenCovariance) {
@@ -154,22 +79,6 @@ TEST_F(ArchiveProducts, AttitudeIsStoredAndComesBackAsItWasButForAnEvenCovarianc
   EXPECT_FALSE(last.rate_body_rad_s);
   EXPECT_NEAR(last.sigma_rad(), without_rate.sigma_rad(), 1e-15);
   EXPECT_EQ(last.assessment, without_rate.assessment);
-}
-
-TEST_F(ArchiveProducts, VerdictOfAThreeAxisPassIsItsLastAttitude) {
-  ArchiveBatch batch = start_of("run-1");
-  batch.products = {attitude_at(7, Quality::Ok), attitude_at(8, Quality::Lost),
-                    attitude_at(9, Quality::Ok)};
-  store(batch);
-  const std::string verdict =
-      "SELECT format('%s %s %d %g %g', estimator, quality, ra_deg IS NULL, qw, sigma_deg)"
-      " FROM pass_verdict";
-  EXPECT_EQ(text(verdict), "mekf OK 1 0.5 6");
-
-  batch = testing::batch_of("run-1");
-  batch.products = {RunFault{.t = tai_from_ns(10), .what = "no such sensor"}};
-  store(batch);
-  EXPECT_EQ(text(verdict), "mekf DOUBTFUL 1 0.5 6");
 }
 
 TEST_F(ArchiveProducts, ARejectedSampleKeepsItsFirstReasonWhenItComesAgain) {
@@ -194,35 +103,6 @@ TEST_F(ArchiveProducts, ARejectedSampleKeepsItsFirstReasonWhenItComesAgain) {
             "sample star innovation 1; sample sun late 1");
   EXPECT_EQ(text("SELECT says FROM rejected_sample_utc WHERE kind = 'star'"),
             "too far from where the attitude has it");
-}
-
-TEST_F(ArchiveProducts, VerdictOfARunThatFailedToComputeIsDoubtfulUnlessItIsLost) {
-  const RunFault fault{.t = tai_from_ns(1'795'143'637'250'000'000), .what = "no such angle"};
-  SpinEstimate lost = estimate_at(1, SpinEstimator::Mean, 20.0);
-  lost.assessment.quality = Quality::Lost;
-  const auto archive = open();
-  for (const auto& [run_id, products] : std::vector<std::pair<std::string, std::vector<Product>>>{
-           {"1", {fault}},
-           {"2", {fault, estimate_at(1, SpinEstimator::Mean, 30.0)}},
-           {"3", {fault, lost}}}) {
-    ArchiveBatch batch = start_of(run_id);
-    batch.products = products;
-    ASSERT_TRUE(archive->submit(batch));
-  }
-  ASSERT_TRUE(archive->flush());
-
-  SQLite::Database database = reader();
-  EXPECT_THAT(
-      column(database,
-             "SELECT format('%s %.3g %s', quality, ifnull(dec_deg, 0), why)"
-             " FROM pass_verdict ORDER BY run_id"),
-      ElementsAre(
-          "DOUBTFUL 0 computing failed at 2026-11-20T03:00:00.250Z: no such angle; no estimate",
-          "DOUBTFUL 30 computing failed at 2026-11-20T03:00:00.250Z: no such angle; OK",
-          "LOST 20 computing failed at 2026-11-20T03:00:00.250Z: no such angle; LOST"));
-  const std::string failed = "computing failed at 2026-11-20T03:00:00.250Z: no such angle";
-  EXPECT_THAT(column(database, "SELECT against FROM pass_verdict ORDER BY run_id"),
-              ElementsAre(failed + "; no estimate", failed, failed + "; LOST"));
 }
 
 TEST_F(ArchiveProducts, SpinFixIsStoredInDegreesWithItsCovariance) {
@@ -321,98 +201,6 @@ TEST_F(ArchiveProducts, EstimateIsStoredInDegreesAndTurnsPerMinute) {
               kDegTolerance);
   EXPECT_NEAR(real("SELECT spin_rate_rpm FROM spin_estimate"), 100.0, 1e-12);
   EXPECT_NEAR(real("SELECT sigma_rpm FROM spin_estimate"), 0.01, 1e-12);
-}
-
-TEST_F(ArchiveProducts, AnswerOfAPassIsTheLastEstimateOfEachEstimator) {
-  ArchiveBatch batch = start_of("run-1");
-  batch.products = {
-      estimate_at(10, SpinEstimator::Mean, 1.0), estimate_at(30, SpinEstimator::Mean, 3.0),
-      estimate_at(20, SpinEstimator::Mean, 2.0), estimate_at(15, SpinEstimator::Batch, 4.0)};
-  store(batch);
-
-  SQLite::Database database = reader();
-  EXPECT_THAT(column(database,
-                     "SELECT format('%s %s %d %.6f', spacecraft_id, estimator, t_tai_ns, dec_deg)"
-                     " FROM pass_answer ORDER BY estimator"),
-              ElementsAre("SPINNER batch 15 4.000000", "SPINNER mean 30 3.000000"));
-}
-
-TEST_F(ArchiveProducts, EstimatorsDisagreeBeyondThreeOfTheLargerSigma) {
-  ArchiveBatch batch = start_of("run-1");
-  const double sigma_deg = 3e-4 / kRadPerDeg;
-  SpinEstimate better = estimate_at(10, SpinEstimator::Batch, 1.0);
-  better.covariance_rad2 *= 0.25;
-  batch.products = {estimate_at(10, SpinEstimator::Sequential, 1.0 + 2.9 * sigma_deg), better,
-                    estimate_at(10, SpinEstimator::Mean, 1.0 - 3.1 * sigma_deg)};
-  store(batch);
-
-  SQLite::Database database = reader();
-  EXPECT_THAT(
-      column(database,
-             "SELECT format('%s %s %.4f %d', one, other, apart_sigmas, disagree)"
-             " FROM spin_comparison ORDER BY one, other"),
-      ElementsAre("mean batch 3.1000 1", "mean sequential 6.0000 1", "sequential batch 2.9000 0"));
-}
-
-TEST_F(ArchiveProducts, VerdictIsNoBetterThanWhatTheEstimatorsContradictEachOtherIn) {
-  const double sigma_deg = 3e-4 / kRadPerDeg;
-  const auto archive = open();
-  const auto run_of = [&](const std::string& run_id, Quality sequential, double apart_sigmas,
-                          Quality batch_solution) {
-    ArchiveBatch batch = start_of(run_id);
-    SpinEstimate one = estimate_at(1, SpinEstimator::Sequential, apart_sigmas * sigma_deg);
-    SpinEstimate other = estimate_at(1, SpinEstimator::Batch, 0.0);
-    one.assessment.quality = sequential;
-    other.assessment.quality = batch_solution;
-    batch.products = {one, other};
-    ASSERT_TRUE(archive->submit(batch));
-  };
-  run_of("1", Quality::Ok, 2.9, Quality::Ok);
-  run_of("2", Quality::Ok, 3.5, Quality::Ok);
-  run_of("3", Quality::Ambiguous, 1.0, Quality::Ok);
-  run_of("4", Quality::Ambiguous, 3.5, Quality::Ok);
-  run_of("5", Quality::Doubtful, 3.5, Quality::Ok);
-  run_of("6", Quality::Ok, 3.5, Quality::Converging);
-  run_of("7", Quality::Ok, 3.5, Quality::Lost);
-  run_of("8", Quality::Ambiguous, 3.5, Quality::Ambiguous);
-  ASSERT_TRUE(archive->flush());
-
-  SQLite::Database database = reader();
-  EXPECT_THAT(column(database, "SELECT quality FROM pass_verdict ORDER BY run_id"),
-              ElementsAre("OK", "DOUBTFUL", "AMBIGUOUS", "DOUBTFUL", "OK", "CONVERGING", "LOST",
-                          "AMBIGUOUS"));
-  EXPECT_EQ(text("SELECT why FROM pass_verdict WHERE run_id = '2'"),
-            "sequential and batch disagree by 0.060 deg, 3.5 sigma; OK");
-  EXPECT_EQ(text("SELECT why FROM pass_verdict WHERE run_id = '3'"),
-            "sequential is AMBIGUOUS, batch is OK; OK");
-  EXPECT_EQ(text("SELECT against FROM pass_verdict WHERE run_id = '8'"), "AMBIGUOUS");
-}
-
-TEST_F(ArchiveProducts, AnswerOfBeforeAManoeuvreIsNoneOnceAnotherCameAfterIt) {
-  ArchiveBatch batch = start_of("run-1");
-  batch.products = {estimate_at(5, SpinEstimator::Batch, 0.0)};
-  batch.actions = {{.action_id = "1",
-                    .spacecraft = batch.spacecraft_id,
-                    .t = tai_from_ns(7),
-                    .made_utc = "2026-11-20T03:00:00Z",
-                    .by = "operator",
-                    .action = "mark_manoeuvre",
-                    .arguments = "{}",
-                    .note = "",
-                    .does = SpinAction{MarkManoeuvre{}}}};
-  store(batch);
-  const auto reported = [&] { return text("SELECT estimator FROM pass_verdict"); };
-  EXPECT_EQ(reported(), "batch");
-
-  batch = testing::batch_of("run-1");
-  batch.products = {estimate_at(8, SpinEstimator::Sequential, 0.0)};
-  store(batch);
-  EXPECT_EQ(reported(), "sequential");
-
-  batch = testing::batch_of("run-1");
-  batch.products = {estimate_at(9, SpinEstimator::Batch, 0.0)};
-  store(batch);
-  EXPECT_EQ(reported(), "batch");
 }
 
 TEST_F(ArchiveProducts, UtcOfTheViewsIsThatOfFormatUtc) {

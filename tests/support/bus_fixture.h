@@ -113,4 +113,18 @@ inline spindrift_Pulse idl_pulse(std::uint64_t seq, std::uint64_t session = 1) {
           .channel = spindrift_SUN1};
 }
 
+inline spindrift_CodedFrame idl_frame(std::uint64_t seq) {
+  return {.spacecraft = "SPINNER",
+          .source = "front-end",
+          .session = 1,
+          .seq = seq,
+          .t_tai_ns = kTestTime_tai_ns + static_cast<std::int64_t>(seq) * 1'000'000'000,
+          .period_s = 1.0,
+          .sun2_s = 0.125,
+          .north_in_s = 0.25,
+          .north_out_s = 0.375,
+          .south_in_s = 0.5,
+          .south_out_s = 0.625};
+}
+
 }  // namespace spindrift

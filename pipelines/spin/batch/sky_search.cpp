@@ -15,10 +15,10 @@ namespace spindrift {
 namespace {
 
 // Two ends are one axis within this.
-constexpr double kSameSearched_rad = kRadPerDeg;
+constexpr double kSameEnd_rad = kRadPerDeg;
 constexpr int kAboutSun = 32;
 // 14 deg apart.
-constexpr int kAxes = 200;
+constexpr int kOverSky = 200;
 constexpr std::size_t kSample = 400;
 constexpr std::size_t kTried = 12;
 constexpr std::size_t kMost = 4;
@@ -28,7 +28,7 @@ constexpr double kGolden = 0.6180339887498949;
 
 /// A spiral from pole to pole.
 Eigen::Vector3d place(int i) {
-  const double z = 1.0 - (2.0 * i + 1.0) / kAxes;
+  const double z = 1.0 - (2.0 * i + 1.0) / kOverSky;
   const double ra_rad = kTurn_rad * kGolden * i;
   const double across = std::sqrt(1.0 - z * z);
   return {across * std::cos(ra_rad), across * std::sin(ra_rad), z};
@@ -51,8 +51,8 @@ std::vector<PassEdge> sample_of(std::span<const PassEdge> edges) {
 /// the Sun's azimuth turns fast.
 std::vector<Eigen::Vector3d> places_about(const Eigen::Vector3d& sun_icrf) {
   std::vector<Eigen::Vector3d> places;
-  places.reserve(kAxes + 2 * kAboutSun);
-  for (int i = 0; i < kAxes; ++i) {
+  places.reserve(kOverSky + 2 * kAboutSun);
+  for (int i = 0; i < kOverSky; ++i) {
     places.push_back(place(i));
   }
   const Eigen::Vector3d across = sun_icrf.unitOrthogonal();
@@ -78,8 +78,7 @@ void put_in_order(std::vector<End>& ends) {
   std::vector<End> distinct;
   for (End& end : ends) {
     if (std::none_of(distinct.begin(), distinct.end(), [&](const End& other) {
-          return angle_between_rad(end.state.axis_icrf(), other.state.axis_icrf()) <
-                 kSameSearched_rad;
+          return angle_between_rad(end.state.axis_icrf(), other.state.axis_icrf()) < kSameEnd_rad;
         })) {
       distinct.push_back(std::move(end));
     }
@@ -119,7 +118,7 @@ std::vector<Eigen::Vector3d> competing_axes(const SpinState& state, const PassMo
   std::vector<Eigen::Vector3d> axes;
   for (const End& end : ends) {
     const bool is_other =
-        angle_between_rad(end.state.axis_icrf(), state.axis_icrf()) > kSameSearched_rad;
+        angle_between_rad(end.state.axis_icrf(), state.axis_icrf()) > kSameEnd_rad;
     if (is_other && end.misfit < most && axes.size() < kMost) {
       axes.push_back(end.state.axis_icrf());
     }

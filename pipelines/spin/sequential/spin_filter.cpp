@@ -114,7 +114,11 @@ void SpinFilter::predict(TaiTime t) {
 EdgeStatistics SpinFilter::update(const SpinConfig& config, const Sky& sky,
                                   std::span<const Pulse> edges, const ChannelNoise& noise) {
   const SpinFilter prior = *this;
-  const RevolutionEdges seen{.config = config, .sky = sky, .edges = edges, .noise = noise};
+  const RevolutionEdges seen{.config = config,
+                             .sky = sky,
+                             .edges = edges,
+                             .noise = noise,
+                             .sensors = {config, SensorBiases::Zero()}};
   EdgeStatistics tally;
   // There may be no state near with all these edges: then those that are missing pull no more.
   for (const Missing missing : {Missing::Approached, Missing::LeftOut}) {
@@ -134,7 +138,7 @@ EdgeStatistics SpinFilter::update(const SpinConfig& config, const Sky& sky,
 SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prior,
                                                           const RevolutionEdges& seen,
                                                           Missing missing, EdgeStatistics& tally) {
-  const auto& [config, sky, edges, noise] = seen;
+  const auto& [config, sky, edges, noise, sensors] = seen;
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin_.conjugate().toRotationMatrix();
   Linearised here;
   tally = {};
@@ -150,7 +154,6 @@ SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prio
     tally.squared_innovations += gate_of(edge.channel);
     tally.squared_gates += gate_of(edge.channel);
   };
-  const PlacedSensors sensors{config, SensorBiases::Zero()};
   for (const Pulse& edge : edges) {
     const double dt_s = seconds_between(t_, edge.t);
     const double phase_rad = phase_rad_ + (rate_rad_s_ + 0.5 * drift_rad_s2_ * dt_s) * dt_s;

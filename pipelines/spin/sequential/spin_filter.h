@@ -23,6 +23,7 @@
 #include <span>
 #include <utility>
 
+#include "pipelines/spin/sensor_model/edge_prediction.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/model_allowance.h"
 #include "pipelines/spin/types/pulse.h"
@@ -100,6 +101,7 @@ class SpinFilter {
     const Sky& sky;
     std::span<const Pulse> edges;
     const ChannelNoise& noise;
+    PlacedSensors sensors;
   };
   /// What is done with edges that the present state predicts not to exist.
   enum class Missing { Approached, LeftOut };
