@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pipelines/ephemeris/terrestrial_time.h"
-#include "pipelines/frames/angle.h"
+#include "pipelines/frames/wgs84.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift {
@@ -34,15 +34,13 @@ Eigen::Quaterniond earth_orientation(TaiTime t) {
 }
 
 Eigen::Quaterniond TurningEarth::orientation(TaiTime t) {
-  // A turn and so many more parts of one each day of UT1 (IERS Conventions 2010, eq. 5.15).
-  constexpr double kRate_rad_s = kTurn_rad * 1.00273781191135448 / ERFA_DAYSEC;
   const auto hour = std::chrono::floor<std::chrono::hours>(t);
   if (hour_ != hour.time_since_epoch().count()) {
     q_icrf_at_hour_ = earth_orientation(hour);
     hour_ = hour.time_since_epoch().count();
   }
-  return q_icrf_at_hour_ *
-         Eigen::AngleAxisd{kRate_rad_s * seconds_between(hour, t), Eigen::Vector3d::UnitZ()};
+  return q_icrf_at_hour_ * Eigen::AngleAxisd{wgs84::kTurning_rad_s * seconds_between(hour, t),
+                                             Eigen::Vector3d::UnitZ()};
 }
 
 }  // namespace spindrift

@@ -20,9 +20,14 @@ KindPresence::KindPresence(std::optional<Orbit> orbit, double silent_s)
 }
 
 ConditionChanges KindPresence::see(SampleKind kind, TaiTime t) {
-  newest_ = std::max(newest_, t);
+  // What one sample alone says may be by a clock that nothing else agrees with.
+  newest_ = std::max(newest_, std::min(t, before_));
+  before_ = t;
   ConditionChanges changes;
   for (Channel& channel : channels_) {
+    if (channel.last) {
+      channel.last = std::min(*channel.last, newest_);
+    }
     if (channel.kind == kind) {
       channel.last = std::max(channel.last.value_or(t), t);
     }
@@ -30,10 +35,9 @@ ConditionChanges KindPresence::see(SampleKind kind, TaiTime t) {
     if (channel.last && elapsed_s(*channel.last, newest_) >= 0.5 * silent_s_ &&
         is_hidden(channel.kind, newest_)) {
       channel.last = newest_;
-    } else if (channel.last) {
-      add(channel.watch.see(newest_,
-                            {.value = elapsed_s(*channel.last, newest_), .limit = silent_s_}),
-          changes);
+    } else if (channel.last && newest_ > TaiTime::min()) {
+      const double silent_s = std::max(elapsed_s(*channel.last, newest_), 0.0);
+      add(channel.watch.see(newest_, {.value = silent_s, .limit = silent_s_}), changes);
     }
   }
   return changes;

@@ -34,7 +34,8 @@ class KindPresence {
   std::optional<Orbit> orbit_;
   ApparentSun sun_;
   double silent_s_;
-  TaiTime newest_ = TaiTime::min();
+  TaiTime newest_ = TaiTime::min();  ///< That two samples one after the other have reached.
+  TaiTime before_ = TaiTime::min();  ///< Of the sample before.
   std::vector<Channel> channels_;
 };
 

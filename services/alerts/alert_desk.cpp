@@ -4,6 +4,8 @@
 
 #include <iterator>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -109,8 +111,11 @@ ConditionChanges AlertDesk::changes_by(const Samples& samples, Supervised& super
     if (sample.arrival < 0) {
       return;
     }
+    using Value = std::remove_cvref_t<decltype(sample.value)>;
     if constexpr (requires { kind_of(sample.value); }) {
-      if (attitude != nullptr && kind_of(sample.value) != SampleKind::OrbitState) {
+      // Nothing is computed from a kind without a sensor, nor missed where it stays away.
+      constexpr std::string_view kSensor = Telemetry<Value>::kSensor;
+      if (attitude != nullptr && supervised.mission.tables.contains(std::string{kSensor})) {
         append(attitude->see(kind_of(sample.value), sample.value.t), all);
       }
     }

@@ -33,7 +33,7 @@ constexpr double kSamePeriod = 0.01;
 constexpr std::ptrdiff_t kFewestOfRun = 3;
 constexpr double kOneRun_turns = 10.0;
 // One sigma of a rate that lies anywhere between those of a low orbit in either sense.
-constexpr double kUnknownEarthRate_rad_s = kEarthRate_rad_s / std::numbers::sqrt3;
+constexpr double kUnknownEarthRate_rad_s = kEarthMotion_rad_s / std::numbers::sqrt3;
 
 auto same_period_as(const PeriodNote& one) {
   return [one](const PeriodNote& note) {

@@ -77,7 +77,7 @@ double ExpectedPhases::noise_turns(PulseChannel channel) const {
 double ExpectedPhases::most_drift(PulseChannel channel) const {
   return sees_the_sun(channel) && sees_the_sun(reference_)
              ? kSunDrift
-             : kMostEarthRates * kEarthRate_rad_s * period_s_ / kTurn_rad;
+             : kMostEarthRates * kEarthMotion_rad_s * period_s_ / kTurn_rad;
 }
 
 double ExpectedPhases::wander(PulseChannel channel) const {

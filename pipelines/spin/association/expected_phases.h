@@ -19,7 +19,7 @@ namespace spindrift {
 
 /// The Earth's apparent motion: from the lowest orbits it turns by so much, and about an axis far
 /// from the orbit's pole faster.
-inline constexpr double kEarthRate_rad_s = 1.2e-3;
+inline constexpr double kEarthMotion_rad_s = 1.2e-3;
 /// Edges so far beyond the interference window are biased by an eightieth of their noise: those
 /// that came nearer are missing from them.
 inline constexpr double kInterferenceSigmas = 2.5;

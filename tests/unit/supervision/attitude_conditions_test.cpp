@@ -113,6 +113,16 @@ TEST(AttitudeConditions, RaiseASensorThatGivesNothingWhileOthersDo) {
   EXPECT_EQ(back.front().change, Change::Cleared);
 }
 
+TEST(AttitudeConditions, BelieveNoSampleAloneThatTimeHasGoneOn) {
+  constexpr int kYears_s = 600'000'000;
+  AttitudeConditions conditions{AlertLimits{}, std::nullopt};
+  EXPECT_EQ(raised_by(conditions, {Gyro, Star}, 0, 10), Keys{});
+  conditions.see(Gyro, at(kYears_s));
+  EXPECT_EQ(raised_by(conditions, {Gyro, Star}, 10, 20), Keys{});
+  conditions.see(Star, at(kYears_s));
+  EXPECT_EQ(raised_by(conditions, {Gyro}, 20, 30), Keys{"channel.silent:star"});
+}
+
 TEST(AttitudeConditions, ExpectNoSunThatTheEarthHides) {
   const Eigen::Vector3d to_sun = geometric_sun_icrf_km(at(0)).normalized();
   const Eigen::Vector3d across = to_sun.unitOrthogonal();
