@@ -26,9 +26,10 @@ function(spindrift_check_pipelines)
       endif()
     endforeach()
     list(TRANSFORM links REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1")
+    list(REMOVE_DUPLICATES links)
     foreach(link IN LISTS links)
       if(NOT link IN_LIST allowed)
-        message(FATAL_ERROR
+        message(SEND_ERROR
           "The pipeline '${name}' links ${link}. A pipeline may link other pipelines and "
           "${libraries}; what touches the world belongs to services/.")
       endif()

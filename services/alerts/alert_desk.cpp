@@ -296,8 +296,8 @@ Expected<ArchiveBatch> AlertDesk::with_alert(const std::string& alert_id, const 
   for (auto& [spacecraft, desk] : desks_) {
     for (const Alert& alert : desk.book.open()) {
       if (alert.alert_id == alert_id) {
-        return act(desk.book).map([&](Alert&& changed) {
-          ArchiveBatch batch{.run_id = desk.run_of.at(alert_id), .spacecraft_id = spacecraft};
+        return act(desk.book).map([&, &id = spacecraft, &run_of = desk.run_of](Alert&& changed) {
+          ArchiveBatch batch{.run_id = run_of.at(alert_id), .spacecraft_id = id};
           batch.products.emplace_back(std::move(changed));
           return batch;
         });

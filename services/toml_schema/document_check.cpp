@@ -158,9 +158,10 @@ class Check {
   void order(const TableRule& rule, const toml::table& table, const std::string& path) {
     for (const auto& [name, key_rule] : rule.keys) {
       const auto& lower = key_rule.not_below_keys;
-      static_cast<void>(std::any_of(lower.begin(), lower.end(), [&](const std::string& key) {
-        return is_below(table, path, name, key);
-      }));
+      static_cast<void>(
+          std::any_of(lower.begin(), lower.end(), [&, &limited = name](const std::string& key) {
+            return is_below(table, path, limited, key);
+          }));
     }
   }
 

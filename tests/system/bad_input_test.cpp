@@ -176,8 +176,9 @@ TEST(OneSensor, AloneGivesNoAxisAndNoBatchSolutionAndSaysWhy) {
       {{"sun", "a cone about the Sun"}, {"north", "cone"}, {"south", "cone"}}};
   for (const auto& [sensor, why] : sensors) {
     const TemporaryFolder folder;
-    const auto outcome = process_part(
-        folder, [&](const std::string& channel, int) { return channel.starts_with(sensor); });
+    const auto outcome = process_part(folder, [&, &name = sensor](const std::string& channel, int) {
+      return channel.starts_with(name);
+    });
     expect_no_axis(outcome);
     EXPECT_THAT(outcome.log, HasSubstr(why)) << sensor;
     EXPECT_THAT(outcome.log, HasSubstr("no batch solution: ")) << sensor;

@@ -21,7 +21,7 @@ using ::testing::StartsWith;
 
 const std::filesystem::path kScenarios = scenarios();
 const std::filesystem::path kMissions = test_data() / "mission";
-const std::string kNominal = (kPasses / "nominal" / "mission.toml").string();
+const std::string kNominal = (recorded_passes() / "nominal" / "mission.toml").string();
 
 /// Of the nominal pass, with arguments put in the place of its own or added.
 std::vector<std::string> arguments_with(

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <csignal>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -207,7 +208,7 @@ TEST_P(ServeRestart, AnnouncesNothingTwiceButWhatIsInForce) {
       // stop.
       EXPECT_LE(most_alike(times), service.starts()) << kind;
     } else {
-      EXPECT_LE(times.size(), different.size() + service.starts() - 1) << kind;
+      EXPECT_LE(std::ssize(times), std::ssize(different) + service.starts() - 1) << kind;
       EXPECT_TRUE(std::is_sorted(times.begin(), times.end())) << kind;
     }
   }

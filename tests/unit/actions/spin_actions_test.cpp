@@ -78,9 +78,10 @@ TEST(SpinActions, LeaveOutAChannelFromThenOnUntilItIsTakenInAgain) {
   Scene scene;
   const auto pulses = scene.seen(scene.body, 0.0, 120.0);
   const auto channel = PulseChannel::NorthIn;
-  const Passed passed = run(scene.body.config, scene.orbit, pulses,
-                            {{.said_s = 0.0, .from_s = 40.0, .action = ExcludeChannel{channel}},
-                             {.said_s = 60.0, .from_s = 80.0, .action = IncludeChannel{channel}}});
+  const Passed passed =
+      run(scene.body.config, scene.orbit, pulses,
+          {{.said_s = 0.0, .from_s = 40.0, .action = ExcludeChannel<PulseChannel>{channel}},
+           {.said_s = 60.0, .from_s = 80.0, .action = IncludeChannel<PulseChannel>{channel}}});
   std::size_t left_out = 0;
   for (const PulseUse& use : all_of<PulseUse>(passed.output)) {
     const bool is_meant =
@@ -120,10 +121,13 @@ TEST(SpinActions, ABeamThatIsLeftOutIsNotSilent) {
   Scene scene;
   scene.body.config.north->healthy = true;
   const auto pulses = scene.seen(scene.body, 0.0, 100.0);
-  const Passed passed =
-      run(scene.body.config, scene.orbit, pulses,
-          {{.said_s = 0.0, .from_s = 30.0, .action = ExcludeChannel{PulseChannel::NorthIn}},
-           {.said_s = 0.0, .from_s = 30.0, .action = ExcludeChannel{PulseChannel::NorthOut}}});
+  const Passed passed = run(scene.body.config, scene.orbit, pulses,
+                            {{.said_s = 0.0,
+                              .from_s = 30.0,
+                              .action = ExcludeChannel<PulseChannel>{PulseChannel::NorthIn}},
+                             {.said_s = 0.0,
+                              .from_s = 30.0,
+                              .action = ExcludeChannel<PulseChannel>{PulseChannel::NorthOut}}});
   for (const SpinFix& fix : all_of<SpinFix>(passed.output)) {
     EXPECT_TRUE(fix.accepted || fix.resolution == Resolution::Ambiguous) << fix.revolution;
   }

@@ -57,7 +57,7 @@ TEST(ProgressBar, DrawsSeldom) {
   const std::string text = standard_error_of(theirs, ours, [&took] {
     const auto start = std::chrono::steady_clock::now();
     ProgressBar bar{"processing", 10000};
-    for (int i = 0; i < 10000; ++i) {
+    for (std::uint64_t i = 0; i < 10000; ++i) {
       bar.advance_to(i);
     }
     took = std::chrono::steady_clock::now() - start;

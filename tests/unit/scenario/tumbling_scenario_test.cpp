@@ -88,7 +88,7 @@ TEST(TumblingScenario, TellsTheTruthAllThrough) {
   ASSERT_EQ(history.size(), 181U);
   EXPECT_EQ(history[0][0], pass.truth["start"]["t_tai_ns"]);
   EXPECT_EQ(history[180][0], pass.truth["end"]["t_tai_ns"]);
-  for (int i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(history[180][1 + i], pass.truth["end"]["q_icrf_body_xyzw"][i]);
   }
   EXPECT_NEAR(history[0][5].get<double>(), 1.2, 1e-12);
