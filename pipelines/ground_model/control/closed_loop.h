@@ -58,7 +58,8 @@ class ClosedLoop {
   /// So that no step up to `end_s` allocates.
   void reserve(double end_s) {
     if constexpr (requires { body_.reserve(std::size_t{}); }) {
-      body_.reserve(static_cast<std::size_t>(std::ceil(end_s / period_s())) * static_cast<std::size_t>(steps_));
+      body_.reserve(static_cast<std::size_t>(std::ceil(end_s / period_s())) *
+                    static_cast<std::size_t>(steps_));
     }
   }
 
