@@ -152,7 +152,7 @@ TEST(Serve, StoresAnEdgeOnceHoweverOftenItArrives) {
   ASSERT_TRUE(service.ready()) << service.program().log();
   ASSERT_EQ(service.replay("0"), 0);
   ASSERT_EQ(service.replay("0"), 0);
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
 
   EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM pulse"), 3600);
   EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM pulse_use WHERE rejected_by = 'late'"),
