@@ -13,11 +13,11 @@ inline constexpr int kHighestDegree = 13;
 inline constexpr double kFieldRadius_km = 6371.2;
 
 struct GaussCoefficients {
-  static constexpr std::size_t kCount =
-      static_cast<std::size_t>((kHighestDegree + 1) * (kHighestDegree + 2) / 2);
+  static constexpr std::size_t kCount{(kHighestDegree + 1) * (kHighestDegree + 2) / 2};
   /// In `g_nt` and `h_nt`: degree by degree, in it by order. Degree 0 is there and 0.
   static constexpr std::size_t index(int degree, int order) {
-    return static_cast<std::size_t>(degree * (degree + 1) / 2 + order);
+    const int entry = degree * (degree + 1) / 2 + order;
+    return static_cast<std::size_t>(entry);
   }
 
   std::array<double, kCount> g_nt{};

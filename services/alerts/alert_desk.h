@@ -83,6 +83,7 @@ class AlertDesk {
 
  private:
   using Conditions = std::variant<SpinConditions, AttitudeConditions>;
+  // NOLINTNEXTLINE(bugprone-exception-escape): its variant always holds a value.
   struct Supervised {
     Mission mission;
     std::shared_ptr<const GroundModel> model;  ///< Null: there is none.

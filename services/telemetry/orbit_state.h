@@ -20,7 +20,7 @@ struct Telemetry<TimedOrbitState> {
   static constexpr const char* kTopic = "spindrift/orbit_state";
   static constexpr BusMessage kMessage = BusMessage::OrbitState;
   static constexpr std::string_view kTable = "orbit_state_sample";
-  static constexpr std::string_view kSensor = "";
+  static constexpr std::string_view kSensor{};
   static constexpr std::tuple kColumns{
       Column{"x_km",
              [](auto& sample) -> decltype(auto) { return sample.state.position_icrf_km.x(); }},

@@ -1,11 +1,14 @@
 // A three-axis spacecraft through the program: its samples, its attitude, its runs.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <ostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -203,22 +206,102 @@ TEST(ThreeAxis, BadRowsAreStoredWithTheirReasonAndTheOthersTakenInAnyOrder) {
   EXPECT_THAT(program.log(), HasSubstr("must have length 1 within 0.001"));
 }
 
-TEST(ThreeAxis, AKindThatTheMissionDescribesNoSensorForIsStoredAndSaidOnce) {
+/// Of a kind, and a mission file without its sensor.
+struct Sensorless {
+  const char* file;
+  const char* header;
+  const char* fields;  ///< Of every row, behind its time.
+  const char* sensors;
+  const char* table;
+  const char* warning;
+};
+
+void PrintTo(const Sensorless& kind, std::ostream* out) { *out << kind.table; }
+
+constexpr const char* kGyro = "[three_axis.gyro]\nnoise_deg_s = 0.002\nbias_sigma_deg_s = 0.01\n";
+constexpr const char* kSunSensor = "[three_axis.sun_sensor]\nnoise_deg = 0.5\n";
+
+class AKindWithoutSensor : public ::testing::TestWithParam<Sensorless> {};
+
+TEST_P(AKindWithoutSensor, IsStoredAndSaidOnce) {
+  const Sensorless& kind = GetParam();
   const TemporaryFolder folder;
   const TemporaryFolder telemetry;
-  std::string csv = "t_tai_ns,channel\n";
+  const auto mission = folder.write(
+      "mission.toml",
+      std::string{"[spacecraft]\nid = \"SAT\"\nkind = \"three_axis\"\n"} + kind.sensors);
+  std::string csv = kind.header;
   for (int i = 0; i < 1000; ++i) {
-    csv += std::to_string(1772337697000000000 + i * 1000000) + ",sun1\n";
+    csv += fmt::format("{},{}\n", 1772337697000000000 + i * std::int64_t{1000000}, kind.fields);
   }
-  telemetry.write("pulses.csv", csv);
+  telemetry.write(kind.file, csv);
   const auto db = folder.path() / "out.db";
-  Program program = process_files(telemetry.path(), db);
+  Program program{{"process", "--mission", mission.string(), "--telemetry",
+                   telemetry.path().string(), "--db", db.string()}};
   ASSERT_EQ(program.exit_status(), 0) << program.log();
-  EXPECT_EQ(number_of(db, "SELECT count(*) FROM pulse"), 1000);
-  const std::string words = "LEOSAT: edges arrive, and the mission file has no [spin.sun_sensor]";
-  const std::size_t first = program.log().find(words);
+  EXPECT_EQ(number_of(db, fmt::format("SELECT count(*) FROM {}", kind.table)), 1000);
+  const std::size_t first = program.log().find(kind.warning);
   ASSERT_NE(first, std::string::npos) << program.log();
-  EXPECT_EQ(program.log().find(words, first + 1), std::string::npos);
+  EXPECT_EQ(program.log().find(kind.warning, first + 1), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, AKindWithoutSensor,
+    ::testing::Values(
+        Sensorless{"pulses.csv", "t_tai_ns,channel\n", "sun1", kGyro, "pulse",
+                   "SAT: edges arrive, and the mission file has no [spin.sun_sensor]"},
+        Sensorless{"gyro.csv", "t_tai_ns,wx_rad_s,wy_rad_s,wz_rad_s\n", "0,0,0", kSunSensor,
+                   "gyro_sample",
+                   "SAT: gyro samples arrive, and the mission file has no [three_axis.gyro]"},
+        Sensorless{"sun.csv", "t_tai_ns,sx,sy,sz\n", "0,0,1", kGyro, "sun_sample",
+                   "SAT: sun vectors arrive, and the mission file has no [three_axis.sun_sensor]"},
+        Sensorless{"star.csv", "t_tai_ns,qx,qy,qz,qw\n", "0,0,0,1", kGyro, "star_sample",
+                   "SAT: star fixes arrive, and the mission file has no [three_axis.star_tracker]"},
+        Sensorless{"magnetometer.csv", "t_tai_ns,bx_nt,by_nt,bz_nt\n", "0,0,30000", kGyro,
+                   "magnetometer_sample",
+                   "and the mission file has no [three_axis.magnetometer]"}));
+
+TEST(ThreeAxis, NormsWithinATenthOfAPercentAreStoredAsReceivedAndChangeNoAttitude) {
+  const auto attitudes = [](const std::filesystem::path& pass, const TemporaryFolder& folder) {
+    Program program = process_files(pass, folder.path() / "out.db");
+    EXPECT_EQ(program.exit_status(), 0) << program.log();
+    return rows_of(folder.path() / "out.db",
+                   "SELECT t_tai_ns, source, quality, round(qx, 9), round(qy, 9), round(qz, 9),"
+                   " round(qw, 9), round(sigma_deg, 9) FROM attitude ORDER BY 1, 2");
+  };
+  const TemporaryFolder unit;
+  const TemporaryFolder scaled;
+  const TemporaryFolder telemetry;
+  telemetry.write("gyro.csv", text_of(kSeparation / "gyro.csv"));
+  const auto write_scaled = [&telemetry](const char* file) {
+    std::istringstream lines{text_of(kSeparation / file)};
+    std::string line;
+    std::getline(lines, line);
+    std::string csv = line + "\n";
+    while (std::getline(lines, line)) {
+      std::istringstream fields{line};
+      std::string field;
+      std::getline(fields, field, ',');
+      csv += field;
+      while (std::getline(fields, field, ',')) {
+        csv += fmt::format(",{:.12f}", std::stod(field) * 1.0009);
+      }
+      csv += "\n";
+    }
+    telemetry.write(file, csv);
+  };
+  write_scaled("sun.csv");
+  write_scaled("star.csv");
+  const std::vector<std::string> expected = attitudes(kSeparation, unit);
+  ASSERT_FALSE(expected.empty());
+  EXPECT_EQ(attitudes(telemetry.path(), scaled), expected);
+  EXPECT_EQ(
+      rows_of(scaled.path() / "out.db",
+              "SELECT round(sqrt(qx * qx + qy * qy + qz * qz + qw * qw), 6) FROM star_sample"),
+      std::vector<std::string>{"1.0009|"});
+  EXPECT_EQ(rows_of(scaled.path() / "out.db",
+                    "SELECT DISTINCT round(sqrt(sx * sx + sy * sy + sz * sz), 6) FROM sun_sample"),
+            std::vector<std::string>{"1.0009|"});
 }
 
 TEST(ThreeAxis, ServeGoesOnWithTheRunAfterAKillAndStoresWhatComesAgainOnce) {

@@ -30,6 +30,7 @@ ModelSpan span_of(const GroundModel& model);
 
 /// The times of both are what they are told to be: an offset between the clocks of flight and model
 /// is not looked for, and shows in the residuals.
+// NOLINTNEXTLINE(bugprone-exception-escape): its variants always hold a value.
 class ModelComparison {
  public:
   /// @param band_sigmas As DepartureWatch.

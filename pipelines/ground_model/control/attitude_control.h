@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <variant>
 
 #include "pipelines/core/expected.h"
@@ -36,8 +37,8 @@ class AttitudeControl {
   ControlMode mode() const { return mode_; }
 
  private:
-  AttitudeControl(const ControlPlan& plan, const DampingLaw& damping, const PointingLaw& pointing)
-      : plan_{plan}, damping_{damping}, pointing_{pointing} {}
+  AttitudeControl(const ControlPlan& plan, DampingLaw damping, PointingLaw pointing)
+      : plan_{plan}, damping_{std::move(damping)}, pointing_{std::move(pointing)} {}
 
   ControlPlan plan_;
   DampingLaw damping_;

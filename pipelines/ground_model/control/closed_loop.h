@@ -33,8 +33,11 @@ template <class Body>
 class ClosedLoop {
  public:
   /// @param steps In a period; at least one.
-  ClosedLoop(Body body, const Actuators& actuators, const Disturbances& disturbances, int steps)
-      : body_{std::move(body)}, actuators_{actuators}, disturbances_{disturbances}, steps_{steps} {}
+  ClosedLoop(Body body, Actuators actuators, Disturbances disturbances, int steps)
+      : body_{std::move(body)},
+        actuators_{std::move(actuators)},
+        disturbances_{std::move(disturbances)},
+        steps_{steps} {}
 
   const Body& body() const& { return body_; }
   Body body() && { return std::move(body_); }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "pipelines/ground_model/dynamics/rigid_body.h"
@@ -13,8 +14,8 @@ namespace spindrift {
 
 class BodyMotion {
  public:
-  BodyMotion(const RigidBody& body, const BodyState& start, double step_s)
-      : body_{body}, step_s_{step_s}, states_{start} {}
+  BodyMotion(RigidBody body, const BodyState& start, double step_s)
+      : body_{std::move(body)}, step_s_{step_s}, states_{start} {}
 
   /// So that the next `steps` do not allocate.
   void reserve(std::size_t steps) {

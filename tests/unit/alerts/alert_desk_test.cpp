@@ -1,5 +1,6 @@
 #include "services/alerts/alert_desk.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -124,9 +125,10 @@ ArchiveBatch samples_until(int end_s) {
 }
 
 struct ServedThreeAxis {
-  AlertDesk desk{{three_axis_mission()}, RunMode::Live};
+  AlertDesk desk;
 
-  ServedThreeAxis() {
+  explicit ServedThreeAxis(const Mission& mission = three_axis_mission())
+      : desk{{mission}, RunMode::Live} {
     ArchiveBatch start{.run_id = "run", .spacecraft_id = "LEOSAT"};
     start.start.emplace().mode = RunMode::Live;
     desk.see(start);
@@ -147,6 +149,17 @@ TEST(AlertDesk, KeepsWhatSamplesRaiseForABatchWithoutSamples) {
   ArchiveBatch products{.run_id = "run", .spacecraft_id = "LEOSAT"};
   served.desk.see(products);
   EXPECT_EQ(changes_in(products), Changes{"channel.silent:star active"});
+}
+
+TEST(AlertDesk, RaisesNothingOfAKindThatTheMissionHasNoSensorFor) {
+  Mission mission = ServedThreeAxis::three_axis_mission();
+  ASSERT_EQ(mission.tables.erase("three_axis.star_tracker"), 1U);
+  ServedThreeAxis served{mission};
+  ArchiveBatch samples = samples_until(20);
+  served.desk.see(samples);
+  ArchiveBatch products{.run_id = "run", .spacecraft_id = "LEOSAT"};
+  served.desk.see(products);
+  EXPECT_THAT(changes_in(products), ::testing::IsEmpty());
 }
 
 TEST(AlertDesk, RaisesWhatWasNotStoredBeforeARestartAgainUnderTheSameId) {
