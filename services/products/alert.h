@@ -25,7 +25,7 @@ struct AlertTable {
   static constexpr std::array<std::string_view, 2> kKey{"raised_tai_ns", "alert_id"};
   static constexpr bool kOfSpacecraft = true;
   static constexpr std::string_view kReplaces = "excluded.revision > revision";
-  static constexpr std::tuple kColumns{
+  static constexpr auto kColumns = columns(
       ProductColumn{"alert_id", [](const Alert& alert) { return alert.alert_id; }},
       ProductColumn{"key", [](const Alert& alert) { return alert.key; }},
       ProductColumn{"severity", [](const Alert& alert) { return name_of(alert.severity); }},
@@ -38,13 +38,13 @@ struct AlertTable {
                     [](const Alert& alert) { return tai_ns_if(alert.shelved_until); }},
       ProductColumn{"count", [](const Alert& alert) { return alert.count; }},
       ProductColumn{"message", [](const Alert& alert) { return alert.message; }},
-      ProductColumn{"evidence", [](const Alert& alert) { return alert.evidence; }}};
+      ProductColumn{"evidence", [](const Alert& alert) { return alert.evidence; }});
 };
 
 struct AlertTransitionTable {
   static constexpr std::string_view kName = "alert_transition";
   static constexpr std::array<std::string_view, 3> kKey{"alert_id", "t_tai_ns", "to_state"};
-  static constexpr std::tuple kColumns{
+  static constexpr auto kColumns = columns(
       ProductColumn{"alert_id", [](const Alert& alert) { return alert.alert_id; }},
       ProductColumn{"t_tai_ns", [](const Alert& alert) { return tai_ns(alert.updated); }},
       ProductColumn{"from_state",
@@ -53,7 +53,7 @@ struct AlertTransitionTable {
                     }},
       ProductColumn{"to_state", [](const Alert& alert) { return name_of(alert.state); }},
       ProductColumn{"by", [](const Alert& alert) { return alert.by; }},
-      ProductColumn{"note", [](const Alert& alert) { return alert.note; }}};
+      ProductColumn{"note", [](const Alert& alert) { return alert.note; }});
 };
 
 template <>

@@ -35,15 +35,14 @@ struct AttitudeTable {
     const auto& rate_rad_s = estimate.rate_body_rad_s;
     return rate_rad_s ? std::optional{(*rate_rad_s)[kAxis]} : std::nullopt;
   }
-  static constexpr std::tuple kColumns{
+  static constexpr auto kColumns = columns(
       ProductColumn{"t_tai_ns", [](const AttitudeEstimate& one) { return tai_ns(one.t); }},
       ProductColumn{"source", [](const AttitudeEstimate& one) { return name_of(one.source); }},
       ProductColumn{"qx", [](const AttitudeEstimate& one) { return one.q_icrf_body.x(); }},
       ProductColumn{"qy", [](const AttitudeEstimate& one) { return one.q_icrf_body.y(); }},
       ProductColumn{"qz", [](const AttitudeEstimate& one) { return one.q_icrf_body.z(); }},
       ProductColumn{"qw", [](const AttitudeEstimate& one) { return one.q_icrf_body.w(); }},
-      ProductColumn{"rate_x_rad_s", &rate_rad_s<0>},
-      ProductColumn{"rate_y_rad_s", &rate_rad_s<1>},
+      ProductColumn{"rate_x_rad_s", &rate_rad_s<0>}, ProductColumn{"rate_y_rad_s", &rate_rad_s<1>},
       ProductColumn{"rate_z_rad_s", &rate_rad_s<2>},
       ProductColumn{"sigma_deg",
                     [](const AttitudeEstimate& one) { return one.sigma_rad() * kDegPerRad; }},
@@ -57,7 +56,7 @@ struct AttitudeTable {
       ProductColumn{"squared_innovations",
                     [](const AttitudeEstimate& one) { return one.innovations.squared; }},
       ProductColumn{"innovation_freedom",
-                    [](const AttitudeEstimate& one) { return one.innovations.freedom; }}};
+                    [](const AttitudeEstimate& one) { return one.innovations.freedom; }});
 };
 
 template <>

@@ -28,7 +28,7 @@ inline std::int64_t batch_t_tai_ns(const BatchProduct& solution) {
 struct SpinBatchTable {
   static constexpr std::string_view kName = "spin_batch";
   static constexpr std::array<std::string_view, 1> kKey{"t_tai_ns"};
-  static constexpr std::tuple kColumns{
+  static constexpr auto kColumns = columns(
       ProductColumn{"t_tai_ns", &batch_t_tai_ns},
       ProductColumn{"bound_deg", [](const BatchProduct& s) { return s->bound_rad * kDegPerRad; }},
       ProductColumn{"edges", [](const BatchProduct& s) { return s->edges; }},
@@ -46,7 +46,7 @@ struct SpinBatchTable {
                     [](const BatchProduct& s) { return s->drift_rad_s2 * kRpmPerHourPerRad_s2; }},
       ProductColumn{"rate_drift_sigma_rpm_h", [](const BatchProduct& s) {
                       return s->drift_sigma_rad_s2 * kRpmPerHourPerRad_s2;
-                    }}};
+                    }});
 };
 
 /// An element of a list of the solution.
@@ -107,7 +107,7 @@ struct SpinBiasTable {
   static double to_unit(const BiasEstimate& bias) {
     return prior_of(bias.bias).is_angle ? kDegPerRad : 1.0;
   }
-  static constexpr std::tuple kColumns{
+  static constexpr auto kColumns = columns(
       ProductColumn{"estimator",
                     [](const BiasEstimate& /*bias*/) { return name_of(SpinEstimator::Batch); }},
       ProductColumn{"name", [](const BiasEstimate& bias) { return prior_of(bias.bias).name; }},
@@ -118,7 +118,7 @@ struct SpinBiasTable {
                     }},
       ProductColumn{"sigma", [](const BiasEstimate& bias) { return bias.sigma * to_unit(bias); }},
       ProductColumn{"observable", [](const BiasEstimate& bias) { return bias.observable; }},
-      ProductColumn{"estimated", [](const BiasEstimate& bias) { return bias.estimated; }}};
+      ProductColumn{"estimated", [](const BiasEstimate& bias) { return bias.estimated; }});
 };
 
 /// Of what a search has found. Without a value where it has found nothing.
@@ -137,7 +137,7 @@ struct SpinNutationTable {
   static bool has_row(const BatchProduct& solution) { return solution->nutation.has_value(); }
 
   using Found = FoundNutation;
-  static constexpr std::tuple kColumns{
+  static constexpr auto kColumns = columns(
       ProductColumn{"t_tai_ns", &batch_t_tai_ns},
       ProductColumn{"detected",
                     [](const BatchProduct& s) { return s->nutation->found.has_value(); }},
@@ -161,7 +161,7 @@ struct SpinNutationTable {
       ProductColumn{"at_tai_ns", [](const BatchProduct& s) {
                       return s->nutation->found ? std::optional{tai_ns(s->nutation_t)}
                                                 : std::nullopt;
-                    }}};
+                    }});
 };
 
 /// Without a value where no coning was detected.
@@ -179,7 +179,7 @@ struct SpinConingTable {
   static constexpr std::array<std::string_view, 1> kKey{"t_tai_ns"};
 
   using Coning = ConingEstimate;
-  static constexpr std::tuple kColumns{
+  static constexpr auto kColumns = columns(
       ProductColumn{"t_tai_ns", &batch_t_tai_ns},
       ProductColumn{"detected", [](const BatchProduct& s) { return s->coning.verdict.detected; }},
       ProductColumn{
@@ -188,7 +188,7 @@ struct SpinConingTable {
       coning_column("tilt_deg", [](const Coning& c) { return c.verdict.tilt_rad; }),
       coning_column("tilt_sigma_deg", [](const Coning& c) { return c.tilt_sigma_rad; }),
       coning_column("azimuth_deg", [](const Coning& c) { return c.verdict.azimuth_rad; }),
-      coning_column("azimuth_sigma_deg", [](const Coning& c) { return c.azimuth_sigma_rad; })};
+      coning_column("azimuth_sigma_deg", [](const Coning& c) { return c.azimuth_sigma_rad; }));
 };
 
 template <>

@@ -36,7 +36,7 @@ constexpr auto departure_column(std::string_view name, Get get) {
 struct ModelComparisonTable {
   static constexpr std::string_view kName = "model_comparison";
   static constexpr std::array<std::string_view, 1> kKey{"channel"};
-  static constexpr std::tuple kColumns{
+  static constexpr auto kColumns = columns(
       ProductColumn{"channel",
                     [](const ChannelComparison& compared) { return compared.channel.name; }},
       ProductColumn{
@@ -55,7 +55,7 @@ struct ModelComparisonTable {
       departure_column("departed_value", [](const Evidence& departure) { return departure.value; }),
       departure_column("departed_limit", [](const Evidence& departure) { return departure.limit; }),
       departure_column("departed_unit",
-                       [](const Evidence& departure) { return std::string{departure.unit}; })};
+                       [](const Evidence& departure) { return std::string{departure.unit}; }));
 };
 
 template <>

@@ -25,6 +25,12 @@ struct ProductColumn {
 template <class Get>
 ProductColumn(std::string_view, Get) -> ProductColumn<Get>;
 
+/// What calls `see(column...)`. A std::tuple of so many types takes long to compile.
+template <class... Get>
+constexpr auto columns(ProductColumn<Get>... column) {
+  return [=](const auto& see) { return see(column...); };
+}
+
 /// Specialised for each kind, with
 ///   kWeight        a ProductWeight
 ///   Tables         a std::tuple of its tables; the first has one row a product
@@ -43,7 +49,7 @@ ProductColumn(std::string_view, Get) -> ProductColumn<Get>;
 /// A table has
 ///   kName
 ///   kKey           columns that, behind the run's, tell its rows apart; in the order of their
-///   index kColumns       a std::tuple of ProductColumn
+///   kColumns       its columns, from columns(ProductColumn...)
 /// and where it needs them
 ///   kOfSpacecraft  true: the spacecraft's column stands behind the run's
 ///   kCondition     an SQL condition that tells its rows from those of other kinds there
@@ -79,7 +85,7 @@ constexpr void for_each_table(const See& see) {
 /// Calls `see(column...)` with the columns of `Table`.
 template <class Table, class See>
 constexpr auto with_columns(const See& see) {
-  return std::apply(see, Table::kColumns);
+  return Table::kColumns(see);
 }
 
 template <class Table>

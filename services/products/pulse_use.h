@@ -21,12 +21,12 @@ struct PulseUseTable {
   static constexpr std::string_view kName = "pulse_use";
   static constexpr bool kOfSpacecraft = true;
   static constexpr std::array<std::string_view, 2> kKey{"t_tai_ns", "channel"};
-  static constexpr std::tuple kColumns{
+  static constexpr auto kColumns = columns(
       ProductColumn{"t_tai_ns", [](const PulseUse& use) { return tai_ns(use.pulse.t); }},
       ProductColumn{"channel", [](const PulseUse& use) { return name_of(use.pulse.channel); }},
       ProductColumn{"revolution", [](const PulseUse& use) { return use.revolution; }},
       ProductColumn{"accepted", [](const PulseUse& use) { return !use.rejected_by; }},
-      ProductColumn{"rejected_by", [](const PulseUse& use) { return name_of(use.rejected_by); }}};
+      ProductColumn{"rejected_by", [](const PulseUse& use) { return name_of(use.rejected_by); }});
   /// An edge that is late is not said to be so when something else has become of it: it arrived
   /// twice.
   static constexpr std::string_view kReplaces = "excluded.rejected_by IS NOT 'late'";

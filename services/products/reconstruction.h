@@ -69,7 +69,7 @@ struct ReconstructionTable {
     const auto& bias = product->solution.bias;
     return bias ? std::optional{std::sqrt(bias->covariance_rad2_s2(kAxis, kAxis))} : std::nullopt;
   }
-  static constexpr std::tuple kColumns{
+  static constexpr auto kColumns = columns(
       ProductColumn{"method", &method_of},
       ProductColumn{"t_tai_ns",
                     [](const Product& one) { return tai_ns(one->solution.history.back().t); }},
@@ -84,8 +84,7 @@ struct ReconstructionTable {
       ProductColumn{"gyro_samples", [](const Product& one) { return one->solution.gyro.count; }},
       ProductColumn{"sun_vectors", [](const Product& one) { return one->solution.sun.count; }},
       ProductColumn{"star_fixes", [](const Product& one) { return one->solution.star.count; }},
-      ProductColumn{"bias_x_rad_s", &bias_rad_s<0>},
-      ProductColumn{"bias_y_rad_s", &bias_rad_s<1>},
+      ProductColumn{"bias_x_rad_s", &bias_rad_s<0>}, ProductColumn{"bias_y_rad_s", &bias_rad_s<1>},
       ProductColumn{"bias_z_rad_s", &bias_rad_s<2>},
       ProductColumn{"bias_sigma_x_rad_s", &bias_sigma_rad_s<0>},
       ProductColumn{"bias_sigma_y_rad_s", &bias_sigma_rad_s<1>},
@@ -94,7 +93,7 @@ struct ReconstructionTable {
                       [](const LauncherCheck& c) { return c.difference.angle_rad * kDegPerRad; }),
       launcher_column("launcher_chi_square",
                       [](const LauncherCheck& c) { return c.difference.chi_square; }),
-      launcher_column("launcher_chance", [](const LauncherCheck& c) { return c.chance; })};
+      launcher_column("launcher_chance", [](const LauncherCheck& c) { return c.chance; }));
 };
 
 struct ReconstructionEventTable {
@@ -136,7 +135,7 @@ struct ReconstructionEventTable {
     return row.in_orbit_frame ? std::optional{(*row.in_orbit_frame).*kAngle * kDegPerRad}
                               : std::nullopt;
   }
-  static constexpr std::tuple kColumns{
+  static constexpr auto kColumns = columns(
       ProductColumn{"method", [](const Row& row) { return row.method; }},
       ProductColumn{"event", [](const Row& row) { return name_of(row.event.event); }},
       ProductColumn{"t_tai_ns", [](const Row& row) { return tai_ns(row.event.attitude.t); }},
@@ -145,8 +144,7 @@ struct ReconstructionEventTable {
       ProductColumn{"qy", [](const Row& row) { return row.event.attitude.q_icrf_body.y(); }},
       ProductColumn{"qz", [](const Row& row) { return row.event.attitude.q_icrf_body.z(); }},
       ProductColumn{"qw", [](const Row& row) { return row.event.attitude.q_icrf_body.w(); }},
-      ProductColumn{"rate_x_rad_s", &rate_rad_s<0>},
-      ProductColumn{"rate_y_rad_s", &rate_rad_s<1>},
+      ProductColumn{"rate_x_rad_s", &rate_rad_s<0>}, ProductColumn{"rate_y_rad_s", &rate_rad_s<1>},
       ProductColumn{"rate_z_rad_s", &rate_rad_s<2>},
       ProductColumn{"euler312_icrf_deg_1", &icrf_deg<&Euler312::phi_rad>},
       ProductColumn{"euler312_icrf_deg_2", &icrf_deg<&Euler312::theta_rad>},
@@ -159,7 +157,7 @@ struct ReconstructionEventTable {
       ProductColumn{"bound_deg", [](const Row& row) {
                       const auto& bound_rad = row.event.bound_rad;
                       return bound_rad ? std::optional{*bound_rad * kDegPerRad} : std::nullopt;
-                    }}};
+                    }});
 };
 
 /// Rows of `attitude`, beside those of filters (attitude.h).
@@ -189,24 +187,24 @@ struct ReconstructedAttitudeTable {
     }
     return rows;
   }
-  static constexpr std::tuple kColumns{
-      ProductColumn{"source", [](const Row& row) { return row.source; }},
-      ProductColumn{"t_tai_ns", [](const Row& row) { return tai_ns(row.attitude.t); }},
-      ProductColumn{"qx", [](const Row& row) { return row.attitude.q_icrf_body.x(); }},
-      ProductColumn{"qy", [](const Row& row) { return row.attitude.q_icrf_body.y(); }},
-      ProductColumn{"qz", [](const Row& row) { return row.attitude.q_icrf_body.z(); }},
-      ProductColumn{"qw", [](const Row& row) { return row.attitude.q_icrf_body.w(); }},
-      ProductColumn{"rate_x_rad_s",
-                    [](const Row& row) { return row.attitude.rate_body_rad_s.x(); }},
-      ProductColumn{"rate_y_rad_s",
-                    [](const Row& row) { return row.attitude.rate_body_rad_s.y(); }},
-      ProductColumn{"rate_z_rad_s",
-                    [](const Row& row) { return row.attitude.rate_body_rad_s.z(); }},
-      ProductColumn{"sigma_deg",
-                    [](const Row& row) { return row.attitude.sigma_rad() * kDegPerRad; }},
-      ProductColumn{"quality", [](const Row& row) { return row.quality; }},
-      ProductColumn{"reasons", [](const Row& row) { return row.reasons; }},
-      ProductColumn{"status", [](const Row& row) { return row.status; }}};
+  static constexpr auto kColumns =
+      columns(ProductColumn{"source", [](const Row& row) { return row.source; }},
+              ProductColumn{"t_tai_ns", [](const Row& row) { return tai_ns(row.attitude.t); }},
+              ProductColumn{"qx", [](const Row& row) { return row.attitude.q_icrf_body.x(); }},
+              ProductColumn{"qy", [](const Row& row) { return row.attitude.q_icrf_body.y(); }},
+              ProductColumn{"qz", [](const Row& row) { return row.attitude.q_icrf_body.z(); }},
+              ProductColumn{"qw", [](const Row& row) { return row.attitude.q_icrf_body.w(); }},
+              ProductColumn{"rate_x_rad_s",
+                            [](const Row& row) { return row.attitude.rate_body_rad_s.x(); }},
+              ProductColumn{"rate_y_rad_s",
+                            [](const Row& row) { return row.attitude.rate_body_rad_s.y(); }},
+              ProductColumn{"rate_z_rad_s",
+                            [](const Row& row) { return row.attitude.rate_body_rad_s.z(); }},
+              ProductColumn{"sigma_deg",
+                            [](const Row& row) { return row.attitude.sigma_rad() * kDegPerRad; }},
+              ProductColumn{"quality", [](const Row& row) { return row.quality; }},
+              ProductColumn{"reasons", [](const Row& row) { return row.reasons; }},
+              ProductColumn{"status", [](const Row& row) { return row.status; }});
 };
 
 template <>

@@ -21,9 +21,9 @@ struct RunFault {
 struct RunFaultTable {
   static constexpr std::string_view kName = "run_fault";
   static constexpr std::array<std::string_view, 1> kKey{"t_tai_ns"};
-  static constexpr std::tuple kColumns{
-      ProductColumn{"t_tai_ns", [](const RunFault& fault) { return tai_ns(fault.t); }},
-      ProductColumn{"what", [](const RunFault& fault) { return fault.what; }}};
+  static constexpr auto kColumns =
+      columns(ProductColumn{"t_tai_ns", [](const RunFault& fault) { return tai_ns(fault.t); }},
+              ProductColumn{"what", [](const RunFault& fault) { return fault.what; }});
 };
 
 template <>

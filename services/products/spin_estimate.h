@@ -22,12 +22,11 @@ struct SpinEstimateTable {
   static constexpr std::array<std::string_view, 2> kKey{"t_tai_ns", "estimator"};
 
   using Axis = AxisColumns<SpinEstimate>;
-  static constexpr std::tuple kColumns{
+  static constexpr auto kColumns = columns(
       ProductColumn{"t_tai_ns", [](const SpinEstimate& estimate) { return tai_ns(estimate.t); }},
       ProductColumn{"estimator",
                     [](const SpinEstimate& estimate) { return name_of(estimate.estimator); }},
-      ProductColumn{"ra_deg", &Axis::ra_deg},
-      ProductColumn{"dec_deg", &Axis::dec_deg},
+      ProductColumn{"ra_deg", &Axis::ra_deg}, ProductColumn{"dec_deg", &Axis::dec_deg},
       ProductColumn{"sigma_deg", &Axis::sigma_deg},
       ProductColumn{"cov_east_east_deg2", &Axis::covariance_deg2<0, 0>},
       ProductColumn{"cov_east_north_deg2", &Axis::covariance_deg2<0, 1>},
@@ -46,7 +45,7 @@ struct SpinEstimateTable {
           "reasons",
           [](const SpinEstimate& estimate) { return to_json_text(estimate.assessment.reasons); }},
       ProductColumn{"status",
-                    [](const SpinEstimate& estimate) { return sentence_of(estimate.assessment); }}};
+                    [](const SpinEstimate& estimate) { return sentence_of(estimate.assessment); }});
 };
 
 template <>

@@ -26,13 +26,12 @@ struct SpinFixTable {
                                   : std::optional{place_deg(fix.alternates.front().axis_icrf)};
   }
   using Axis = AxisColumns<SpinFix>;
-  static constexpr std::tuple kColumns{
+  static constexpr auto kColumns = columns(
       ProductColumn{"revolution", [](const SpinFix& fix) { return fix.revolution; }},
       ProductColumn{"t_tai_ns", [](const SpinFix& fix) { return tai_ns(fix.t); }},
       ProductColumn{"geometry_case",
                     [](const SpinFix& fix) { return std::int64_t{fix.geometry_case}; }},
-      ProductColumn{"ra_deg", &Axis::ra_deg},
-      ProductColumn{"dec_deg", &Axis::dec_deg},
+      ProductColumn{"ra_deg", &Axis::ra_deg}, ProductColumn{"dec_deg", &Axis::dec_deg},
       ProductColumn{"sigma_deg", &Axis::sigma_deg},
       ProductColumn{"cov_east_east_deg2", &Axis::covariance_deg2<0, 0>},
       ProductColumn{"cov_east_north_deg2", &Axis::covariance_deg2<0, 1>},
@@ -49,7 +48,7 @@ struct SpinFixTable {
                     }},
       ProductColumn{"resolution", [](const SpinFix& fix) { return name_of(fix.resolution); }},
       ProductColumn{"norm", [](const SpinFix& fix) { return fix.norm; }},
-      ProductColumn{"accepted", [](const SpinFix& fix) { return fix.accepted; }}};
+      ProductColumn{"accepted", [](const SpinFix& fix) { return fix.accepted; }});
 };
 
 /// All other axes of a fix that has more than the one of its own row.
@@ -62,11 +61,11 @@ struct SpinFixCandidateTable {
     std::int64_t candidate;
     PlaceDeg place;
   };
-  static constexpr std::tuple kColumns{
-      ProductColumn{"revolution", [](const Row& row) { return row.revolution; }},
-      ProductColumn{"candidate", [](const Row& row) { return row.candidate; }},
-      ProductColumn{"ra_deg", [](const Row& row) { return row.place.ra_deg; }},
-      ProductColumn{"dec_deg", [](const Row& row) { return row.place.dec_deg; }}};
+  static constexpr auto kColumns =
+      columns(ProductColumn{"revolution", [](const Row& row) { return row.revolution; }},
+              ProductColumn{"candidate", [](const Row& row) { return row.candidate; }},
+              ProductColumn{"ra_deg", [](const Row& row) { return row.place.ra_deg; }},
+              ProductColumn{"dec_deg", [](const Row& row) { return row.place.dec_deg; }});
 
   static std::int64_t group(const SpinFix& fix) { return fix.revolution; }
   static std::vector<Row> rows(const SpinFix& fix) {

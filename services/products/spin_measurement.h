@@ -24,7 +24,7 @@ struct SpinMeasurementTable {
   static constexpr double to_unit(const SpinMeasurement& measurement) {
     return is_time(measurement) ? 1.0 : kDegPerRad;
   }
-  static constexpr std::tuple kColumns{
+  static constexpr auto kColumns = columns(
       ProductColumn{"revolution", [](const SpinMeasurement& one) { return one.revolution; }},
       ProductColumn{"quantity", [](const SpinMeasurement& one) { return name_of(one.quantity); }},
       ProductColumn{"value", [](const SpinMeasurement& one) { return one.value * to_unit(one); }},
@@ -34,7 +34,7 @@ struct SpinMeasurementTable {
       ProductColumn{"sigma", [](const SpinMeasurement& one) { return one.sigma * to_unit(one); }},
       ProductColumn{"accepted", [](const SpinMeasurement& one) { return !one.rejected_by; }},
       ProductColumn{"rejected_by",
-                    [](const SpinMeasurement& one) { return name_of(one.rejected_by); }}};
+                    [](const SpinMeasurement& one) { return name_of(one.rejected_by); }});
 };
 
 template <>
