@@ -75,21 +75,21 @@ struct NumberedTable {
   }
   /// @param stored What is stored of a value.
   template <class Stored>
-  static constexpr auto columns(std::string_view name, Stored stored) {
-    return std::tuple{ProductColumn{"t_tai_ns", [](const Row& row) { return row.t_tai_ns; }},
-                      ProductColumn{"position", [](const Row& row) { return row.position; }},
-                      ProductColumn{name, [stored](const Row& row) { return stored(row.value); }}};
+  static constexpr auto numbered(std::string_view name, Stored stored) {
+    return columns(ProductColumn{"t_tai_ns", [](const Row& row) { return row.t_tai_ns; }},
+                   ProductColumn{"position", [](const Row& row) { return row.position; }},
+                   ProductColumn{name, [stored](const Row& row) { return stored(row.value); }});
   }
 };
 
 struct SpinBatchSingularValueTable : NumberedTable<double, &BatchSolution::singular_values> {
   static constexpr std::string_view kName = "spin_batch_singular_value";
-  static constexpr std::tuple kColumns = columns("value", [](double value) { return value; });
+  static constexpr auto kColumns = numbered("value", [](double value) { return value; });
 };
 
 struct SpinBatchUndeterminedTable : NumberedTable<BiasSet, &BatchSolution::undetermined> {
   static constexpr std::string_view kName = "spin_batch_undetermined";
-  static constexpr std::tuple kColumns = columns("direction", &undetermined_sentence);
+  static constexpr auto kColumns = numbered("direction", &undetermined_sentence);
 };
 
 struct SpinBiasTable {
