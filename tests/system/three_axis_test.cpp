@@ -259,7 +259,8 @@ INSTANTIATE_TEST_SUITE_P(
                    "SAT: star fixes arrive, and the mission file has no [three_axis.star_tracker]"},
         Sensorless{"magnetometer.csv", "t_tai_ns,bx_nt,by_nt,bz_nt\n", "0,0,30000", kGyro,
                    "magnetometer_sample",
-                   "and the mission file has no [three_axis.magnetometer]"}));
+                   "SAT: magnetometer samples arrive, and the mission file has no "
+                   "[three_axis.magnetometer]"}));
 
 TEST(ThreeAxis, NormsWithinATenthOfAPercentAreStoredAsReceivedAndChangeNoAttitude) {
   const auto attitudes = [](const std::filesystem::path& pass, const TemporaryFolder& folder) {
