@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,7 +12,9 @@
 
 #include "pipelines/core/shown.h"
 #include "pipelines/ephemeris/oem.h"
+#include "pipelines/ephemeris/oem_entries.h"
 #include "pipelines/ephemeris/oem_holes.h"
+#include "pipelines/ephemeris/oem_metadata.h"
 #include "pipelines/ephemeris/state_jump.h"
 #include "pipelines/time/utc.h"
 
@@ -60,36 +59,6 @@ constexpr std::array kCovarianceRules = {
     KeyRule{"COV_REF_FRAME", false},
 };
 
-struct Entry {
-  int line;
-  std::string value;
-};
-/// By the key of its rule.
-using Entries = std::map<std::string_view, Entry>;
-
-using ReadTime = Expected<TaiTime> (*)(std::string_view);
-
-struct Meta {
-  std::string object_name;
-  std::string object_id;
-  ReadTime read_time = nullptr;
-  TaiTime start;
-  TaiTime stop;
-  TaiTime usable_start;
-  TaiTime usable_stop;
-  std::optional<Interpolation> interpolation;
-  int degree = 0;  ///< Of `interpolation`.
-};
-
-Unexpected refused(int line, std::string_view what) {
-  return Unexpected{
-      {ErrorCode::InvalidConfiguration, fmt::format("orbit ephemeris, line {}: {}", line, what)}};
-}
-
-Unexpected refused(std::string_view key, const Entry& entry, std::string_view what) {
-  return refused(entry.line, fmt::format("{} = {}: {}", shown(key), shown(entry.value), what));
-}
-
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlank);
   if (first == std::string_view::npos) {
@@ -108,165 +77,25 @@ std::vector<std::string_view> words_of(std::string_view text) {
   return words;
 }
 
-std::string upper_case(std::string_view text) {
-  std::string upper{text};
-  std::transform(upper.begin(), upper.end(), upper.begin(), [](char c) {
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  });
-  return upper;
-}
-
 bool is_meaningful(std::string_view line) {
   return !line.empty() && line != "COMMENT" && !line.starts_with("COMMENT ");
-}
-
-std::optional<double> number_from(std::string_view word) {
-  if (word.starts_with('+')) {
-    word.remove_prefix(1);
-  }
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  const bool whole = error == std::errc{} && end == word.data() + word.size();
-  return whole && std::isfinite(number) ? std::optional{number} : std::nullopt;
 }
 
 /// `words` as finite numbers.
 Expected<std::vector<double>> numbers_of(std::span<const std::string_view> words, int line) {
   std::vector<double> numbers;
   for (const std::string_view word : words) {
-    const std::optional<double> number = number_from(word);
+    const std::optional<double> number = oem_number(word);
     if (!number) {
-      return refused(line, fmt::format("'{}' is not a number", shown(word)));
+      return oem_refused(line, fmt::format("'{}' is not a number", shown(word)));
     }
     numbers.push_back(*number);
   }
   return numbers;
 }
 
-/// The value of `key` in capitals, if it is one of `allowed`.
-Expected<std::string> choice_of(const Entries& entries, std::string_view key,
-                                std::span<const std::string_view> allowed) {
-  const Entry& entry = entries.at(key);
-  std::string value = upper_case(entry.value);
-  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
-    return refused(key, entry, fmt::format("must be {}", fmt::join(allowed, " or ")));
-  }
-  return value;
-}
-
-Expected<TaiTime> time_of(const Entries& entries, std::string_view key, ReadTime read_time) {
-  const Entry& entry = entries.at(key);
-  return read_time(entry.value).map_error([&](const Error& error) {
-    return refused(key, entry, error.message).value();
-  });
-}
-
-/// The time of `key`, or `otherwise` where it does not stand; it must not lie outside the span.
-Expected<TaiTime> time_within(const Entries& entries, std::string_view key, const Meta& meta,
-                              TaiTime otherwise) {
-  if (!entries.contains(key)) {
-    return otherwise;
-  }
-  Expected<TaiTime> time = time_of(entries, key, meta.read_time);
-  if (time && (*time < meta.start || *time > meta.stop)) {
-    return refused(key, entries.at(key), "must lie between START_TIME and STOP_TIME");
-  }
-  return time;
-}
-
-Expected<void> check_frame(const Entries& entries) {
-  constexpr std::array<std::string_view, 1> kCenters = {"EARTH"};
-  constexpr std::array<std::string_view, 4> kFrames = {"EME2000", "J2000", "GCRF", "ICRF"};
-  if (const auto center = choice_of(entries, "CENTER_NAME", kCenters); !center) {
-    return Unexpected{center.error()};
-  }
-  if (const auto frame = choice_of(entries, "REF_FRAME", kFrames); !frame) {
-    return Unexpected{frame.error()};
-  }
-  return {};
-}
-
-Expected<ReadTime> read_time_of(const Entries& entries) {
-  constexpr std::array<std::string_view, 2> kTimeSystems = {"UTC", "TAI"};
-  return choice_of(entries, "TIME_SYSTEM", kTimeSystems).map([](const std::string& system) {
-    return system == "UTC" ? ReadTime{parse_utc} : ReadTime{parse_tai};
-  });
-}
-
-Expected<void> set_times(const Entries& entries, Meta& meta) {
-  if (entries.contains("REF_FRAME_EPOCH")) {
-    if (const auto epoch = time_of(entries, "REF_FRAME_EPOCH", meta.read_time); !epoch) {
-      return Unexpected{epoch.error()};
-    }
-  }
-  const Expected<TaiTime> start = time_of(entries, "START_TIME", meta.read_time);
-  if (!start) {
-    return Unexpected{start.error()};
-  }
-  const Expected<TaiTime> stop = time_of(entries, "STOP_TIME", meta.read_time);
-  if (!stop) {
-    return Unexpected{stop.error()};
-  }
-  meta.start = *start;
-  meta.stop = *stop;
-  const auto usable_start = time_within(entries, "USEABLE_START_TIME", meta, meta.start);
-  if (!usable_start) {
-    return Unexpected{usable_start.error()};
-  }
-  const auto usable_stop = time_within(entries, "USEABLE_STOP_TIME", meta, meta.stop);
-  if (!usable_stop) {
-    return Unexpected{usable_stop.error()};
-  }
-  meta.usable_start = *usable_start;
-  meta.usable_stop = *usable_stop;
-  return {};
-}
-
-Expected<void> set_interpolation(const Entries& entries, Meta& meta) {
-  constexpr std::array<std::string_view, 2> kInterpolations = {"LAGRANGE", "HERMITE"};
-  const auto degree = entries.find("INTERPOLATION_DEGREE");
-  if (!entries.contains("INTERPOLATION")) {
-    if (degree != entries.end()) {
-      return refused(degree->first, degree->second, "needs INTERPOLATION beside it");
-    }
-    return {};
-  }
-  const auto interpolation = choice_of(entries, "INTERPOLATION", kInterpolations);
-  if (!interpolation) {
-    return Unexpected{interpolation.error()};
-  }
-  if (degree == entries.end()) {
-    return refused("INTERPOLATION", entries.at("INTERPOLATION"),
-                   "needs INTERPOLATION_DEGREE beside it");
-  }
-  const std::optional<double> number = number_from(degree->second.value);
-  if (!number || *number != std::floor(*number) || *number < 1 ||
-      *number > kMaxInterpolationDegree) {
-    return refused(degree->first, degree->second,
-                   fmt::format("must be a whole number from 1 to {}", kMaxInterpolationDegree));
-  }
-  meta.interpolation =
-      *interpolation == "LAGRANGE" ? Interpolation::Lagrange : Interpolation::Hermite;
-  meta.degree = static_cast<int>(*number);
-  return {};
-}
-
-Expected<Meta> meta_from(const Entries& entries) {
-  Meta meta;
-  meta.object_name = entries.at("OBJECT_NAME").value;
-  meta.object_id = entries.at("OBJECT_ID").value;
-  return check_frame(entries)
-      .and_then([&] { return read_time_of(entries); })
-      .and_then([&](ReadTime read_time) {
-        meta.read_time = read_time;
-        return set_times(entries, meta);
-      })
-      .and_then([&] { return set_interpolation(entries, meta); })
-      .map([&] { return meta; });
-}
-
 /// What the metadata and the data lines agree on.
-OemSegment segment_from(const Meta& meta, std::vector<EphemerisPoint> points) {
+OemSegment segment_from(const OemMetadata& meta, std::vector<EphemerisPoint> points) {
   const int most_hermite = 2 * static_cast<int>(std::min(points.size(), kDefaultHermitePoints)) - 1;
   return {.usable_from = std::max(meta.usable_start, points.front().t),
           .usable_to = std::min(meta.usable_stop, points.back().t),
@@ -294,21 +123,21 @@ class OemReader {
 
   Expected<void> read_header() {
     if (done() || !front_->text.starts_with("CCSDS_OEM_VERS")) {
-      return refused(line_number(), "an OEM in KVN form must begin with CCSDS_OEM_VERS");
+      return oem_refused(line_number(), "an OEM in KVN form must begin with CCSDS_OEM_VERS");
     }
-    const Expected<Entries> entries = read_entries(kHeaderRules);
+    const Expected<OemEntries> entries = read_entries(kHeaderRules);
     if (!entries) {
       return Unexpected{entries.error()};
     }
     constexpr std::array<std::string_view, 3> kVersions = {"1.0", "2.0", "3.0"};
-    if (const auto version = choice_of(*entries, "CCSDS_OEM_VERS", kVersions); !version) {
+    if (const auto version = oem_choice(*entries, "CCSDS_OEM_VERS", kVersions); !version) {
       return Unexpected{version.error()};
     }
-    return time_of(*entries, "CREATION_DATE", parse_utc).map([](TaiTime) {});
+    return oem_time(*entries, "CREATION_DATE", parse_utc).map([](TaiTime) {});
   }
 
   Expected<OemSegment> read_segment() {
-    const Expected<Meta> meta = read_meta();
+    const Expected<OemMetadata> meta = read_meta();
     if (!meta) {
       return Unexpected{meta.error()};
     }
@@ -320,23 +149,25 @@ class OemReader {
       }
       const bool in_order = points.empty() || points.back().t < point->t;
       if (!in_order && !disorder_) {
-        disorder_ = refused(last_line_, fmt::format("the time must be later than that of the data "
-                                                    "line before it, {}",
-                                                    format_utc(points.back().t, 9)))
-                        .value();
+        disorder_ =
+            oem_refused(last_line_, fmt::format("the time must be later than that of the data "
+                                                "line before it, {}",
+                                                format_utc(points.back().t, 9)))
+                .value();
       }
       const bool judged = last_point_ && in_order;
       if (const auto jump = judged ? jump_km(*last_point_, *point) : std::nullopt) {
-        return refused(last_line_,
-                       fmt::format("the orbit jumps: {:.0f} km from where the data line before it, "
-                                   "{}, leads to",
-                                   *jump, format_utc(last_point_->t)));
+        return oem_refused(
+            last_line_,
+            fmt::format("the orbit jumps: {:.0f} km from where the data line before it, "
+                        "{}, leads to",
+                        *jump, format_utc(last_point_->t)));
       }
       last_point_ = *point;
       points.push_back(*point);
     }
     if (points.empty()) {
-      return refused(line_number(), "data lines must stand here");
+      return oem_refused(line_number(), "data lines must stand here");
     }
     if (at(kCovarianceStart)) {
       if (const auto covariances = read_covariances(*meta); !covariances) {
@@ -378,71 +209,71 @@ class OemReader {
 
   Expected<void> take_marker(std::string_view marker) {
     if (!at(marker)) {
-      return refused(line_number(), fmt::format("{} must stand here", marker));
+      return oem_refused(line_number(), fmt::format("{} must stand here", marker));
     }
     take();
     return {};
   }
 
   /// Takes `KEY = value` lines until one that is none, and holds them against the rules.
-  Expected<Entries> read_entries(std::span<const KeyRule> rules) {
-    Entries entries;
+  Expected<OemEntries> read_entries(std::span<const KeyRule> rules) {
+    OemEntries entries;
     while (!done() && front_->text.find('=') != std::string::npos) {
       const Line taken = take();
       const std::string_view text = taken.text;
       const std::size_t equals = text.find('=');
       const std::string_view key = trimmed(text.substr(0, equals));
-      const Entry entry{taken.number, std::string{trimmed(text.substr(equals + 1))}};
+      const OemEntry entry{taken.number, std::string{trimmed(text.substr(equals + 1))}};
       const auto rule = std::find_if(rules.begin(), rules.end(),
                                      [key](const KeyRule& one) { return one.key == key; });
       if (rule == rules.end()) {
-        return refused(key, entry, "this key is not allowed here");
+        return oem_refused(key, entry, "this key is not allowed here");
       }
       if (entry.value.empty()) {
-        return refused(key, entry, "a value must follow");
+        return oem_refused(key, entry, "a value must follow");
       }
       if (!entries.emplace(rule->key, entry).second) {
-        return refused(key, entry, "this key stands here twice");
+        return oem_refused(key, entry, "this key stands here twice");
       }
     }
     for (const KeyRule& rule : rules) {
       if (rule.required && !entries.contains(rule.key)) {
-        return refused(line_number(), fmt::format("{} is missing before this line", rule.key));
+        return oem_refused(line_number(), fmt::format("{} is missing before this line", rule.key));
       }
     }
     return entries;
   }
 
-  Expected<Meta> read_meta() {
+  Expected<OemMetadata> read_meta() {
     return take_marker(kMetaStart)
         .and_then([this] { return read_entries(kMetaRules); })
-        .and_then([this](const Entries& entries) {
-          return take_marker(kMetaStop).and_then([&] { return meta_from(entries); });
+        .and_then([this](const OemEntries& entries) {
+          return take_marker(kMetaStop).and_then([&] { return oem_metadata_from(entries); });
         });
   }
 
-  Expected<EphemerisPoint> read_point(const Meta& meta) {
+  Expected<EphemerisPoint> read_point(const OemMetadata& meta) {
     const Line line = take();
     const std::vector<std::string_view> words = words_of(line.text);
     const Expected<TaiTime> time = meta.read_time(words.front());
     if (!time) {
-      return refused(line.number,
-                     fmt::format("a data line must begin with its time: {}", time.error().message));
+      return oem_refused(line.number, fmt::format("a data line must begin with its time: {}",
+                                                  time.error().message));
     }
     if (*time < meta.start || *time > meta.stop) {
-      return refused(line.number, fmt::format("the time {} must lie between START_TIME and "
-                                              "STOP_TIME",
-                                              shown(words.front())));
+      return oem_refused(line.number, fmt::format("the time {} must lie between START_TIME and "
+                                                  "STOP_TIME",
+                                                  shown(words.front())));
     }
     const auto numbers = numbers_of(std::span{words}.subspan(1), line.number);
     if (!numbers) {
       return Unexpected{numbers.error()};
     }
     if (numbers->size() != kStateNumbers && numbers->size() != kStateAndAccelerationNumbers) {
-      return refused(line.number,
-                     fmt::format("a data line must hold {} numbers, or {} with accelerations, "
-                                 "behind its time; there are {}",
-                                 kStateNumbers, kStateAndAccelerationNumbers, numbers->size()));
+      return oem_refused(line.number,
+                         fmt::format("a data line must hold {} numbers, or {} with accelerations, "
+                                     "behind its time; there are {}",
+                                     kStateNumbers, kStateAndAccelerationNumbers, numbers->size()));
     }
     return EphemerisPoint{.t = *time,
                           .state = {.position_icrf_km = Eigen::Vector3d{numbers->data()},
@@ -450,7 +281,7 @@ class OemReader {
                           .line = line.number};
   }
 
-  Expected<void> read_covariances(const Meta& meta) {
+  Expected<void> read_covariances(const OemMetadata& meta) {
     take();
     do {
       if (const auto covariance = read_covariance(meta); !covariance) {
@@ -461,12 +292,12 @@ class OemReader {
   }
 
   /// A lower triangle: one number in the first row, six in the sixth.
-  Expected<void> read_covariance(const Meta& meta) {
-    const Expected<Entries> entries = read_entries(kCovarianceRules);
+  Expected<void> read_covariance(const OemMetadata& meta) {
+    const Expected<OemEntries> entries = read_entries(kCovarianceRules);
     if (!entries) {
       return Unexpected{entries.error()};
     }
-    if (const auto epoch = time_of(*entries, "EPOCH", meta.read_time); !epoch) {
+    if (const auto epoch = oem_time(*entries, "EPOCH", meta.read_time); !epoch) {
       return Unexpected{epoch.error()};
     }
     for (std::size_t row = 1; row <= kCovarianceRows; ++row) {
@@ -477,9 +308,10 @@ class OemReader {
         return Unexpected{numbers.error()};
       }
       if (numbers->size() != row) {
-        return refused(line_number(), fmt::format("row {} of a covariance must hold {} numbers; "
-                                                  "there are {}",
-                                                  row, row, numbers->size()));
+        return oem_refused(line_number(),
+                           fmt::format("row {} of a covariance must hold {} numbers; "
+                                       "there are {}",
+                                       row, row, numbers->size()));
       }
       take();
     }
