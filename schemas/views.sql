@@ -174,6 +174,7 @@ FROM run CROSS JOIN attitude_utc ON attitude_utc.run_id = run.run_id
 -- estimator to sigma_deg: the run has no answer; quality is then that of the run that failed. A spin axis leaves qx
 -- to qw NULL, an attitude ra_deg, dec_deg and the rates. `why` is first what speaks against the answer, then its own status;
 -- `against` what speaks against it alone, with its own status unless that is OK: empty where nothing does.
+-- Answers are joined by the key of their table: SQLite would find those of all runs to join one of a view.
 CREATE VIEW pass_verdict AS
 SELECT run_id, spacecraft_id, started_utc, finished, estimator, quality, ra_deg, dec_deg, qx, qy, qz, qw, sigma_deg,
   spin_rate_rpm, sigma_rpm, others || status AS why,
@@ -197,10 +198,11 @@ FROM (
           ELSE format('%s is %s, %s is %s; ', one, one_quality, other, other_quality) END, '')
         FROM spin_comparison WHERE spin_comparison.run_id = run.run_id AND (disagree OR contradict)), '') AS others,
     coalesce(axis.status, attitude.status, separation.status, 'no estimate') AS status
-  FROM run LEFT JOIN pass_answer AS axis ON axis.run_id = run.run_id AND estimator =
-    (SELECT estimator FROM pass_answer WHERE pass_answer.run_id = run.run_id
+  FROM run LEFT JOIN spin_estimate AS axis ON axis.run_id = run.run_id AND (axis.t_tai_ns, axis.estimator) =
+    (SELECT t_tai_ns, estimator FROM pass_answer WHERE pass_answer.run_id = run.run_id
      ORDER BY CASE estimator WHEN 'batch' THEN 1 WHEN 'sequential' THEN 2 ELSE 3 END LIMIT 1)
-  LEFT JOIN attitude_answer AS attitude ON attitude.run_id = run.run_id
+  LEFT JOIN attitude ON attitude.run_id = run.run_id AND (attitude.t_tai_ns, attitude.source) =
+    (SELECT t_tai_ns, source FROM attitude_answer WHERE attitude_answer.run_id = run.run_id)
   LEFT JOIN reconstruction AS separation ON attitude.run_id IS NULL AND separation.run_id = run.run_id
     AND separation.method = (SELECT min(method) FROM reconstruction WHERE reconstruction.run_id = run.run_id)
   LEFT JOIN reconstruction_event AS event ON event.run_id = separation.run_id

@@ -1,6 +1,7 @@
 #include "services/archive/verdict.h"
 
 #include <SQLiteCpp/Statement.h>
+#include <SQLiteCpp/Transaction.h>
 
 #include <optional>
 
@@ -8,11 +9,10 @@
 
 namespace spindrift {
 
-PassVerdict verdict_in(SQLite::Database& archive, const std::string& run_id) {
-  SQLite::Statement query{
-      archive,
-      "SELECT finished, ifnull(estimator, ''), ifnull(quality, ''), sigma_deg, ra_deg, dec_deg,"
-      " spin_rate_rpm, sigma_rpm, why, against FROM pass_verdict WHERE run_id = ?"};
+namespace {
+
+PassVerdict verdict_of(SQLite::Statement& query, const std::string& run_id) {
+  query.reset();
   query.bind(1, run_id);
   if (!query.executeStep()) {
     return {};
@@ -33,10 +33,28 @@ PassVerdict verdict_in(SQLite::Database& archive, const std::string& run_id) {
           .against = query.getColumn(9).getString()};
 }
 
+}  // namespace
+
+std::vector<PassVerdict> verdicts_in(SQLite::Database& archive,
+                                     const std::vector<std::string>& run_ids) {
+  // Pages that one verdict reads serve the next until the transaction ends.
+  const SQLite::Transaction moment{archive};
+  SQLite::Statement query{
+      archive,
+      "SELECT finished, ifnull(estimator, ''), ifnull(quality, ''), sigma_deg, ra_deg, dec_deg,"
+      " spin_rate_rpm, sigma_rpm, why, against FROM pass_verdict WHERE run_id = ?"};
+  std::vector<PassVerdict> verdicts;
+  verdicts.reserve(run_ids.size());
+  for (const std::string& run_id : run_ids) {
+    verdicts.push_back(verdict_of(query, run_id));
+  }
+  return verdicts;
+}
+
 Expected<PassVerdict> find_verdict(const std::filesystem::path& archive,
                                    const std::string& run_id) {
-  return read_archive(archive,
-                      [&](SQLite::Database& database) { return verdict_in(database, run_id); });
+  return read_archive(
+      archive, [&](SQLite::Database& database) { return verdicts_in(database, {run_id}).front(); });
 }
 
 Expected<std::vector<Disagreement>> find_disagreements(const std::filesystem::path& archive,

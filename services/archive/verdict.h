@@ -15,9 +15,10 @@
 
 namespace spindrift {
 
-/// Of what is stored. Throws SQLite::Exception.
-PassVerdict verdict_in(SQLite::Database& archive, const std::string& run_id);
-/// Likewise. @return As find_stored_passes.
+/// In the order of `run_ids`, all of one moment of the archive. Throws SQLite::Exception.
+std::vector<PassVerdict> verdicts_in(SQLite::Database& archive,
+                                     const std::vector<std::string>& run_ids);
+/// Of what is stored. @return As find_stored_passes.
 Expected<PassVerdict> find_verdict(const std::filesystem::path& archive, const std::string& run_id);
 
 /// Which estimators of a run give axes that their sigmas do not explain: those that the view

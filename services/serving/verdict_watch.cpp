@@ -1,6 +1,9 @@
 #include "services/serving/verdict_watch.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <iterator>
 #include <utility>
 
 #include "services/archive/verdict.h"
@@ -33,27 +36,25 @@ PassVerdict VerdictWatch::of(const std::string& spacecraft) const {
 
 void VerdictWatch::run(const std::stop_token& stop) {
   let_samples_come_first();
-  every(kBetweenVerdicts, stop, [&] { look(stop); });
+  every(kBetweenVerdicts, stop, [&] { look(); });
 }
 
-void VerdictWatch::look(const std::stop_token& stop) {
-  for (const std::string& spacecraft : spacecraft_) {
-    if (stop.stop_requested()) {
-      return;
-    }
-    const std::string run_id = desk_.run_of(spacecraft);
-    const auto read = [&](SQLite::Database& archive) { return verdict_in(archive, run_id); };
-    const PassVerdict verdict =
-        archive_.read(read)
-            .or_else([](const Error& error) -> Expected<PassVerdict> {
-              return PassVerdict{.why = error.message, .against = error.message};
-            })
-            .value();
+void VerdictWatch::look() {
+  std::vector<std::string> run_ids;
+  std::transform(spacecraft_.begin(), spacecraft_.end(), std::back_inserter(run_ids),
+                 [&](const std::string& spacecraft) { return desk_.run_of(spacecraft); });
+  const auto read = [&](SQLite::Database& archive) { return verdicts_in(archive, run_ids); };
+  auto verdicts = archive_.read(read);
+  if (!verdicts) {
+    const std::string& why = verdicts.error().message;
+    verdicts = std::vector(run_ids.size(), PassVerdict{.why = why, .against = why});
+  }
+  for (std::size_t i = 0; i < spacecraft_.size(); ++i) {
     {
       const std::lock_guard lock{mutex_};
-      verdicts_.insert_or_assign(spacecraft, verdict);
+      verdicts_.insert_or_assign(spacecraft_[i], verdicts->at(i));
     }
-    on_verdict_(spacecraft, run_id, verdict);
+    on_verdict_(spacecraft_[i], run_ids[i], verdicts->at(i));
   }
 }
 

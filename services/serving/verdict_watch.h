@@ -36,7 +36,7 @@ class VerdictWatch {
 
  private:
   void run(const std::stop_token& stop);
-  void look(const std::stop_token& stop);
+  void look();
 
   const std::vector<std::string> spacecraft_;
   const AlertDesk& desk_;
