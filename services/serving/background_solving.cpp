@@ -69,16 +69,10 @@ std::optional<Expected<std::vector<Product>>> solve_giving_way(const BackgroundT
 
 void let_samples_come_first() {
   constexpr int kNice = 10;
-  // It counts nothing at the real-time priority that the service may have been started at.
-  const sched_param usual{};
-  int failed = pthread_setschedparam(pthread_self(), SCHED_OTHER, &usual);
-  if (failed == 0 && setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice) != 0) {
-    failed = errno;
-  }
-  if (failed != 0) {
-    warn("no_lower_priority", {{"errno", failed}},
+  if (setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice) != 0) {
+    warn("no_lower_priority", {{"errno", errno}},
          "the backlog competes with samples for the processor: " +
-             std::generic_category().message(failed));
+             std::generic_category().message(errno));
   }
 }
 
