@@ -352,7 +352,7 @@ CREATE TABLE spin_estimate (
     OR quality = 'LOST'),
   reasons              TEXT NOT NULL,  -- JSON: array of objects with `code` and values
   status               TEXT NOT NULL,  -- a sentence for people made of the two
-  PRIMARY KEY (run_id, t_tai_ns, estimator)
+  PRIMARY KEY (run_id, estimator, t_tai_ns)  -- the last of each is looked for once a second
 ) STRICT, WITHOUT ROWID;
 
 -- Of the last solution of the run and estimator: the next one replaces all its rows, so that a channel

@@ -128,7 +128,8 @@ WHERE NOT EXISTS (
   SELECT * FROM operator_action AS marked JOIN run AS told ON told.run_id = marked.run_id
   WHERE marked.spacecraft_id = run.spacecraft_id AND told.mode = run.mode AND told.first_arrival <= run.first_arrival
     AND marked.action = 'mark_manoeuvre' AND marked.t_tai_ns > last.t_tai_ns
-    AND marked.t_tai_ns <= (SELECT max(t_tai_ns) FROM spin_estimate WHERE spin_estimate.run_id = last.run_id));
+    AND EXISTS (SELECT * FROM spin_estimate AS later WHERE later.run_id = last.run_id
+      AND later.estimator IN ('mean', 'sequential', 'batch') AND later.t_tai_ns >= marked.t_tai_ns));
 
 -- The answers of a run two by two: apart in degrees and in the larger sigma of the two, since estimators of
 -- the same edges differ by no more than the worse of them errs (Hausman 1978: the variance of the difference

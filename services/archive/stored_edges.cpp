@@ -81,7 +81,7 @@ bool has_come_to(SQLite::Database& database, const std::string& run_id, TaiTime 
       database,
       "SELECT EXISTS (SELECT 1 FROM spin_fix WHERE run_id = ?1 AND t_tai_ns >= ?2)"
       " OR EXISTS (SELECT 1 FROM spin_estimate WHERE run_id = ?1 AND t_tai_ns >= ?2"
-      "  AND estimator <> 'batch')"};
+      "  AND estimator IN ('mean', 'sequential'))"};
   query.bind(1, run_id);
   query.bind(2, tai_ns(t));
   query.executeStep();
