@@ -276,6 +276,8 @@ std::vector<Fault> faults() {
       {.name = "magnetometer dead",
        .keys = silent("magnetometer"),
        .scenario = leosat,
+       // So bad that any field agrees with it.
+       .more_of_mission = "\n[three_axis.magnetometer]\nnoise_nt = 100000.0\n",
        .sensors =
            [](std::vector<Sent>& sent) {
              add_magnetometer(sent);
