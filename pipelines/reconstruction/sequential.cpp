@@ -21,6 +21,7 @@
 #include "pipelines/reconstruction/rotation_slopes.h"
 #include "pipelines/reconstruction/star_consensus.h"
 #include "pipelines/statistics/distributions.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
@@ -34,7 +35,6 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 constexpr double kTolerance = 1e-6;
 /// The other tests must not end a step before it is solved: a slow body turns by less than that.
 constexpr double kNoTolerance = 1e-14;
-constexpr double kFalseGate = 1e-6;
 
 /// The kinematic equation of one step. The paper writes it in Euler angles, with the rate at the
 /// later instant: singular at phi = 90 deg, and off by half of what the rate changes. Here it is
@@ -149,7 +149,7 @@ class Backwards {
 
   /// Whether the vector is where it can be by what is known.
   bool accepts(const SunObservation& sun, double noise_rad) const {
-    static const double kLimit = chi_square_beyond(kFalseGate, 2.0);
+    static const double kLimit = chi_square_beyond(kContradictionChance, 2.0);
     const Vector3d predicted = q_.conjugate() * sun.sun_icrf;
     const Matrix3d slopes = cross_matrix(predicted);
     const Matrix3d covariance = slopes * covariance_.topLeftCorner<3, 3>() * slopes.transpose() +

@@ -5,6 +5,7 @@
 
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/statistics/distributions.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
@@ -13,7 +14,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr std::size_t kNeighbours = 4;
-constexpr double kFalseDisagreement = 1e-6;
 
 Turn joined(const Turn& first, const Turn& then) {
   const Matrix3d back = then.turn.toRotationMatrix().transpose();
@@ -25,7 +25,7 @@ Turn joined(const Turn& first, const Turn& then) {
 
 bool agree(const StarObservation& earlier, const StarObservation& later, const Turn& turn,
            const ConsensusNoise& noise) {
-  static const double kLimit = chi_square_beyond(kFalseDisagreement, 3.0);
+  static const double kLimit = chi_square_beyond(kContradictionChance, 3.0);
   const Vector3d off_rad = rotation_vector_of(
       turn.turn.conjugate() * (earlier.q_icrf_body.conjugate() * later.q_icrf_body));
   const Matrix3d covariance_rad2 =
