@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/euler312.h"
 #include "pipelines/frames/rotation_vector.h"
