@@ -11,6 +11,16 @@ namespace spindrift {
 
 namespace {
 
+/// Empty where the view has none.
+std::optional<Quality> quality_named(const std::string& name) {
+  for (int i = 0; i < kQualities; ++i) {
+    if (const auto quality = static_cast<Quality>(i); name_of(quality) == name) {
+      return quality;
+    }
+  }
+  return std::nullopt;
+}
+
 PassVerdict verdict_of(SQLite::Statement& query, const std::string& run_id) {
   query.reset();
   query.bind(1, run_id);
@@ -23,7 +33,7 @@ PassVerdict verdict_of(SQLite::Statement& query, const std::string& run_id) {
   };
   return {.finished = query.getColumn(0).getInt() != 0,
           .estimator = query.getColumn(1).getString(),
-          .quality = query.getColumn(2).getString(),
+          .quality = quality_named(query.getColumn(2).getString()),
           .sigma_deg = number(3),
           .ra_deg = number(4),
           .dec_deg = number(5),

@@ -35,6 +35,14 @@ nlohmann::json leap_seconds_json() {
   return offsets;
 }
 
+nlohmann::json go_json(const std::vector<Objection>& against) {
+  nlohmann::json texts = nlohmann::json::array();
+  for (const Objection& objection : against) {
+    texts.push_back({{"code", objection.code}, {"text", objection.text}});
+  }
+  return {{"is_go", against.empty()}, {"against", std::move(texts)}};
+}
+
 }  // namespace
 
 ConsoleFeed::ConsoleFeed(const std::vector<Mission>& missions, nlohmann::json service)
@@ -114,7 +122,7 @@ nlohmann::json ConsoleFeed::put_alert(const std::string& spacecraft, const std::
   if (alert.state == AlertState::Cleared) {
     alerts_.erase(place);
   } else {
-    alerts_.insert_or_assign(place, row);
+    alerts_.insert_or_assign(place, OpenAlert{alert, row});
   }
   return row;
 }
@@ -211,14 +219,16 @@ nlohmann::json ConsoleFeed::state_now() {
                        {"service", service_},
                        {"alerts", nlohmann::json::array()},
                        {"spacecraft", nlohmann::json::object()}};
-  std::map<std::string, nlohmann::json> alerts_of;
-  for (const auto& [place, alert] : alerts_) {
-    state["alerts"].push_back(alert);
-    alerts_of[place.first].push_back(alert);
+  std::map<std::string, std::vector<Alert>> alerts_of;
+  for (const auto& [place, open] : alerts_) {
+    state["alerts"].push_back(open.row);
+    alerts_of[place.first].push_back(open.alert);
   }
   for (auto& [spacecraft, shown] : shown_) {
     nlohmann::json one = shown.state();
-    one["go"] = go_no_go(one, alerts_of[spacecraft], trouble_now(), shown.limits());
+    Standing standing = shown.standing();
+    standing.alerts = std::move(alerts_of[spacecraft]);
+    one["go"] = go_json(go_no_go(standing, trouble_now(), shown.limits()));
     state["spacecraft"][spacecraft] = std::move(one);
   }
   return state;

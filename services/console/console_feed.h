@@ -78,8 +78,12 @@ class ConsoleFeed {
   std::int64_t samples_rejected_ = 0;
   std::map<std::string, SpacecraftKind> kinds_;
   std::map<std::string, ShownSpacecraft> shown_;
-  /// Open ones, by spacecraft and key: of a key one is open at most.
-  std::map<std::pair<std::string, std::string>, nlohmann::json> alerts_;
+  struct OpenAlert {
+    Alert alert;
+    nlohmann::json row;  ///< As viewers are told.
+  };
+  /// By spacecraft and key: of a key one is open at most.
+  std::map<std::pair<std::string, std::string>, OpenAlert> alerts_;
   std::string trouble_;
   DurationHistogram latencies_;
   std::optional<std::chrono::steady_clock::time_point> last_health_;

@@ -3,18 +3,39 @@
 
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "pipelines/supervision/alert.h"
 #include "pipelines/supervision/limits.h"
+#include "services/mission/spacecraft_kind.h"
+#include "services/products/pass_verdict.h"
+#include "services/publisher/health.h"
 
 namespace spindrift {
 
+/// What is known of a spacecraft now.
+struct Standing {
+  SpacecraftKind kind;
+  LinkState link = LinkState::Waiting;
+  std::optional<double> data_age_s = {};
+  PassVerdict verdict = {};                  ///< Of the run in force.
+  std::optional<double> to_target_deg = {};  ///< Empty: no target, or no axis.
+  std::vector<Alert> alerts = {};            ///< Open ones.
+};
+
+/// One thing that stands against it.
+struct Objection {
+  std::string_view code;
+  std::string text;  ///< For people.
+};
+
 /// Unknown is never go.
-/// @param shown The spacecraft as in /api/v1/state. @param alerts Its open ones, likewise.
 /// @param trouble Why the service takes or stores nothing; empty: it does.
-/// @return `is_go` and `against`: of each thing that stands against it `code` and `text`.
-nlohmann::json go_no_go(const nlohmann::json& shown, const nlohmann::json& alerts,
-                        const std::string& trouble, const AlertLimits& limits);
+/// @return Empty: go.
+std::vector<Objection> go_no_go(const Standing& standing, const std::string& trouble,
+                                const AlertLimits& limits);
 
 }  // namespace spindrift

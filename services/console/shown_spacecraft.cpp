@@ -56,6 +56,40 @@ nlohmann::json action_json(const OperatorAction& action) {
   return row;
 }
 
+/// What is not known is left out.
+template <class Value>
+void add(nlohmann::json& object, const char* name, const std::optional<Value>& value) {
+  if (value) {
+    object[name] = *value;
+  }
+}
+
+nlohmann::json link_json(const SpacecraftHealth& health) {
+  nlohmann::json link{{"state", name_of(health.link)}};
+  add(link, "data_age_s", health.data_age_s);
+  if (health.last_sample) {
+    link["t_tai_ns"] = tai_ns(*health.last_sample);
+    link["utc"] = format_utc(*health.last_sample);
+  }
+  return link;
+}
+
+nlohmann::json verdict_json(const PassVerdict& verdict) {
+  nlohmann::json object{{"why", verdict.why}, {"against", verdict.against}};
+  if (!verdict.estimator.empty()) {
+    object["estimator"] = verdict.estimator;
+  }
+  if (verdict.quality) {
+    object["quality"] = name_of(*verdict.quality);
+  }
+  add(object, "sigma_deg", verdict.sigma_deg);
+  add(object, "ra_deg", verdict.ra_deg);
+  add(object, "dec_deg", verdict.dec_deg);
+  add(object, "spin_rate_rpm", verdict.spin_rate_rpm);
+  add(object, "sigma_rpm", verdict.sigma_rpm);
+  return object;
+}
+
 template <class Value>
 void keep_last(std::size_t most, std::deque<Value>& values) {
   while (values.size() > most) {
@@ -66,15 +100,15 @@ void keep_last(std::size_t most, std::deque<Value>& values) {
 }  // namespace
 
 ShownSpacecraft::ShownSpacecraft(const Mission& mission)
-    : mission_{mission}, target_{mission.target} {
-  take(SpacecraftHealth{.spacecraft = mission.spacecraft_id, .link = LinkState::Waiting});
-}
+    : mission_{mission},
+      target_{mission.target},
+      health_{.spacecraft = mission.spacecraft_id, .link = LinkState::Waiting} {}
 
 void ShownSpacecraft::show(const std::string& run_id) {
   if (run_id != run_id_) {
     run_id_ = run_id;
     answers_ = nlohmann::json::object();
-    verdict_ = nlohmann::json::object();
+    verdict_.reset();
     periods_s_.clear();
     edges_.clear();
     actions_.clear();
@@ -164,7 +198,8 @@ void ShownSpacecraft::take(const OperatorAction& action) {
 /// The mission's, until an operator has said another one.
 nlohmann::json ShownSpacecraft::prior() const {
   std::optional<SpinPrior> prior = mission_.spin()->prior;
-  const auto later = last_sample_ ? priors_.upper_bound(*last_sample_) : priors_.begin();
+  const auto later =
+      health_.last_sample ? priors_.upper_bound(*health_.last_sample) : priors_.begin();
   if (later != priors_.begin()) {
     prior = std::prev(later)->second;
   }
@@ -186,62 +221,43 @@ std::optional<double> ShownSpacecraft::phase_deg(TaiTime t) const {
   return (turns - std::floor(turns)) * 360.0;
 }
 
-void ShownSpacecraft::take(const SpacecraftHealth& health) {
-  last_sample_ = health.last_sample;
-  link_ = {{"state", name_of(health.link)}};
-  if (health.data_age_s) {
-    link_["data_age_s"] = *health.data_age_s;
-  }
-  if (last_sample_) {
-    link_["t_tai_ns"] = tai_ns(*last_sample_);
-    link_["utc"] = format_utc(*last_sample_);
-  }
-}
-
-void ShownSpacecraft::take(const PassVerdict& verdict) {
-  verdict_ = {{"why", verdict.why}, {"against", verdict.against}};
-  const auto add = [this](const char* name, const auto& value) {
-    if (value) {
-      verdict_[name] = *value;
-    }
-  };
-  const auto text = [](const std::string& of) { return of.empty() ? nullptr : &of; };
-  add("estimator", text(verdict.estimator));
-  add("quality", text(verdict.quality));
-  add("sigma_deg", verdict.sigma_deg);
-  add("ra_deg", verdict.ra_deg);
-  add("dec_deg", verdict.dec_deg);
-  add("spin_rate_rpm", verdict.spin_rate_rpm);
-  add("sigma_rpm", verdict.sigma_rpm);
-}
-
 nlohmann::json ShownSpacecraft::state() {
   nlohmann::json state{{"kind", name_of(mission_.kind())}};
   if (mission_.spin() != nullptr) {
     state["prior"] = prior();
     state["target"] = target_ ? place_json(target_->axis_icrf) : nullptr;
   }
-  state.update(link_);
+  state.update(link_json(health_));
   state.update(answers_);
-  state.update(verdict_);
+  if (verdict_) {
+    state.update(verdict_json(*verdict_));
+  }
   state["actions"] = nlohmann::json::array();
   for (const OperatorAction& action : actions_) {
     state["actions"].push_back(action_json(action));
   }
   add_sky(state);
-  add_to_target(state);
+  add(state, "to_target_deg", to_target_deg());
   return state;
 }
 
+Standing ShownSpacecraft::standing() const {
+  return {.kind = mission_.kind(),
+          .link = health_.link,
+          .data_age_s = health_.data_age_s,
+          .verdict = verdict_.value_or(PassVerdict{}),
+          .to_target_deg = to_target_deg()};
+}
+
 void ShownSpacecraft::add_sky(nlohmann::json& state) {
-  if (!last_sample_ || !mission_.orbit) {
+  if (!health_.last_sample || !mission_.orbit) {
     return;
   }
-  const auto spacecraft = mission_.orbit->at(*last_sample_);
+  const auto spacecraft = mission_.orbit->at(*health_.last_sample);
   if (!spacecraft) {
     return;  // The orbit ends: the axis is still there to be seen.
   }
-  const PlaceDeg sun = place_deg(sun_.direction_icrf(*last_sample_, *spacecraft));
+  const PlaceDeg sun = place_deg(sun_.direction_icrf(*health_.last_sample, *spacecraft));
   const PlaceDeg earth = place_deg(-spacecraft->position_icrf_km);
   state["sun_ra_deg"] = sun.ra_deg;
   state["sun_dec_deg"] = sun.dec_deg;
@@ -249,13 +265,12 @@ void ShownSpacecraft::add_sky(nlohmann::json& state) {
   state["earth_dec_deg"] = earth.dec_deg;
 }
 
-void ShownSpacecraft::add_to_target(nlohmann::json& state) const {
-  if (target_ && state.contains("ra_deg")) {
-    const Eigen::Vector3d axis_icrf =
-        direction_icrf({.ra_rad = state["ra_deg"].get<double>() * kRadPerDeg,
-                        .dec_rad = state["dec_deg"].get<double>() * kRadPerDeg});
-    state["to_target_deg"] = degrees(angle_between_rad(axis_icrf, target_->axis_icrf));
+std::optional<double> ShownSpacecraft::to_target_deg() const {
+  if (!target_ || !verdict_ || !verdict_->ra_deg || !verdict_->dec_deg) {
+    return std::nullopt;
   }
+  return degrees(
+      angle_between_rad(axis_icrf_from(*verdict_->ra_deg, *verdict_->dec_deg), target_->axis_icrf));
 }
 
 nlohmann::json ShownSpacecraft::take_pulses() {

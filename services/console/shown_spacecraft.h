@@ -12,6 +12,7 @@
 
 #include "pipelines/ephemeris/sun.h"
 #include "services/archive/records.h"
+#include "services/console/go_no_go.h"
 #include "services/mission/mission.h"
 #include "services/products/products.h"
 #include "services/publisher/health.h"
@@ -37,13 +38,15 @@ class ShownSpacecraft {
   /// @}
   void take_details(const ArchiveBatch& stored);
 
-  void take(const SpacecraftHealth& health);
+  void take(const SpacecraftHealth& health) { health_ = health; }
   /// Of the run.
-  void take(const PassVerdict& verdict);
+  void take(const PassVerdict& verdict) { verdict_ = verdict; }
   void take(const SpinTarget& target) { target_ = target; }
 
   /// As in /api/v1/state, but whether it is go.
   nlohmann::json state();
+  /// But for its alerts.
+  Standing standing() const;
   const AlertLimits& limits() const { return mission_.alerts; }
   /// Edges since the last time, with their spin phase where that is known.
   nlohmann::json take_pulses();
@@ -52,16 +55,15 @@ class ShownSpacecraft {
   void take(const OperatorAction& action);
   nlohmann::json prior() const;
   void add_sky(nlohmann::json& state);
-  void add_to_target(nlohmann::json& state) const;
+  std::optional<double> to_target_deg() const;
   std::optional<double> phase_deg(TaiTime t) const;
 
   const Mission& mission_;
   std::optional<SpinTarget> target_;
   std::string run_id_;
-  nlohmann::json link_ = nlohmann::json::object();
+  SpacecraftHealth health_;
   nlohmann::json answers_ = nlohmann::json::object();
-  nlohmann::json verdict_ = nlohmann::json::object();
-  std::optional<TaiTime> last_sample_;
+  std::optional<PassVerdict> verdict_;
   std::map<TaiTime, double> periods_s_;                  ///< Of the last turns, by their sun1.
   std::deque<PulseUse> edges_;                           ///< That viewers were not told yet.
   std::deque<OperatorAction> actions_;                   ///< The last ones.

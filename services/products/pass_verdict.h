@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "pipelines/core/assessment.h"
+
 namespace spindrift {
 
 /// Of a run without an answer, or that does not exist, as it stands here.
@@ -13,8 +15,8 @@ struct PassVerdict {
   bool finished = false;  ///< Otherwise the run goes on, or was interrupted or killed.
   /// @name Empty: the run has no answer
   /// @{
-  std::string estimator = {};  ///< To report.
-  std::string quality = {};    ///< There is one of a run that failed, too.
+  std::string estimator = {};           ///< To report.
+  std::optional<Quality> quality = {};  ///< There is one of a run that failed, too.
   std::optional<double> sigma_deg = {};
   /// @}
   /// @name The spin axis, ICRF, and the rate of that estimator; empty: it gives none

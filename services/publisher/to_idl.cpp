@@ -58,7 +58,9 @@ Expected<spindrift_SpacecraftHealth> to_idl(const SpacecraftHealth& health) {
       .against = const_cast<char*>(verdict.against.c_str())};  // NOLINT(*-pro-type-const-cast)
   return put_name(out.spacecraft, health.spacecraft, "spacecraft")
       .and_then([&] { return put_name(out.estimator, verdict.estimator, "estimator"); })
-      .and_then([&] { return put_name(out.quality, verdict.quality, "quality"); })
+      .and_then([&] {
+        return put_name(out.quality, verdict.quality ? name_of(*verdict.quality) : "", "quality");
+      })
       .map([&out] { return out; });
 }
 

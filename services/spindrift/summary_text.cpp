@@ -209,18 +209,19 @@ std::string faults_text(const RunSummary& summary) {
 }
 
 std::string to_text(const PassVerdict& verdict) {
-  const std::string answer = verdict.estimator.empty()
-                                 ? std::string{}
-                                 : fmt::format("{} by {}: ", verdict.quality, verdict.estimator);
+  const std::string answer =
+      verdict.estimator.empty() || !verdict.quality
+          ? std::string{}
+          : fmt::format("{} by {}: ", name_of(*verdict.quality), verdict.estimator);
   return fmt::format("  verdict      {}{}\n", answer, verdict.why);
 }
 
 nlohmann::json to_json(const PassVerdict& verdict) {
-  const auto known = [](const std::string& text) {
+  const auto known = [](std::string_view text) {
     return text.empty() ? nlohmann::json{} : nlohmann::json(text);
   };
   return {{"estimator", known(verdict.estimator)},
-          {"quality", known(verdict.quality)},
+          {"quality", known(verdict.quality ? name_of(*verdict.quality) : "")},
           {"sigma_deg", verdict.sigma_deg ? nlohmann::json(*verdict.sigma_deg) : nlohmann::json{}},
           {"why", verdict.why},
           {"against", verdict.against}};

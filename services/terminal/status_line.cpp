@@ -78,7 +78,8 @@ void add_answer(const PassVerdict& verdict, std::vector<Part>& parts) {
   if (!verdict.estimator.empty()) {
     parts.push_back({Need::Estimator, verdict.estimator});
   }
-  const std::string quality = verdict.quality.empty() ? "no answer" : verdict.quality;
+  const std::string quality =
+      std::string{verdict.quality ? name_of(*verdict.quality) : "no answer"};
   parts.push_back({Need::Quality, verdict.sigma_deg
                                       ? fmt::format("{} {:.2g}deg", quality, *verdict.sigma_deg)
                                       : quality});

@@ -175,7 +175,7 @@ TEST(ResultPublisher, PublishesTheWholeMessageAndTheStateOfEverySpacecraft) {
                         .last_sample = tai_from_ns(kTestTime_tai_ns - 7),
                         .data_age_s = 6.5,
                         .verdict = {.estimator = "mean",
-                                    .quality = "DOUBTFUL",
+                                    .quality = Quality::Doubtful,
                                     .sigma_deg = 0.25,
                                     .why = std::string(300, 'y'),
                                     .against = "mean and batch disagree"}},

@@ -79,10 +79,11 @@ TEST_F(Feed, ShowsLinkSunAndEarthOfTheLastSample) {
 
 TEST_F(Feed, ShowsTheVerdictOfTheRunInForceAndHowFarTheTargetIs) {
   put(estimate_at(kT, SpinEstimator::Mean));
-  feed_->put("SPINNER", "run of before", PassVerdict{.quality = "LOST"});
+  feed_->put("SPINNER", "run of before", PassVerdict{.quality = Quality::Lost});
   EXPECT_FALSE(shown().contains("quality"));
-  feed_->put("SPINNER", "run",
-             PassVerdict{.quality = "OK", .ra_deg = 100.0, .dec_deg = -55.0, .against = "edges"});
+  feed_->put(
+      "SPINNER", "run",
+      PassVerdict{.quality = Quality::Ok, .ra_deg = 100.0, .dec_deg = -55.0, .against = "edges"});
   EXPECT_EQ(shown()["quality"], "OK");
   EXPECT_EQ(shown()["against"], "edges");
   EXPECT_FALSE(shown().contains("sigma_deg"));
@@ -177,7 +178,8 @@ TEST_F(Feed, IsGoWhenNothingStandsAgainstIt) {
   put_link(LinkState::Live);
   put(estimate_at(kT, SpinEstimator::Mean));
   EXPECT_EQ(shown()["go"]["is_go"], false);
-  feed_->put("SPINNER", "run", PassVerdict{.quality = "OK", .sigma_deg = 0.1, .against = ""});
+  feed_->put("SPINNER", "run",
+             PassVerdict{.quality = Quality::Ok, .sigma_deg = 0.1, .against = ""});
   EXPECT_EQ(shown()["go"], (nlohmann::json{{"is_go", true}, {"against", nlohmann::json::array()}}));
   put(Alert{.alert_id = "00ff",
             .key = "spin.nutation",

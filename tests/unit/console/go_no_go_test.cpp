@@ -2,82 +2,100 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace spindrift::go_no_go_test {
 namespace {
 
-const nlohmann::json kGood = {{"kind", "spin"},      {"state", "live"},       {"data_age_s", 0.4},
-                              {"quality", "OK"},     {"why", "OK, 90 edges"}, {"sigma_deg", 0.1},
-                              {"to_target_deg", 2.2}};
+using Texts = std::vector<std::string>;
+using Change = std::function<void(Standing&)>;
 
-const nlohmann::json kNoChange = nlohmann::json::object();
+Standing good() {
+  return {.kind = SpacecraftKind::Spin,
+          .link = LinkState::Live,
+          .data_age_s = 0.4,
+          .verdict = {.quality = Quality::Ok, .sigma_deg = 0.1, .against = ""},
+          .to_target_deg = 2.2};
+}
 
-/// "code: text" of what stands against it.
-std::vector<std::string> against(const nlohmann::json& changes,
-                                 const std::vector<nlohmann::json>& alerts = {},
-                                 const std::string& trouble = "") {
-  nlohmann::json shown = kGood;
-  shown.merge_patch(changes);
-  const nlohmann::json go = go_no_go(shown, alerts, trouble, AlertLimits{});
-  std::vector<std::string> all;
-  for (const nlohmann::json& one : go["against"]) {
-    all.push_back(one["code"].get<std::string>() + ": " + one["text"].get<std::string>());
+/// "code: text" of what stands against what is good but for a change.
+Texts against(const Change& change, const std::string& trouble = "") {
+  Standing standing = good();
+  change(standing);
+  Texts all;
+  for (const Objection& objection : go_no_go(standing, trouble, AlertLimits{})) {
+    all.push_back(std::string{objection.code} + ": " + objection.text);
   }
-  EXPECT_EQ(go["is_go"], all.empty());
   return all;
 }
 
-nlohmann::json alert(const char* key, const char* severity, const char* state) {
-  return {{"key", key}, {"severity", severity}, {"state", state}};
+Alert alert(const char* key, AlertSeverity severity, AlertState state) {
+  return {.key = key, .severity = severity, .state = state};
 }
 
-using Reasons = std::vector<std::string>;
-
 TEST(GoNoGo, IsGoWhenAllIsKnownAndNothingStandsAgainstIt) {
-  EXPECT_EQ(against(kNoChange), Reasons{});
-  EXPECT_EQ(against({{"to_target_deg", nullptr}}), Reasons{});
-  EXPECT_EQ(against(kNoChange, {alert("link.restarted:S", "info", "active")}), Reasons{});
+  EXPECT_EQ(against([](Standing&) {}), Texts{});
+  EXPECT_EQ(against([](Standing& now) { now.to_target_deg.reset(); }), Texts{});
+  EXPECT_EQ(against([](Standing& now) {
+              now.alerts = {alert("link.restarted:S", AlertSeverity::Info, AlertState::Active)};
+            }),
+            Texts{});
 }
 
 TEST(GoNoGo, IsNeverGoWhenItIsNotKnown) {
-  const nlohmann::json nothing = go_no_go({{"kind", "spin"}}, {}, "", AlertLimits{});
-  EXPECT_EQ(nothing["is_go"], false);
-  EXPECT_EQ(nothing["against"].size(), 2U);
-  EXPECT_EQ(against({{"state", "waiting"}}), Reasons{"link: no telemetry has come yet"});
-  EXPECT_EQ(against({{"state", "stale"}, {"data_age_s", 12.3}}),
-            Reasons{"link: no telemetry for 12 s"});
-  EXPECT_EQ(against({{"quality", nullptr}}), Reasons{"quality: no answer yet"});
-  EXPECT_EQ(against({{"sigma_deg", nullptr}}), Reasons{"quality: no answer yet"});
+  EXPECT_EQ(go_no_go({.kind = SpacecraftKind::Spin}, "", AlertLimits{}).size(), 2U);
+  EXPECT_EQ(against([](Standing& now) { now.link = LinkState::Waiting; }),
+            Texts{"link: no telemetry has come yet"});
+  EXPECT_EQ(against([](Standing& now) {
+              now.link = LinkState::Stale;
+              now.data_age_s = 12.3;
+            }),
+            Texts{"link: no telemetry for 12 s"});
+  EXPECT_EQ(against([](Standing& now) { now.verdict.quality.reset(); }),
+            Texts{"quality: no answer yet"});
+  EXPECT_EQ(against([](Standing& now) { now.verdict.sigma_deg.reset(); }),
+            Texts{"quality: no answer yet"});
 }
 
 TEST(GoNoGo, SaysWhyTheAnswerIsNotToBeUsed) {
-  EXPECT_EQ(against({{"quality", "AMBIGUOUS"}, {"against", "AMBIGUOUS, another axis fits"}}),
-            Reasons{"quality: AMBIGUOUS, another axis fits"});
-  EXPECT_EQ(against({{"quality", "DOUBTFUL"}, {"against", "mean and batch disagree"}}),
-            Reasons{"quality: DOUBTFUL: mean and batch disagree"});
-  EXPECT_EQ(against({{"against", "sequential and batch disagree"}}),
-            Reasons{"quality: sequential and batch disagree"});
+  EXPECT_EQ(against([](Standing& now) {
+              now.verdict.quality = Quality::Ambiguous;
+              now.verdict.against = "AMBIGUOUS, another axis fits";
+            }),
+            Texts{"quality: AMBIGUOUS, another axis fits"});
+  EXPECT_EQ(against([](Standing& now) { now.verdict.against = "sequential and batch disagree"; }),
+            Texts{"quality: sequential and batch disagree"});
+  EXPECT_EQ(against([](Standing& now) { now.verdict.quality = Quality::Lost; }),
+            Texts{"quality: LOST"});
 }
 
 TEST(GoNoGo, HoldsAnAxisAgainstTheLimitsOfTheMission) {
-  EXPECT_EQ(against({{"sigma_deg", 1.5}}), Reasons{"sigma: sigma 1.5 deg, limit 1"});
-  EXPECT_EQ(against({{"to_target_deg", 2.4}}),
-            Reasons{"target: 2.4 deg off the target, limit 2.3"});
-  EXPECT_EQ(against({{"kind", "three_axis"}, {"sigma_deg", 1.5}}), Reasons{});
+  EXPECT_EQ(against([](Standing& now) { now.verdict.sigma_deg = 1.5; }),
+            Texts{"sigma: sigma 1.5 deg, limit 1"});
+  EXPECT_EQ(against([](Standing& now) { now.to_target_deg = 2.4; }),
+            Texts{"target: 2.4 deg off the target, limit 2.3"});
+  EXPECT_EQ(against([](Standing& now) {
+              now.kind = SpacecraftKind::ThreeAxis;
+              now.verdict.sigma_deg = 1.5;
+            }),
+            Texts{});
 }
 
 TEST(GoNoGo, NamesWhatIsOpenWhoeverHasSeenIt) {
-  EXPECT_EQ(against(kNoChange, {alert("spin.nutation", "warning", "acknowledged"),
-                                alert("attitude.lost", "critical", "shelved")}),
-            (Reasons{"alert: warning spin.nutation, acknowledged",
-                     "alert: critical attitude.lost, shelved"}));
+  EXPECT_EQ(against([](Standing& now) {
+              now.alerts = {
+                  alert("spin.nutation", AlertSeverity::Warning, AlertState::Acknowledged),
+                  alert("attitude.lost", AlertSeverity::Critical, AlertState::Shelved)};
+            }),
+            (Texts{"alert: warning spin.nutation, acknowledged",
+                   "alert: critical attitude.lost, shelved"}));
 }
 
 TEST(GoNoGo, IsNotGoWhileTheServiceDoesNotWork) {
-  EXPECT_EQ(against(kNoChange, {}, "not storing: disk full"),
-            Reasons{"service: not storing: disk full"});
+  EXPECT_EQ(against([](Standing&) {}, "not storing: disk full"),
+            Texts{"service: not storing: disk full"});
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ class StatusLine : public ::testing::Test {
                            .last_sample = t_,
                            .data_age_s = 0.25,
                            .verdict = {.estimator = "sequential",
-                                       .quality = "AMBIGUOUS",
+                                       .quality = Quality::Ambiguous,
                                        .sigma_deg = 0.0418,
                                        .ra_deg = 100.1464,
                                        .dec_deg = -54.9244}};
@@ -50,7 +50,7 @@ TEST_F(StatusLine, FitsAnUsualTerminal) {
   EXPECT_EQ(line(kUsual),
             "SPINNER 03:24:04Z age 0.2s rev 597 sun 0/12 N 2m/- S 10h/0 AMBIGUOUS 0.042deg");
   health_.verdict.estimator = "mean";
-  health_.verdict.quality = "OK";
+  health_.verdict.quality = Quality::Ok;
   arrivals_.last = {{"sun1", t_}};
   EXPECT_EQ(line(kUsual),
             "SPINNER 03:24:04Z age 0.2s rev 597 6.0/s sun 0/- N -/- S -/- mean OK 0.042deg");
