@@ -1,6 +1,8 @@
 #include "services/processor/three_axis_run.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <iterator>
 #include <memory>
@@ -8,6 +10,7 @@
 #include <variant>
 
 #include "pipelines/three_axis/sample_kind.h"
+#include "pipelines/time/utc.h"
 #include "services/clock/wall_clock.h"
 #include "services/geomagnetism/igrf.h"
 #include "services/processor/separation_solving.h"
@@ -176,6 +179,10 @@ ArchiveBatch ThreeAxisRun::finish() {
            fmt::format("{}: no {}: {}", computing_.spacecraft_id(), kReconstruction,
                        products.error().message));
     }
+  } else if (record_) {
+    spdlog::info("{}: no {}: no sample within {} after T1, {}", computing_.spacecraft_id(),
+                 kReconstruction, SeparationRecord::kLongest,
+                 format_utc(separation_->times.separation));
   }
   last.finished_utc = utc_now();
   return last;

@@ -259,6 +259,43 @@ Expected<void> print_if_read(const std::string& text) {
   return {};
 }
 
+void show(const Health& health, ServiceTerminal& terminal, ConsoleFeed* feed) {
+  terminal.show(health);
+  if (feed != nullptr) {
+    feed->put(health);
+  }
+}
+
+/// With the runs and alerts of before, whose samples are with the archive again.
+Expected<GoneOn> go_on(const ServiceParts& parts, ConsoleFeed* feed, Announcer& announcer) {
+  return parts.processor.arrive_after(parts.db)
+      .and_then([&] { return take_up_alerts(parts.db, parts.mode, parts.desk, feed); })
+      .and_then([&] { return parts.processor.go_on(parts.db, moment_of(parts.processor)); })
+      .and_then([&](GoneOn stored) {
+        return note_announced(parts.db, stored.routed.samples, announcer)
+            .and_then([&] { return submit_all(parts.archive, std::move(stored.routed.samples)); })
+            .and_then([&] { return parts.archive.flush(); })
+            .map([&] { return std::move(stored); });
+      });
+}
+
+/// Takes telemetry and answers requests, until a signal or a failure.
+Expected<void> take_and_answer(const ServeOptions& options, const ServiceParts& parts,
+                               ConsoleFeed* feed, ServiceTerminal& terminal, GoneOn stored) {
+  ActionInbox inbox{kinds_of(parts.missions), parts.archive, parts.taken};
+  const auto requests = answer_requests(options.db, parts.archive, parts.desk, inbox);
+  const auto console = start_console(options, feed, parts.desk, parts.archive, inbox);
+  if (!console) {
+    return Unexpected{console.error()};
+  }
+  auto ran = run_service(std::move(stored), parts);
+  terminal.erase();
+  tell_actions_left(parts.taken);
+  // Who asks and waits for the archive gets his answer, so that the servers can end.
+  static_cast<void>(parts.archive.close());
+  return ran;
+}
+
 }  // namespace
 
 Expected<void> serve(const ServeOptions& options) {
@@ -310,58 +347,32 @@ Expected<void> serve(const ServeOptions& options) {
   Archive& archive = **opened;
   spdlog::info("archive {}", options.db.string());
 
-  auto gone_on =
-      processor->arrive_after(options.db)
-          .and_then([&] { return take_up_alerts(options.db, mode_of(options), desk, feed.get()); })
-          .and_then([&] { return processor->go_on(options.db, moment_of(*processor)); });
-  const auto done = std::move(gone_on).and_then([&](GoneOn stored) {
-    return note_announced(options.db, stored.routed.samples, announcer)
-        .and_then([&] { return submit_all(archive, std::move(stored.routed.samples)); })
-        .and_then([&] { return archive.flush(); })
-        .and_then([&] {
-          BoundedQueue<SampleBatch> taken{kSamplesTaken, &taken_size};
-          ActionInbox inbox{kinds_of(*missions), archive, taken};
-          const auto requests = answer_requests(options.db, archive, desk, inbox);
-          const auto console = start_console(options, feed.get(), desk, archive, inbox);
-          if (!console) {
-            return Expected<void>{Unexpected{console.error()}};
-          }
-          auto ran = run_service(
-              std::move(stored),
-              {.missions = *missions,
-               .mode = mode_of(options),
-               .db = options.db,
-               .participant = *participant,
-               .publisher = *publisher,
-               .told = *told,
-               .taken = taken,
-               .processor = *processor,
-               .archive = archive,
-               .desk = desk,
-               .problems = problems,
-               .stop_signal = stop_signal,
-               .failures = failures,
-               .announce = [&](const ArchiveBatch& batch) { announcer.announce(batch); },
-               .on_health =
-                   [&](const Health& health) {
-                     terminal.show(health);
-                     if (feed != nullptr) {
-                       feed->put(health);
-                     }
-                   },
-               .on_verdict =
-                   [&](const std::string& spacecraft, const std::string& run_id,
-                       const PassVerdict& verdict) {
-                     if (feed != nullptr) {
-                       show_verdict(*feed, spacecraft, run_id, verdict, desk);
-                     }
-                   }});
-          terminal.erase();
-          tell_actions_left(taken);
-          // Who asks and waits for the archive gets his answer, so that the servers can end.
-          static_cast<void>(archive.close());
-          return ran;
-        });
+  BoundedQueue<SampleBatch> taken{kSamplesTaken, &taken_size};
+  const ServiceParts parts{
+      .missions = *missions,
+      .mode = mode_of(options),
+      .db = options.db,
+      .participant = *participant,
+      .publisher = *publisher,
+      .told = *told,
+      .taken = taken,
+      .processor = *processor,
+      .archive = archive,
+      .desk = desk,
+      .problems = problems,
+      .stop_signal = stop_signal,
+      .failures = failures,
+      .announce = [&](const ArchiveBatch& batch) { announcer.announce(batch); },
+      .on_health = [&](const Health& health) { show(health, terminal, feed.get()); },
+      .on_verdict =
+          [&](const std::string& spacecraft, const std::string& run_id,
+              const PassVerdict& verdict) {
+            if (feed != nullptr) {
+              show_verdict(*feed, spacecraft, run_id, verdict, desk);
+            }
+          }};
+  const auto done = go_on(parts, feed.get(), announcer).and_then([&](GoneOn stored) {
+    return take_and_answer(options, parts, feed.get(), terminal, std::move(stored));
   });
   if (auto outcome = outcome_of(done, archive.close()); !outcome) {
     return outcome;

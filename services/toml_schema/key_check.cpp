@@ -49,7 +49,7 @@ bool is_allowed_text(const KeyRule& rule, const std::string& text) {
     return is_spacecraft_id(text);
   }
   if (rule.form == ValueForm::Utc) {
-    return parse_utc(text).has_value();
+    return text.ends_with('Z') && parse_utc(text).has_value();
   }
   return rule.one_of.empty() ||
          std::find(rule.one_of.begin(), rule.one_of.end(), text) != rule.one_of.end();

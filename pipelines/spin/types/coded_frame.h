@@ -25,7 +25,9 @@ struct CodedFrame {
   /// Behind sun1 by channel, up to two periods; that of sun1 itself is empty.
   std::array<std::optional<double>, kPulseChannels> delay_s;
 
-  friend auto operator<=>(const CodedFrame&, const CodedFrame&) = default;
+  // Frames of one instant are one, and the first that came counts, as in the archive.
+  friend auto operator<=>(const CodedFrame& a, const CodedFrame& b) { return a.t <=> b.t; }
+  friend bool operator==(const CodedFrame& a, const CodedFrame& b) { return a.t == b.t; }
 };
 
 /// Its edges in order of time: sun1, and the others behind it. A counter on board that begins anew

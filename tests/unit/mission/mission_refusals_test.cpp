@@ -117,7 +117,9 @@ TEST(MissionRefusals, HoldsEveryKeyToItsRange) {
       {"spin.target.dec_deg", {"-90", "90"}, {"-90.1", "90.1"}},
       {"spin.target.rpm", {"0.1", "1000"}, {"0", "1001"}},
       {"spin.target.tolerance_rpm", {"1e-6", "1000"}, {"0", "1001"}},
-      {"contact.aos_utc", {"'2026-11-20T03:00:00Z'"}, {"'2026-11-20 03:00'", "'soon'", "3"}},
+      {"contact.aos_utc",
+       {"'2026-11-20T03:00:00Z'"},
+       {"'2026-11-20 03:00'", "'2026-11-20T03:00:00'", "'soon'", "3"}},
       {"contact.los_utc", {"'2026-11-20T03:10:00.5Z'"}, {"''", "true"}},
   };
   for (const Range& range : ranges) {

@@ -213,6 +213,18 @@ TEST(SpinPass, DuplicatesChangeNothingHoweverLateTheyArrive) {
   }
 }
 
+TEST(SpinPass, OfTwoFramesOfOneInstantTheFirstCounts) {
+  const RecordedPass pass = recorded_pass("coded");
+  std::vector<CodedFrame> twice;
+  for (const CodedFrame& frame : pass.frames) {
+    twice.push_back(frame);
+    twice.push_back({.t = frame.t, .period_s = frame.period_s, .delay_s = {}});
+    twice.back().delay_s[index_of(PulseChannel::Sun2)] = 0.1;
+  }
+  EXPECT_EQ(texts_of(run(SpinPass{pass.config, pass.orbit}, twice)),
+            texts_of(run(SpinPass{pass.config, pass.orbit}, pass.frames)));
+}
+
 TEST(SpinPass, ALatePulseIsToldAndLeftOut) {
   const RecordedPass pass = recorded_pass("nominal");
   std::vector<Pulse> arrivals = pass.pulses;
