@@ -1,6 +1,6 @@
 /// @file
 /// The attitude to the Sun that an analog sun sensor gives: two angles, both zero where the body's
-/// -z looks at the Sun. Seed 000, eq. 5, 6, 14 to 17; eq. 5 and 6 as printed hold for sz > 0 only.
+/// -z looks at the Sun. Li 2017, eq. 5, 6, 14 to 17; eq. 5 and 6 as printed hold for sz > 0 only.
 
 #pragma once
 

@@ -31,12 +31,12 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// The paper's, of the cost from one iteration to the next.
+/// That of Li 2017, of the cost from one iteration to the next.
 constexpr double kTolerance = 1e-6;
 /// The other tests must not end a step before it is solved: a slow body turns by less than that.
 constexpr double kNoTolerance = 1e-14;
 
-/// The kinematic equation of one step. The paper writes it in Euler angles, with the rate at the
+/// The kinematic equation of one step. Li 2017 writes it in Euler angles, with the rate at the
 /// later instant: singular at phi = 90 deg, and off by half of what the rate changes. Here it is
 /// the turn of the step. Parameter: the earlier attitude.
 class StepCost final : public ceres::SizedCostFunction<3, 4> {

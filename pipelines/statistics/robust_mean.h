@@ -1,5 +1,5 @@
 /// @file
-/// Mean and scatter of a window of values of which some are wrong (spin.md, rationality tests).
+/// Mean and scatter of a window of values of which some are wrong (rationality tests, Wang 2015).
 
 #pragma once
 

@@ -21,7 +21,7 @@ struct ObservedDirection {
 /// What a direction says of the attitude, 1/rad^2, body axes: nothing about itself.
 Eigen::Matrix3d information_of(const ObservedDirection& direction);
 
-/// TRIAD (seed 002, eq. 10 to 12): `first` exactly, `second` as near as that leaves it; covariance
+/// TRIAD (Liu 2019, eq. 10 to 12): `first` exactly, `second` as near as that leaves it; covariance
 /// by Shuster and Oh 1981.
 /// @return Unobservable where the two are so nearly in line that the turn about it is known to no
 ///         better than 1 rad.

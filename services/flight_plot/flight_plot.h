@@ -11,7 +11,7 @@
 namespace spindrift {
 
 /// SVG: attitude seen from the start, rates and, where wheels turn it, their momenta and speeds
-/// with what they were told: figures 7 to 12 of seed 004.
+/// with what they were told: figures 7 to 12 of Zhang 2019.
 /// @param pass Of a three-axis spacecraft.
 std::string flight_plot(const Scenario& scenario, const SimulatedPass& pass);
 

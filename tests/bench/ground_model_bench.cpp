@@ -1,5 +1,5 @@
 /// @file
-/// What a step of the ground model costs: the satellite of seed 004, its body in steps of 25 ms
+/// What a step of the ground model costs: the satellite of Zhang 2019, its body in steps of 25 ms
 /// with all disturbances, wheels and thrusters at 10 Hz, a star tracker and a gyro with noise at 10
 /// Hz; and what a step of a whole flight costs, along its orbit and with the telemetry it sends.
 

@@ -59,7 +59,7 @@ struct PdGains {
   static PdGains of(const Eigen::Vector3d& moments_kg_m2, double frequency_rad_s, double damping);
 };
 
-/// Seed 004, eq. 12 to 15: -kp sat(qe) - kd we + w x h. The vector part of the error, taken the
+/// Zhang 2019, eq. 12 to 15: -kp sat(qe) - kd we + w x h. The vector part of the error, taken the
 /// short way, keeps its direction and has no element above the limit: what is far off turns evenly.
 struct SaturatedPd {
   AttitudeTarget target;
@@ -69,7 +69,7 @@ struct SaturatedPd {
   Eigen::Vector3d torque_body_nm(const MeasuredBody& measured) const;
 };
 
-/// Seed 001, after Wie: -sat(kp sat_L(qe) + kd we), by the length of the torque outside and about
+/// Huang 2009, after Wie: -sat(kp sat_L(qe) + kd we), by the length of the torque outside and about
 /// each axis inside, where
 ///
 ///     L = kd / kp min(sqrt(4 a |qe|), fastest),    a = most torque / moment

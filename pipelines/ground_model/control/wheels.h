@@ -1,5 +1,5 @@
 /// @file
-/// Reaction wheels that are told speeds: seed 004, eq. 16 to 20.
+/// Reaction wheels that are told speeds: Zhang 2019, eq. 16 to 20.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// A body that turns to an attitude by its wheels (seed 004): it slides out without control; its
+/// A body that turns to an attitude by its wheels (Zhang 2019): it slides out without control; its
 /// rates are damped; from then on it points. Its computer may know the attitude from its gyro
 /// alone, counted from the start.
 

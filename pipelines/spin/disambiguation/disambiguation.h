@@ -1,5 +1,5 @@
 /// @file
-/// True or false solution (spin.md): which of a revolution's candidates the axis is.
+/// True or false solution (Wang 2015): which of a revolution's candidates the axis is.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 /// @file
-/// Dispersion test: which of several continuous branches of candidate axes is constant (spin.md,
-/// "True or false solution", 3): Sun and Earth move, the true axis does not.
+/// Dispersion test: which of several continuous branches of candidate axes is constant: Sun and
+/// Earth move, the true axis does not.
 
 #pragma once
 

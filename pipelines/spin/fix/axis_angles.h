@@ -1,6 +1,6 @@
 /// @file
 /// The angles of the axis to Sun and Earth that fit the measurements of one revolution: cases 1 to
-/// 7 of spin.md, with the Delta rules.
+/// 7 of pipelines/spin/fix/README.md, with the rules of Delta.
 
 #pragma once
 

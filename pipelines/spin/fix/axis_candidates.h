@@ -1,5 +1,6 @@
 /// @file
-/// The spin axes that one revolution alone allows: cases 1 to 7 of spin.md, with the Delta rules.
+/// The spin axes that one revolution alone allows: cases 1 to 7 of
+/// pipelines/spin/fix/README.md, with the rules of Delta.
 ///
 /// Every angle is solved together with its derivatives to the sources of error, so that each
 /// candidate has its covariance, and what shares an edge is correlated. The Earth is the mission's,
@@ -48,7 +49,7 @@ struct NoCandidates {
 
 using FoundCandidates = tl::expected<AxisCandidates, NoCandidates>;
 
-/// Which of the ten cases of spin.md the good measurements are; 0: none.
+/// Which of the ten cases of pipelines/spin/fix/README.md the good measurements are; 0: none.
 int geometry_case_of(const RevolutionMeasurements& measured);
 
 /// From the good measurements. With the dihedral (the mean of the two, where both are there):

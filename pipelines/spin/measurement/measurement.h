@@ -1,5 +1,5 @@
 /// @file
-/// From the edges of one revolution to its measurements (spin.md, "From pulses to measurements").
+/// From the edges of one revolution to its measurements (Wang 2015).
 
 #pragma once
 

@@ -1,6 +1,6 @@
 /// @file
 /// Sun angle and dihedral from the one combination of them that sun slit 2 gives alone: the azimuth
-/// of the Earth behind it (spin.md, case 7).
+/// of the Earth behind it (case 7 of pipelines/spin/fix/README.md).
 
 #pragma once
 

@@ -40,7 +40,7 @@ struct BeamGeometry {
 
 /// The fix that one turn gives.
 struct FixGeometry {
-  int geometry_case;  ///< 1 to 10 of spin.md; 0: nothing of an axis.
+  int geometry_case;  ///< Of pipelines/spin/fix/README.md; 0: nothing of an axis.
   std::size_t axes;   ///< How many candidates one turn leaves; 0: there is no fix.
   bool told_apart;    ///< The geometry alone shows which.
   /// One standard deviation from the noise of the edges, both axes together. Empty: no fix.

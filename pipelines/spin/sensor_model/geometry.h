@@ -1,5 +1,5 @@
 /// @file
-/// The spherical geometry of spin axis, Sun and Earth (spin.md, "Earth angle" and "Attitude").
+/// The spherical geometry of spin axis, Sun and Earth (Wang 2015).
 /// Angles in radians, directions are unit vectors in ICRF.
 ///
 /// What a fix is solved with is written for any scalar, so that its derivatives come with it.

@@ -1,7 +1,7 @@
 /// @file
 /// Where a pencil beam crosses the Earth's infrared limb, spherical or ellipsoidal.
 ///
-/// The beam from the spacecraft at r along d touches the horizon where (spin.md, "Horizon")
+/// The beam from the spacecraft at r along d touches the horizon where
 ///
 ///     F = (r.M d)^2 - (d.M d)(r.M r - 1) = 0,    M = 1/a^2 + (1/b^2 - 1/a^2) n n^T
 ///
@@ -26,7 +26,7 @@ struct HorizonAxes {
   double polar_km;
 };
 
-/// The sphere of spin.md, or the WGS-84 ellipsoid, raised by the altitude of the CO2.
+/// The sphere of 6378.137 km, or the WGS-84 ellipsoid, raised by the altitude of the CO2.
 HorizonAxes horizon_axes(const Horizon& horizon);
 
 enum class Crossing { In, Out };

@@ -45,7 +45,7 @@ TEST(AttitudeDifference, IsTheSameFromEitherSide) {
 }
 
 TEST(AttitudeDifference, OfThePaperIsNearlyAllYaw) {
-  // design/three-axis.md: separation attitude against the launcher's, 3.9 deg in all.
+  // Li 2017: separation attitude against the launcher's, 3.9 deg in all.
   const auto q = [](double phi_deg, double theta_deg, double psi_deg) {
     return quaternion_of({phi_deg * kRadPerDeg, theta_deg * kRadPerDeg, psi_deg * kRadPerDeg});
   };

@@ -17,7 +17,7 @@ Euler312 of_degrees(double phi_deg, double theta_deg, double psi_deg) {
   return {phi_deg * kRadPerDeg, theta_deg * kRadPerDeg, psi_deg * kRadPerDeg};
 }
 
-/// By the elements of the matrix (seed 000, eq. 7 and 9), which are blind near the singularity.
+/// By the elements of the matrix (Li 2017, eq. 7 and 9), which are blind near the singularity.
 Euler312 by_matrix_elements(const Eigen::Quaterniond& q) {
   const double q1 = q.x();
   const double q2 = q.y();
@@ -142,7 +142,7 @@ TEST(Euler312, RatesAreRefusedWhereThereAreNone) {
 }
 
 TEST(Euler312, ConstantRateOfThePaperLeadsBackToSeparation) {
-  // design/three-axis.md: T2 back 60 s at the constant rate.
+  // Li 2017: T2 back 60 s at the constant rate.
   const Eigen::Quaterniond q_t2 = quaternion_of(of_degrees(38.403, 88.224, 118.045));
   const Eigen::Vector3d rate_rad_s = Eigen::Vector3d{0.618844, -0.33139, 0.065912} * kRadPerDeg;
   const Euler312 t1 = euler312_of(q_t2 * quaternion_by(-60.0 * rate_rad_s)).angles;

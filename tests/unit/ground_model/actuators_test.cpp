@@ -11,7 +11,7 @@ namespace spindrift::actuators_test {
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
 
-/// Of seed 004: 0.3 N m s at 6000 rpm.
+/// Of Zhang 2019: 0.3 N m s at 6000 rpm.
 WheelDesign design() {
   return {.axes_body = Eigen::Matrix3d::Identity(),
           .inertia_kg_m2 = 0.3 / 628.3185307,

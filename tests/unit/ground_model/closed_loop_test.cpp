@@ -1,4 +1,4 @@
-// The figures of seeds 000 and 004 that the ground model must reach.
+// The figures of Li 2017 and Zhang 2019 that the ground model must reach.
 
 #include "pipelines/ground_model/control/closed_loop.h"
 
@@ -154,7 +154,7 @@ TEST(ClosedLoop, KeepsTheMomentumOfBodyAndWheels) {
   EXPECT_LT((momentum_icrf_nms() - at_first_nms).norm(), 1e-10 * at_first_nms.norm());
 }
 
-/// Of seed 004: its computer knows the attitude from its gyro alone.
+/// Of Zhang 2019: its computer knows the attitude from its gyro alone.
 TEST(ClosedLoop, OrientsItByAnAttitudeOfTheGyroAlone) {
   for (const GyroPropagation by : {GyroPropagation::Composition, GyroPropagation::RungeKutta}) {
     ClosedLoop<SteppedBody> loop = loop_of(kMoments_kg_m2, {});
@@ -174,7 +174,7 @@ TEST(ClosedLoop, OrientsItByAnAttitudeOfTheGyroAlone) {
   }
 }
 
-/// Of seed 000: relays damp its rates, then it looks for the Sun by itself.
+/// Of Li 2017: relays damp its rates, then it looks for the Sun by itself.
 TEST(ClosedLoop, DampsTheSatelliteOfSeed000In18SecondsAndHoldsMinusZAtTheSun) {
   const Eigen::Matrix3d inertia_kg_m2 = Vector3d{120.0, 100.0, 140.0}.asDiagonal();
   const ThrusterDesign thrusters{.torque_nm = 0.07, .shortest_s = 0.01, .longest_s = 1.0};

@@ -1,4 +1,4 @@
-// The figures of seed 004 that a flight of its sequence must reach.
+// The figures of Zhang 2019 that a flight of its sequence must reach.
 
 #include "pipelines/ground_model/flights/orientation_motion.h"
 

@@ -26,7 +26,7 @@ struct Phases {
   double end_s;
 };
 
-/// Of seed 000, which damps from these rates.
+/// Of Li 2017, which damps from these rates.
 SeparationTruth truth_at(const Phases& phases) {
   const Vector3d rate_deg_s{0.618844, -0.33139, 0.065912};
   return {.body = {.start = kSeparation,

@@ -30,7 +30,7 @@ Euler312 euler312_of_deg(double phi, double theta, double psi) {
   return {phi * kRadPerDeg, theta * kRadPerDeg, psi * kRadPerDeg};
 }
 
-// Seed 000: the launcher's figure, and that of the reconstruction.
+// Li 2017: the launcher's figure, and that of the reconstruction.
 const Euler312 kTold = euler312_of_deg(0.229, 0.2869, 179.72);
 const Euler312 kFound = euler312_of_deg(-0.5155, 1.3194, 176.0337);
 

@@ -25,7 +25,7 @@ ArcState arc_from(const BodyState& start, const std::optional<Matrix3d>& inertia
   return torque_free_arc(start_of_arc(start), inertia_kg_m2, duration_s);
 }
 
-// Seed 000, table 2.
+// Li 2017, table 2.
 TEST(TorqueFreeArc, LandsWhereTheFlightDidAtSeparation) {
   const Euler312 control_on{38.403 * kRadPerDeg, 88.224 * kRadPerDeg, 118.045 * kRadPerDeg};
   const Euler312 separation{31.011 * kRadPerDeg, 82.472 * kRadPerDeg, 162.749 * kRadPerDeg};

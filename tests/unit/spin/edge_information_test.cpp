@@ -1,5 +1,5 @@
-/// What edges say of the axis, against the figures of spin.md and against how the oracle's edges
-/// move when its body is moved.
+/// What edges say of the axis, against the figures of pipelines/spin/README.md and against how the
+/// oracle's edges move when its body is moved.
 
 #include "pipelines/spin/sensor_model/edge_information.h"
 
@@ -28,7 +28,7 @@ Eigen::Matrix3d frame_about(const Eigen::Vector3d& axis_icrf) {
   return R_spin_icrf;
 }
 
-/// One turn in the midst of the first hundred of the pass that the figures of spin.md are of.
+/// One turn in the midst of the first hundred of the pass that those figures are of.
 struct Turn {
   testing::RecordedPass pass = testing::recorded_pass("nominal");
   Sky sky = testing::sky_at(pass.orbit, shifted(pass.pulses.front().t, 50.0));
@@ -54,7 +54,7 @@ TEST(EdgeInformation, OfOneTurnAtAKnownRateIsThePublishedLimit) {
   const Turn turn;
   EdgeInformation information;
   turn.add_to(information, kAll, 0.0);
-  // spin.md. The limit falls by 2 % a minute as the geometry turns.
+  // pipelines/spin/README.md. The limit falls by 2 % a minute as the geometry turns.
   EXPECT_NEAR(sigma_deg(information), 0.405, 0.004);
 }
 

@@ -1,4 +1,5 @@
-/// What an instant of a pass holds, against the closed forms of spin.md and its figures.
+/// What an instant of a pass holds, against closed forms and the figures of
+/// pipelines/spin/README.md.
 
 #include "pipelines/spin/planning/pass_geometry.h"
 
@@ -62,7 +63,8 @@ TEST(PassGeometry, ExpectsOfAFixWhatFixesOfTheNominalPassScatter) {
     const PassGeometry geometry = scene.at(shifted(pass.pulses.front().t, 10.0 * i)).value();
     sum_rad2 += geometry.fix.sigma_rad.value() * geometry.fix.sigma_rad.value();
   }
-  // spin.md: the two-chord fix measures 0.426 deg over its 600 turns: that is known to 3 %.
+  // pipelines/spin/README.md: the two-chord fix measures 0.426 deg over its 600 turns: that is
+  // known to 3 %.
   EXPECT_NEAR(std::sqrt(sum_rad2 / kTimes) / kRadPerDeg, 0.426, 3.0 * 0.03 * 0.426);
 }
 

@@ -1,4 +1,5 @@
-/// The plan of a pass, against the limits of spin.md and of the oracle, and against closed forms.
+/// The plan of a pass, against the limits of pipelines/spin/README.md and of the oracle, and
+/// against closed forms.
 
 #include "pipelines/spin/planning/pass_plan.h"
 
@@ -42,8 +43,8 @@ Expected<PassPlan> plan(const testing::RecordedPass& pass, double duration_s, do
 
 TEST(PassPlan, ExpectsThePublishedLimitAfterAHundredTurns) {
   const PassPlan found = plan(testing::recorded_pass("nominal"), 100.0, 50.0).value();
-  // spin.md; the geometry turns meanwhile, which its figure (0.405 deg / 10 and 1 % more) leaves
-  // out.
+  // pipelines/spin/README.md; the geometry turns meanwhile, which its figure (0.405 deg / 10, and
+  // 1 % more) leaves out.
   EXPECT_NEAR(found.steps.back().sigma_rad.value() / kRadPerDeg, 0.0409, 0.02 * 0.0409);
 }
 

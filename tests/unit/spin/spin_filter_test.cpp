@@ -46,7 +46,7 @@ double squared_error(const SpinFilter& filter, const Eigen::Vector3d& true_icrf)
 constexpr double kOneInTenThousand = 18.42;  // chi-square, two degrees of freedom.
 
 TEST(SpinFilter, ReachesTheInformationLimitOfTheDesign) {
-  // spin.md, "Statistical estimation": GTO at 13,900 km, 60 rpm, 0.1 and 0.5 ms: 0.405 deg per
+  // pipelines/spin/README.md: GTO at 13,900 km, 60 rpm, 0.1 and 0.5 ms: 0.405 deg per
   // revolution, 0.0409 deg after 100. The chords and the distance change during the pass: 5 %.
   const auto pass = testing::recorded_pass("nominal");
   const auto seen = testing::observed(pass.config, pass.orbit, pass.pulses);
