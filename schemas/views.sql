@@ -136,7 +136,8 @@ WHERE NOT EXISTS (
 -- from an efficient one is the difference of the variances). They contradict each other where both claim their
 -- axis and disagree, or both are on the same axis and one says that the other root may be it: no more than one can
 -- be right. Two that are AMBIGUOUS do not disagree, whichever of the roots each names first. An answer that is
--- CONVERGING, DOUBTFUL or LOST claims nothing.
+-- CONVERGING, DOUBTFUL or LOST claims nothing. They disagree from 3 sigmas on, the alert spin.disagree begins at 5:
+-- DOUBTFUL only says look before use, an alert asks a person to act, and noise must not raise it.
 CREATE VIEW spin_comparison AS
 WITH pair AS (
   SELECT a.run_id, a.spacecraft_id, a.finished, a.estimator AS one, b.estimator AS other,
