@@ -63,6 +63,15 @@ bool SeparationRecord::push(const StarFix& fix) {
   return is_due(later_by_s(request_.gyro.back().t, held_s(request_.gyro)));
 }
 
+bool SeparationRecord::fall_silent() {
+  const bool has_solution = due_at_fixes_ > 1;
+  if (!has_solution || awaited_ || due_at_fixes_ == 2 * fixes_) {
+    return false;
+  }
+  due_at_fixes_ = 2 * fixes_;
+  return true;
+}
+
 bool SeparationRecord::forget(const Exclusions<SampleKind>& excluded) {
   const auto erase = [&](auto& samples) {
     return std::erase_if(

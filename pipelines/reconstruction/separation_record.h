@@ -16,8 +16,8 @@
 namespace spindrift {
 
 /// A solution is due at the first star fix behind T3 and whenever twice as many as at the last have
-/// arrived: all together cost a few times the last. While no T3 is found, those behind T2 count. A
-/// fix ahead of the gyro samples waits for them.
+/// arrived: all together cost a few times the last; and when the stream falls silent behind others.
+/// While no T3 is found, those behind T2 count. A fix ahead of the gyro samples waits for them.
 class SeparationRecord {
  public:
   /// Samples from T1 to so long behind it are kept.
@@ -32,6 +32,9 @@ class SeparationRecord {
   bool push(const SunDirection& sun);
   bool push(const StarFix& fix);
   bool push(const TimedOrbitState& state);
+
+  /// Perhaps nothing comes any more. @return whether a solution is due.
+  bool fall_silent();
 
   /// What an operator has left out since it arrived.
   /// @return whether a solution rests on it: another one is due.

@@ -38,6 +38,9 @@ RunFault fault_of(const std::string& spacecraft_id, const std::string& run_id, T
                   std::string what);
 void say(const std::string& spacecraft_id, const std::vector<Notice>& notices);
 
+/// The stream has fallen silent.
+struct FellSilent {};
+
 /// Samples into the pass of a run, what it makes of them into batches for the archive. What throws
 /// meanwhile becomes a RunFault, and nothing more is computed of the run.
 /// @tparam Pass Has `push` for the values that it knows, `fall_silent` and `finish`, each with an
@@ -82,7 +85,7 @@ class PassComputing {
     return batch;
   }
 
-  /// @param note Is shown every output, stored or not, and every action that it asks for.
+  /// @param note Is shown every output, stored or not; every action and silence, if it takes them.
   template <class Note>
   std::vector<ArchiveBatch> compute(const PassInput& input, const Note& note) {
     Computed computed;
@@ -123,6 +126,9 @@ class PassComputing {
           Output output = pass_.fall_silent();
           see(output, note);
           keep(std::move(output), std::nullopt, computed);
+          if constexpr (requires { note(FellSilent{}); }) {
+            note(FellSilent{});
+          }
         });
   }
 

@@ -17,6 +17,8 @@ namespace spindrift {
 namespace {
 
 constexpr std::chrono::minutes kBetweenBatches{1};
+// Of telemetry: a stream that comes in bursts is solved no oftener.
+constexpr std::chrono::seconds kBetweenSilences{10};
 
 /// @param prior In the place of the mission's.
 Expected<BatchSolution> solve_edges(SpinConfig config, const Orbit& orbit, PassEdges edges,
@@ -73,18 +75,31 @@ void SpinRun::note_time(TaiTime t) {
     return;
   }
   if (next_batch_) {
-    edges_.keep_last(kLastRevolutions);
-    const auto last = edges_.last();
-    // Its last edge names a solution: one a minute, and one only.
-    if (last && last != last_batch_ && !is_stored(*last)) {
-      due_.push_back({.batch = computing_.batch(),
-                      .solve = [this, edges = edges_, prior = computing_.pass().told_prior()] {
-                        return solve(edges, prior);
-                      }});
-    }
-    last_batch_ = last;
+    make_batch_due();
   }
   next_batch_ = t + kBetweenBatches;
+}
+
+/// Perhaps nothing comes any more: the answer shall not be one of before.
+void SpinRun::note(FellSilent /*silence*/) {
+  const auto last = edges_.last();
+  if (plan_ == SolvingPlan::Meanwhile && next_batch_ && last &&
+      (!last_batch_ || *last >= *last_batch_ + kBetweenSilences)) {
+    make_batch_due();
+  }
+}
+
+void SpinRun::make_batch_due() {
+  edges_.keep_last(kLastRevolutions);
+  const auto last = edges_.last();
+  // Its last edge names a solution: there is one only.
+  if (last && last != last_batch_ && !is_stored(*last)) {
+    due_.push_back({.batch = computing_.batch(),
+                    .solve = [this, edges = edges_, prior = computing_.pass().told_prior()] {
+                      return solve(edges, prior);
+                    }});
+  }
+  last_batch_ = last;
 }
 
 /// And is not withdrawn.

@@ -20,7 +20,8 @@
 namespace spindrift {
 
 /// The estimator `batch` runs over all edges at the end of the pass; meanwhile every minute of
-/// telemetry, and then each time, in the end too, over the last revolutions.
+/// telemetry, and when the stream falls silent; then each time, in the end too, over the last
+/// revolutions.
 ///
 /// What throws while it is computed becomes a RunFault: a run that fails so computes nothing more
 /// (pass_computing.h), of a batch solution that does only this one is missing.
@@ -52,7 +53,9 @@ class SpinRun {
   void begin(const std::string& run_id);
   void note(const SpinOutput& output);
   void note(const OperatorAction& action);
+  void note(FellSilent silence);
   void note_time(TaiTime t);
+  void make_batch_due();
   bool is_stored(TaiTime batch) const;
   void settle(std::vector<Product>& products);
   void end_run(std::vector<ArchiveBatch>& batches);

@@ -93,8 +93,12 @@ void ThreeAxisRun::record(const PassInput& input) {
     return;
   }
   in_order_of_arrival(
-      input.values, {}, input.actions, [this](const auto& arrived) { record(arrived); },
-      [](std::int64_t /*silence*/) {});
+      input.values, input.silences, input.actions, [this](const auto& arrived) { record(arrived); },
+      [this](std::int64_t /*silence*/) {
+        if (record_->fall_silent() && plan_ == SolvingPlan::Meanwhile) {
+          hand_out_solutions();
+        }
+      });
 }
 
 template <class Value>

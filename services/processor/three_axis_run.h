@@ -21,7 +21,7 @@
 namespace spindrift {
 
 /// Called as SpinRun is. Where the mission tells of a separation it is reconstructed at the end of
-/// the pass, from all that arrived; meanwhile whenever SeparationRecord says, too: then `batch`
+/// the pass, from all that arrived; meanwhile whenever SeparationRecord says: then `batch`
 /// first, and `sequential` behind it.
 class ThreeAxisRun {
  public:

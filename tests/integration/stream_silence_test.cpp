@@ -35,11 +35,15 @@ Processor new_processor() {
 struct StreamSilence : testing::ArchiveFixture {
   using Samples = std::vector<TelemetrySample<Pulse>>;
 
-  static Samples edges() {
+  static Samples edges(std::size_t count) {
     const std::vector<TelemetryFile> files{{.path = kPass / "pulses.csv", .kind = Kind<Pulse>{}}};
-    Samples all =
-        TelemetryStream::open(files, "SPINNER").value().next().value().samples.of<Pulse>();
-    all.resize(kAll);
+    auto stream = TelemetryStream::open(files, "SPINNER").value();
+    Samples all;
+    while (all.size() < count) {
+      const Samples some = stream.next().value().samples.of<Pulse>();
+      all.insert(all.end(), some.begin(), some.end());
+    }
+    all.resize(count);
     return all;
   }
 
@@ -58,7 +62,7 @@ struct StreamSilence : testing::ArchiveFixture {
 
   /// Edges, a silence, one from just before it, and more edges.
   void receive() const {
-    const Samples all = edges();
+    const Samples all = edges(kAll);
     const auto middle = all.begin() + kBefore;
     TelemetrySample<Pulse> late = *std::prev(middle);
     late.value.t -= 20ms;
@@ -94,6 +98,37 @@ TEST_F(StreamSilence, IsStoredAndRepeatedByARestart) {
   work(processor, std::move(gone_on.routed), *archive);
   EXPECT_TRUE(archive->close());
   EXPECT_EQ(product_rows(path()), rows);
+}
+
+/// Times of the batch solutions that become due with it.
+std::vector<TaiTime> solved(Processor& processor, const Routed& routed) {
+  std::vector<TaiTime> times;
+  for (const PassInput& input : routed.work) {
+    processor.compute(input);
+    for (const BackgroundTask& task : processor.take_background_tasks(input)) {
+      const auto products = task.solve().value();
+      for (const Product& product : products) {
+        if (const auto* const estimate = std::get_if<SpinEstimate>(&product)) {
+          times.push_back(estimate->t);
+        }
+      }
+    }
+  }
+  return times;
+}
+
+TEST_F(StreamSilence, HasTheBatchSolutionOfAllThatCameAndNoneTwice) {
+  constexpr std::size_t kAMinuteAndAHalf = 540;
+  const Samples all = edges(kAMinuteAndAHalf);
+  Processor processor = new_processor();
+  processor.begin();
+  const auto meanwhile =
+      solved(processor, processor.route(testing::batch_of_samples<Pulse>(Samples(all))));
+  EXPECT_EQ(meanwhile.size(), 1U);
+  const auto in_silence = solved(processor, processor.fall_silent({"SPINNER"}));
+  ASSERT_EQ(in_silence.size(), 1U);
+  EXPECT_GT(in_silence.front(), all.back().value.t - 2s);  // The last revolution is open.
+  EXPECT_TRUE(solved(processor, processor.fall_silent({"SPINNER"})).empty());
 }
 
 TEST(SilenceWatch, TellsOnceWhoWasNotHeardForASecond) {

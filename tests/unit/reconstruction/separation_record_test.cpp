@@ -187,6 +187,27 @@ TEST_F(SeparationRecordTest, WhatIsBeforeT1OrMoreThanADayBehindItIsNotKept) {
   EXPECT_EQ(record.request().gyro.back().t, at(86400.0));
 }
 
+TEST_F(SeparationRecordTest, InASilenceTheFixesBehindTheLastSolutionAreDueOnce) {
+  fly({.star_fix_step_s = 10.0, .end_s = 360.0});
+  SeparationRecord record{{.sensors = flight_.sensors,
+                           .times = times_,
+                           .gyro = {},
+                           .sun_directions = {},
+                           .star_fixes = {}}};
+  EXPECT_FALSE(record.fall_silent());
+  std::size_t at_last = 0;
+  for (const AnySample& sample : samples_of(flight_)) {
+    if (std::visit([&](const auto& is) { return record.push(is); }, sample)) {
+      at_last = record.request().star_fixes.size();
+      EXPECT_FALSE(record.fall_silent());
+    }
+  }
+  EXPECT_EQ(at_last, 4U);
+  EXPECT_EQ(record.request().star_fixes.size(), 7U);
+  EXPECT_TRUE(record.fall_silent());
+  EXPECT_FALSE(record.fall_silent());
+}
+
 TEST_F(SeparationRecordTest, WithoutAGyroSampleNothingIsDue) {
   EXPECT_THAT(due_at_s({flight_.stars.front(), flight_.sun.front()}), IsEmpty());
 }
