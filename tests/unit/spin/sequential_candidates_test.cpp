@@ -177,7 +177,9 @@ TEST(Sequential, TheLikeliestCandidateOfOneFixIsNotTheAxisForThat) {
   const auto seen = scene.seen(0.0, 40.0);
   const Eigen::Vector3d other = scene.turned_about(scene.around.sun_icrf(0.0), 6.0);
   const SpinFix start = ambiguous(scene.fix(), scene.body.axis_icrf, other);
-  for (const SpinEstimate& estimate : estimates(scene.body.config, seen, at_first(start))) {
+  const auto all = estimates(scene.body.config, seen, at_first(start));
+  ASSERT_EQ(all.size(), seen.size());
+  for (const SpinEstimate& estimate : all) {
     EXPECT_EQ(estimate.assessment.quality, Quality::Ambiguous);
   }
 }
@@ -205,7 +207,9 @@ TEST(Sequential, TheBetterOfTwoFalseAxesIsNotTrue) {
   const auto seen = scene.seen(0.0, 60.0);
   const SpinFix start =
       ambiguous(scene.fix(), scene.turned_about_earth(25.0), scene.turned_about_earth(-15.0));
-  for (const SpinEstimate& estimate : estimates(scene.body.config, seen, at_first(start))) {
+  const auto all = estimates(scene.body.config, seen, at_first(start));
+  ASSERT_EQ(all.size(), seen.size());
+  for (const SpinEstimate& estimate : all) {
     EXPECT_FALSE(is_unopposed(estimate.assessment.quality));
   }
 }

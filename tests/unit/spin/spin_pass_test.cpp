@@ -137,6 +137,7 @@ TEST(SpinPass, TakesAnIntervalOfMoreThanAPeriodForAnEdgeOfTheNextRevolution) {
     EXPECT_NE(use.rejected_by, Rejection::Late);
     told[use.pulse.channel].push_back(use.pulse.t);
   }
+  EXPECT_EQ(told.size(), kPulseChannels);
   for (const auto& [channel, times] : told) {
     ASSERT_EQ(times.size(), frames.size());
     EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
@@ -270,12 +271,16 @@ TEST(SpinPass, AnEdgeWithoutItsPartnerIsUsed) {
                    [](const Pulse& pulse) { return pulse.channel == PulseChannel::SouthIn; });
   const TaiTime lost = edge->t;
   pass.pulses.erase(edge);
+  int partners = 0;
   for (const PulseUse& use : all_of<PulseUse>(run(pass))) {
     if (use.pulse.channel == PulseChannel::SouthOut && use.pulse.t > lost &&
         use.pulse.t < shifted(lost, 0.5)) {
+      EXPECT_TRUE(use.revolution);
       EXPECT_FALSE(use.rejected_by);  // By `sequential`.
+      ++partners;
     }
   }
+  EXPECT_EQ(partners, 1);
 }
 
 TEST(SpinPass, OutsideTheOrbitMeasurementsStandWithoutAFix) {
