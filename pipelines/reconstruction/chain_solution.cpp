@@ -9,7 +9,7 @@
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/reconstruction/chain_covariance.h"
 #include "pipelines/reconstruction/chain_fit.h"
-#include "pipelines/statistics/significance.h"
+#include "pipelines/statistics/variance_factor.h"
 
 namespace spindrift {
 namespace {
@@ -108,7 +108,7 @@ double louder_star(const RateTrack& rates, std::span<const StarObservation> star
     excess_rad2 += off_rad.squaredNorm() - expected_rad2.trace();
   }
   const double freedom = 3.0 * static_cast<double>(turns.size());
-  if (freedom <= 3.0 || squares < freedom + kContradictionSigmas * std::sqrt(2.0 * freedom)) {
+  if (freedom <= 3.0 || noise_is_as_stated(squares, freedom)) {
     return 1.0;
   }
   return std::sqrt(1.0 +

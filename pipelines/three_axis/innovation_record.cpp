@@ -7,6 +7,7 @@
 
 #include "pipelines/statistics/distributions.h"
 #include "pipelines/statistics/significance.h"
+#include "pipelines/statistics/variance_factor.h"
 
 namespace spindrift {
 namespace {
@@ -48,10 +49,7 @@ bool InnovationRecord::many_rejected() const {
 }
 
 double InnovationRecord::excess_noise() const {
-  const bool significant =
-      freedoms_ >= kFewestFreedoms &&
-      squared_innovation_ > 1.0 + kContradictionSigmas * std::sqrt(2.0 / freedoms_);
-  return significant ? squared_innovation_ : 1.0;
+  return freedoms_ >= kFewestFreedoms ? variance_factor(squared_innovation_, freedoms_) : 1.0;
 }
 
 }  // namespace spindrift

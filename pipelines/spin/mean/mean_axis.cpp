@@ -1,9 +1,7 @@
 #include "pipelines/spin/mean/mean_axis.h"
 
-#include <cmath>
-
 #include "pipelines/frames/celestial.h"
-#include "pipelines/statistics/significance.h"
+#include "pipelines/statistics/variance_factor.h"
 
 namespace spindrift {
 namespace {
@@ -36,7 +34,7 @@ double MeanAxis::excess_scatter() const {
   }
   const double scatter = (weight_sum_ - sum_icrf_.squaredNorm() / weight_sum_) / freedom;
   // A sum of squares, chi-square of at least one degree of freedom for each fix.
-  return scatter > 1.0 + kContradictionSigmas * std::sqrt(2.0 / freedom) ? scatter : 1.0;
+  return variance_factor(scatter, freedom);
 }
 
 void AxisWindow::add(const SpinFix& fix) {

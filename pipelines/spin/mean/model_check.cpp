@@ -9,6 +9,7 @@
 #include "pipelines/statistics/distributions.h"
 #include "pipelines/statistics/significance.h"
 #include "pipelines/statistics/symmetric_eigen.h"
+#include "pipelines/statistics/variance_factor.h"
 
 namespace spindrift {
 namespace {
@@ -158,8 +159,7 @@ double excess_noise(const AngleEquations& equations) {
     return 1.0;
   }
   const double excess = (equations.squares() - fitted) / freedom;
-  const double scatter = std::sqrt(2.0 / std::min(freedom, kNoiseAngles));
-  return excess > 1.0 + kContradictionSigmas * scatter ? excess : 1.0;
+  return variance_factor(excess, std::min(freedom, kNoiseAngles));
 }
 
 }  // namespace

@@ -1,12 +1,11 @@
 #include "pipelines/spin/sequential/hypotheses.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/model_allowance.h"
-#include "pipelines/statistics/significance.h"
+#include "pipelines/statistics/variance_factor.h"
 
 namespace spindrift {
 namespace {
@@ -37,8 +36,7 @@ bool agree(const SpinFilter& a, const SpinFilter& b) {
 /// The sum of its squared innovations is a chi-square of one degree of freedom each.
 bool fits(const Hypothesis& hypothesis) {
   return hypothesis.edges >= kFewestEdgesToFit &&
-         hypothesis.squared_innovations <
-             hypothesis.edges + kContradictionSigmas * std::sqrt(2.0 * hypothesis.edges);
+         noise_is_as_stated(hypothesis.squared_innovations, hypothesis.edges);
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
 #include "pipelines/spin/sequential/innovation_monitor.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "pipelines/statistics/significance.h"
+#include "pipelines/statistics/variance_factor.h"
 
 namespace spindrift {
 namespace {
@@ -54,10 +53,7 @@ void InnovationMonitor::discard_transient() {
 }
 
 double InnovationMonitor::excess_noise() const {
-  const bool significant =
-      edges_ >= kFewestEdges &&
-      squared_innovation_ > 1.0 + kContradictionSigmas * std::sqrt(2.0 / edges_);
-  return significant ? squared_innovation_ : 1.0;
+  return edges_ >= kFewestEdges ? variance_factor(squared_innovation_, edges_) : 1.0;
 }
 
 }  // namespace spindrift
