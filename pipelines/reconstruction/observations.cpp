@@ -14,6 +14,7 @@
 #include "pipelines/reconstruction/gyro_screening.h"
 #include "pipelines/reconstruction/request_check.h"
 #include "pipelines/reconstruction/torque_free_arc.h"
+#include "pipelines/statistics/variance_factor.h"
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
 

@@ -57,9 +57,6 @@ inline constexpr double kUsedBehindFirstFix_s = 120.0;
 
 SensorResiduals gyro_residuals(const Observations& all);
 
-/// Noise that is more than stated by so much is taken as the samples show it.
-inline constexpr double kLouder = 1.25;
-
 /// So far beyond gyro samples, in order of time, an event or a star fix may lie: the next sample
 /// was on its way.
 double held_s(std::span<const GyroSample> gyro);

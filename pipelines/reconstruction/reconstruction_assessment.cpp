@@ -1,11 +1,12 @@
 #include "pipelines/reconstruction/reconstruction_assessment.h"
 
 #include <algorithm>
-#include <cmath>
-#include <string>
 #include <utility>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/frames/uncertain_attitude.h"
+#include "pipelines/statistics/significance.h"
+#include "pipelines/statistics/variance_factor.h"
 #include "pipelines/three_axis/products.h"
 
 namespace spindrift {
@@ -13,10 +14,8 @@ namespace {
 
 using enum ReasonCode;
 
-constexpr double kManyOutliers = 0.15;  ///< Of sun vectors, or gyro samples.
 constexpr double kManyFixesGated = 1.0 / 3.0;
 constexpr double kLongGap_s = 10.0;  ///< The body may turn and stop in it, which no sigma foresees.
-constexpr double kFarOffBias_sigmas = 4.0;
 
 bool is_many(std::int64_t some, std::int64_t others, double share) {
   return static_cast<double>(some) > share * static_cast<double>(some + others);
@@ -75,8 +74,8 @@ void add_bias(const GyroSensor& gyro, const Reconstruction& result, Doubts& doub
     doubts.add({open.off_sun_rad ? GyroBiasOpenBySun : GyroBiasOpen, std::move(values)}, false);
   }
   if (result.bias &&
-      result.bias->rad_s.cwiseAbs().maxCoeff() > kFarOffBias_sigmas * gyro.bias_sigma_rad_s) {
-    doubts.add({GyroBiasFarOff, {{"prior_sigmas", kFarOffBias_sigmas}}}, true);
+      result.bias->rad_s.cwiseAbs().maxCoeff() > kFarOffPriorSigmas * gyro.bias_sigma_rad_s) {
+    doubts.add({GyroBiasFarOff, {{"prior_sigmas", kFarOffPriorSigmas}}}, true);
   }
 }
 
@@ -103,7 +102,7 @@ Assessment assess(const ReconstructionRequest& request, const Observations& all,
     doubts.add({ConstantRate}, false);
   }
   const double open_rad = separation.sigma_rad();
-  if (!(open_rad < kOpenAttitude_rad)) {
+  if (!(open_rad < kOpen_rad)) {
     doubts.add({AttitudeOpen, {{"deg", degrees(open_rad)}}}, true);
   }
   return std::move(doubts.assessment);

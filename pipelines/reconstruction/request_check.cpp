@@ -11,8 +11,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double kUnitLength = 1e-3;
-
 bool is_positive(double value) { return std::isfinite(value) && value > 0.0; }
 
 Error configuration(std::string message) {
@@ -70,12 +68,12 @@ Error not_finite(const char* sensor, TaiTime t) {
 }
 
 std::optional<Error> length_refused(const char* sensor, TaiTime t, double length) {
-  if (std::abs(length - 1.0) <= kUnitLength) {
+  if (std::abs(length - 1.0) <= kUnitTolerance) {
     return std::nullopt;
   }
   return Error{ErrorCode::InvalidInput,
                fmt::format("the {} of {} has the length {}: must be 1 within {}", sensor,
-                           format_utc(t), length, kUnitLength)};
+                           format_utc(t), length, kUnitTolerance)};
 }
 
 std::optional<Error> samples_refused(const ReconstructionRequest& request) {

@@ -13,6 +13,12 @@ inline constexpr double kContradictionSigmas = 5.0;
 inline constexpr double kContradictionChance = 5.733e-7;
 /// The same where the standard deviation is stated by people, as that of a prior is.
 inline constexpr double kPriorSigmas = 3.0;
+/// A bias so many sigmas of its prior from zero is far off: more than what the prior allows for.
+inline constexpr double kFarOffPriorSigmas = 4.0;
+
+/// A larger share of outliers is no dirt, but another motion or noise. It is below a sixth: a wrong
+/// axis may have all edges of five channels where they came, and none of the sixth.
+inline constexpr double kManyOutliers = 0.15;
 
 /// Chance that a search finds in noise alone what it looks for.
 inline constexpr double kFalseAlarm = 1e-4;

@@ -12,6 +12,9 @@
 
 namespace spindrift {
 
+/// Noise whose sigma is so many times what is stated is taken as the measurements show it.
+inline constexpr double kLouder = 1.25;
+
 /// By how much the variances exceed the stated ones; 1 unless significantly.
 /// @param reduced_chi_square The mean square: the chi-square over its degrees of freedom.
 /// @param freedom Above 0.

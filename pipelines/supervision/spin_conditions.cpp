@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "pipelines/frames/angle.h"
@@ -15,7 +14,6 @@ namespace {
 // One answer that is off may be the noise of its sigma.
 constexpr Holding kSeveralAnswers{.raise_s = 10.0, .clear_s = 10.0};
 constexpr double kApartAtMost_s = 60.0;  // Answers that are compared.
-constexpr double kRpmPerRad_s = 30.0 / std::numbers::pi;
 
 constexpr Holding as_long_again(double held_s) { return {.raise_s = held_s, .clear_s = held_s}; }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/frames/uncertain_attitude.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -426,7 +427,7 @@ Assessment AttitudeEstimator::assess() const {
     }
   }
   const double sigma_rad = std::sqrt(excess_noise() * filter_->attitude_covariance_rad2().trace());
-  if (sigma_rad > kOpenAttitude_rad) {
+  if (sigma_rad > kOpen_rad) {
     reasons.push_back({ReasonCode::AttitudeOpen, {{"deg", degrees(sigma_rad)}}});
   }
   if (!reasons.empty()) {

@@ -4,16 +4,13 @@
 
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/frames/shortest_turn.h"
+#include "pipelines/statistics/iterated_update.h"
 
 namespace spindrift {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-// A correction beyond this (0.06 deg) is linearised anew where it ends, up to so many times.
-constexpr double kFarFromLinear_rad = 1e-3;
-constexpr int kMostPasses = 8;
 
 /// A measurement seen from an attitude: what it says of the turn from there.
 template <int kSize>
@@ -95,7 +92,7 @@ void Mekf::work_in(const Observed& observed) {
   Eigen::Matrix<double, 6, 1> error = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::Matrix<double, 6, kSize> gain;
   Eigen::Matrix<double, kSize, 3> slope;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
+  for (int pass = 0; pass < kMostLinearisations; ++pass) {
     const Vector3d here_rad = error.head<3>();
     const Seen<kSize> seen = seen_from(q_icrf_body_ * quaternion_by(here_rad), observed);
     slope = seen.axes * right_jacobian(here_rad);

@@ -13,7 +13,6 @@
 #include <variant>
 
 #include "pipelines/core/assessment.h"
-#include "pipelines/frames/angle.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -59,9 +58,6 @@ using SensorHealths = std::array<SensorHealth, kSampleKinds>;  ///< By kind.
 /// What made an attitude: the filter, or a reconstruction of the separation.
 enum class AttitudeSource { Mekf, Batch, Sequential };
 std::string_view name_of(AttitudeSource source);
-
-/// An attitude with a larger sigma is open: DOUBTFUL.
-inline constexpr double kOpenAttitude_rad = 10.0 * kRadPerDeg;
 
 /// Of the samples that the filter accepted, what they differed from where it had them.
 struct Innovations {

@@ -7,8 +7,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double kArcsecPerDeg = 3600.0;
-
 std::optional<GyroSensor> gyro(const TomlValues& values) {
   if (!values.contains("three_axis.gyro.noise_deg_s")) {
     return std::nullopt;

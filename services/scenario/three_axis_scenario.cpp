@@ -20,8 +20,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kArcsecPerDeg = 3600.0;
-
 Sampling sampling_of(const TomlValues& values, double from_s, std::string_view step) {
   return {.from_s = from_s, .step_s = number(values, step)};
 }

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -33,7 +35,7 @@ struct Telemetry<MagneticField> {
     return is_at_most(sample.field_body_nt, kStrongest_nt) && sample.field_body_nt.norm() > 0.0
                ? std::string{}
                : impossible("bx_nt, by_nt, bz_nt", sample.field_body_nt,
-                            "be above 0, at most 100000 nT together");
+                            fmt::format("be above 0, at most {} nT together", kStrongest_nt));
   }
 };
 

@@ -10,10 +10,9 @@
 #include <string>
 #include <string_view>
 
-namespace spindrift {
+#include "pipelines/three_axis/samples.h"
 
-/// The length of a unit vector or quaternion as it is sent may be off by this, by rounding.
-inline constexpr double kUnitTolerance = 1e-3;
+namespace spindrift {
 
 /// "sx, sy, sz = 0.1, 0, 2: must ..."
 inline std::string impossible(std::string_view names,

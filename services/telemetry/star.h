@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -31,7 +33,7 @@ struct Telemetry<StarFix> {
     return is_unit(fix.q_icrf_sensor.coeffs())
                ? std::string{}
                : impossible("qx, qy, qz, qw", fix.q_icrf_sensor.coeffs(),
-                            "have length 1 within 0.001");
+                            fmt::format("have length 1 within {}", kUnitTolerance));
   }
 };
 

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -29,7 +31,8 @@ struct Telemetry<SunDirection> {
   static std::string why_impossible(const SunDirection& sample) {
     return is_unit(sample.sun_body)
                ? std::string{}
-               : impossible("sx, sy, sz", sample.sun_body, "have length 1 within 0.001");
+               : impossible("sx, sy, sz", sample.sun_body,
+                            fmt::format("have length 1 within {}", kUnitTolerance));
   }
 };
 

@@ -20,7 +20,7 @@
 namespace spindrift {
 namespace {
 
-constexpr double kUnitTolerance = 1e-4;  // What a person rounds away when typing 0.7071.
+constexpr double kTypedUnitTolerance = 1e-4;  // What a person rounds away when typing 0.7071.
 
 double as_number(const Scalar& value) {
   const auto* const integer = std::get_if<std::int64_t>(&value);
@@ -78,7 +78,7 @@ std::vector<double> elements(const KeyRule& rule, const toml::node& node, std::s
 
 bool is_unit_quaternion(const std::vector<double>& q) {
   return std::abs(std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])) - 1.0) <=
-         kUnitTolerance;
+         kTypedUnitTolerance;
 }
 
 std::string form_text(const KeyRule& rule) {

@@ -30,6 +30,8 @@ inline double number(const TomlValues& values, std::string_view key) {
   return value_of<double>(values, key);
 }
 
+inline constexpr double kArcsecPerDeg = 3600.0;
+
 /// Of a key in degrees.
 inline double radians(const TomlValues& values, std::string_view key) {
   return number(values, key) * kRadPerDeg;

@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <numbers>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
@@ -13,7 +12,6 @@
 
 namespace spindrift {
 
-inline constexpr double kRpmPerRad_s = 30.0 / std::numbers::pi;
 inline constexpr double kRpmPerHourPerRad_s2 = kRpmPerRad_s * kHour_s;
 
 /// Right ascension in [0, 360), declination in [-90, 90].

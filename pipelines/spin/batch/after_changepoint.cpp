@@ -9,6 +9,7 @@
 #include "pipelines/spin/batch/changepoint.h"
 #include "pipelines/spin/batch/rate_changepoint.h"
 #include "pipelines/spin/batch/sky_search.h"
+#include "pipelines/statistics/significance.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift {

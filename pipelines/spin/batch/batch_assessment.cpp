@@ -6,15 +6,13 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/convergence.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
 
-// Of the prior: what is so far off is no misplacement.
-constexpr double kFarOff_sigmas = 4.0;
-
 bool is_far_off(const BiasEstimate& bias) {
-  return bias.estimated && std::abs(bias.value) > kFarOff_sigmas * prior_of(bias.bias).sigma;
+  return bias.estimated && std::abs(bias.value) > kFarOffPriorSigmas * prior_of(bias.bias).sigma;
 }
 
 bool is_doubtful(const BatchSolution& solution, const BatchDoubts& doubts) {
@@ -80,7 +78,7 @@ void add_bias(const BiasEstimate& bias, Reasons& reasons) {
                       {"unit", is_angle ? "deg" : "km"}}});
   if (is_far_off(bias)) {
     reasons.push_back(
-        {ReasonCode::BiasFarOff, {named(bias.bias), {"prior_sigmas", kFarOff_sigmas}}});
+        {ReasonCode::BiasFarOff, {named(bias.bias), {"prior_sigmas", kFarOffPriorSigmas}}});
   }
 }
 

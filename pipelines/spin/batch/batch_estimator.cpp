@@ -9,6 +9,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "pipelines/frames/uncertain_attitude.h"
 #include "pipelines/spin/batch/after_changepoint.h"
 #include "pipelines/spin/batch/batch_assessment.h"
 #include "pipelines/spin/batch/bias_choice.h"
@@ -17,21 +18,16 @@
 #include "pipelines/spin/batch/initial_state.h"
 #include "pipelines/spin/batch/observability.h"
 #include "pipelines/spin/batch/pass_nutation.h"
+#include "pipelines/statistics/variance_factor.h"
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift {
 namespace {
 
-// An axis known no better is not determined: cones about Sun or Earth, more or less.
-constexpr double kAxisOpen_rad = 10.0 * kRadPerDeg;
-// Noise that is more than stated by so much has too many edges for outliers, and weighs those of
-// slits and beams wrongly against each other.
-constexpr double kLouder = 1.25;
-
 /// @param bound_rad2 Of the axis.
 std::optional<Error> axis_left_open(const Eigen::Matrix2d& bound_rad2) {
-  if (bound_rad2.trace() < kAxisOpen_rad * kAxisOpen_rad) {
+  if (bound_rad2.trace() < kOpen_rad * kOpen_rad) {
     return std::nullopt;
   }
   return Error{ErrorCode::Unobservable,
@@ -191,7 +187,7 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
   }
   BatchSolution solution = solution_of(*solved, open_rad2, louder);
   // Nor is it finite where they are not told apart at all.
-  if (!(solution.estimate.covariance_rad2.trace() <= kAxisOpen_rad * kAxisOpen_rad)) {
+  if (!(solution.estimate.covariance_rad2.trace() <= kOpen_rad * kOpen_rad)) {
     return unobservable("the biases that the edges ask for leave the axis open");
   }
   if (solved->left_out && !solved->left_out->fit_one_attitude &&
@@ -228,6 +224,7 @@ Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit
   }
   const double louder = std::max(as_stated->noise.sun_s / config.noise.sun_s,
                                  as_stated->noise.infrared_s / config.noise.infrared_s);
+  // Too many edges passed for outliers, and slits and beams have wrong weights against each other.
   if (as_stated->solution.noise > 1.0 && louder > kLouder) {
     SpinConfig heard = config;
     heard.noise = as_stated->noise;

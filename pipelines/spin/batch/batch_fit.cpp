@@ -24,8 +24,7 @@ namespace {
 // revolutions at most: a hundredth of what its error is anyway.
 constexpr double kFunctionTolerance = 2e-8;
 constexpr int kMostIterations = 50;
-// First so many edges, spread over the pass, whose far ones still pull.
-constexpr std::size_t kCoarse = 6000;
+// The coarse edges come first, and their far ones still pull.
 constexpr double kCoarseLoss_sigmas = 3.0;
 
 /// Parameters as Ceres has them: rate and drift as changes since the start, in the angle they make.
@@ -221,7 +220,7 @@ SpinState coarse_fit(const PassModel& model, std::span<const PassEdge> edges,
                      const SpinState& start, BiasSet estimated) {
   Fit fit{model, start};
   ceres::HuberLoss loss{kCoarseLoss_sigmas};
-  const std::size_t stride = std::max<std::size_t>(edges.size() / kCoarse, 1);
+  const std::size_t stride = std::max<std::size_t>(edges.size() / kCoarseEdges, 1);
   solve(fit, edges, stride, loss, estimated);
   return fit.state();
 }

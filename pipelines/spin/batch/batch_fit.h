@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "pipelines/core/expected.h"
@@ -15,6 +16,9 @@ struct BatchFit {
   BiasSet at_bound;  ///< Biases that ran to what no sensor exceeds.
   int iterations;
 };
+
+/// So many edges, spread over the pass, tell roughly what all do.
+inline constexpr std::size_t kCoarseEdges = 6000;
 
 /// Where a start leads by some thousands of edges, robustly: which of several starts are one.
 SpinState coarse_fit(const PassModel& model, std::span<const PassEdge> edges,

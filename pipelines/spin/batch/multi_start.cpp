@@ -5,6 +5,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/batch/batch_fit.h"
 #include "pipelines/spin/batch/initial_state.h"
 #include "pipelines/spin/batch/pass_nutation.h"
 #include "pipelines/spin/batch/uniform_spin_residuals.h"
@@ -17,7 +18,6 @@ namespace {
 constexpr double kSameAxis_rad = 0.1 * kRadPerDeg;
 // Stated sigmas: a body that nutates, or noise not as stated.
 constexpr double kScattered = 1.3;
-constexpr std::size_t kFew = 6000;
 
 Expected<EvaluatedFit> with_stretches(const PassModel& model, std::span<const PassEdge> edges,
                                       SpinState near, BiasSet estimated, PassNutation nutation) {
@@ -30,7 +30,7 @@ Expected<EvaluatedFit> with_stretches(const PassModel& model, std::span<const Pa
 
 /// Most edges would lie where Tukey's loss is not convex, and the steps to its minimum be many.
 bool is_scattered(const PassModel& model, std::span<const PassEdge> edges, const SpinState& state) {
-  const std::size_t stride = std::max<std::size_t>(edges.size() / kFew, 1);
+  const std::size_t stride = std::max<std::size_t>(edges.size() / kCoarseEdges, 1);
   std::vector<PassEdge> few;
   for (std::size_t i = 0; i < edges.size(); i += stride) {
     few.push_back(edges[i]);

@@ -39,7 +39,7 @@ double PassInformation::excess_noise(int unknowns) const {
     return 1.0;
   }
   // The quantile by Cornish and Fisher to the skewness: twice that chance at one degree of freedom,
-  // that chance from ten on.
+  // 1.3 times at ten.
   const double limit = freedom + kSignificantSigmas * std::sqrt(2.0 * freedom) +
                        kSignificantSigmas * kSignificantSigmas * 2.0 / 3.0;
   return squares > limit ? squares / freedom : 1.0;

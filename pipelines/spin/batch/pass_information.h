@@ -15,9 +15,7 @@ namespace spindrift {
 
 /// Farther from where the state has it (sigmas) an edge has no weight: Tukey's biweight.
 inline constexpr double kOutlierSigmas = 8.0;
-/// More outliers are no dirt of a pass but another motion, or none: a wrong axis may have all edges
-/// of five channels where they came, and none of the sixth.
-inline constexpr double kManyOutliers = 0.15;
+/// With a larger share of outliers nothing is explained.
 inline constexpr double kMostOutliers = 0.5;
 /// Of normal noise so weighted, the share of its information that is left, and the mean slope of
 /// the weighted residual.

@@ -8,6 +8,7 @@
 #include "pipelines/spin/measurement/edge_use.h"
 #include "pipelines/spin/sensor_model/edge_prediction.h"
 #include "pipelines/spin/types/spin_rate.h"
+#include "pipelines/statistics/iterated_update.h"
 
 namespace spindrift {
 namespace {
@@ -25,11 +26,6 @@ constexpr double kFirstDrift_rad_s2 = kFirstDrift_rpm_h * (kTurn_rad / 60.0) / k
 constexpr double kDriftWander_rad_s2_sqrt_s = 2e-9;
 // One edge in a thousand is spurious and anywhere on the circle.
 const double kLogSpurious = std::log(1e-3 / kTurn_rad);
-// A correction of the axis beyond this (0.06 deg) is linearised anew where it ends, up to so many
-// times: what two linearisations disagree on would count as knowledge of what no edge measures. The
-// narrower a chord, the steeper its edges and, squared, the more curved.
-constexpr double kFarFromLinear_rad = 1e-3;
-constexpr int kMostPasses = 8;
 // The first phase comes from an edge that the axis may rest on too: known so badly, it is free.
 constexpr double kFirstPhase_rad = 0.1;
 // The first rate comes from the period: ten of its sigmas leave the filter a hundredth of its
@@ -123,8 +119,10 @@ EdgeStatistics SpinFilter::update(const SpinConfig& config, const Sky& sky,
   // There may be no state near with all these edges: then those that are missing pull no more.
   for (const Missing missing : {Missing::Approached, Missing::LeftOut}) {
     *this = prior;
-    for (int pass = 0; pass < kMostPasses; ++pass) {
+    for (int pass = 0; pass < kMostLinearisations; ++pass) {
       const Linearised here = update_linearised_here(prior, seen, missing, tally);
+      // What two linearisations disagree on would count as knowledge of what no edge measures. The
+      // narrower a chord, the steeper its edges and, squared, the more curved.
       if (!here.approached && here.moved_rad * square(here.steepest) < kFarFromLinear_rad) {
         return tally;
       }
