@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <Eigen/Core>
-#include <string>
 #include <utility>
 #include <variant>
 

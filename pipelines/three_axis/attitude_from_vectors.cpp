@@ -4,7 +4,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <array>
-#include <cmath>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/statistics/symmetric_eigen.h"

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "pipelines/statistics/significance.h"
-#include "pipelines/time/time_span.h"
 
 namespace spindrift {
 

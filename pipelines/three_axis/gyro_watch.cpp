@@ -1,5 +1,6 @@
 #include "pipelines/three_axis/gyro_watch.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 
 #include "pipelines/three_axis/config.h"

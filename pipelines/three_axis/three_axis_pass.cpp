@@ -1,7 +1,5 @@
 #include "pipelines/three_axis/three_axis_pass.h"
 
-#include <cstdint>
-
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/ephemeris/shadow.h"
 #include "pipelines/geomagnetism/field_at_spacecraft.h"

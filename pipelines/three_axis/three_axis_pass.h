@@ -13,7 +13,6 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
 #include <optional>
 #include <set>
 #include <utility>

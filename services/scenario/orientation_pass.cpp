@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/ground_model/flights/channel_margins.h"
 #include "services/scenario/three_axis_pass.h"
-#include "services/units/degrees.h"
 
 namespace spindrift {
 namespace {

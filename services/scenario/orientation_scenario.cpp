@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/ground_model/flights/channel_margins.h"
 #include "services/mission/mission_three_axis.h"
 #include "services/scenario/three_axis_scenario.h"
 #include "services/toml_schema/values.h"
-#include "services/units/degrees.h"
 
 namespace spindrift {
 namespace {

@@ -5,8 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "pipelines/frames/angle.h"
 #include "services/scenario/three_axis_pass.h"
-#include "services/units/degrees.h"
 
 namespace spindrift {
 namespace {

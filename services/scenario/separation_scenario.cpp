@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
 #include "services/mission/mission_three_axis.h"
 #include "services/scenario/three_axis_scenario.h"
 #include "services/toml_schema/values.h"
-#include "services/units/degrees.h"
 
 namespace spindrift {
 namespace {

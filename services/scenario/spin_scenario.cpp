@@ -7,12 +7,12 @@
 #include <string_view>
 
 #include "pipelines/ephemeris/earth_pole.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/spin_rate.h"
 #include "services/mission/mission_spin.h"
 #include "services/scenario/silences.h"
 #include "services/toml_schema/values.h"
-#include "services/units/degrees.h"
 
 namespace spindrift {
 namespace {

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "pipelines/ephemeris/sun.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "services/telemetry/time_order.h"
-#include "services/units/degrees.h"
 
 namespace spindrift {
 namespace {

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "pipelines/spin/types/coded_frame.h"
+#include "pipelines/spin/types/spin_rate.h"
 #include "services/telemetry/telemetry.h"
 
 namespace spindrift {

@@ -1,5 +1,7 @@
 #include "pipelines/ground_model/comparison/model_comparison.h"
 
+#include <utility>
+
 namespace spindrift {
 
 ModelSpan span_of(const GroundModel& model) {

@@ -7,6 +7,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/geomagnetism/field_at_spacecraft.h"
+#include "pipelines/ground_model/dynamics/coarse_step.h"
 
 namespace spindrift {
 

@@ -13,7 +13,6 @@
 #include "pipelines/geomagnetism/main_field_model.h"
 #include "pipelines/ground_model/control/closed_loop.h"
 #include "pipelines/ground_model/dynamics/body_motion.h"
-#include "pipelines/ground_model/dynamics/coarse_step.h"
 #include "pipelines/ground_model/dynamics/disturbances.h"
 #include "pipelines/time/tai_time.h"
 

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/ground_model/control/held_momentum.h"
+#include "pipelines/ground_model/dynamics/coarse_step.h"
 
 namespace spindrift {
 namespace {

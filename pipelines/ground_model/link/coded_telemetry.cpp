@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "pipelines/spin/types/spin_rate.h"
+
 namespace spindrift {
 namespace {
 

@@ -23,7 +23,6 @@
 #include "pipelines/spin/association/period_intervals.h"
 #include "pipelines/spin/association/rate_step.h"
 #include "pipelines/spin/association/spin_clock.h"
-#include "pipelines/spin/association/spin_period_window.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/products.h"
 #include "pipelines/spin/types/pulse.h"

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "pipelines/spin/association/expected_phases.h"
-
 namespace spindrift {
 namespace {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "pipelines/spin/association/robust_line.h"
 #include "pipelines/spin/types/spin_rate.h"

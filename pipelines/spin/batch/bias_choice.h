@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "pipelines/spin/batch/batch_fit.h"
 #include "pipelines/spin/batch/pass_information.h"
 
 namespace spindrift {

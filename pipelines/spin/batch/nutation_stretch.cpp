@@ -3,8 +3,6 @@
 #include <cmath>
 #include <complex>
 
-#include "pipelines/time/time_span.h"
-
 namespace spindrift {
 
 double NutationStretch::half_s() const { return 0.5 * seconds_between(begin, end); }

@@ -1,7 +1,6 @@
 #include "pipelines/spin/batch/pass_nutation.h"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <complex>
 

@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "pipelines/frames/angle.h"
-#include "pipelines/frames/celestial.h"
 #include "pipelines/statistics/significance.h"
 
 namespace spindrift {

@@ -1,6 +1,6 @@
 #include "pipelines/spin/measurement/beam_view.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <cmath>
 
 #include "pipelines/frames/celestial.h"

@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstddef>
 #include <optional>
 
 #include "pipelines/spin/types/config.h"

@@ -1,7 +1,6 @@
 #include "pipelines/spin/measurement/sun_earth_ephemeris.h"
 
 #include <algorithm>
-#include <vector>
 
 #include "pipelines/ephemeris/earth_pole.h"
 #include "pipelines/spin/sensor_model/geometry.h"

@@ -7,7 +7,6 @@
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/spin/measurement/measurement.h"
-#include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/sky.h"
 #include "pipelines/spin/types/sun_earth_directions.h"
 #include "pipelines/time/tai_time.h"

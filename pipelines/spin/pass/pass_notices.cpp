@@ -5,7 +5,6 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/association/period_search.h"
 #include "pipelines/spin/measurement/edge_use.h"
 #include "pipelines/spin/types/model_allowance.h"
 #include "pipelines/spin/types/spin_rate.h"

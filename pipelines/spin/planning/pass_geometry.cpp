@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/fix/axis_candidates.h"

@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <utility>
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"

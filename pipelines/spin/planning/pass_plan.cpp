@@ -9,7 +9,6 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/spin/planning/pass_conditions.h"
 #include "pipelines/spin/sensor_model/edge_information.h"
-#include "pipelines/spin/sensor_model/edge_prediction.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {

@@ -1,7 +1,5 @@
 #include "pipelines/spin/screening/screening.h"
 
-#include <cmath>
-
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/measurement/beam_view.h"
 #include "pipelines/spin/measurement/mixed_azimuth.h"

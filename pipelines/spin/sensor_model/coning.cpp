@@ -1,7 +1,6 @@
 #include "pipelines/spin/sensor_model/coning.h"
 
 #include <Eigen/Dense>
-#include <Eigen/Geometry>
 #include <cmath>
 
 #include "pipelines/frames/angle.h"

@@ -1,6 +1,6 @@
 #include "pipelines/spin/sensor_model/edge_prediction.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 

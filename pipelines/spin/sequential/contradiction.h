@@ -7,8 +7,6 @@
 
 #pragma once
 
-#include <span>
-
 #include "pipelines/spin/mean/mean_axis.h"
 #include "pipelines/spin/sequential/hypotheses.h"
 #include "pipelines/spin/sequential/starting_points.h"

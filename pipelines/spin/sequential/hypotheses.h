@@ -9,10 +9,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "pipelines/spin/association/association.h"
 #include "pipelines/spin/sequential/spin_filter.h"
 #include "pipelines/spin/sequential/starting_points.h"
 #include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/revolution.h"
 #include "pipelines/spin/types/sky.h"
 
 namespace spindrift {

@@ -37,7 +37,6 @@
 #include <optional>
 #include <span>
 
-#include "pipelines/spin/association/association.h"
 #include "pipelines/spin/mean/model_check.h"
 #include "pipelines/spin/sequential/contradiction.h"
 #include "pipelines/spin/sequential/gating_monitor.h"
@@ -49,6 +48,7 @@
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/known_axis.h"
 #include "pipelines/spin/types/products.h"
+#include "pipelines/spin/types/revolution.h"
 #include "pipelines/spin/types/sky.h"
 
 namespace spindrift {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "pipelines/spin/types/pulse.h"
-#include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {

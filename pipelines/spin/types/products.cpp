@@ -1,7 +1,6 @@
 #include "pipelines/spin/types/products.h"
 
 #include <array>
-#include <utility>
 
 namespace spindrift {
 
