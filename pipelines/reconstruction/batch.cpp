@@ -15,6 +15,7 @@
 #include "pipelines/reconstruction/methods.h"
 #include "pipelines/reconstruction/observations.h"
 #include "pipelines/reconstruction/reconstruction_assessment.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
@@ -22,8 +23,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// The measurements must at least halve what was known of the bias before.
-constexpr double kObservableShare = 0.5;
 // Fewer residuals say nothing of their noise.
 constexpr std::int64_t kFewResiduals = 10;
 

@@ -13,6 +13,8 @@ inline constexpr double kContradictionSigmas = 5.0;
 inline constexpr double kContradictionChance = 5.733e-7;
 /// The same where the standard deviation is stated by people, as that of a prior is.
 inline constexpr double kPriorSigmas = 3.0;
+/// Measurements tell a bias where they leave at most so much of the sigma that its prior has.
+inline constexpr double kObservableShare = 0.5;
 /// A bias so many sigmas of its prior from zero is far off: more than what the prior allows for.
 inline constexpr double kFarOffPriorSigmas = 4.0;
 

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/statistics/significance.h"
 #include "pipelines/statistics/symmetric_eigen.h"
 
 namespace spindrift {
 namespace {
 
-// The edges must at least halve what was known of a bias before.
-constexpr double kObservableShare = 0.5;
 // A bias that has so much of an open direction takes part in it.
 constexpr double kTakesPart = 0.35;
 
