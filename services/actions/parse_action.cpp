@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string_view>
@@ -21,15 +22,22 @@ namespace {
 
 constexpr std::array<const char*, 5> kOfEveryAction = {"spacecraft", "by", "action", "note",
                                                        "t_tai_ns"};
-constexpr std::array<std::string_view, 4> kSensors = {"gyro", "star", "sun", "magnetometer"};
 constexpr std::array kSensorKinds = {SampleKind::Gyro, SampleKind::Star, SampleKind::Sun,
                                      SampleKind::Magnetometer};
+
+/// As in the archive.
+std::array<std::string_view, kSensorKinds.size()> sensor_names() {
+  std::array<std::string_view, kSensorKinds.size()> names;
+  std::transform(kSensorKinds.begin(), kSensorKinds.end(), names.begin(),
+                 [](SampleKind kind) { return name_of(kind); });
+  return names;
+}
 
 void read(SaidValues& said, PulseChannel& channel) {
   channel = static_cast<PulseChannel>(said.name("channel", kPulseChannelNames));
 }
 void read(SaidValues& said, SampleKind& sensor) {
-  sensor = kSensorKinds.at(said.name("channel", kSensors));
+  sensor = kSensorKinds.at(said.name("channel", sensor_names()));
 }
 
 template <class Channel>

@@ -291,6 +291,10 @@ ConsoleServer::ConsoleServer(std::string url, std::unique_ptr<Loop> loop)
 
 ConsoleServer::~ConsoleServer() = default;
 
+Expected<void> ConsoleServer::check(const std::string& address) {
+  return endpoint_of(address).map([](const tcp::endpoint&) {});
+}
+
 Expected<std::unique_ptr<ConsoleServer>> ConsoleServer::start(
     const ConsoleOptions& options, const ConsoleAnswers::Service& service) {
   const auto endpoint = endpoint_of(options.address);

@@ -22,8 +22,10 @@ struct ConsoleOptions {
 
 class ConsoleServer {
  public:
+  /// @return InvalidConfiguration for an address that is none.
+  static Expected<void> check(const std::string& address);
   /// @param service Outlives it.
-  /// @return InvalidConfiguration for an address that is none; Unavailable where it cannot listen;
+  /// @return As `check`; Unavailable where it cannot listen;
   ///         as token_of.
   static Expected<std::unique_ptr<ConsoleServer>> start(const ConsoleOptions& options,
                                                         const ConsoleAnswers::Service& service);

@@ -309,6 +309,9 @@ Expected<void> serve(const ServeOptions& options) {
   if (!processor) {
     return Unexpected{processor.error()};
   }
+  if (const auto checked = check_console(options); !checked) {
+    return checked;
+  }
   const auto models = load_ground_models(*missions);
   if (!models) {
     return Unexpected{models.error()};

@@ -6,6 +6,10 @@
 
 namespace spindrift {
 
+Expected<void> check_console(const ServeOptions& options) {
+  return options.console.empty() ? Expected<void>{} : ConsoleServer::check(options.console);
+}
+
 std::unique_ptr<ConsoleFeed> make_console_feed(const ServeOptions& options,
                                                const std::vector<Mission>& missions,
                                                const std::string& name) {

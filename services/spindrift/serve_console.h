@@ -18,6 +18,9 @@
 
 namespace spindrift {
 
+/// Before anything is opened. @return As ConsoleServer::check, of a console that is wanted.
+Expected<void> check_console(const ServeOptions& options);
+
 /// Null where no console is wanted. @param missions Outlive it. @param name Of the service.
 std::unique_ptr<ConsoleFeed> make_console_feed(const ServeOptions& options,
                                                const std::vector<Mission>& missions,

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -122,6 +123,7 @@ TEST(ServeConsole, RefusesWhatIsNoAddress) {
                    "--domain", "99", "--console", "ship"}};
   EXPECT_EQ(service.exit_status(), 2);
   EXPECT_THAT(service.log(), HasSubstr("--console ship: must be HOST:PORT"));
+  EXPECT_FALSE(std::filesystem::exists(copy.db));
 }
 
 }  // namespace
