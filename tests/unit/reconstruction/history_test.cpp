@@ -1,0 +1,231 @@
+#include "pipelines/reconstruction/history.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "pipelines/frames/rotation_vector.h"
+
+namespace spindrift::history_test {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using enum SeparationEvent;
+
+const TaiTime kControlOn = tai_from_ns(1'795'143'637'000'000'000);
+TaiTime at_s(double t_s) { return shifted(kControlOn, t_s); }
+
+const Vector3d kBias_rad_s{1e-3, -2e-3, 5e-4};
+const Quaterniond kFirst = Quaterniond{0.3, -0.5, 0.7, 0.4}.normalized();
+
+struct Flight {
+  double arc_s = 30.0;  ///< From T1 to T2.
+  Vector3d rate_rad_s{0.01, -0.02, 0.005};
+  std::optional<Inertia> inertia =
+      Inertia{.kg_m2 = Vector3d{100.0, 100.0, 140.0}.asDiagonal(), .sigma_fraction = 0.0};
+  double disturbance_rad_s2 = 0.0;
+  double first_sample_s = 0.0;
+
+  /// T1 to T4, with nodes every two seconds and at T3.
+  Observations observed() const {
+    std::vector<TimedRate> samples;
+    for (double t_s = first_sample_s; t_s <= 20.0; t_s += 1.0) {
+      samples.push_back({t_s, rate_rad_s + kBias_rad_s});
+    }
+    return {.origin = kControlOn,
+            .events = {{Separation, at_s(-arc_s), false},
+                       {ControlOn, at_s(0.0), true},
+                       {Acquisition, at_s(5.0), true},
+                       {FirstStarFix, at_s(20.0), false}},
+            .rates = RateTrack{samples, 0.0, 20.0, kNoise_rad_s}};
+  }
+  ReconstructionRequest request() const {
+    ReconstructionRequest request{.sensors = {},
+                                  .times = {.separation = at_s(-arc_s)},
+                                  .gyro = {},
+                                  .sun_directions = {},
+                                  .star_fixes = {}};
+    request.sensors.inertia = inertia;
+    request.disturbance_rad_s2 = disturbance_rad_s2;
+    return request;
+  }
+  NodeEstimates nodes() const {
+    NodeEstimates nodes{.times_s = {0.0, 2.0, 4.0, 5.0, 6.0, 8.0, 20.0},
+                        .q_icrf_body = {},
+                        .covariances_rad2 = {},
+                        .bias_rad_s = kBias_rad_s,
+                        .bias_covariance_rad2_s2 = bias_covariance_rad2_s2,
+                        .start_bias_covariance = start_bias_covariance,
+                        .gyro_noise_rad_s = kNoise_rad_s};
+    for (const double t_s : nodes.times_s) {
+      nodes.q_icrf_body.push_back(kFirst * quaternion_by(t_s * rate_rad_s));
+      nodes.covariances_rad2.push_back((1.0 + t_s) * first_covariance_rad2);
+    }
+    return nodes;
+  }
+  History history() const { return history_of(request(), observed(), nodes()); }
+
+  static constexpr double kNoise_rad_s = 3e-5;
+  Matrix3d first_covariance_rad2 = Vector3d{1e-6, 4e-6, 9e-6}.asDiagonal();
+  Matrix3d bias_covariance_rad2_s2 = Vector3d{1e-10, 4e-10, 2e-10}.asDiagonal();
+  Matrix3d start_bias_covariance = Matrix3d::Zero();
+};
+
+TEST(History, BehindT2ItIsWhatTheNodesSay) {
+  const Flight flight;
+  const auto attitudes = flight.history().attitudes;
+  const NodeEstimates nodes = flight.nodes();
+  ASSERT_EQ(attitudes.size(), 30 + nodes.times_s.size());
+  const Matrix3d rate_covariance =
+      flight.bias_covariance_rad2_s2 + std::pow(Flight::kNoise_rad_s, 2) * Matrix3d::Identity();
+  for (std::size_t i = 0; i < nodes.times_s.size(); ++i) {
+    const ReconstructedAttitude& one = attitudes[30 + i];
+    EXPECT_EQ(one.t, at_s(nodes.times_s[i]));
+    EXPECT_EQ(one.q_icrf_body.coeffs(), nodes.q_icrf_body[i].coeffs());
+    EXPECT_EQ(one.covariance_rad2, nodes.covariances_rad2[i]);
+    EXPECT_LT((one.rate_body_rad_s - flight.rate_rad_s).norm(), 1e-14);
+    EXPECT_LT((one.rate_covariance_rad2_s2 - rate_covariance).norm(), 1e-20);
+  }
+}
+
+TEST(History, FromT1OnTimesRiseAndPointsAreASecondApartOrMore) {
+  for (const double arc_s : {0.4, 1.0, 1.9, 30.0, 60.0, 61.0, 600.0}) {
+    Flight flight;
+    flight.arc_s = arc_s;
+    const auto attitudes = flight.history().attitudes;
+    EXPECT_EQ(attitudes.front().t, at_s(-arc_s));
+    const std::size_t arc = attitudes.size() - flight.nodes().times_s.size();
+    EXPECT_LE(arc, 60U);
+    EXPECT_GE(static_cast<double>(arc), std::min(60.0, std::floor(arc_s)));
+    for (std::size_t i = 1; i < attitudes.size(); ++i) {
+      const double step_s = seconds_between(attitudes[i - 1].t, attitudes[i].t);
+      EXPECT_GT(step_s, 0.0);
+      if (i <= arc && arc_s >= 1.0) {
+        EXPECT_GE(step_s, 1.0 - 1e-9);
+        EXPECT_NEAR(step_s, arc_s / static_cast<double>(arc), 1e-6);
+      }
+    }
+  }
+}
+
+TEST(History, WhereT1IsT2ThereIsNoArc) {
+  Flight flight;
+  flight.arc_s = 0.0;
+  const History history = flight.history();
+  EXPECT_EQ(history.attitudes.size(), flight.nodes().times_s.size());
+  EXPECT_EQ(history.events, (std::vector<std::size_t>{0, 0, 3, 6}));
+}
+
+TEST(History, ItsEventsAreTheAttitudesOfTheirTimes) {
+  const Flight flight;
+  const Observations all = flight.observed();
+  const History history = flight.history();
+  const auto events = events_of(all, history);
+  ASSERT_EQ(events.size(), all.events.size());
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    EXPECT_EQ(events[i].event, all.events[i].event);
+    EXPECT_EQ(events[i].found, all.events[i].found);
+    EXPECT_EQ(events[i].attitude.t, all.events[i].t);
+    EXPECT_EQ(events[i].attitude.q_icrf_body.coeffs(),
+              history.attitudes[history.events[i]].q_icrf_body.coeffs());
+    EXPECT_FALSE(events[i].bound_rad);
+  }
+}
+
+/// About a principal axis the rate stays as it is, and the body turns back by rate and time.
+TEST(History, AboutAPrincipalAxisTheBodyTurnsBackEvenly) {
+  Flight flight;
+  flight.rate_rad_s = {0.0, 0.0, 0.03};
+  const auto attitudes = flight.history().attitudes;
+  for (std::size_t i = 0; i < 30; ++i) {
+    const double t_s = seconds_between(kControlOn, attitudes[i].t);
+    EXPECT_LT(angle_between_rad(attitudes[i].q_icrf_body,
+                                kFirst * quaternion_by(t_s * flight.rate_rad_s)),
+              1e-9);
+    EXPECT_LT((attitudes[i].rate_body_rad_s - flight.rate_rad_s).norm(), 1e-12);
+  }
+}
+
+TEST(History, WithoutTorquesMomentumAndEnergyStay) {
+  Flight flight;
+  flight.rate_rad_s = {0.05, -0.03, 0.2};
+  flight.arc_s = 100.0;
+  const Matrix3d inertia = flight.inertia->kg_m2;
+  const auto attitudes = flight.history().attitudes;
+  const Vector3d momentum = kFirst * (inertia * flight.rate_rad_s);
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < 60; ++i) {
+    const ReconstructedAttitude& one = attitudes[i];
+    EXPECT_LT((one.q_icrf_body * (inertia * one.rate_body_rad_s) - momentum).norm(),
+              1e-7 * momentum.norm());
+    EXPECT_NEAR(one.rate_body_rad_s.dot(inertia * one.rate_body_rad_s),
+                flight.rate_rad_s.dot(inertia * flight.rate_rad_s), 1e-7);
+    farthest = std::max(farthest, (one.rate_body_rad_s - flight.rate_rad_s).norm());
+  }
+  EXPECT_GT(farthest, 0.05);  // It nutates.
+}
+
+TEST(History, OfUnknownInertiaTheRateIsConstantAndItsErrorGrows) {
+  Flight known;
+  known.rate_rad_s = {0.05, -0.03, 0.2};
+  Flight unknown = known;
+  unknown.inertia = std::nullopt;
+  const auto attitudes = unknown.history().attitudes;
+  EXPECT_LT((attitudes.front().rate_body_rad_s - unknown.rate_rad_s).norm(), 1e-12);
+  EXPECT_LT(angle_between_rad(attitudes.front().q_icrf_body,
+                              kFirst * quaternion_by(-unknown.arc_s * unknown.rate_rad_s)),
+            1e-9);
+  EXPECT_GT(attitudes.front().sigma_rad(), 10.0 * known.history().attitudes.front().sigma_rad());
+}
+
+/// Of a body nearly at rest errors of the rate turn it by their size and the time, and an even
+/// acceleration by half of the time squared. The rate is the measured one less the bias: what the
+/// attitude has to do with the bias it has to do with the rate the other way round.
+TEST(History, ErrorsGrowBackToT1AsTheyDoForABodyAtRest) {
+  Flight flight;
+  flight.rate_rad_s = 1e-9 * Vector3d::UnitX();
+  flight.disturbance_rad_s2 = 2e-6;
+  flight.start_bias_covariance = (Matrix3d{} << 3e-9, 1e-9, 0.0,  //
+                                  -2e-9, 5e-9, 0.0,               //
+                                  0.0, 0.0, -4e-9)
+                                     .finished();
+  const Matrix3d rate_covariance =
+      flight.bias_covariance_rad2_s2 + std::pow(Flight::kNoise_rad_s, 2) * Matrix3d::Identity();
+  const auto attitudes = flight.history().attitudes;
+  for (const std::size_t i : {0U, 10U, 29U}) {
+    const double back_s = seconds_between(attitudes[i].t, kControlOn);
+    const Matrix3d with_bias = flight.start_bias_covariance;
+    const Matrix3d expected =
+        flight.first_covariance_rad2 + back_s * back_s * rate_covariance +
+        back_s * (with_bias + with_bias.transpose()) +
+        std::pow(0.5 * back_s * back_s * flight.disturbance_rad_s2, 2) * Matrix3d::Identity();
+    EXPECT_LT((attitudes[i].covariance_rad2 - expected).norm(), 1e-6 * expected.norm()) << i;
+    const Matrix3d expected_rate =
+        rate_covariance + std::pow(back_s * flight.disturbance_rad_s2, 2) * Matrix3d::Identity();
+    EXPECT_LT((attitudes[i].rate_covariance_rad2_s2 - expected_rate).norm(),
+              1e-6 * expected_rate.norm());
+  }
+}
+
+TEST(History, WhoseFirstSamplesAreMissingKnowsItsFirstRateWorse) {
+  Flight late;
+  late.first_sample_s = 5.0;
+  const double variance = late.observed().rates.start_variance_rad2_s2();
+  ASSERT_GT(variance, 0.0);
+  const auto rate_rad2_s2 = [](const Flight& flight, std::size_t node) {
+    return flight.history().attitudes[30 + node].rate_covariance_rad2_s2;
+  };
+  EXPECT_LT(
+      (rate_rad2_s2(late, 0) - rate_rad2_s2(Flight{}, 0) - variance * Matrix3d::Identity()).norm(),
+      1e-9 * variance);
+  EXPECT_EQ(rate_rad2_s2(late, 1), rate_rad2_s2(Flight{}, 1));
+  EXPECT_GT(late.history().attitudes.front().sigma_rad(),
+            Flight{}.history().attitudes.front().sigma_rad());
+}
+
+}  // namespace spindrift::history_test
