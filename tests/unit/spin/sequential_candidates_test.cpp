@@ -130,6 +130,7 @@ TEST(Sequential, SaysAmbiguousUntilAFixSettlesIt) {
            : i == settled_at ? std::vector{scene.fix()}
                              : std::vector<SpinFix>{};
   });
+  ASSERT_EQ(all.size(), seen.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Quality quality = all[i].assessment.quality;
     EXPECT_TRUE(i < settled_at ? quality == Quality::Ambiguous : is_unopposed(quality)) << i;
