@@ -9,7 +9,7 @@ namespace {
 bool is_lower(const SeriesPoint& a, const SeriesPoint& b) { return a.value < b.value; }
 bool is_earlier(const SeriesPoint& a, const SeriesPoint& b) { return a.t_tai_ns < b.t_tai_ns; }
 
-/// Of equal shares of `points` the extremes, or of all of them the highest.
+/// The newest, and the extremes of equal shares of those before; or of all of them the highest.
 void thin(std::span<const SeriesPoint> points, std::size_t most, std::vector<SeriesPoint>& kept) {
   if (points.size() <= most) {
     kept.insert(kept.end(), points.begin(), points.end());
@@ -19,16 +19,18 @@ void thin(std::span<const SeriesPoint> points, std::size_t most, std::vector<Ser
     kept.push_back(*std::max_element(points.begin(), points.end(), &is_lower));
     return;
   }
-  const std::size_t shares = most / 2;
+  const auto before = points.first(points.size() - 1);
+  const std::size_t shares = (most - 1) / 2;
   for (std::size_t i = 0; i < shares; ++i) {
-    const std::size_t begin = points.size() * i / shares;
-    const auto share = points.subspan(begin, points.size() * (i + 1) / shares - begin);
+    const std::size_t begin = before.size() * i / shares;
+    const auto share = before.subspan(begin, before.size() * (i + 1) / shares - begin);
     const auto [low, high] = std::minmax_element(share.begin(), share.end(), &is_lower);
     kept.push_back(*std::min(low, high));
     if (low != high) {
       kept.push_back(*std::max(low, high));
     }
   }
+  kept.push_back(points.back());
 }
 
 }  // namespace

@@ -15,12 +15,14 @@ const lines = {
 export class Convergence {
   constructor(names) {
     this.names = names;
+    this.newest = {};
     this.rings = Object.fromEntries(names.map(name => [name, new Ring(points)]));
     this.chart = new Chart(byId('sigma'), names.map(name => line(name, ...lines[name])), { unit: 'deg', logarithmic: true });
   }
 
   push(name, t_tai_ns, sigma_deg) {
     const ring = this.rings[name];
+    if (!(t_tai_ns < this.newest[name]?.t_tai_ns) && sigma_deg > 0) this.newest[name] = { t_tai_ns, sigma_deg };
     // What comes sooner than its share of the span would push the past out.
     if (!ring || !(sigma_deg > 0) || t_tai_ns - (ring.last?.[0] ?? -Infinity) < span_ns / points) return;
     ring.push([t_tai_ns, sigma_deg]);
@@ -42,6 +44,8 @@ export class Convergence {
   }
 
   draw(utcOf) {
+    byId('sigma-note').textContent = this.names.filter(name => this.newest[name])
+      .map(name => `${name} ${sigma(this.newest[name].sigma_deg)}`).join(', ');
     if (!this.changed) return;
     this.changed = false;
     const times = new Map();
@@ -54,8 +58,6 @@ export class Convergence {
     const sorted = [...times.keys()].sort((a, b) => a - b);
     // undefined, unlike null, does not break a line.
     this.chart.draw([sorted.map(utcOf), ...this.names.map((_, i) => sorted.map(t => times.get(t)[i]))]);
-    byId('sigma-note').textContent = this.names.map(name => [name, this.rings[name].last?.[1]])
-      .filter(([, last]) => last).map(([name, last]) => `${name} ${sigma(last)}`).join(', ');
   }
 
   destroy() { this.chart.destroy(); }
