@@ -9,7 +9,7 @@ namespace {
 bool is_lower(const SeriesPoint& a, const SeriesPoint& b) { return a.value < b.value; }
 bool is_earlier(const SeriesPoint& a, const SeriesPoint& b) { return a.t_tai_ns < b.t_tai_ns; }
 
-/// The newest, and the extremes of equal shares of those before; or of all of them the highest.
+/// The extremes of equal shares and, of three or more, the newest; of all of them the highest.
 void thin(std::span<const SeriesPoint> points, std::size_t most, std::vector<SeriesPoint>& kept) {
   if (points.size() <= most) {
     kept.insert(kept.end(), points.begin(), points.end());
@@ -19,8 +19,9 @@ void thin(std::span<const SeriesPoint> points, std::size_t most, std::vector<Ser
     kept.push_back(*std::max_element(points.begin(), points.end(), &is_lower));
     return;
   }
-  const auto before = points.first(points.size() - 1);
-  const std::size_t shares = (most - 1) / 2;
+  const std::size_t newest = most > 2 ? 1 : 0;
+  const auto before = points.first(points.size() - newest);
+  const std::size_t shares = (most - newest) / 2;
   for (std::size_t i = 0; i < shares; ++i) {
     const std::size_t begin = before.size() * i / shares;
     const auto share = before.subspan(begin, before.size() * (i + 1) / shares - begin);
@@ -30,7 +31,7 @@ void thin(std::span<const SeriesPoint> points, std::size_t most, std::vector<Ser
       kept.push_back(*std::max(low, high));
     }
   }
-  kept.push_back(points.back());
+  kept.insert(kept.end(), before.end(), points.end());
 }
 
 }  // namespace

@@ -33,12 +33,12 @@ TEST(Decimate, KeepsTheNewestAndTheExtremesInOrderOfTime) {
   auto points = flat(1000);
   points[333].value = 9.0;
   points[334].value = -9.0;
-  for (const std::size_t most : {3U, 4U, 10U, 999U}) {
+  for (const std::size_t most : {2U, 3U, 4U, 10U, 999U}) {
     const auto kept = decimate(points, most);
     EXPECT_LE(kept.size(), most);
     EXPECT_THAT(kept, Contains(points[333])) << most;
     EXPECT_THAT(kept, Contains(points[334])) << most;
-    EXPECT_EQ(kept.back(), points.back()) << most;
+    EXPECT_EQ(kept.back() == points.back(), most > 2) << most;
     EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end(), [](const auto& a, const auto& b) {
       return a.t_tai_ns < b.t_tai_ns;
     }));
