@@ -11,6 +11,7 @@ export class Chart {
     this.plot = new uPlot({
       width: box.clientWidth || 300,
       height: 100,
+      padding: [null, 32, null, null],  // Half of a time stands right of its tick.
       series: [{ label: 'UTC', value: (plot, utc_s) => clock(utc_s ?? NaN) }, ...lines],
       axes: [{ ...axis(), values: (plot, ticks) => ticks.map(clock), space: 80 }, { ...axis(options.unit), size: 64 }],
       scales: { y: { distr: options.logarithmic ? 3 : 1 } },
