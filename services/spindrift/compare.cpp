@@ -23,7 +23,6 @@
 #include "services/scenario/output_file.h"
 #include "services/spindrift/orbit_notice.h"
 #include "services/spindrift/outcome.h"
-#include "services/spindrift/refused.h"
 #include "services/spindrift/telemetry_input.h"
 #include "services/standard_error/warning.h"
 #include "services/words/json_line.h"

@@ -18,7 +18,7 @@
 #include "pipelines/frames/local_frame.h"
 #include "services/geomagnetism/igrf.h"
 #include "services/input_file/file_lines.h"
-#include "services/spindrift/refused.h"
+#include "services/spindrift/outcome.h"
 #include "services/standard_error/warning.h"
 #include "services/telemetry_files/csv.h"
 #include "services/telemetry_files/parse_row.h"

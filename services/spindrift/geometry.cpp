@@ -21,7 +21,7 @@
 #include "services/plot/scale.h"
 #include "services/scenario/output_file.h"
 #include "services/spindrift/orbit_notice.h"
-#include "services/spindrift/refused.h"
+#include "services/spindrift/outcome.h"
 #include "services/spindrift/utc_option.h"
 #include "services/standard_error/warning.h"
 #include "services/units/degrees.h"

@@ -22,7 +22,7 @@
 #include "services/scenario/pass_files.h"
 #include "services/scenario/scenario.h"
 #include "services/scenario/simulated_pass.h"
-#include "services/spindrift/refused.h"
+#include "services/spindrift/outcome.h"
 #include "services/spindrift/telemetry_output.h"
 #include "services/standard_error/warning.h"
 #include "services/words/counted.h"

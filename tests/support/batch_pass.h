@@ -66,6 +66,15 @@ struct BatchScene {
   }
 };
 
+/// Edges without noise, and the state that they come from.
+struct ExactPass {
+  BatchScene scene{61};
+  std::vector<PassEdge> edges = counted(
+      scene.body, pulses_from(edges_of_turns(scene.body, scene.around, 60.0), kTransferStart));
+  PassModel model = scene.model(edges);
+  SpinState truth = true_state(scene.body, model);
+};
+
 /// Some degrees from the axis, as a fix would be.
 inline Eigen::Vector3d start_near(const SpinningBody& body, double off_rad, std::mt19937_64& rng) {
   const double azimuth_rad = std::uniform_real_distribution{0.0, 2.0 * std::numbers::pi}(rng);

@@ -13,15 +13,7 @@
 
 namespace spindrift::batch_fit_test {
 
-/// Edges without noise, and the state that they come from.
-struct ExactPass {
-  testing::BatchScene scene{61};
-  std::vector<PassEdge> edges = testing::counted(
-      scene.body, testing::pulses_from(testing::edges_of_turns(scene.body, scene.around, 60.0),
-                                       testing::kTransferStart));
-  PassModel model = scene.model(edges);
-  SpinState truth = testing::true_state(scene.body, model);
-
+struct ExactPass : testing::ExactPass {
   /// Of the frame `spin`, with the body's phase.
   SpinState turned(const Eigen::Vector3d& turn_rad) const {
     SpinState state = truth;

@@ -6,7 +6,11 @@
 #include <initializer_list>
 #include <random>
 
+#include "tests/unit/spin/noted.h"
+
 namespace spindrift::gating_monitor_test {
+
+using testing::note;
 
 using enum PulseChannel;
 
@@ -24,16 +28,8 @@ EdgeStatistics tally_of(std::initializer_list<PulseChannel> gated) {
 const EdgeStatistics kGood = tally_of({});
 const EdgeStatistics kAllGated = tally_of({Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut});
 
-void note(GatingMonitor& monitor, int revolutions, const EdgeStatistics& tally) {
-  for (int i = 0; i < revolutions; ++i) {
-    monitor.note(tally);
-  }
-}
-
 GatingMonitor after(int revolutions, const EdgeStatistics& tally) {
-  GatingMonitor monitor;
-  note(monitor, revolutions, tally);
-  return monitor;
+  return testing::noted<GatingMonitor>(revolutions, tally);
 }
 
 TEST(GatingMonitor, OfNothingSaysNothing) {

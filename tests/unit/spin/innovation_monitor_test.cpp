@@ -6,8 +6,11 @@
 #include <random>
 
 #include "pipelines/frames/angle.h"
+#include "tests/unit/spin/noted.h"
 
 namespace spindrift::innovation_monitor_test {
+
+using testing::note;
 
 constexpr double kGateSquares = SpinFilter::kGateSigmas * SpinFilter::kGateSigmas;
 
@@ -24,16 +27,8 @@ EdgeStatistics tally_of(double square, std::size_t gated = 0) {
   return tally;
 }
 
-void note(InnovationMonitor& monitor, int revolutions, const EdgeStatistics& tally) {
-  for (int i = 0; i < revolutions; ++i) {
-    monitor.note(tally);
-  }
-}
-
 InnovationMonitor after(int revolutions, const EdgeStatistics& tally) {
-  InnovationMonitor monitor;
-  note(monitor, revolutions, tally);
-  return monitor;
+  return testing::noted<InnovationMonitor>(revolutions, tally);
 }
 
 /// Of edges with normal noise, so many times the stated variance.

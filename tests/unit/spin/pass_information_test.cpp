@@ -31,15 +31,7 @@ SpinState changed(const SpinState& state, const PassModel& model, const Motion& 
   return other;
 }
 
-/// Edges without noise.
-struct ExactPass {
-  testing::BatchScene scene{61};
-  std::vector<PassEdge> edges = testing::counted(
-      scene.body, testing::pulses_from(testing::edges_of_turns(scene.body, scene.around, 60.0),
-                                       testing::kTransferStart));
-  PassModel model = scene.model(edges);
-  SpinState truth = testing::true_state(scene.body, model);
-
+struct ExactPass : testing::ExactPass {
   PassInformation of(const Motion& change) const {
     return information_of(model, edges, changed(truth, model, change));
   }
