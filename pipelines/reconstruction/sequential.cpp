@@ -40,7 +40,8 @@ constexpr double kNoTolerance = 1e-14;
 /// the turn of the step. Parameter: the earlier attitude.
 class StepCost final : public ceres::SizedCostFunction<3, 4> {
  public:
-  StepCost(const Quaterniond& later, const Quaterniond& turn) : later_{later}, turn_{turn} {}
+  StepCost(Quaterniond later, Quaterniond turn)
+      : later_{std::move(later)}, turn_{std::move(turn)} {}
 
   bool Evaluate(double const* const* at, double* residual, double** jacobians) const override {
     const Quaterniond earlier = quaternion_at(at[0]);
@@ -258,7 +259,7 @@ Expected<Pass> backwards(const ReconstructionRequest& request, const Observation
         return Unexpected{not_solved(all, times_s[i])};
       }
     }
-    pass.nodes.q_icrf_body.push_back(at.q());
+    pass.nodes.q_icrf_body.emplace_back(at.q());
     pass.nodes.covariances_rad2.push_back(at.covariance().topLeftCorner<3, 3>());
   }
   std::reverse(pass.nodes.q_icrf_body.begin(), pass.nodes.q_icrf_body.end());

@@ -30,7 +30,7 @@ double degrees_between(const Eigen::Vector3d& one, const Eigen::Vector3d& other)
 SpinConditions::SpinConditions(const SpinConfig& config, Orbit orbit, const AlertLimits& limits,
                                std::optional<SpinTarget> target)
     : limits_{limits},
-      target_{target},
+      target_{std::move(target)},
       channels_{config, std::move(orbit), limits.silent_revolutions},
       irrational_{limits.period.revolutions},
       left_out_{limits.rejection.revolutions},

@@ -65,7 +65,7 @@ class AttitudeEstimator {
   // All samples not earlier than those before; the mission has their sensors.
   void push(const GyroSample& sample, Products& out);
   void push(const StarFix& fix, Products& out);
-  void push(const SeenDirection& direction, Products& out);
+  void push(const SeenDirection& seen, Products& out);
 
   /// Nothing comes for now: what waits for a gyro sample is taken in without, and the newest
   /// attitude is given.

@@ -14,7 +14,7 @@ namespace spindrift {
 
 class EventRing {
  public:
-  static constexpr std::size_t kBytesKept = 16 * 1024 * 1024;
+  static constexpr std::size_t kBytesKept = 16UL * 1024 * 1024;
 
   /// @param id Below that of the first event. One that rises from start to start of the service
   /// lets

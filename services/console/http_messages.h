@@ -19,7 +19,7 @@ namespace http = boost::beast::http;
 /// Of a longer body only the beginning is kept, but all of it is read: a client that is still
 /// sending would not see the answer.
 struct BoundedBody {
-  static constexpr std::size_t kLongest = 16 * 1024;
+  static constexpr std::size_t kLongest = 16UL * 1024;
   struct value_type {
     std::string text;
     bool is_too_long = false;
@@ -29,7 +29,7 @@ struct BoundedBody {
    public:
     template <bool kIsRequest, class Fields>
     reader(http::header<kIsRequest, Fields>& /*head*/, value_type& body) : body_{body} {}
-    void init(const boost::optional<std::uint64_t>& /*length*/, boost::system::error_code& failed) {
+    static void init(const boost::optional<std::uint64_t>& /*length*/, boost::system::error_code& failed) {
       failed = {};
     }
     template <class Buffers>
@@ -42,7 +42,7 @@ struct BoundedBody {
       }
       return boost::asio::buffer_size(buffers);
     }
-    void finish(boost::system::error_code& failed) { failed = {}; }
+    static void finish(boost::system::error_code& failed) { failed = {}; }
 
    private:
     value_type& body_;

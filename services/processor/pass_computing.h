@@ -51,8 +51,10 @@ class PassComputing {
   using Output = decltype(std::declval<Pass&>().finish());
   using PassProduct = typename decltype(Output::products)::value_type;
 
-  PassComputing(std::string spacecraft_id, const std::string& run_id, Pass pass)
-      : spacecraft_id_{std::move(spacecraft_id)}, run_id_{run_id}, pass_{std::move(pass)} {}
+  PassComputing(std::string spacecraft_id, std::string run_id, Pass pass)
+      : spacecraft_id_{std::move(spacecraft_id)},
+        run_id_{std::move(run_id)},
+        pass_{std::move(pass)} {}
 
   /// The runs of `made` are stored, and their samples come again.
   void go_on(AllMadeBefore made) { made_before_ = std::move(made); }

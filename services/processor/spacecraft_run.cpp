@@ -5,12 +5,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <limits>
 #include <numeric>
-#include <string_view>
 #include <utility>
 
 #include "pipelines/time/time_span.h"
@@ -40,21 +38,6 @@ std::size_t total(const Received& received) {
       std::accumulate(received.samples.begin(), received.samples.end(), std::int64_t{0}));
 }
 
-std::string named(const SourceId& source) {
-  return fmt::format("'{}' (session {})", source.name, source.session);
-}
-
-std::string span_text(TaiTime from, TaiTime to) {
-  return fmt::format("{:.0f} s {}", std::abs(elapsed_s(from, to)),
-                     to > from ? "ahead of" : "behind");
-}
-
-std::string problem_text(const std::string& spacecraft, const SourceWatch::News& apart) {
-  return fmt::format("{}: the samples of source {} are left out: it says {}, {} the others with {}",
-                     spacecraft, named(apart.source), format_utc(apart.t),
-                     span_text(apart.pass, apart.t), format_utc(apart.pass));
-}
-
 void lower(std::optional<TaiTime>& earliest, TaiTime t) {
   earliest = std::min(earliest.value_or(t), t);
 }
@@ -80,7 +63,7 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
       run_id_{unique_id()},
       next_arrival_{start_.first_arrival},
       silent_before_{next_arrival_},
-      tables_{mission.tables},
+      notices_{mission},
       judges_sources_{source.mode != RunMode::Process},
       pace_{source.mode == RunMode::Live ? kLivePace : kReplayPace},
       sources_{pace_} {}
@@ -187,14 +170,16 @@ void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken&
 }
 
 SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples, const Moment& moment) {
-  tell_undescribed(samples.samples);
+  notices_.tell_undescribed(samples.samples);
   Taken out = nothing_taken();
   in_order_of_arrival(samples.samples, [&](auto& sample) { sort(std::move(sample), moment, out); });
   for (OperatorAction& action : samples.actions) {
     accept(std::move(action), out);
   }
   decide(moment, out);
-  tell_both();
+  if (received_.of<Pulse>() > 0 && received_.of<CodedFrame>() > 0) {
+    notices_.tell_both();
+  }
   for (const RejectedInput& rejected : samples.rejected) {
     received_.rejected_inputs += rejected.samples;
   }
@@ -216,13 +201,13 @@ void SpacecraftRun::decide(const Moment& moment, Taken& out) {
   if (const auto successor = sources_.successor(moment)) {
     follow(*successor, out);
   }
-  tell_sources(moment);
+  notices_.tell_sources(sources_, moment);
 }
 
 void SpacecraftRun::follow(const SourceId& successor, Taken& out) {
   const TaiTime before = sources_.pass_time().value();
   const TaiTime t = sources_.recent(successor);
-  const std::string carrier = sources_.carrier() ? named(*sources_.carrier()) : "others";
+  const auto carrier = sources_.carrier();
   const TelemetryValues held = sources_.follow(successor);
   stored_.reset();
   const auto span = span_between(before, t);
@@ -230,54 +215,9 @@ void SpacecraftRun::follow(const SourceId& successor, Taken& out) {
     accept(held, out);
     return;
   }
-  spdlog::log(
-      span < span.zero() ? spdlog::level::warn : spdlog::level::info,
-      "{}: a new run begins with source {}: it says {}, {} source {} with {}, which is silent "
-      "or has the others or the clock of this host against it",
-      spacecraft_id_, named(successor), format_utc(t), span_text(before, t), carrier,
-      format_utc(before));
+  notices_.tell_new_run(successor, t, carrier, before);
   release_held(out.inputs);
   begin_new_pass(held, out);
-}
-
-void SpacecraftRun::tell_sources(const Moment& moment) {
-  for (const SourceWatch::News& news : sources_.take_news()) {
-    if (news.healed) {
-      warn("source_agrees", {{"spacecraft", spacecraft_id_}, {"source", news.source.name}},
-           fmt::format("{}: source {} agrees with the others again", spacecraft_id_,
-                       named(news.source)));
-    } else {
-      warn("source_apart",
-           {{"spacecraft", spacecraft_id_},
-            {"source", news.source.name},
-            {"t_tai_ns", tai_ns(news.t)},
-            {"others_tai_ns", tai_ns(news.pass)}},
-           fmt::format("{}; until it agrees with them, or they are silent",
-                       problem_text(spacecraft_id_, news)));
-    }
-  }
-  const auto pass = sources_.pass_time();
-  const auto carrier = sources_.carrier();
-  if (moment.host && pass && carrier && told_host_.size() < SourceWatch::kMostSources &&
-      are_apart(*pass, *moment.host, SourceWatch::kHostApart) &&
-      told_host_.insert(carrier->name).second) {
-    warn("source_apart_from_host",
-         {{"spacecraft", spacecraft_id_},
-          {"source", carrier->name},
-          {"t_tai_ns", tai_ns(*pass)},
-          {"host_tai_ns", tai_ns(*moment.host)}},
-         fmt::format("{}: source {} says {}, and the clock of this host {}: one of them is wrong, "
-                     "or what it sends is recorded",
-                     spacecraft_id_, named(*carrier), format_utc(*pass), format_utc(*moment.host)));
-  }
-}
-
-std::vector<SourceProblem> SpacecraftRun::source_problems() const {
-  std::vector<SourceProblem> problems;
-  for (const auto& [apart, heard] : sources_.apart()) {
-    problems.push_back({.text = problem_text(spacecraft_id_, apart), .heard = heard});
-  }
-  return problems;
 }
 
 SpacecraftRun::Taken SpacecraftRun::fall_silent() {
@@ -327,43 +267,6 @@ void SpacecraftRun::note_earliest(ArchiveBatch& batch) {
   if (earliest_ != stored_earliest_) {
     batch.earliest = stored_earliest_ = earliest_;
   }
-}
-
-void SpacecraftRun::tell_both() {
-  if (!told_both_ && received_.of<Pulse>() > 0 && received_.of<CodedFrame>() > 0) {
-    told_both_ = true;
-    warn("pulses_and_coded_frames", {{"spacecraft", spacecraft_id_}},
-         fmt::format("{}: both pulses and coded frames arrive: an edge that both give is used as "
-                     "the one that comes first",
-                     spacecraft_id_));
-  }
-}
-
-/// Of each kind once.
-void SpacecraftRun::tell_undescribed(const TelemetrySamples& samples) {
-  TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
-    constexpr std::string_view kSensor = Telemetry<Value>::kSensor;
-    bool& told = told_undescribed_[kTelemetryKind<Value>];
-    if (told || samples.of<Value>().empty()) {
-      return;
-    }
-    if (kSensor.empty()) {
-      if (start_.spacecraft_kind == SpacecraftKind::Spin) {
-        told = true;
-        spdlog::info("{}: {} arrive: they are stored; the orbit is the mission file's",
-                     spacecraft_id_, Telemetry<Value>::kPlural);
-      }
-    } else if (!tables_.contains(std::string{kSensor})) {
-      told = true;
-      warn("no_sensor",
-           {{"spacecraft", spacecraft_id_},
-            {"samples", Telemetry<Value>::kPlural},
-            {"table", kSensor}},
-           fmt::format("{}: {} arrive, and the mission file has no [{}]: they are stored, and "
-                       "nothing is computed from them",
-                       spacecraft_id_, Telemetry<Value>::kPlural, kSensor));
-    }
-  });
 }
 
 SpacecraftRun::Taken SpacecraftRun::finish() {

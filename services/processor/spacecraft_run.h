@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -20,6 +19,7 @@
 #include "services/mission/mission.h"
 #include "services/processor/pass_watch.h"
 #include "services/processor/problems.h"
+#include "services/processor/run_notices.h"
 #include "services/processor/source_watch.h"
 #include "services/processor/spin_run.h"
 #include "services/processor/stored_samples.h"
@@ -101,7 +101,7 @@ class SpacecraftRun {
     return sources_.next_decision();
   }
   /// Sources that are left out, in words, and when each was heard last.
-  std::vector<SourceProblem> source_problems() const;
+  std::vector<SourceProblem> source_problems() const { return notices_.problems(sources_); }
 
   /// What waited for a sample to tell which pass it belongs to, and none came.
   Taken finish();
@@ -119,7 +119,6 @@ class SpacecraftRun {
   void restore_sources(const StoredPass& stored, const Moment& moment);
   void decide(const Moment& moment, Taken& out);
   void follow(const SourceId& successor, Taken& out);
-  void tell_sources(const Moment& moment);
   void note_earliest(ArchiveBatch& batch);
   template <class Value>
   bool is_known(const Value& value) const;
@@ -133,8 +132,6 @@ class SpacecraftRun {
   void repeat_actions_before(std::int64_t first_arrival, Taken& out);
   void release_held(std::vector<PassInput>& inputs);
   void begin_new_pass(const TelemetryValues& its_first, Taken& out);
-  void tell_both();
-  void tell_undescribed(const TelemetrySamples& samples);
   std::vector<SourceCount> source_counts(const std::map<std::string, SequenceCounts>& by_source);
   ArchiveBatch batch() const;
 
@@ -151,11 +148,8 @@ class SpacecraftRun {
   std::map<std::string, SequenceCounts> latest_counts_;  ///< Since the service started.
   std::map<std::string, SequenceCounts> counts_before_;  ///< The run's, before a restart.
   std::map<std::string, SequenceCounts> counts_of_earlier_runs_;
-  bool told_both_ = false;
-  std::set<std::string> tables_;  ///< Of the mission file.
-  std::array<bool, kTelemetryKindCount> told_undescribed_{};
+  RunNotices notices_;
   bool judges_sources_;
-  std::set<std::string> told_host_;  ///< Sources, by name.
   Pace pace_;
   SourceWatch sources_;
   PassWatch watch_;

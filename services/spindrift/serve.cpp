@@ -309,7 +309,7 @@ Expected<void> serve(const ServeOptions& options) {
   if (!processor) {
     return Unexpected{processor.error()};
   }
-  if (const auto checked = check_console(options); !checked) {
+  if (auto checked = check_console(options); !checked) {
     return checked;
   }
   const auto models = load_ground_models(*missions);

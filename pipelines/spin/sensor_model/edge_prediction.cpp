@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/side.h"
@@ -179,8 +180,8 @@ HorizonAxes biased_horizon(Horizon horizon, const SensorBiases& biases) {
 
 }  // namespace
 
-PlacedSensors::PlacedSensors(const SpinConfig& config, const SensorBiases& sensor_biases)
-    : biases{sensor_biases},
+PlacedSensors::PlacedSensors(const SpinConfig& config, SensorBiases sensor_biases)
+    : biases{std::move(sensor_biases)},
       sun1{
           as_coned(SunSensor{.slit_cant_rad = 0.0, .slit_separation_rad = 0.0}, coning_of(biases))},
       sun2{as_coned(config.sun_sensor, coning_of(biases))},

@@ -43,7 +43,7 @@ struct PredictedEdge {
 /// Where coning has the sensors look from the body, and the horizon with its bias: the same for all
 /// edges of a state. The other biases are added at each edge.
 struct PlacedSensors {
-  PlacedSensors(const SpinConfig& config, const SensorBiases& biases);
+  PlacedSensors(const SpinConfig& config, SensorBiases sensor_biases);
 
   SensorBiases biases;
   ConedSlit sun1;

@@ -1,0 +1,124 @@
+#include "services/processor/run_notices.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "pipelines/time/time_span.h"
+#include "pipelines/time/utc.h"
+#include "services/standard_error/warning.h"
+
+namespace spindrift {
+namespace {
+
+std::string named(const SourceId& source) {
+  return fmt::format("'{}' (session {})", source.name, source.session);
+}
+
+std::string span_text(TaiTime from, TaiTime to) {
+  return fmt::format("{:.0f} s {}", std::abs(elapsed_s(from, to)),
+                     to > from ? "ahead of" : "behind");
+}
+
+std::string problem_text(const std::string& spacecraft, const SourceWatch::News& apart) {
+  return fmt::format("{}: the samples of source {} are left out: it says {}, {} the others with {}",
+                     spacecraft, named(apart.source), format_utc(apart.t),
+                     span_text(apart.pass, apart.t), format_utc(apart.pass));
+}
+
+}  // namespace
+
+RunNotices::RunNotices(const Mission& mission)
+    : spacecraft_id_{mission.spacecraft_id},
+      spacecraft_kind_{mission.kind()},
+      tables_{mission.tables} {}
+
+void RunNotices::tell_sources(SourceWatch& sources, const Moment& moment) {
+  for (const SourceWatch::News& news : sources.take_news()) {
+    if (news.healed) {
+      warn("source_agrees", {{"spacecraft", spacecraft_id_}, {"source", news.source.name}},
+           fmt::format("{}: source {} agrees with the others again", spacecraft_id_,
+                       named(news.source)));
+    } else {
+      warn("source_apart",
+           {{"spacecraft", spacecraft_id_},
+            {"source", news.source.name},
+            {"t_tai_ns", tai_ns(news.t)},
+            {"others_tai_ns", tai_ns(news.pass)}},
+           fmt::format("{}; until it agrees with them, or they are silent",
+                       problem_text(spacecraft_id_, news)));
+    }
+  }
+  const auto pass = sources.pass_time();
+  const auto carrier = sources.carrier();
+  if (moment.host && pass && carrier && told_host_.size() < SourceWatch::kMostSources &&
+      are_apart(*pass, *moment.host, SourceWatch::kHostApart) &&
+      told_host_.insert(carrier->name).second) {
+    warn("source_apart_from_host",
+         {{"spacecraft", spacecraft_id_},
+          {"source", carrier->name},
+          {"t_tai_ns", tai_ns(*pass)},
+          {"host_tai_ns", tai_ns(*moment.host)}},
+         fmt::format("{}: source {} says {}, and the clock of this host {}: one of them is wrong, "
+                     "or what it sends is recorded",
+                     spacecraft_id_, named(*carrier), format_utc(*pass), format_utc(*moment.host)));
+  }
+}
+
+void RunNotices::tell_new_run(const SourceId& successor, TaiTime t,
+                              const std::optional<SourceId>& carrier, TaiTime before) const {
+  spdlog::log(t < before ? spdlog::level::warn : spdlog::level::info,
+              "{}: a new run begins with source {}: it says {}, {} source {} with {}, which is "
+              "silent or has the others or the clock of this host against it",
+              spacecraft_id_, named(successor), format_utc(t), span_text(before, t),
+              carrier ? named(*carrier) : "others", format_utc(before));
+}
+
+std::vector<SourceProblem> RunNotices::problems(const SourceWatch& sources) const {
+  std::vector<SourceProblem> problems;
+  for (const auto& [apart, heard] : sources.apart()) {
+    problems.push_back({.text = problem_text(spacecraft_id_, apart), .heard = heard});
+  }
+  return problems;
+}
+
+void RunNotices::tell_both() {
+  if (!std::exchange(told_both_, true)) {
+    warn("pulses_and_coded_frames", {{"spacecraft", spacecraft_id_}},
+         fmt::format("{}: both pulses and coded frames arrive: an edge that both give is used as "
+                     "the one that comes first",
+                     spacecraft_id_));
+  }
+}
+
+/// Of each kind once.
+void RunNotices::tell_undescribed(const TelemetrySamples& samples) {
+  TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
+    constexpr std::string_view kSensor = Telemetry<Value>::kSensor;
+    bool& told = told_undescribed_[kTelemetryKind<Value>];
+    if (told || samples.of<Value>().empty()) {
+      return;
+    }
+    if (kSensor.empty()) {
+      if (spacecraft_kind_ == SpacecraftKind::Spin) {
+        told = true;
+        spdlog::info("{}: {} arrive: they are stored; the orbit is the mission file's",
+                     spacecraft_id_, Telemetry<Value>::kPlural);
+      }
+    } else if (!tables_.contains(std::string{kSensor})) {
+      told = true;
+      warn("no_sensor",
+           {{"spacecraft", spacecraft_id_},
+            {"samples", Telemetry<Value>::kPlural},
+            {"table", kSensor}},
+           fmt::format("{}: {} arrive, and the mission file has no [{}]: they are stored, and "
+                       "nothing is computed from them",
+                       spacecraft_id_, Telemetry<Value>::kPlural, kSensor));
+    }
+  });
+}
+
+}  // namespace spindrift
