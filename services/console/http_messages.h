@@ -29,7 +29,8 @@ struct BoundedBody {
    public:
     template <bool kIsRequest, class Fields>
     reader(http::header<kIsRequest, Fields>& /*head*/, value_type& body) : body_{body} {}
-    static void init(const boost::optional<std::uint64_t>& /*length*/, boost::system::error_code& failed) {
+    static void init(const boost::optional<std::uint64_t>& /*length*/,
+                     boost::system::error_code& failed) {
       failed = {};
     }
     template <class Buffers>

@@ -197,7 +197,7 @@ Expected<void> compare(const CompareOptions& options) {
   const std::string& id = mission->spacecraft_id;
   Telling telling{*model, mission->alerts.departure_sigmas};
   if (auto seen = options.telemetry.empty() ? see_archive(options, id, telling)
-                                                  : see_files(options, id, telling);
+                                            : see_files(options, id, telling);
       !seen) {
     return seen;
   }
