@@ -1,7 +1,9 @@
 #include "pipelines/reconstruction/separation_record.h"
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
+#include <utility>
 
 #include "pipelines/reconstruction/event_times.h"
 #include "pipelines/reconstruction/observations.h"
@@ -12,7 +14,7 @@ namespace spindrift {
 
 /// @return Whether it was not there.
 template <class Sample>
-bool SeparationRecord::insert(std::vector<Sample>& samples, const Sample& sample) const {
+bool SeparationRecord::insert(std::vector<Sample>& samples, const Sample& sample) {
   const TaiTime separation = request_.times.separation;
   const auto place = std::upper_bound(samples.begin(), samples.end(), sample.t,
                                       [](TaiTime t, const Sample& other) { return t < other.t; });
@@ -21,6 +23,9 @@ bool SeparationRecord::insert(std::vector<Sample>& samples, const Sample& sample
     return false;
   }
   samples.insert(place, sample);
+  if (!used_until_ || sample.t <= *used_until_) {
+    newest_used_ = std::max(newest_used_.value_or(sample.t), sample.t);
+  }
   return true;
 }
 
@@ -50,6 +55,7 @@ bool SeparationRecord::push(const StarFix& fix) {
   if (!events) {
     return false;
   }
+  used_until_ = later_by_s(events->back().t, kUsedBehindFirstFix_s);
   const EventTime& before = *std::prev(events->end(), 2);
   if (before.event == SeparationEvent::Acquisition && !std::exchange(has_acquisition_, true)) {
     fixes_ = 0;
@@ -63,12 +69,12 @@ bool SeparationRecord::push(const StarFix& fix) {
   return is_due(later_by_s(request_.gyro.back().t, held_s(request_.gyro)));
 }
 
-bool SeparationRecord::fall_silent() {
-  const bool has_solution = due_at_fixes_ > 1;
-  if (!has_solution || awaited_ || due_at_fixes_ == 2 * fixes_) {
+bool SeparationRecord::fall_silent(std::chrono::nanoseconds apart) {
+  if (!was_due_ || !newest_used_ ||
+      (last_silence_ && std::chrono::abs(span_between(*last_silence_, *newest_used_)) < apart)) {
     return false;
   }
-  due_at_fixes_ = 2 * fixes_;
+  last_silence_ = std::exchange(newest_used_, std::nullopt);
   return true;
 }
 
@@ -79,12 +85,14 @@ bool SeparationRecord::forget(const Exclusions<SampleKind>& excluded) {
   };
   const auto gone = erase(request_.gyro) + erase(request_.sun_directions) +
                     erase(request_.star_fixes) + erase(request_.orbit_states);
-  return gone > 0 && due_at_fixes_ > 1 && !awaited_;
+  return gone > 0 && was_due_ && !awaited_;
 }
 
 bool SeparationRecord::is_due(TaiTime reached) {
   const bool is_due = awaited_ && reached >= *awaited_;
   if (is_due) {
+    was_due_ = true;
+    newest_used_.reset();
     awaited_.reset();
   }
   return is_due;

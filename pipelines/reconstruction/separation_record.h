@@ -16,8 +16,9 @@
 namespace spindrift {
 
 /// A solution is due at the first star fix behind T3 and whenever twice as many as at the last have
-/// arrived: all together cost a few times the last; and when the stream falls silent behind others.
-/// While no T3 is found, those behind T2 count. A fix ahead of the gyro samples waits for them.
+/// arrived: all together cost a few times the last; and when the stream falls silent behind others
+/// that a solution uses. While no T3 is found, those behind T2 count. A fix ahead of the gyro
+/// samples waits for them.
 class SeparationRecord {
  public:
   /// Samples from T1 to so long behind it are kept.
@@ -33,8 +34,9 @@ class SeparationRecord {
   bool push(const StarFix& fix);
   bool push(const TimedOrbitState& state);
 
-  /// Perhaps nothing comes any more. @return whether a solution is due.
-  bool fall_silent();
+  /// Perhaps nothing comes any more. @param apart Of telemetry, from one that was due in a silence
+  /// to the next. @return whether a solution is due.
+  bool fall_silent(std::chrono::nanoseconds apart);
 
   /// What an operator has left out since it arrived.
   /// @return whether a solution rests on it: another one is due.
@@ -45,7 +47,7 @@ class SeparationRecord {
 
  private:
   template <class Sample>
-  bool insert(std::vector<Sample>& samples, const Sample& sample) const;
+  bool insert(std::vector<Sample>& samples, const Sample& sample);
   /// @param reached Gyro samples are there up to then. @return whether that was waited for.
   bool is_due(TaiTime reached);
 
@@ -53,7 +55,11 @@ class SeparationRecord {
   bool has_acquisition_ = false;  ///< T3 was there at the last star fix.
   std::int64_t fixes_ = 0;        ///< That have arrived behind it.
   std::int64_t due_at_fixes_ = 1;
-  std::optional<TaiTime> awaited_;  ///< A solution is due once gyro samples reach it.
+  std::optional<TaiTime> awaited_;       ///< A solution is due once gyro samples reach it.
+  bool was_due_ = false;                 ///< A solution.
+  std::optional<TaiTime> used_until_;    ///< The end of what a solution uses, at the last star fix.
+  std::optional<TaiTime> newest_used_;   ///< Of what arrived since a solution was due.
+  std::optional<TaiTime> last_silence_;  ///< That newest one, when one was due in a silence.
 };
 
 }  // namespace spindrift

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <map>
 #include <optional>
 #include <string>
@@ -40,6 +41,9 @@ void say(const std::string& spacecraft_id, const std::vector<Notice>& notices);
 
 /// The stream has fallen silent.
 struct FellSilent {};
+
+/// Of telemetry, between the slow solutions that are due in silences: a stream may come in bursts.
+inline constexpr std::chrono::seconds kBetweenSilences{10};
 
 /// Samples into the pass of a run, what it makes of them into batches for the archive. What throws
 /// meanwhile becomes a RunFault, and nothing more is computed of the run.

@@ -17,8 +17,6 @@ namespace spindrift {
 namespace {
 
 constexpr std::chrono::minutes kBetweenBatches{1};
-// Of telemetry: a stream that comes in bursts is solved no oftener.
-constexpr std::chrono::seconds kBetweenSilences{10};
 
 /// @param prior In the place of the mission's.
 Expected<BatchSolution> solve_edges(SpinConfig config, const Orbit& orbit, PassEdges edges,
@@ -51,6 +49,7 @@ void SpinRun::begin(const std::string& run_id) {
   edges_ = {};
   next_batch_.reset();
   last_batch_.reset();
+  last_silence_.reset();
 }
 
 void SpinRun::go_on(const std::string& first, AllMadeBefore made) {
@@ -82,9 +81,10 @@ void SpinRun::note_time(TaiTime t) {
 
 /// Perhaps nothing comes any more: the answer shall not be one of before.
 void SpinRun::note(FellSilent /*silence*/) {
-  const auto last = edges_.last();
-  if (plan_ == SolvingPlan::Meanwhile && next_batch_ && last &&
-      (!last_batch_ || *last >= *last_batch_ + kBetweenSilences)) {
+  // In the first minute one would stand, as it is, against estimates of more telemetry.
+  const auto last = last_batch_ ? edges_.last() : std::nullopt;
+  if (last && (!last_silence_ || *last >= *last_silence_ + kBetweenSilences)) {
+    last_silence_ = last;
     make_batch_due();
   }
 }

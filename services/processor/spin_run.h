@@ -20,8 +20,8 @@
 namespace spindrift {
 
 /// The estimator `batch` runs over all edges at the end of the pass; meanwhile every minute of
-/// telemetry, and when the stream falls silent; then each time, in the end too, over the last
-/// revolutions.
+/// telemetry, and from then on when the stream falls silent; then each time, in the end too, over
+/// the last revolutions.
 ///
 /// What throws while it is computed becomes a RunFault: a run that fails so computes nothing more
 /// (pass_computing.h), of a batch solution that does only this one is missing.
@@ -70,7 +70,8 @@ class SpinRun {
   SolvingPlan plan_;
   PassEdges edges_;
   std::optional<TaiTime> next_batch_;
-  std::optional<TaiTime> last_batch_;  ///< The last edge of the solution that was due last.
+  std::optional<TaiTime> last_batch_;    ///< The last edge of the solution that was due last.
+  std::optional<TaiTime> last_silence_;  ///< Its last edge, when one was solved.
   std::vector<BackgroundTask> due_;
 };
 

@@ -95,7 +95,7 @@ void ThreeAxisRun::record(const PassInput& input) {
   in_order_of_arrival(
       input.values, input.silences, input.actions, [this](const auto& arrived) { record(arrived); },
       [this](std::int64_t /*silence*/) {
-        if (record_->fall_silent() && plan_ == SolvingPlan::Meanwhile) {
+        if (record_->fall_silent(kBetweenSilences) && plan_ == SolvingPlan::Meanwhile) {
           hand_out_solutions();
         }
       });
@@ -184,7 +184,7 @@ ArchiveBatch ThreeAxisRun::finish() {
                        products.error().message));
     }
   } else if (record_) {
-    spdlog::info("{}: no {}: no sample within {} after T1, {}", computing_.spacecraft_id(),
+    spdlog::info("{}: no {}: no sample to use within {} after T1, {}", computing_.spacecraft_id(),
                  kReconstruction, SeparationRecord::kLongest,
                  format_utc(separation_->times.separation));
   }

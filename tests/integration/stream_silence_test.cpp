@@ -118,16 +118,25 @@ std::vector<TaiTime> solved(Processor& processor, const Routed& routed) {
 }
 
 TEST_F(StreamSilence, HasTheBatchSolutionOfAllThatCameAndNoneTwice) {
-  constexpr std::size_t kAMinuteAndAHalf = 540;
-  const Samples all = edges(kAMinuteAndAHalf);
+  for (const int edges_behind_a_minute : {24, 180}) {
+    SCOPED_TRACE(edges_behind_a_minute);
+    const Samples all = edges(static_cast<std::size_t>(360 + edges_behind_a_minute));
+    Processor processor = new_processor();
+    processor.begin();
+    const auto meanwhile =
+        solved(processor, processor.route(testing::batch_of_samples<Pulse>(Samples(all))));
+    EXPECT_EQ(meanwhile.size(), 1U);
+    const auto in_silence = solved(processor, processor.fall_silent({"SPINNER"}));
+    ASSERT_EQ(in_silence.size(), 1U);
+    EXPECT_GT(in_silence.front(), all.back().value.t - 2s);  // The last revolution is open.
+    EXPECT_TRUE(solved(processor, processor.fall_silent({"SPINNER"})).empty());
+  }
+}
+
+TEST_F(StreamSilence, HasNoBatchSolutionBeforeTheFirstOfThePass) {
   Processor processor = new_processor();
   processor.begin();
-  const auto meanwhile =
-      solved(processor, processor.route(testing::batch_of_samples<Pulse>(Samples(all))));
-  EXPECT_EQ(meanwhile.size(), 1U);
-  const auto in_silence = solved(processor, processor.fall_silent({"SPINNER"}));
-  ASSERT_EQ(in_silence.size(), 1U);
-  EXPECT_GT(in_silence.front(), all.back().value.t - 2s);  // The last revolution is open.
+  solved(processor, processor.route(testing::batch_of_samples<Pulse>(edges(180))));
   EXPECT_TRUE(solved(processor, processor.fall_silent({"SPINNER"})).empty());
 }
 

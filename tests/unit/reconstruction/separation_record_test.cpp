@@ -4,15 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <tuple>
 #include <variant>
 #include <vector>
 
+#include "pipelines/reconstruction/observations.h"
 #include "pipelines/reconstruction/reconstruct.h"
 #include "tests/support/separation_flight.h"
 
 namespace spindrift::separation_record_test {
 
+using namespace std::chrono_literals;
 using ::testing::ElementsAre;
 using testing::FlightPlan;
 using ::testing::IsEmpty;
@@ -58,6 +61,16 @@ class SeparationRecordTest : public ::testing::Test {
       }
     }
     return due;
+  }
+  SeparationRecord empty() const {
+    return SeparationRecord{{.sensors = flight_.sensors,
+                             .times = times_,
+                             .gyro = {},
+                             .sun_directions = {},
+                             .star_fixes = {}}};
+  }
+  static bool push(const AnySample& sample, SeparationRecord& record) {
+    return std::visit([&](const auto& is) { return record.push(is); }, sample);
   }
   TaiTime at(double t_s) const { return shifted(times_.separation, t_s); }
 
@@ -174,11 +187,7 @@ TEST_F(SeparationRecordTest, SamplesCountInTheOrderOfTimeHoweverTheyArrive) {
 }
 
 TEST_F(SeparationRecordTest, WhatIsBeforeT1OrMoreThanADayBehindItIsNotKept) {
-  SeparationRecord record{{.sensors = flight_.sensors,
-                           .times = times_,
-                           .gyro = {},
-                           .sun_directions = {},
-                           .star_fixes = {}}};
+  SeparationRecord record = empty();
   for (const double t_s : {-1.0, 0.0, 86400.0, 86401.0}) {
     record.push(GyroSample{at(t_s), Eigen::Vector3d::Zero()});
   }
@@ -189,23 +198,65 @@ TEST_F(SeparationRecordTest, WhatIsBeforeT1OrMoreThanADayBehindItIsNotKept) {
 
 TEST_F(SeparationRecordTest, InASilenceTheFixesBehindTheLastSolutionAreDueOnce) {
   fly({.star_fix_step_s = 10.0, .end_s = 360.0});
-  SeparationRecord record{{.sensors = flight_.sensors,
-                           .times = times_,
-                           .gyro = {},
-                           .sun_directions = {},
-                           .star_fixes = {}}};
-  EXPECT_FALSE(record.fall_silent());
+  SeparationRecord record = empty();
+  EXPECT_FALSE(record.fall_silent(10s));
   std::size_t at_last = 0;
   for (const AnySample& sample : samples_of(flight_)) {
-    if (std::visit([&](const auto& is) { return record.push(is); }, sample)) {
+    if (push(sample, record)) {
       at_last = record.request().star_fixes.size();
-      EXPECT_FALSE(record.fall_silent());
+      EXPECT_FALSE(record.fall_silent(10s));
     }
   }
   EXPECT_EQ(at_last, 4U);
   EXPECT_EQ(record.request().star_fixes.size(), 7U);
-  EXPECT_TRUE(record.fall_silent());
-  EXPECT_FALSE(record.fall_silent());
+  EXPECT_TRUE(record.fall_silent(10s));
+  EXPECT_FALSE(record.fall_silent(10s));
+}
+
+TEST_F(SeparationRecordTest,
+       InSilencesOfABurstyStreamOneIsDueEveryTenSecondsAsLongAsSamplesAreUsed) {
+  fly({.star_fix_step_s = 2.0, .end_s = 600.0});
+  SeparationRecord record = empty();
+  std::vector<double> due_s;
+  for (const AnySample& sample : samples_of(flight_)) {
+    push(sample, record);
+    const bool is_fix = std::holds_alternative<StarFix>(sample);
+    if (is_fix && record.fall_silent(10s)) {
+      due_s.push_back(seconds_between(times_.separation, time_of(sample)));
+    }
+  }
+  ASSERT_GE(due_s.size(), 2U);
+  EXPECT_LE(due_s.size(), 12U);
+  EXPECT_LE(due_s.back(), 300.0 + kUsedBehindFirstFix_s);
+  for (std::size_t i = 1; i < due_s.size(); ++i) {
+    EXPECT_GE(due_s[i] - due_s[i - 1], 10.0);
+  }
+  // What an earlier part of the flight sends now.
+  GyroSample late = flight_.gyro[flight_.gyro.size() / 4];
+  late.t += 1ms;
+  EXPECT_FALSE(push(late, record));
+  EXPECT_TRUE(record.fall_silent(10s));
+}
+
+TEST_F(SeparationRecordTest, InASilenceAFixThatIsAwaitedHoldsUpNoOthers) {
+  fly({.star_fix_step_s = 1.0, .end_s = 303.0});
+  SeparationRecord record = empty();
+  for (const AnySample& sample : samples_of(flight_)) {
+    if (!std::holds_alternative<GyroSample>(sample) || time_of(sample) < at(302.2)) {
+      push(sample, record);
+    }
+  }
+  EXPECT_TRUE(record.fall_silent(10s));
+}
+
+TEST_F(SeparationRecordTest, InASilenceTheFirstFixWaitsForGyroSamples) {
+  SeparationRecord record = empty();
+  for (const AnySample& sample : samples_of(flight_)) {
+    if (!std::holds_alternative<GyroSample>(sample) || time_of(sample) < at(250.0)) {
+      EXPECT_FALSE(push(sample, record));
+    }
+  }
+  EXPECT_FALSE(record.fall_silent(10s));
 }
 
 TEST_F(SeparationRecordTest, WithoutAGyroSampleNothingIsDue) {
