@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -64,9 +66,9 @@ std::string put(std::string_view name, const Field& field, PulseChannel& member)
 }
 /// @}
 
-/// @return InvalidInput naming member, value and what is allowed, when the sample cannot be true:
-/// spacecraft or source no name, time outside telemetry_time.h, values that its kind does not
-/// allow.
+/// @return InvalidInput naming kind, member, value and what is allowed, when the sample cannot be
+/// true: spacecraft or source no name, time outside telemetry_time.h, values that its kind does not
+/// allow. The kind keeps apart the rejections of samples with one seq: each topic counts its own.
 template <class Value>
 Expected<TelemetrySample<Value>> from_idl(const bus::MessageOf<Value>& message) {
   TelemetrySample<Value> sample{
@@ -83,7 +85,8 @@ Expected<TelemetrySample<Value>> from_idl(const bus::MessageOf<Value>& message) 
     reason = Telemetry<Value>::why_impossible(sample.value);
   }
   if (!reason.empty()) {
-    return Unexpected{Error{ErrorCode::InvalidInput, std::move(reason)}};
+    return Unexpected{
+        {ErrorCode::InvalidInput, fmt::format("{}: {}", Telemetry<Value>::kName, reason)}};
   }
   return sample;
 }

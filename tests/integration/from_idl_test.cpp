@@ -13,6 +13,7 @@ namespace spindrift::from_idl_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 TEST(FromIdl, KeepsEveryField) {
   const TelemetrySample<Pulse> sample = from_idl<Pulse>(idl_pulse(41, 17)).value();
@@ -71,6 +72,14 @@ TEST(FromIdl, RefusesWhatCannotBeTrueWithItsReason) {
     EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
     EXPECT_THAT(refused.error().message, HasSubstr(impossible.reason));
   }
+}
+
+TEST(FromIdl, TellsOfWhichKindASampleWithoutATimeIs) {
+  spindrift_Pulse pulse = idl_pulse(5);
+  spindrift_CodedFrame frame = idl_frame(5);
+  pulse.t_tai_ns = frame.t_tai_ns = 0;
+  EXPECT_THAT(from_idl<Pulse>(pulse).error().message, StartsWith("pulses: t_tai_ns = 0: must"));
+  EXPECT_THAT(from_idl<CodedFrame>(frame).error().message, StartsWith("coded: t_tai_ns = 0: must"));
 }
 
 TEST(FromIdl, TakesTheFirstAndLastTimeOfTelemetry) {

@@ -30,7 +30,7 @@ TEST(HostileSender, OfImpossibleSamplesFillsNoDiskAndIsCountedTruly) {
   // A minute has 21; on the slowest of machines it lasts two.
   EXPECT_LE(number_of(service.db(), "SELECT count(*) FROM rejected_input"), 63);
   EXPECT_THAT(rows_of(service.db(), "SELECT reason FROM rejected_input WHERE samples > 1").front(),
-              HasSubstr("are only counted, the last: t_tai_ns = -1"));
+              HasSubstr("are only counted, the last: pulses: t_tai_ns = -1"));
 
   // A restarted service goes on counting from there.
   service.start();
