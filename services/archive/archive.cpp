@@ -37,7 +37,7 @@ Expected<std::filesystem::path> resolved(const std::filesystem::path& path) {
   if (path.empty()) {
     return no_place(path, "must be the path of a file");
   }
-  if (const auto named = refuse_special_name(path); !named) {
+  if (const auto named = refuse_no_file(path); !named) {
     return Unexpected{named.error()};
   }
   std::error_code unresolved;
@@ -52,11 +52,6 @@ Expected<std::filesystem::path> resolved(const std::filesystem::path& path) {
   std::error_code unknown;  // What cannot be looked at is refused or cannot be locked.
   if (!std::filesystem::is_directory(real.parent_path(), unknown)) {
     return no_place(path, fmt::format("there is no directory {}", real.parent_path().string()));
-  }
-  const auto status = std::filesystem::status(real, unknown);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    return no_place(path, std::filesystem::is_directory(status) ? "is a directory, must be a file"
-                                                                : "is not a regular file");
   }
   return real;
 }
@@ -111,7 +106,8 @@ Expected<void> Archive::submit(ArchiveBatch batch) {
     const std::lock_guard lock{mutex_};
     ++submitted_batches_;
   }
-  if (!queue_.push(std::move(batch))) {  // Left as it was.
+  if (!queue_.push(std::move(batch))) {
+    // NOLINTNEXTLINE(bugprone-use-after-move): a queue that refuses leaves it as it was.
     options_.on_refused(batch);
     const std::lock_guard lock{mutex_};
     --submitted_batches_;
@@ -281,7 +277,7 @@ Expected<void> Archive::put_back() {
                      "Move the other file away, or put the right one back, and storing goes on",
                      path_, in_the_way->string(), copy_->string())}};
   }
-  if (const auto placed = file.give_way_to(*copy_); !placed) {
+  if (auto placed = file.give_way_to(*copy_); !placed) {
     return placed;
   }
   copy_.reset();

@@ -32,14 +32,12 @@ std::int32_t number_at(std::string_view header, std::size_t offset) {
 
 void distrust(SQLite::Database& database) {
   database.exec("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON");
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): SQLite has no other way to set it
   sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
 }
 
 // Nobody asks how much memory SQLite has, and the count of it has a mutex at every allocation. Only
 // before SQLite is first used; later nothing changes.
 void do_not_count_memory() {
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): SQLite has no other way to set it
   static const int status = sqlite3_config(SQLITE_CONFIG_MEMSTATUS, 0);
   static_cast<void>(status);
 }
@@ -71,9 +69,6 @@ std::string_view why_nothing_to_read(const std::filesystem::path& path) {
   if (status.type() == std::filesystem::file_type::not_found) {
     return "no such file";
   }
-  if (std::filesystem::is_directory(status)) {
-    return "it is a folder";
-  }
   return std::filesystem::is_regular_file(status) && std::filesystem::is_empty(path, unknown)
              ? "the file is empty"
              : "";
@@ -96,7 +91,7 @@ std::string immutable_uri(const std::filesystem::path& path) {
 }
 
 Expected<void> refuse_unreadable(const std::filesystem::path& path) {
-  if (const auto named = refuse_special_name(path); !named) {
+  if (auto named = refuse_no_file(path); !named) {
     return named;
   }
   if (const std::string_view why = why_nothing_to_read(path); !why.empty()) {
@@ -114,14 +109,24 @@ bool is_header_of_archive(std::string_view header) {
          number_at(header, kUserVersionOffset) == kArchiveSchemaVersion;
 }
 
-Expected<void> refuse_special_name(const std::filesystem::path& path) {
+Expected<void> refuse_no_file(const std::filesystem::path& path) {
   const std::string name = path.string();
-  if (name.starts_with(":") || name.starts_with("file:")) {
+  const auto refused = [&name](std::string_view why) {
     return Unexpected{
-        {ErrorCode::InvalidConfiguration,
-         fmt::format("archive \"{}\": SQLite takes this name for something else than a file; an "
-                     "archive is a file, of another name or with ./ before it",
-                     name)}};
+        {ErrorCode::InvalidConfiguration, fmt::format("archive \"{}\": {}", name, why)}};
+  };
+  if (name.starts_with(":") || name.starts_with("file:")) {
+    return refused(
+        "SQLite takes this name for something else than a file; an archive is a file, of another "
+        "name or with ./ before it");
+  }
+  std::error_code unknown;  // What cannot be looked at cannot be opened: its caller finds out.
+  const auto status = std::filesystem::status(path, unknown);
+  if (std::filesystem::is_directory(status)) {
+    return refused("is a directory, must be a file");
+  }
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    return refused("is not a regular file");
   }
   return {};
 }

@@ -27,9 +27,9 @@ inline constexpr int kHeaderBytes = 72;
 /// Of this program's schema.
 bool is_header_of_archive(std::string_view header);
 
-/// SQLite takes these names for something else than a file: ":memory:", and "file:" as a URI.
-/// @return InvalidConfiguration for such a name.
-Expected<void> refuse_special_name(const std::filesystem::path& path);
+/// @return InvalidConfiguration for what is there and no file, and for a name that SQLite takes for
+///         something else: ":memory:", and "file:" as a URI.
+Expected<void> refuse_no_file(const std::filesystem::path& path);
 
 /// The one connection that writes: made if absent, WAL with a sync at every commit. Its caller
 /// holds the archive's WriteLock.

@@ -45,9 +45,11 @@ Check check_runs(const ArchiveFacts& facts) {
     return ok("runs", "all are finished");
   }
   const std::string found = fmt::format("{} not finished", unfinished);
-  return facts.writer ? ok("runs", found + "; the writer's are among them")
-                      : warning("runs", found,
-                                "a program was killed or lost power; what it had stored is whole");
+  return facts.writer
+             ? ok("runs", found + "; the writer's are among them")
+             : warning(
+                   "runs", found,
+                   "a program was interrupted, killed or lost power; what it had stored is whole");
 }
 
 Check check_leap_table(int archive_s, int program_s) {

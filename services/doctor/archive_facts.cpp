@@ -108,7 +108,7 @@ ArchiveFacts archive_facts(const std::filesystem::path& path) {
                      .wal_bytes = size_of(log_of(path)),
                      .writer = writer_of(path),
                      .content = ArchiveContent{}};
-  if (const auto named = refuse_special_name(path); !named) {
+  if (const auto named = refuse_no_file(path); !named) {
     facts.content = Unexpected{named.error()};
   } else if (facts.exists) {
     facts.content = content_of(path, facts.bytes + facts.wal_bytes < kLarge_bytes);

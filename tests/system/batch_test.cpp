@@ -176,18 +176,21 @@ TEST(Batch, LastTakesAPositiveIntegerOnly) {
 TEST(Batch, AnArchiveThatIsNotThereIsBadInputAndIsNotMade) {
   const TemporaryFolder folder;
   folder.write("empty.db", "");
-  const auto expect_refused = [&](const std::filesystem::path& db, const std::string& why) {
+  const auto expect_refused = [&](const std::filesystem::path& db, const std::string& says) {
     Program program{batch_of("nominal", db, {"--json"})};
     EXPECT_EQ(program.exit_status(), 2);
-    const std::string says = "there is no archive " + db.string() + ": " + why;
     EXPECT_THAT(program.log(), HasSubstr(says));
     EXPECT_EQ(nlohmann::json::parse(program.out())["error"], says);
   };
-  expect_refused(folder.path() / "absent.db", "no such file");
-  expect_refused(folder.path() / "nowhere" / "absent.db", "no such file");
-  expect_refused(folder.path() / "empty.db" / "absent.db", "no such file");
-  expect_refused(folder.path() / "empty.db", "the file is empty");
-  expect_refused(folder.path(), "it is a folder");
+  const auto expect_no_archive = [&](const std::filesystem::path& db, const std::string& why) {
+    expect_refused(db, "there is no archive " + db.string() + ": " + why);
+  };
+  expect_no_archive(folder.path() / "absent.db", "no such file");
+  expect_no_archive(folder.path() / "nowhere" / "absent.db", "no such file");
+  expect_no_archive(folder.path() / "empty.db" / "absent.db", "no such file");
+  expect_no_archive(folder.path() / "empty.db", "the file is empty");
+  expect_refused(folder.path(),
+                 "archive \"" + folder.path().string() + "\": is a directory, must be a file");
   const std::filesystem::directory_iterator left{folder.path()};
   EXPECT_EQ(std::distance(begin(left), end(left)), 1);
 }

@@ -208,9 +208,11 @@ TEST(Doctor, FailsOnADamagedArchive) {
 TEST(Doctor, FailsOnAFileThatIsNoArchive) {
   const TemporaryFolder folder;
   const auto file = folder.write("notes.db", "not a database, but long enough to be looked at");
-  const auto diagnosis = diagnose(bus_of_its_own(), {"--db", file.string()});
-  EXPECT_EQ(diagnosis.status, 1);
-  EXPECT_EQ(diagnosis.verdict("archive"), "failure");
+  for (const std::filesystem::path& path : {file, folder.path()}) {
+    const auto diagnosis = diagnose(bus_of_its_own(), {"--db", path.string()});
+    EXPECT_EQ(diagnosis.status, 1) << path;
+    EXPECT_EQ(diagnosis.verdict("archive"), "failure") << path;
+  }
 }
 
 TEST(Doctor, FailsWhereTheFolderOfTheArchiveIsNotThere) {
