@@ -21,10 +21,10 @@ struct SeriesPoint {
   bool operator==(const SeriesPoint&) const = default;
 };
 
-/// At most `most` of the points, which are in order of time: the newest, and of equal shares of
-/// those before the lowest and the highest. What was rejected has shares of its own, at most half
-/// of all, so that it is seen among what was accepted. @param most At least 1: then the highest of
-/// what was accepted; of 2 the newest is not one.
+/// At most `most` of the points, which are in order of time: of what was accepted, and of what was
+/// rejected, the newest, and of equal shares of those before the lowest and the highest. What was
+/// rejected has at most half of all, so that it is seen among what was accepted. One point of
+/// either is the highest, two are the lowest and the highest. @param most At least 1.
 std::vector<SeriesPoint> decimate(std::span<const SeriesPoint> points, std::size_t most);
 
 }  // namespace spindrift

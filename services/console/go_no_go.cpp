@@ -22,10 +22,14 @@ void see_link(const Standing& standing, Objections& against) {
 void see_answer(const PassVerdict& verdict, Objections& against) {
   if (!has_answer(verdict)) {
     against.push_back({"quality", "no answer yet"});
-  } else if (!verdict.against.empty()) {
-    against.push_back({"quality", verdict.against});
-  } else if (*verdict.quality != Quality::Ok) {
-    against.push_back({"quality", std::string{name_of(*verdict.quality)}});
+  } else if (const auto name = name_of(*verdict.quality);
+             *verdict.quality == Quality::Ok || verdict.against.starts_with(name)) {
+    if (!verdict.against.empty()) {
+      against.push_back({"quality", verdict.against});
+    }
+  } else {
+    against.push_back({"quality", fmt::format("{}{}{}", name, verdict.against.empty() ? "" : ": ",
+                                              verdict.against)});
   }
 }
 

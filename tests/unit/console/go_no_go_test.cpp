@@ -65,6 +65,11 @@ TEST(GoNoGo, SaysWhyTheAnswerIsNotToBeUsed) {
               now.verdict.against = "AMBIGUOUS, another axis fits";
             }),
             Texts{"quality: AMBIGUOUS, another axis fits"});
+  EXPECT_EQ(against([](Standing& now) {
+              now.verdict.quality = Quality::Doubtful;
+              now.verdict.against = "mean and batch disagree";
+            }),
+            Texts{"quality: DOUBTFUL: mean and batch disagree"});
   EXPECT_EQ(against([](Standing& now) { now.verdict.against = "sequential and batch disagree"; }),
             Texts{"quality: sequential and batch disagree"});
   EXPECT_EQ(against([](Standing& now) { now.verdict.quality = Quality::Lost; }),

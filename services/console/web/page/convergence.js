@@ -16,13 +16,17 @@ export class Convergence {
   constructor(names) {
     this.names = names;
     this.newest = {};
+    this.is_newer = true;  // Than what is written, which may be of another spacecraft.
     this.rings = Object.fromEntries(names.map(name => [name, new Ring(points)]));
     this.chart = new Chart(byId('sigma'), names.map(name => line(name, ...lines[name])), { unit: 'deg', logarithmic: true });
   }
 
   push(name, t_tai_ns, sigma_deg) {
     const ring = this.rings[name];
-    if (!(t_tai_ns < this.newest[name]?.t_tai_ns) && sigma_deg > 0) this.newest[name] = { t_tai_ns, sigma_deg };
+    if (!(t_tai_ns < this.newest[name]?.t_tai_ns) && sigma_deg > 0) {
+      this.newest[name] = { t_tai_ns, sigma_deg };
+      this.is_newer = true;
+    }
     // What comes sooner than its share of the span would push the past out.
     if (!ring || !(sigma_deg > 0) || t_tai_ns - (ring.last?.[0] ?? -Infinity) < span_ns / points) return;
     ring.push([t_tai_ns, sigma_deg]);
@@ -44,8 +48,11 @@ export class Convergence {
   }
 
   draw(utcOf) {
-    byId('sigma-note').textContent = this.names.filter(name => this.newest[name])
-      .map(name => `${name} ${sigma(this.newest[name].sigma_deg)}`).join(', ');
+    if (this.is_newer) {
+      byId('sigma-note').textContent = this.names.filter(name => this.newest[name])
+        .map(name => `${name} ${sigma(this.newest[name].sigma_deg)}`).join(', ');
+    }
+    this.is_newer = false;
     if (!this.changed) return;
     this.changed = false;
     const times = new Map();
