@@ -117,8 +117,8 @@ Expected<MainFieldModel> parse_shc(std::string_view text) {
   if (!rows) {
     return Unexpected{rows.error()};
   }
-  constexpr std::size_t kCoefficients =
-      static_cast<std::size_t>(kHighestDegree * (kHighestDegree + 2));
+  constexpr std::size_t kDegree{kHighestDegree};
+  constexpr std::size_t kCoefficients = kDegree * (kDegree + 2);
   if (rows->size() != kCoefficients + 2) {
     return refused(rows->empty() ? 1 : rows->back().line,
                    fmt::format("{} rows: must be a head, the epochs and {} coefficients",

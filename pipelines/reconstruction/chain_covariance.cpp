@@ -66,9 +66,9 @@ Smoothing pass_on(const Turn& turn, const Matrix3d& turned, Information& at) {
   const Matrix3d gain = noise * left;
   const PerShared earlier_per_shared = -turned * later_per_shared;
   const Matrix3d kept = Matrix3d::Identity() - gain * at.node;
-  const Smoothing smoothing{.next = kept * turned,
-                            .shared = kept * earlier_per_shared - gain * at.mixed,
-                            .noise = 0.5 * (gain + gain.transpose())};
+  Smoothing smoothing{.next = kept * turned,
+                      .shared = kept * earlier_per_shared - gain * at.mixed,
+                      .noise = 0.5 * (gain + gain.transpose())};
   const Matrix3d node = left * at.node;
   const PerShared mixed = left * at.mixed;
   at.shared -= at.mixed.transpose() * gain * at.mixed;

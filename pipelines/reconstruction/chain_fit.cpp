@@ -58,9 +58,9 @@ void write_vector_slopes(const Matrix3d& slopes, double* jacobian) {
 /// Parameters: earlier and later attitude (quaternions, x y z w), bias in rad/s.
 class GyroCost final : public ceres::SizedCostFunction<3, 4, 4, 3> {
  public:
-  GyroCost(const Turn& turn, const Vector3d& bias_rad_s)
+  GyroCost(const Turn& turn, Vector3d bias_rad_s)
       : turn_{&turn},
-        bias_rad_s_{bias_rad_s},
+        bias_rad_s_{std::move(bias_rad_s)},
         whitening_{turn.covariance_rad2.llt().matrixL().solve(Matrix3d::Identity())} {}
 
   bool Evaluate(double const* const* at, double* residual, double** jacobians) const override {

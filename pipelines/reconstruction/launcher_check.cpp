@@ -20,8 +20,8 @@ Expected<Eigen::Quaterniond> q_icrf_body_of(const InOrbitFrame& told, TaiTime t,
   });
 }
 
-Expected<Eigen::Quaterniond> q_icrf_body_of(const InLaunchFrame& told, TaiTime,
-                                            const std::optional<Orbit>&) {
+Expected<Eigen::Quaterniond> q_icrf_body_of(const InLaunchFrame& told, TaiTime /*t*/,
+                                            const std::optional<Orbit>& /*orbit*/) {
   return Eigen::Quaterniond{launch_frame(told.launch) * quaternion_of(told.angles)};
 }
 

@@ -260,7 +260,7 @@ Expected<Pass> backwards(const ReconstructionRequest& request, const Observation
       }
     }
     pass.nodes.q_icrf_body.emplace_back(at.q());
-    pass.nodes.covariances_rad2.push_back(at.covariance().topLeftCorner<3, 3>());
+    pass.nodes.covariances_rad2.emplace_back(at.covariance().topLeftCorner<3, 3>());
   }
   std::reverse(pass.nodes.q_icrf_body.begin(), pass.nodes.q_icrf_body.end());
   std::reverse(pass.nodes.covariances_rad2.begin(), pass.nodes.covariances_rad2.end());

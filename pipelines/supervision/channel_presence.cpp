@@ -35,8 +35,10 @@ bool beam_crosses(const InfraredSensor& beam, double earth_angle_rad, double dis
 
 }  // namespace
 
-ChannelPresence::ChannelPresence(const SpinConfig& config, Orbit orbit, int silent_revolutions)
-    : config_{config}, orbit_{std::move(orbit)}, limit_{static_cast<double>(silent_revolutions)} {
+ChannelPresence::ChannelPresence(SpinConfig config, Orbit orbit, int silent_revolutions)
+    : config_{std::move(config)},
+      orbit_{std::move(orbit)},
+      limit_{static_cast<double>(silent_revolutions)} {
   for (const std::string_view name : kPulseChannelNames) {
     channels_.push_back(
         {.watch = ConditionWatch{AlertCode::ChannelSilent, "revolutions", {}, std::string{name}}});

@@ -27,7 +27,7 @@ struct AxisSeen {
 /// the link is silent no other channel counts.
 class ChannelPresence {
  public:
-  ChannelPresence(const SpinConfig& config, Orbit orbit, int silent_revolutions);
+  ChannelPresence(SpinConfig config, Orbit orbit, int silent_revolutions);
 
   ConditionChanges see(const Pulse& edge, const std::optional<AxisSeen>& axis);
 

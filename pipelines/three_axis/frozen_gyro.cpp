@@ -52,7 +52,7 @@ int FrozenGyro::repeated(const Eigen::Vector3d& rate_rad_s) {
 /// Of an axis that never changed that of the others; 0: none ever did.
 double FrozenGyro::step_of_rad_s(Eigen::Index axis) const {
   const auto& own = steps_rad_s_[static_cast<std::size_t>(axis)];
-  const auto finest =
+  const auto* const finest =
       std::min_element(steps_rad_s_.begin(), steps_rad_s_.end(),
                        [](const auto& a, const auto& b) { return a && (!b || *a < *b); });
   return own.value_or(finest->value_or(0.0));

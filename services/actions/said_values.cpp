@@ -37,7 +37,10 @@ const nlohmann::json* SaidValues::find(const char* key) {
 }
 
 std::string SaidValues::text_or_empty(const char* key) {
-  return has(key) && object_.at(key) != "" ? text(key) : "";
+  if (!has(key) || object_.at(key) == nlohmann::json("")) {
+    return {};
+  }
+  return text(key);
 }
 
 std::string SaidValues::text(const char* key) {

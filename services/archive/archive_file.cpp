@@ -55,7 +55,6 @@ Expected<struct stat> status_of(int file, const std::filesystem::path& path) {
 }  // namespace
 
 Expected<ArchiveFile> ArchiveFile::hold(const std::filesystem::path& path) {
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): POSIX has no other open
   const int file = open(path.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC, 0644);
   if (file == kNoFile) {
     return unavailable(path, reason(errno));

@@ -77,7 +77,6 @@ Expected<std::filesystem::path> Store::copy() {
 
 // SQLite would carry the log over, and remove what stands at its name.
 void Store::leave_alone_when_closed() {
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): SQLite has no other way to set it
   sqlite3_db_config(database_.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
 }
 

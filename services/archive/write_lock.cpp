@@ -57,7 +57,6 @@ bool write_text(int file, const std::string& text) {
 
 Expected<WriteLock> WriteLock::acquire(const std::filesystem::path& archive) {
   const std::filesystem::path path = archive.string() + ".lock";
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): POSIX has no other open
   const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (file == kNoLockFile) {
     return failure(path, errno);

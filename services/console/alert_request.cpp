@@ -27,7 +27,7 @@ std::optional<AlertPath> alert_path(std::string_view path) {
 Expected<OperatorWord> operator_word(const AlertPath& path, std::string_view body) {
   const auto json = nlohmann::json::parse(body, nullptr, false);
   if (!json.is_object()) {
-    return bad("the body must be a JSON object: {\"by\":\"...\",\"note\":\"...\",\"minutes\":N}");
+    return bad(R"(the body must be a JSON object: {"by":"...","note":"...","minutes":N})");
   }
   const auto by = json.find("by");
   if (by == json.end() || !by->is_string()) {

@@ -74,9 +74,9 @@ HttpResponse unauthorized() {
 
 }  // namespace
 
-ConsoleAnswers::ConsoleAnswers(const Service& service, std::filesystem::path db, std::string token,
+ConsoleAnswers::ConsoleAnswers(Service service, std::filesystem::path db, std::string token,
                                std::set<std::string> hosts)
-    : service_{service},
+    : service_{std::move(service)},
       token_{std::move(token)},
       hosts_{std::move(hosts)},
       archive_{std::move(db)} {

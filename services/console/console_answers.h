@@ -53,7 +53,7 @@ class ConsoleAnswers {
     std::function<Expected<std::string>(const nlohmann::json&)> act = {};
   };
   /// @param hosts By which browsers call it, as in `Host` without the port, in small letters.
-  ConsoleAnswers(const Service& service, std::filesystem::path db, std::string token,
+  ConsoleAnswers(Service service, std::filesystem::path db, std::string token,
                  std::set<std::string> hosts);
 
   /// @param is_crowded More connections are open than are served.

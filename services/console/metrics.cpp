@@ -1,9 +1,12 @@
 #include "services/console/metrics.h"
 
+#include <fmt/format.h>
 #include <prometheus/metric_family.h>
 #include <prometheus/text_serializer.h>
 
 #include <sstream>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,8 +21,11 @@ using Labels = std::vector<ClientMetric::Label>;
 /// Collects values of one name.
 class Family {
  public:
-  Family(std::string name, std::string help, MetricType type = MetricType::Gauge)
-      : family_{.name = "spindrift_" + name, .help = std::move(help), .type = type, .metric = {}} {}
+  Family(std::string_view name, std::string help, MetricType type = MetricType::Gauge)
+      : family_{.name = fmt::format("spindrift_{}", name),
+                .help = std::move(help),
+                .type = type,
+                .metric = {}} {}
 
   Family& add(double value, Labels labels = {}) {
     ClientMetric metric;

@@ -104,6 +104,7 @@ void add_attitude(TimePage& page, const BodyMotion& motion, const std::vector<do
 
 void add_rates(TimePage& page, const BodyMotion& motion, const std::vector<double>& times) {
   std::vector<Curve> curves;
+  curves.reserve(3);
   for (int i = 0; i < 3; ++i) {
     curves.push_back(
         curve_of(std::string(1, "xyz"[i]), plot::kCurves.at(static_cast<std::size_t>(i)), times,
@@ -174,6 +175,7 @@ std::vector<plot::Mark> marks_of(const Scenario& scenario, const SimulatedPass& 
 std::string flight_plot(const Scenario& scenario, const SimulatedPass& pass) {
   const std::vector<double> seconds = times_s(pass);
   std::vector<TaiTime> times;
+  times.reserve(seconds.size());
   for (const double t_s : seconds) {
     times.push_back(shifted(scenario.start, t_s));
   }

@@ -231,7 +231,7 @@ Expected<SampleBatch> TelemetrySubscriber::take_from_all() {
   SampleBatch taken;
   Expected<void> done;
   TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
-    done = done.and_then([&] { return take_from<Value>(taken); });
+    done = done.and_then([&] { return this->take_from<Value>(taken); });
   });
   return done.map([&] { return std::move(taken); });
 }

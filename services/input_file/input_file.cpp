@@ -39,7 +39,6 @@ Expected<InputFile> InputFile::open(const std::filesystem::path& path, std::uint
                        fmt::format("{}: cannot be read: {}", shown(path.string()), reason)}};
   };
   // To open a pipe waits for a writer, and a terminal could become ours.
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): POSIX has no other open
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (file < 0) {
     return unreadable(std::generic_category().message(errno));

@@ -92,7 +92,7 @@ Expected<Mission> parse(const std::filesystem::path& path, std::string text,
                  .config = is_spinner(values)
                                ? std::variant<SpinConfig, ThreeAxisConfig>{spin_config(values)}
                                : three_axis_config(values),
-                 .separation = std::move(separation),
+                 .separation = separation,
                  .orbit = std::move(orbit->orbit),
                  .toml_text = std::move(document->text),
                  .sha256 = std::move(*sha256),

@@ -57,7 +57,7 @@ std::optional<Contact> planned_contact(TomlDocument& document) {
   if (contact.to <= contact.from) {
     add_problem(
         document, "contact.los_utc",
-        fmt::format("contact.los_utc = \"{}\": must be later than aos_utc = \"{}\"", *los, *aos));
+        fmt::format(R"(contact.los_utc = "{}": must be later than aos_utc = "{}")", *los, *aos));
   }
   return contact;
 }

@@ -127,8 +127,9 @@ std::string histograms(const MonteCarloResult& result) {
     if (values.empty()) {
       continue;
     }
+    const std::size_t row = place / kColumns;
     const double left = kLeft + kColumn * static_cast<double>(place % kColumns);
-    const double top = kFirstRow + kRow * static_cast<double>(place / kColumns);
+    const double top = kFirstRow + kRow * static_cast<double>(row);
     draw(histogram(result.runs.front().measures[i].name, values),
          {.left = left, .top = top, .right = left + 300.0, .bottom = top + 150.0}, svg);
     ++place;

@@ -86,7 +86,7 @@ std::vector<SourceProblem> RunNotices::problems(const SourceWatch& sources) cons
 }
 
 void RunNotices::tell_both() {
-  if (!std::exchange(told_both_, true)) {
+  if (spacecraft_kind_ == SpacecraftKind::Spin && !std::exchange(told_both_, true)) {
     warn("pulses_and_coded_frames", {{"spacecraft", spacecraft_id_}},
          fmt::format("{}: both pulses and coded frames arrive: an edge that both give is used as "
                      "the one that comes first",

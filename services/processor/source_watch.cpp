@@ -55,7 +55,7 @@ void SourceWatch::note_level(Source& source, TaiTime t, const Moment& moment) {
 }
 
 /// @param counts Whether it may be the last word.
-void SourceWatch::note_apart(Source& source, TaiTime t, bool counts, const Moment& moment) {
+void SourceWatch::note_apart(Source& source, TaiTime t, bool counts, const Moment& moment) const {
   source.carries = false;
   source.apart_since = source.apart_since.value_or(moment.now);
   if (source.carried != carried_) {
@@ -281,8 +281,8 @@ std::ptrdiff_t SourceWatch::vote_of_host(const Reach& there, const Moment& momen
     return std::max({span_between(*moment.host, reach.from), span_between(reach.to, *moment.host),
                      std::chrono::nanoseconds{0}});
   };
-  const auto nearer = [&](const Reach& one, const Reach& other) {
-    return distance(one) <= kHostApart && distance(one) + pace_.ahead < distance(other);
+  const auto nearer = [&](const Reach& reach, const Reach& than) {
+    return distance(reach) <= kHostApart && distance(reach) + pace_.ahead < distance(than);
   };
   const Reach pass = *reach_of_pass(moment.now);
   return nearer(there, pass) ? 1 : nearer(pass, there) ? -1 : 0;

@@ -153,7 +153,7 @@ class SourceWatch {
   Verdict judge(const Origin& origin, TaiTime t, const Moment& moment);
   Place place_of(const Source& source, std::optional<Reach> others, TaiTime t, Instant now) const;
   void note_level(Source& source, TaiTime t, const Moment& moment);
-  void note_apart(Source& source, TaiTime t, bool counts, const Moment& moment);
+  void note_apart(Source& source, TaiTime t, bool counts, const Moment& moment) const;
   void tell(Entry& entry, TaiTime t, std::optional<Reach> others, const Moment& moment);
   template <class Value>
   void hold(const Arrived<Value>& arrived) {

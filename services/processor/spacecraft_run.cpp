@@ -237,7 +237,7 @@ void SpacecraftRun::hand_on_silence(std::int64_t arrival, std::vector<PassInput>
   inputs.back().silences.push_back(next_place(inputs.back()));
 }
 
-void SpacecraftRun::hand_on(OperatorAction action, std::vector<PassInput>& inputs) const {
+void SpacecraftRun::hand_on(OperatorAction action, std::vector<PassInput>& inputs) {
   action.arrival = next_place(inputs.back());
   inputs.back().actions.push_back(std::move(action));
 }

@@ -126,7 +126,7 @@ class SpacecraftRun {
   void place(const Arrived<Value>& arrived, Taken& out);
   template <class Value>
   void hand_on(const Value& value, std::vector<PassInput>& inputs) const;
-  void hand_on(OperatorAction action, std::vector<PassInput>& inputs) const;
+  static void hand_on(OperatorAction action, std::vector<PassInput>& inputs);
   void hand_on_silence(std::int64_t arrival, std::vector<PassInput>& inputs);
   void accept(OperatorAction&& action, Taken& out);
   void repeat_actions_before(std::int64_t first_arrival, Taken& out);

@@ -41,6 +41,8 @@ void give_way_to_other_threads() {
   }
 }
 
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): outlives a thread left to
+// itself.
 std::atomic<bool> given_up = false;
 
 /// In a thread that does nothing else: one that gives way must not hold the archive's locks, and

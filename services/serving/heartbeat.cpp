@@ -31,8 +31,10 @@ SequenceCounts total(const TelemetrySubscriberStatus& status) {
 
 }  // namespace
 
-Heartbeat::Heartbeat(const Watched& watched, ThreadFailures& failures)
-    : watched_{watched}, failures_{failures}, thread_{[this](const std::stop_token& stop) {
+Heartbeat::Heartbeat(Watched watched, ThreadFailures& failures)
+    : watched_{std::move(watched)},
+      failures_{failures},
+      thread_{[this](const std::stop_token& stop) {
         failures_.note(contained("heartbeat", [&] { run(stop); }));
       }} {}
 

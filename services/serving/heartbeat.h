@@ -45,7 +45,7 @@ class Heartbeat {
   };
 
   /// @param failures Outlives it, and is told when taking samples has failed.
-  Heartbeat(const Watched& watched, ThreadFailures& failures);
+  Heartbeat(Watched watched, ThreadFailures& failures);
   ~Heartbeat();
   Heartbeat(const Heartbeat&) = delete;
   Heartbeat& operator=(const Heartbeat&) = delete;

@@ -215,8 +215,8 @@ Expected<void> run_service(GoneOn gone_on, const ServiceParts& parts) {
     route_and_compute(std::move(gone_on.routed.work), work, patience, heard, parts);
   }
   parts.stop_signal.join();
-  const auto taking = how_taking_ended(subscriber);
-  return parts.failures.first().and_then([&] { return taking; });
+  auto taking = how_taking_ended(subscriber);
+  return parts.failures.first().and_then([&] { return std::move(taking); });
 }
 
 }  // namespace spindrift

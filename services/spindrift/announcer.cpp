@@ -80,22 +80,7 @@ void Announcer::run() {
       if (!is_news(result)) {
         continue;
       }
-      if (feed_ != nullptr) {
-        feed_->put(result.spacecraft, result.run_id, result.product);
-      }
-      const auto published = publisher_.publish(result.spacecraft, result.run_id, result.product);
-      if (!published) {
-        spdlog::error("not published: {}", published.error().message);
-      }
-      if (const auto* const alert = std::get_if<Alert>(&result.product)) {
-        terminal_.tell(result.spacecraft, result.run_id, *alert);
-      }
-      if (feed_ != nullptr && result.came) {
-        feed_->note_latency(std::chrono::steady_clock::now() - *result.came);
-      }
-      if (const auto* const one = std::get_if<ReconstructionProduct>(&result.product)) {
-        spdlog::info("{}: separation reconstructed: {}", result.spacecraft, to_text(*one));
-      }
+      hand_out(result);
       if (is_estimate(result.product) && !terminal_.has_status_line()) {
         latest.insert_or_assign(result.spacecraft, &result.product);
       }
@@ -103,6 +88,26 @@ void Announcer::run() {
     for (const auto& [spacecraft, estimate] : latest) {
       say(spacecraft, *estimate);
     }
+  }
+}
+
+/// To the console, the bus and the terminal.
+void Announcer::hand_out(const Announcement& result) {
+  if (feed_ != nullptr) {
+    feed_->put(result.spacecraft, result.run_id, result.product);
+  }
+  const auto published = publisher_.publish(result.spacecraft, result.run_id, result.product);
+  if (!published) {
+    spdlog::error("not published: {}", published.error().message);
+  }
+  if (const auto* const alert = std::get_if<Alert>(&result.product)) {
+    terminal_.tell(result.spacecraft, result.run_id, *alert);
+  }
+  if (feed_ != nullptr && result.came) {
+    feed_->note_latency(std::chrono::steady_clock::now() - *result.came);
+  }
+  if (const auto* const one = std::get_if<ReconstructionProduct>(&result.product)) {
+    spdlog::info("{}: separation reconstructed: {}", result.spacecraft, to_text(*one));
   }
 }
 

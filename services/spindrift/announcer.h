@@ -49,6 +49,7 @@ class Announcer {
  private:
   void run();
   bool is_news(const Announcement& result);
+  void hand_out(const Announcement& result);
   void say(const std::string& spacecraft, const Product& estimate);
 
   const ResultPublisher& publisher_;

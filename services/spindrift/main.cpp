@@ -83,7 +83,6 @@ int run_safely(int argc, char** argv) {
 void reserve_standard_streams() {
   int descriptor = STDIN_FILENO;
   while (descriptor >= 0 && descriptor <= STDERR_FILENO) {
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): POSIX has no other open
     descriptor = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
   }
   ::close(descriptor);

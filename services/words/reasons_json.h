@@ -15,6 +15,6 @@ namespace spindrift {
 std::string to_json_text(std::span<const Reason> reasons);
 
 /// What is no reason that this program knows is left out.
-std::vector<Reason> reasons_of(std::string_view json);
+std::vector<Reason> reasons_of(std::string_view text);
 
 }  // namespace spindrift

@@ -18,7 +18,7 @@ Vector4d twice_change(const Vector4d& q, const Vector3d& rate_rad_s) {
 
 Quaterniond runge_kutta(const Quaterniond& q_icrf_body, const RateSpan& span) {
   const double h_s = span.dt_s;
-  const Vector4d q = q_icrf_body.coeffs();
+  const Vector4d& q = q_icrf_body.coeffs();
   const Vector3d middle_rad_s = 0.5 * (span.from_rad_s + span.to_rad_s);
   const Vector4d first = twice_change(q, span.from_rad_s);
   const Vector4d second = twice_change(q + 0.25 * h_s * first, middle_rad_s);

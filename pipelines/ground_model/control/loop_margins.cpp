@@ -81,6 +81,7 @@ BodePoint open_loop_at(const ChannelLoop& loop, double frequency_rad_s) {
 std::vector<BodePoint> bode(const ChannelLoop& loop, double from_rad_s, double to_rad_s,
                             int points) {
   std::vector<BodePoint> all;
+  all.reserve(static_cast<std::size_t>(points));
   for (int i = 0; i < points; ++i) {
     all.push_back(
         open_loop_at(loop, from_rad_s * std::pow(to_rad_s / from_rad_s, i / (points - 1.0))));

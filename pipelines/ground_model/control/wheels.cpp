@@ -55,8 +55,8 @@ void Wheels::command(const Eigen::Vector3d& torque_body_nm, double period_s) {
 }
 
 BodyTorques Wheels::step(double step_s) {
-  const BodyTorques torques{.wheels_nm = axes_body_ * torques_nm_,
-                            .wheels_nms = axes_body_ * momenta_nms_};
+  BodyTorques torques{.wheels_nm = axes_body_ * torques_nm_,
+                      .wheels_nms = axes_body_ * momenta_nms_};
   momenta_nms_ -= step_s * torques_nm_;
   return torques;
 }

@@ -29,10 +29,10 @@ Vector3d momentum_icrf_nms(const BodyMotion& motion) {
 
 }  // namespace
 
-BodySpin::BodySpin(BodyMotion&& motion, const Quaterniond& q_body_sensors)
+BodySpin::BodySpin(BodyMotion&& motion, Quaterniond q_body_sensors)
     : axis_icrf{momentum_icrf_nms(motion).normalized()},
       motion_{std::move(motion)},
-      q_body_sensors_{q_body_sensors} {
+      q_body_sensors_{std::move(q_body_sensors)} {
   Matrix3d R_icrf_axes;
   R_icrf_axes << tangent_basis(axis_icrf), axis_icrf;
   q_axes_icrf_ = Quaterniond{R_icrf_axes.transpose()};

@@ -37,7 +37,7 @@ class BodySpin {
   double end_s() const { return motion_.end_s(); }
 
  private:
-  BodySpin(BodyMotion&& motion, const Eigen::Quaterniond& q_body_sensors);
+  BodySpin(BodyMotion&& motion, Eigen::Quaterniond q_body_sensors);
 
   std::size_t step_at(double t_s) const;
   Eigen::Quaterniond q_axes_sensors(double t_s) const;

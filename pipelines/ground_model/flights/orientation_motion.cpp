@@ -80,7 +80,7 @@ class LateTorque {
 
   Vector3d after(const Vector3d& now_nm) {
     asked_nm_.push_back(now_nm);
-    const Vector3d due_nm = asked_nm_.front();
+    Vector3d due_nm = asked_nm_.front();
     asked_nm_.pop_front();
     return due_nm;
   }
@@ -90,7 +90,7 @@ class LateTorque {
 };
 
 ControlRecord record_of(const ClosedLoop<BodyMotion>& loop, ControlMode mode) {
-  const Wheels& wheels = std::get<Wheels>(loop.actuators());
+  const auto& wheels = std::get<Wheels>(loop.actuators());
   return {.t_s = loop.t_s(),
           .mode = mode,
           .momenta_nms = wheels.momenta_nms(),
