@@ -41,8 +41,8 @@ void give_way_to_other_threads() {
   }
 }
 
-// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): outlives a thread left to
-// itself.
+// For a thread that is left to itself.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 std::atomic<bool> given_up = false;
 
 /// In a thread that does nothing else: one that gives way must not hold the archive's locks, and
