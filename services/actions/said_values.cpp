@@ -37,10 +37,7 @@ const nlohmann::json* SaidValues::find(const char* key) {
 }
 
 std::string SaidValues::text_or_empty(const char* key) {
-  if (!has(key) || object_.at(key) == nlohmann::json("")) {
-    return {};
-  }
-  return text(key);
+  return has(key) && object_.at(key) != nlohmann::json("") ? text(key) : "";
 }
 
 std::string SaidValues::text(const char* key) {

@@ -27,15 +27,10 @@ std::size_t row_count(std::span<const ArchiveBatch> batches) {
       [](std::size_t sum, const ArchiveBatch& batch) { return sum + spindrift::row_count(batch); });
 }
 
-Unexpected no_place(const std::filesystem::path& path, std::string_view reason) {
-  return Unexpected{
-      {ErrorCode::InvalidConfiguration, fmt::format("archive \"{}\": {}", path.string(), reason)}};
-}
-
 // One file has one lock, whichever link it is reached by.
 Expected<std::filesystem::path> resolved(const std::filesystem::path& path) {
   if (path.empty()) {
-    return no_place(path, "must be the path of a file");
+    return no_archive_at(path, "must be the path of a file");
   }
   if (const auto named = refuse_no_file(path); !named) {
     return Unexpected{named.error()};
@@ -51,7 +46,8 @@ Expected<std::filesystem::path> resolved(const std::filesystem::path& path) {
   }
   std::error_code unknown;  // What cannot be looked at is refused or cannot be locked.
   if (!std::filesystem::is_directory(real.parent_path(), unknown)) {
-    return no_place(path, fmt::format("there is no directory {}", real.parent_path().string()));
+    return no_archive_at(path,
+                         fmt::format("there is no directory {}", real.parent_path().string()));
   }
   return real;
 }

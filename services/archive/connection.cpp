@@ -109,24 +109,26 @@ bool is_header_of_archive(std::string_view header) {
          number_at(header, kUserVersionOffset) == kArchiveSchemaVersion;
 }
 
+Unexpected no_archive_at(const std::filesystem::path& path, std::string_view why) {
+  return Unexpected{
+      {ErrorCode::InvalidConfiguration, fmt::format("archive \"{}\": {}", path.string(), why)}};
+}
+
 Expected<void> refuse_no_file(const std::filesystem::path& path) {
   const std::string name = path.string();
-  const auto refused = [&name](std::string_view why) {
-    return Unexpected{
-        {ErrorCode::InvalidConfiguration, fmt::format("archive \"{}\": {}", name, why)}};
-  };
   if (name.starts_with(":") || name.starts_with("file:")) {
-    return refused(
+    return no_archive_at(
+        path,
         "SQLite takes this name for something else than a file; an archive is a file, of another "
         "name or with ./ before it");
   }
   std::error_code unknown;  // What cannot be looked at cannot be opened: its caller finds out.
   const auto status = std::filesystem::status(path, unknown);
   if (std::filesystem::is_directory(status)) {
-    return refused("is a directory, must be a file");
+    return no_archive_at(path, "is a directory, must be a file");
   }
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    return refused("is not a regular file");
+    return no_archive_at(path, "is not a regular file");
   }
   return {};
 }

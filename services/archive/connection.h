@@ -27,6 +27,9 @@ inline constexpr int kHeaderBytes = 72;
 /// Of this program's schema.
 bool is_header_of_archive(std::string_view header);
 
+/// InvalidConfiguration: `path` as it was given, and why no archive can be there.
+Unexpected no_archive_at(const std::filesystem::path& path, std::string_view why);
+
 /// @return InvalidConfiguration for what is there and no file, and for a name that SQLite takes for
 ///         something else: ":memory:", and "file:" as a URI.
 Expected<void> refuse_no_file(const std::filesystem::path& path);

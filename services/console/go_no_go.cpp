@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <string>
+#include <utility>
+
 namespace spindrift {
 namespace {
 
@@ -22,14 +25,15 @@ void see_link(const Standing& standing, Objections& against) {
 void see_answer(const PassVerdict& verdict, Objections& against) {
   if (!has_answer(verdict)) {
     against.push_back({"quality", "no answer yet"});
-  } else if (const auto name = name_of(*verdict.quality);
-             *verdict.quality == Quality::Ok || verdict.against.starts_with(name)) {
-    if (!verdict.against.empty()) {
-      against.push_back({"quality", verdict.against});
-    }
-  } else {
-    against.push_back({"quality", fmt::format("{}{}{}", name, verdict.against.empty() ? "" : ": ",
-                                              verdict.against)});
+    return;
+  }
+  const auto name = name_of(*verdict.quality);
+  std::string text = verdict.against;
+  if (*verdict.quality != Quality::Ok && !text.starts_with(name)) {
+    text = text.empty() ? std::string{name} : fmt::format("{}: {}", name, text);
+  }
+  if (!text.empty()) {
+    against.push_back({"quality", std::move(text)});
   }
 }
 

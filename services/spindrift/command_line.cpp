@@ -56,6 +56,11 @@ void check_speed(double speed) {
   }
 }
 
+/// A command that ran to its end may have found that not all is well.
+Expected<void> with_status(const Expected<bool>& is_well, Request& request) {
+  return is_well.map([&](bool yes) { request.status = yes ? EXIT_SUCCESS : kFailed; });
+}
+
 void add_bus_options(CLI::App& command, std::uint32_t& domain, std::string& partition) {
   command.add_option("--domain", domain, "DDS domain")
       ->check(CLI::Range(0U, 230U))
@@ -86,13 +91,8 @@ void add_process(CLI::App& app, Request& request) {
   add_archive_option(command, options.db);
   command.add_flag("--strict", options.strict, "A bad row of telemetry is an error");
   command.add_flag("--json", options.json, "Print one JSON object");
-  command.callback([&] {
-    request.run = [&] {
-      return process(request.process).map([&](bool finished) {
-        request.status = finished ? EXIT_SUCCESS : kFailed;
-      });
-    };
-  });
+  command.callback(
+      [&] { request.run = [&] { return with_status(process(request.process), request); }; });
 }
 
 void add_batch(CLI::App& app, Request& request) {
@@ -205,13 +205,8 @@ void add_doctor(CLI::App& app, Request& request) {
   command.add_flag("--verbose", options.verbose, "Say what is sound, too");
   add_bus_options(command, options.domain, options.partition);
   command.add_flag("--json", options.json, "Print one JSON object");
-  command.callback([&] {
-    request.run = [&] {
-      return run_doctor(request.doctor).map([&](bool sound) {
-        request.status = sound ? EXIT_SUCCESS : kFailed;
-      });
-    };
-  });
+  command.callback(
+      [&] { request.run = [&] { return with_status(run_doctor(request.doctor), request); }; });
 }
 
 void add_geomag(CLI::App& app, Request& request) {
@@ -269,11 +264,7 @@ void add_reconstruct(CLI::App& app, Request& request) {
       ->check(check_svg);
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] {
-    request.run = [&] {
-      return reconstruct(request.reconstruct).map([&](bool complete) {
-        request.status = complete ? EXIT_SUCCESS : kFailed;
-      });
-    };
+    request.run = [&] { return with_status(reconstruct(request.reconstruct), request); };
   });
 }
 
