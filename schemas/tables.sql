@@ -159,6 +159,24 @@ CREATE TABLE orbit_state_sample (
 ) STRICT, WITHOUT ROWID;
 CREATE INDEX left_out_orbit_state_sample ON orbit_state_sample (spacecraft_id, arrival) WHERE arrival < 0;
 
+-- Of samples that came with more than one value all of them, that in the table of the kind too. used: 1, it is
+-- the value that counts (rejected_sample tells of another reason to leave it out). Without a preferred source none
+-- does, unless the others came after it had been computed.
+-- Input, too, which a restarted service reads back: arrival is as above, NULL of what the table of the kind has.
+CREATE TABLE contradiction (
+  run_id        TEXT NOT NULL REFERENCES run,  -- that took the one that came again
+  spacecraft_id TEXT NOT NULL REFERENCES spacecraft,
+  kind          TEXT NOT NULL CHECK (kind IN ('coded_frame', 'gyro', 'star', 'sun', 'magnetometer', 'orbit_state')),
+  t_tai_ns      INTEGER NOT NULL,
+  source        TEXT NOT NULL,
+  session       INTEGER NOT NULL,
+  seq           INTEGER NOT NULL,
+  value         TEXT NOT NULL,  -- JSON: an object of the columns of the table of the kind
+  used          INTEGER NOT NULL CHECK (used IN (0, 1)),
+  arrival       INTEGER,
+  PRIMARY KEY (run_id, kind, t_tai_ns, source, value)
+) STRICT, WITHOUT ROWID;
+
 -- Before the sample of this arrival the stream of the run's spacecraft had been silent for a second of
 -- wall-clock time, and what had come was computed: an edge from before that is late.
 CREATE TABLE stream_silence (
@@ -219,9 +237,11 @@ CREATE TABLE rejection (
   says        TEXT NOT NULL
 ) STRICT, WITHOUT ROWID;
 INSERT INTO rejection VALUES
-  ('unassociated', 'no revolution had a place for the edge: spurious, doubled, or ahead of the first spin period'),
+  ('unassociated', 'no revolution had a place for the edge: spurious, doubled by chance, or ahead of the first spin period'),
   ('late', 'it arrived after its time had been processed'),
   ('out_of_time', 'far from all others in time: a sender''s clock is wrong'),
+  ('contradicted', 'it came with another value, too, and no source is preferred: contradiction'),
+  ('copy', 'in most revolutions the channel has several edges within a twentieth of a turn: another one counts, or this one came alone and may be either'),
   ('interference', 'an edge of another channel was, or is expected, so near that both may be spoilt'),
   ('operator', 'an operator left it out: operator_action'),
   ('phase', 'not where the edges of its channel lie, or the measurement rests on such an edge'),
@@ -230,9 +250,10 @@ INSERT INTO rejection VALUES
   ('no_orbit', 'the orbit does not reach: not testable, not wrong; or the orbit state is on no ellipse round the Earth'),
   ('no_field', 'the model of the Earth''s field does not reach: not testable, not wrong'),
   ('saturated', 'the gyro turns faster than it can measure'),
-  ('frozen', 'the gyro gives the same numbers again and again'),
+  ('frozen', 'the sensor gives the same numbers again and again'),
   ('outlier', 'the gyro''s samples beside it are elsewhere'),
   ('shadow', 'the Earth is before the Sun'),
+  ('unit', 'the gyro''s rates are not in rad/s, by the turns between star fixes'),
   ('innovation', 'too far from where the attitude has it'),
   ('period', 'it failed the test of the spin period'),
   ('sun_angle', 'it failed the test of the sun angle'),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace spindrift {
 
@@ -23,6 +24,7 @@ std::string_view name_of(ReasonCode code) {
       "awaiting_fix",
       "model_off",
       "noise",
+      "copies_in_noise",
       "revolutions",
       "edges_gated",
       "channel_gated",
@@ -52,8 +54,10 @@ std::string_view name_of(ReasonCode code) {
       "bias_at_bound",
       "bias_wanted",
       "no_gyro",
+      "gyro_unit",
       "sensor_gated",
       "sensor_noise",
+      "orbit_steps",
       "withheld",
       "computing_failed",
       "sun_vectors",
@@ -79,6 +83,13 @@ std::string_view name_of(ReasonCode code) {
 bool has(const Assessment& assessment, ReasonCode code) {
   return std::any_of(assessment.reasons.begin(), assessment.reasons.end(),
                      [code](const Reason& reason) { return reason.code == code; });
+}
+
+void doubt(Assessment& assessment, Reason reason) {
+  if (is_unopposed(assessment.quality)) {
+    assessment.quality = Quality::Doubtful;
+  }
+  assessment.reasons.push_back(std::move(reason));
 }
 
 }  // namespace spindrift

@@ -60,6 +60,7 @@ enum class ReasonCode {
   AwaitingFix,          ///< -
   ModelOff,             ///< deg
   Noise,                ///< factor
+  CopiesInNoise,        ///< -
   Revolutions,          ///< count
   EdgesGated,           ///< count
   ChannelGated,         ///< channel
@@ -89,8 +90,10 @@ enum class ReasonCode {
   BiasAtBound,          ///< bias
   BiasWanted,           ///< bias
   NoGyro,               ///< why, since_tai_ns
+  GyroUnit,             ///< factor
   SensorGated,          ///< sensor
   SensorNoise,          ///< sensor, factor
+  OrbitSteps,           ///< t_tai_ns, km, m_s
   Withheld,             ///< table, column
   ComputingFailed,      ///< what
   // Of a reconstruction.
@@ -124,5 +127,8 @@ struct Assessment {
 };
 
 bool has(const Assessment& assessment, ReasonCode code);
+
+/// Adds what speaks against an answer: unopposed before, it is DOUBTFUL now.
+void doubt(Assessment& assessment, Reason reason);
 
 }  // namespace spindrift

@@ -17,13 +17,17 @@ enum class NoticeCode {
   EdgesOutOfTime,          ///< -
   InterferenceBegins,      ///< t_tai_ns, one, other, interference_s
   Interfered,              ///< one, other, revolutions, first_tai_ns, last_tai_ns
+  CopiesBegin,             ///< t_tai_ns, channel
+  Copied,                  ///< channels, edges, apart_s
   CountUncertain,          ///< turns, revolution
   NoPeriod,                ///< slowest_rpm, fastest_rpm
+  TimesOnGrid,             ///< t_tai_ns, grid_s
   EdgesLeftOut,            ///< percent, most
   SilentChannels,          ///< channels
   ChannelsWithoutSensor,   ///< channels
   OutsideOrbit,            ///< t_tai_ns, of the start of the revolution; likewise the following
   RangeImpossible,         ///< t_tai_ns
+  OrbitStepsInPass,        ///< t_tai_ns, km, m_s
   MuchOutsideOrbit,        ///< revolutions, t_tai_ns, either of the two
   NoFix,                   ///< revolution, and why
   NoAxis,                  ///< revolutions, and why the last of them
@@ -51,8 +55,10 @@ enum class NoticeCode {
   FieldWithoutOrbit,       ///< t_tai_ns; likewise the following
   OutsideFieldModel,       ///< -
   AttitudeNeverBegan,      ///< gyro, star, sun, magnetometer
+  MostLeftOut,  ///< sensor, percent, rejected_by; of some rate_deg_s and range_deg_s, or sigmas and
+                ///< most_sigmas
 };
-inline constexpr int kNoticeCodes = static_cast<int>(NoticeCode::AttitudeNeverBegan) + 1;
+inline constexpr int kNoticeCodes = static_cast<int>(NoticeCode::MostLeftOut) + 1;
 
 struct Notice {
   NoticeCode code;

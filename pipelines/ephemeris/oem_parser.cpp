@@ -248,8 +248,22 @@ class OemReader {
     return take_marker(kMetaStart)
         .and_then([this] { return read_entries(kMetaRules); })
         .and_then([this](const OemEntries& entries) {
-          return take_marker(kMetaStop).and_then([&] { return oem_metadata_from(entries); });
+          return take_marker(kMetaStop)
+              .and_then([&] { return check_object(entries.at("OBJECT_ID")); })
+              .and_then([&] { return oem_metadata_from(entries); });
         });
+  }
+
+  /// A message is of one object, that of its first segment.
+  Expected<void> check_object(const OemEntry& id) {
+    object_id_ = object_id_.value_or(id.value);
+    if (id.value != *object_id_) {
+      return oem_refused("OBJECT_ID", id,
+                         fmt::format("must be {}, as in the segments before: one orbit file, one "
+                                     "spacecraft",
+                                     shown(*object_id_)));
+    }
+    return {};
   }
 
   Expected<EphemerisPoint> read_point(const OemMetadata& meta) {
@@ -323,6 +337,7 @@ class OemReader {
   std::optional<Error> failure_;
   int last_line_ = 1;
   std::optional<Error> disorder_;
+  std::optional<std::string> object_id_;
   std::optional<EphemerisPoint> last_point_;  ///< Of this segment or the one before.
 };
 

@@ -87,8 +87,10 @@ bool inside_earth(const EphemerisPoint& point) {
 /// How a state lies to where the one before it falls to.
 struct Step {
   double off_km;
+  double off_km_s;
   double manoeuvre_km;  ///< What the change of velocity that shows could have made of it.
   double bound_km;      ///< Of what else is not in two-body motion.
+  double bound_km_s;
 };
 
 /// Empty where it is not judged.
@@ -101,9 +103,13 @@ std::optional<Step> step_between(const EphemerisPoint& from, const EphemerisPoin
   const Fall fall = fall_from(from.state, dt_s);
   const double change_km_s = (to.state.velocity_icrf_km_s - fall.state.velocity_icrf_km_s).norm();
   return Step{.off_km = (to.state.position_icrf_km - fall.state.position_icrf_km).norm(),
+              .off_km_s = change_km_s,
               .manoeuvre_km = change_km_s * dt_s,
-              .bound_km = fall.bound_km};
+              .bound_km = fall.bound_km,
+              .bound_km_s = fall.bound_km_s};
 }
+
+bool is_unexplained(const Step& step) { return step.off_km > step.bound_km + step.manoeuvre_km; }
 
 /// By time, the point of `segment` that is the last to be used.
 const EphemerisPoint& last_usable(const OemSegment& segment) {
@@ -134,8 +140,13 @@ std::optional<double> jump_km(const EphemerisPoint& from, const EphemerisPoint& 
 
 std::optional<double> unexplained_km(const EphemerisPoint& from, const EphemerisPoint& to) {
   const std::optional<Step> step = step_between(from, to);
-  const bool explained = !step || !(step->off_km > step->bound_km + step->manoeuvre_km);
-  return explained ? std::nullopt : std::optional{step->off_km};
+  return step && is_unexplained(*step) ? std::optional{step->off_km} : std::nullopt;
+}
+
+std::optional<Departure> departure(const EphemerisPoint& from, const EphemerisPoint& to) {
+  const std::optional<Step> step = step_between(from, to);
+  const bool off = step && (step->off_km > step->bound_km || step->off_km_s > step->bound_km_s);
+  return off ? std::optional{Departure{.km = step->off_km, .km_s = step->off_km_s}} : std::nullopt;
 }
 
 std::optional<Eigen::Vector3d> halfway_icrf_km(const EphemerisPoint& from,
@@ -154,8 +165,10 @@ std::optional<Eigen::Vector3d> halfway_icrf_km(const EphemerisPoint& from,
 std::vector<OrbitJump> orbit_jumps(const OrbitEphemeris& ephemeris) {
   std::vector<OrbitJump> jumps;
   const auto judge = [&](const EphemerisPoint& from, const EphemerisPoint& to) {
-    if (const auto off_km = unexplained_km(from, to)) {
-      jumps.push_back({.to = to, .off_km = *off_km});
+    const std::optional<Step> step = step_between(from, to);
+    if (step && is_unexplained(*step)) {
+      jumps.push_back(
+          {.to = to, .off_km = step->off_km, .off_km_s = step->off_km_s, .from = from.t});
     }
   };
   const OemSegment* before = nullptr;

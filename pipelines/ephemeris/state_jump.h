@@ -24,6 +24,17 @@ std::optional<double> jump_km(const EphemerisPoint& from, const EphemerisPoint& 
 /// a manoeuvre that is a quarter of a revolution back, too little shows in `to`.
 std::optional<double> unexplained_km(const EphemerisPoint& from, const EphemerisPoint& to);
 
+/// By how much two states of one instant, or carried to it, differ.
+struct Departure {
+  double km;
+  double km_s;
+};
+
+/// Of `to` from where `from` falls to, when position or velocity is farther off than
+/// `unexplained_km` allows a sound orbit without a manoeuvre. Not judged are the steps that
+/// `jump_km` does not.
+std::optional<Departure> departure(const EphemerisPoint& from, const EphemerisPoint& to);
+
 /// Where an orbit is halfway in time from one state to the next: two-body motion, and evenly
 /// changing what carries it from there to `to`, good to metres over half an hour. Empty for states
 /// inside the Earth.
@@ -33,7 +44,9 @@ std::optional<Eigen::Vector3d> halfway_icrf_km(const EphemerisPoint& from,
 /// A step that nothing explains.
 struct OrbitJump {
   EphemerisPoint to;
-  double off_km;  ///< From where the point before it leads to.
+  double off_km;    ///< From where the point before it leads to.
+  double off_km_s;  ///< Likewise.
+  TaiTime from;     ///< Of that point.
 };
 
 /// In order of time, those between the points of a segment and, from the last point that is usable

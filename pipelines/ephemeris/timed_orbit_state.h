@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "pipelines/core/rounding.h"
+#include "pipelines/core/sender.h"
 #include "pipelines/ephemeris/orbit_state.h"
 #include "pipelines/time/tai_time.h"
 
@@ -11,6 +13,16 @@ namespace spindrift {
 struct TimedOrbitState {
   TaiTime t;
   OrbitState state{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  Sender sender = Sender::First;
 };
+
+/// But for rounding.
+inline bool say_the_same(const TimedOrbitState& a, const TimedOrbitState& b) {
+  const auto are_same = [](const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
+    return same_but_for_rounding<3>({one.x(), one.y(), one.z()}, {other.x(), other.y(), other.z()});
+  };
+  return are_same(a.state.position_icrf_km, b.state.position_icrf_km) &&
+         are_same(a.state.velocity_icrf_km_s, b.state.velocity_icrf_km_s);
+}
 
 }  // namespace spindrift

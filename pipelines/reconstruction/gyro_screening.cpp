@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "pipelines/statistics/significance.h"
-#include "pipelines/three_axis/frozen_gyro.h"
+#include "pipelines/three_axis/frozen_samples.h"
 #include "pipelines/three_axis/gyro_outlier.h"
 #include "pipelines/three_axis/gyro_watch.h"
 
@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t kFewest = 20;
 
 /// Knows the step of the telemetry.
-FrozenGyro watch_of(std::span<const GyroSample> samples, double noise_rad_s) {
-  FrozenGyro watch{noise_rad_s};
+FrozenSamples watch_of(std::span<const GyroSample> samples) {
+  FrozenSamples watch = FrozenSamples::of_gyro();
   for (std::size_t i = 1; i < samples.size(); ++i) {
     watch.learn(samples[i - 1].rate_body_rad_s, samples[i].rate_body_rad_s);
   }
@@ -26,10 +26,11 @@ FrozenGyro watch_of(std::span<const GyroSample> samples, double noise_rad_s) {
 }
 
 /// But for the first of each row that repeats.
-std::vector<bool> frozen(std::span<const GyroSample> samples, FrozenGyro watch) {
+std::vector<bool> frozen(std::span<const GyroSample> samples, FrozenSamples watch,
+                         double noise_rad_s) {
   std::vector<bool> marked(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    for (int row = watch.repeated(samples[i].rate_body_rad_s); row > 1; --row) {
+    for (int row = watch.repeated(samples[i].rate_body_rad_s, noise_rad_s); row > 1; --row) {
       marked[i + 2 - static_cast<std::size_t>(row)] = true;
     }
   }
@@ -113,8 +114,8 @@ std::optional<double> noise_of(std::span<const GyroSample> samples, double noise
 }  // namespace
 
 ScreenedGyro screened(std::span<const GyroSample> samples, const GyroSensor& sensor) {
-  const FrozenGyro watch = watch_of(samples, sensor.noise_rad_s);
-  const std::vector<bool> repeats = frozen(samples, watch);
+  const FrozenSamples watch = watch_of(samples);
+  const std::vector<bool> repeats = frozen(samples, watch, sensor.noise_rad_s);
   ScreenedGyro result;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (is_saturated(samples[i], sensor)) {
@@ -126,9 +127,9 @@ ScreenedGyro screened(std::span<const GyroSample> samples, const GyroSensor& sen
     }
   }
   result.noise = noise_of(result.usable, sensor.noise_rad_s);
-  leave_out_outliers(result,
-                     std::max(sensor.noise_rad_s * std::max(1.0, result.noise.value_or(1.0)),
-                              0.5 * watch.step_rad_s()));
+  leave_out_outliers(
+      result,
+      std::max(sensor.noise_rad_s * std::max(1.0, result.noise.value_or(1.0)), 0.5 * watch.step()));
   return result;
 }
 

@@ -16,7 +16,7 @@ namespace spindrift {
 struct ScreenedGyro {
   std::vector<GyroSample> usable;
   std::int64_t saturated = 0;
-  std::int64_t frozen = 0;  ///< Behind the first of a row that repeats (frozen_gyro.h).
+  std::int64_t frozen = 0;  ///< Behind the first of a row that repeats (frozen_samples.h).
   /// Off from their neighbours (gyro_outlier.h), by the noise that the samples have.
   std::int64_t outliers = 0;
   bool first_is_outlier = false;

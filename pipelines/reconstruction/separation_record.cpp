@@ -8,6 +8,7 @@
 #include "pipelines/reconstruction/event_times.h"
 #include "pipelines/reconstruction/observations.h"
 #include "pipelines/three_axis/sample_kind.h"
+#include "pipelines/time/contested.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -18,8 +19,13 @@ bool SeparationRecord::insert(std::vector<Sample>& samples, const Sample& sample
   const TaiTime separation = request_.times.separation;
   const auto place = std::upper_bound(samples.begin(), samples.end(), sample.t,
                                       [](TaiTime t, const Sample& other) { return t < other.t; });
-  const bool is_there = place != samples.begin() && std::prev(place)->t == sample.t;
-  if (is_there || sample.t < separation || span_between(separation, sample.t) > kLongest) {
+  const bool is_there = (place != samples.begin() && std::prev(place)->t == sample.t) ||
+                        std::get<Said<Sample>>(said_).contains(sample.t);
+  if (sample.t < separation || span_between(separation, sample.t) > kLongest) {
+    return false;
+  }
+  if (is_there) {
+    contest(samples, sample);
     return false;
   }
   samples.insert(place, sample);
@@ -27,6 +33,38 @@ bool SeparationRecord::insert(std::vector<Sample>& samples, const Sample& sample
     newest_used_ = std::max(newest_used_.value_or(sample.t), sample.t);
   }
   return true;
+}
+
+/// Something is there of its instant.
+template <class Sample>
+void SeparationRecord::contest(std::vector<Sample>& samples, const Sample& sample) {
+  auto& of_kind = std::get<Said<Sample>>(said_);
+  auto there = std::lower_bound(samples.begin(), samples.end(), sample.t,
+                                [](const Sample& other, TaiTime t) { return other.t < t; });
+  auto said = of_kind.find(sample.t);
+  if (said == of_kind.end()) {
+    if (say_the_same(*there, sample) && sample.sender != Sender::Preferred) {
+      return;
+    }
+    said = of_kind.emplace(sample.t, std::vector<Sample>{*there}).first;
+  }
+  add_to(said->second, sample);
+  const auto counts = one_that_counts(said->second);
+  const bool is_there = there != samples.end() && there->t == sample.t;
+  if (is_there == counts.has_value() && (!counts || say_the_same(*there, *counts))) {
+    return;
+  }
+  corrected_ = true;
+  if (is_there) {
+    there = samples.erase(there);
+  }
+  if (counts) {
+    samples.insert(there, *counts);
+  }
+}
+
+bool SeparationRecord::take_correction() {
+  return std::exchange(corrected_, false) && was_due_ && !awaited_;
 }
 
 bool SeparationRecord::push(const GyroSample& sample) {

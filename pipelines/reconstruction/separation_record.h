@@ -5,7 +5,9 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -27,7 +29,7 @@ class SeparationRecord {
   /// @param begun Without samples.
   explicit SeparationRecord(ReconstructionRequest begun) : request_{std::move(begun)} {}
 
-  // Of those of one kind and instant the first counts, as in the archive.
+  // Of those of one kind and instant one counts, or none (one_that_counts), whenever they come.
   // Each: @return whether a solution is due.
   bool push(const GyroSample& sample);
   bool push(const SunDirection& sun);
@@ -42,16 +44,28 @@ class SeparationRecord {
   /// @return whether a solution rests on it: another one is due.
   bool forget(const Exclusions<SampleKind>& excluded);
 
+  /// What arrived has changed what counts of that before it, by a contradiction.
+  /// @return whether a solution rests on that: another one is due.
+  bool take_correction();
+
   /// All up to now, each kind in order of time.
   const ReconstructionRequest& request() const { return request_; }
 
  private:
   template <class Sample>
   bool insert(std::vector<Sample>& samples, const Sample& sample);
+  template <class Sample>
+  void contest(std::vector<Sample>& samples, const Sample& sample);
   /// @param reached Gyro samples are there up to then. @return whether that was waited for.
   bool is_due(TaiTime reached);
 
+  template <class Sample>
+  using Said = std::map<TaiTime, std::vector<Sample>>;
+
   ReconstructionRequest request_;
+  /// Of instants of which more than one thing was said.
+  std::tuple<Said<GyroSample>, Said<SunDirection>, Said<StarFix>, Said<TimedOrbitState>> said_;
+  bool corrected_ = false;
   bool has_acquisition_ = false;  ///< T3 was there at the last star fix.
   std::int64_t fixes_ = 0;        ///< That have arrived behind it.
   std::int64_t due_at_fixes_ = 1;

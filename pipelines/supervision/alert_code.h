@@ -14,10 +14,11 @@ enum class AlertCode {
   LinkSilent,
   LinkLate,
   LinkAhead,
-  LinkGap,  ///< About a source, as are two others of the link.
+  LinkGap,  ///< About a source, as are three others of the link.
   LinkRejected,
   LinkRepeated,
   LinkRestarted,
+  LinkContradiction,
   ServiceTwice,
   ChannelSilent,  ///< About a channel.
   SpinInterference,
@@ -43,21 +44,35 @@ enum class AlertCode {
 inline constexpr int kAlertCodes = static_cast<int>(AlertCode::DataOutdated) + 1;
 
 constexpr std::string_view name_of(AlertCode code) {
-  constexpr std::array<std::string_view, kAlertCodes> kNames = {
-      "link.silent",       "link.late",
-      "link.ahead",        "link.gap",
-      "link.rejected",     "link.repeated",
-      "link.restarted",    "service.twice",
-      "channel.silent",    "spin.interference",
-      "spin.period",       "spin.rejection",
-      "spin.ambiguous",    "spin.doubtful",
-      "spin.sigma",        "spin.disagree",
-      "spin.off_target",   "spin.nutation",
-      "spin.rate",         "attitude.lost",
-      "attitude.diverged", "reconstruction.launcher",
-      "model.departure",   "archive.backlog",
-      "archive.write",     "archive.disk",
-      "clock.jump",        "data.outdated"};
+  constexpr std::array<std::string_view, kAlertCodes> kNames = {"link.silent",
+                                                                "link.late",
+                                                                "link.ahead",
+                                                                "link.gap",
+                                                                "link.rejected",
+                                                                "link.repeated",
+                                                                "link.restarted",
+                                                                "link.contradiction",
+                                                                "service.twice",
+                                                                "channel.silent",
+                                                                "spin.interference",
+                                                                "spin.period",
+                                                                "spin.rejection",
+                                                                "spin.ambiguous",
+                                                                "spin.doubtful",
+                                                                "spin.sigma",
+                                                                "spin.disagree",
+                                                                "spin.off_target",
+                                                                "spin.nutation",
+                                                                "spin.rate",
+                                                                "attitude.lost",
+                                                                "attitude.diverged",
+                                                                "reconstruction.launcher",
+                                                                "model.departure",
+                                                                "archive.backlog",
+                                                                "archive.write",
+                                                                "archive.disk",
+                                                                "clock.jump",
+                                                                "data.outdated"};
   return kNames.at(static_cast<std::size_t>(code));
 }
 

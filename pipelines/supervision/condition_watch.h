@@ -22,6 +22,7 @@ struct Evidence {
   TaiTime since;  ///< The condition holds.
   TaiTime last;   ///< Of the reading that told.
   std::optional<double> sigma = {};
+  std::vector<std::string> sources = {};  ///< Of telemetry, where it is of several.
 };
 
 enum class Change { Raised, Cleared };

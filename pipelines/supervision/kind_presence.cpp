@@ -8,6 +8,12 @@
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
+namespace {
+
+// One kind alone that goes on tells of the others.
+constexpr std::size_t kAnyKind = 0;
+
+}  // namespace
 
 KindPresence::KindPresence(std::optional<Orbit> orbit, double silent_s)
     : orbit_{std::move(orbit)}, silent_s_{silent_s} {
@@ -21,8 +27,18 @@ KindPresence::KindPresence(std::optional<Orbit> orbit, double silent_s)
 
 ConditionChanges KindPresence::see(SampleKind kind, TaiTime t) {
   // What one sample alone says may be by a clock that nothing else agrees with.
-  newest_ = std::max(newest_, std::min(t, before_));
+  const TaiTime reached = std::min(t, before_);
   before_ = t;
+  if (newest_ > TaiTime::min() && span_between(newest_, t) > TimeJump::kFar) {
+    jump_.see(t, kAnyKind);
+    if (!jump_.has_shown()) {
+      return {};
+    }
+    newest_ = t;
+  } else {
+    jump_.hear(kAnyKind);
+    newest_ = std::max(newest_, reached);
+  }
   ConditionChanges changes;
   for (Channel& channel : channels_) {
     if (channel.last) {

@@ -10,6 +10,7 @@
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/supervision/condition_watch.h"
 #include "pipelines/three_axis/products.h"
+#include "pipelines/time/time_jump.h"
 
 namespace spindrift {
 
@@ -35,6 +36,7 @@ class KindPresence {
   double silent_s_;
   TaiTime newest_ = TaiTime::min();  ///< That two samples one after the other have reached.
   TaiTime before_ = TaiTime::min();  ///< Of the sample before.
+  TimeJump jump_;
   std::vector<Channel> channels_;
 };
 

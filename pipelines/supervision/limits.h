@@ -24,6 +24,7 @@ struct AlertLimits {
   double gap_samples = 1.0;
   double rejected_percent = 1.0;
   double repeated_samples = 100.0;
+  double contradicted_samples = 1.0;
   double silent_s = 5.0;
   int silent_revolutions = 10;
   ShareLimit period = {.percent = 10.0, .revolutions = 100};

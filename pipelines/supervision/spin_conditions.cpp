@@ -57,13 +57,19 @@ ConditionChanges SpinConditions::see(const PulseUse& use) {
     axis = AxisSeen{.axis_icrf = answer->axis_icrf,
                     .sigma_rad = std::sqrt(answer->covariance_rad2.trace())};
   }
-  ConditionChanges changes = channels_.see(use.pulse, axis);
+  // A copy is no edge more of its channel.
+  const bool is_copy = use.rejected_by == Rejection::Copy;
+  ConditionChanges changes = is_copy ? ConditionChanges{} : channels_.see(use.pulse, axis);
   add(interference_.see(use.pulse.t, use.rejected_by == Rejection::Interference), changes);
+  std::optional<double> percent;
   if (use.revolution) {
-    if (const auto percent = left_out_.count(*use.revolution, use.rejected_by.has_value())) {
-      add(rejection_.see(use.pulse.t, {.value = *percent, .limit = limits_.rejection.percent}),
-          changes);
-    }
+    percent = left_out_.count(*use.revolution, use.rejected_by.has_value());
+  } else if (is_copy || use.rejected_by == Rejection::Unassociated) {
+    percent = left_out_.count_without_revolution();
+  }
+  if (percent) {
+    add(rejection_.see(use.pulse.t, {.value = *percent, .limit = limits_.rejection.percent}),
+        changes);
   }
   return changes;
 }

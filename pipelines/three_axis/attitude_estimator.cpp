@@ -20,6 +20,14 @@ using Eigen::Vector3d;
 // Of the bias's prior, along one square root of a second: 1 % of it in a day. Ten minutes do not
 // show it, and a day does not hold the bias of its first hour for the present one.
 constexpr double kBiasWalk_sqrt_s = 3e-5;
+// Of a rate that nobody measures, about each axis: a body that a launcher has let go turns by
+// 10 deg/s at most.
+constexpr double kUnknownRate_rad_s = 5.0 * kRadPerDeg;
+// So long a direction tells anything without a gyro.
+constexpr double kAtOnce_s = 1.0;
+// So many samples in a row that repeat are more than a sensor that is read more often than it
+// measures.
+constexpr int kFrozenForLong = 5;
 // At most ten estimates a second of telemetry time, however the times of samples jitter.
 constexpr double kShortest_s = 0.095;
 
@@ -38,6 +46,10 @@ Matrix3d axes_of(const ObservedDirection& direction) {
 }
 Matrix3d axes_of(const ObservedAttitude& /*attitude*/) { return Matrix3d::Identity(); }
 
+bool is_unknown(const Mekf& filter) {
+  return filter.attitude_covariance_rad2().trace() > kLargestSigma_rad * kLargestSigma_rad;
+}
+
 double square_of(const std::optional<double>& sigmas) { return sigmas ? *sigmas * *sigmas : 0.0; }
 
 TaiTime time_of(const std::variant<StarFix, SeenDirection>& sample) {
@@ -47,11 +59,17 @@ TaiTime time_of(const std::variant<StarFix, SeenDirection>& sample) {
 }  // namespace
 
 AttitudeEstimator::AttitudeEstimator(const ThreeAxisConfig& config)
-    : config_{config}, gyro_{config.gyro.value_or(GyroSensor{})} {}
+    : config_{config},
+      gyro_{config.gyro.value_or(GyroSensor{})},
+      gyro_unit_{config.gyro.value_or(GyroSensor{}).bias_sigma_rad_s} {}
 
 void AttitudeEstimator::push(const GyroSample& sample, Products& out) {
-  if (const auto rejection = gyro_.judge(sample)) {
-    leave_out({.t = sample.t, .kind = SampleKind::Gyro, .rejected_by = *rejection}, out);
+  if (const auto rejection = judge(sample)) {
+    leave_out({.t = sample.t,
+               .kind = SampleKind::Gyro,
+               .rejected_by = *rejection,
+               .rate_rad_s = sample.rate_body_rad_s.cwiseAbs().maxCoeff()},
+              out);
     if (!waits_for_gyro(sample.t)) {
       give_way(sample.t, out);
       give_where_due(out);
@@ -66,6 +84,14 @@ void AttitudeEstimator::push(const GyroSample& sample, Products& out) {
   } else {
     take_in_gyro(sample, out);
   }
+}
+
+std::optional<SampleRejection> AttitudeEstimator::judge(const GyroSample& sample) {
+  gyro_unit_.note(sample);
+  if (gyro_unit_.factor()) {
+    return SampleRejection::Unit;
+  }
+  return gyro_.judge(sample);
 }
 
 void AttitudeEstimator::decide_suspect(const GyroSample& next, Products& out) {
@@ -103,7 +129,10 @@ void AttitudeEstimator::take_in_gyro(const GyroSample& sample, Products& out) {
     while (!waiting_.empty() && time_of(waiting_.front()) <= sample.t) {
       const Sample waiting = std::move(waiting_.front());
       waiting_.pop_front();
-      const double share = elapsed_s(*t_, time_of(waiting)) / elapsed_s(*t_, sample.t);
+      // Several may be of the instant of the sample, and the first of them has come there.
+      const double share = time_of(waiting) == sample.t
+                               ? 1.0
+                               : elapsed_s(*t_, time_of(waiting)) / elapsed_s(*t_, sample.t);
       follow({.t = time_of(waiting),
               .rate_body_rad_s = *rate_rad_s_ + share * (sample.rate_body_rad_s - *rate_rad_s_)},
              interval);
@@ -124,12 +153,42 @@ void AttitudeEstimator::note_gap(double length_s) {
     ++unchecked_gaps_;
     longest_gap_s_ = std::max(longest_gap_s_, length_s);
     checked_.setZero();
-    is_checked_ = false;
+    checks_ = 0.0;
   }
 }
 
-void AttitudeEstimator::push(const StarFix& fix, Products& out) { push_direct(fix, out); }
-void AttitudeEstimator::push(const SeenDirection& seen, Products& out) { push_direct(seen, out); }
+void AttitudeEstimator::push(const StarFix& fix, Products& out) {
+  // A quaternion and its negative are one attitude.
+  const double sign = fix.q_icrf_sensor.w() < 0.0 ? -1.0 : 1.0;
+  if (is_frozen(fix.t, SampleKind::Star, sign * fix.q_icrf_sensor.coeffs(),
+                0.5 * config_.star_tracker->noise_rad, out)) {
+    return;
+  }
+  const auto factor = gyro_unit_.factor();
+  gyro_unit_.note(fix.t, observed_by(fix));
+  if (gyro_unit_.factor() != factor) {
+    leave_out_suspect(out);
+    forget_gyro();
+  }
+  push_direct(fix, out);
+}
+
+void AttitudeEstimator::push(const SeenDirection& seen, Products& out) {
+  const ObservedDirection& direction = seen.direction;
+  if (!is_frozen(seen.t, seen.kind, direction.body, direction.sigma_rad * direction.body.norm(),
+                 out)) {
+    push_direct(seen, out);
+  }
+}
+
+bool AttitudeEstimator::is_frozen(TaiTime t, SampleKind kind, const FrozenSamples::Values& values,
+                                  double noise, Products& out) {
+  const bool is_frozen = frozen_.at(index_of(kind)).note(values, noise) > 0;
+  if (is_frozen) {
+    leave_out({.t = t, .kind = kind, .rejected_by = SampleRejection::Frozen}, out);
+  }
+  return is_frozen;
+}
 
 void AttitudeEstimator::push_direct(const Sample& sample, Products& out) {
   const TaiTime t = time_of(sample);
@@ -184,15 +243,17 @@ void AttitudeEstimator::follow(const GyroSample& to, const Interval& interval) {
   turn(to, coasting_ ? coasted_rad2(interval.from, to.t) : turn_rad2);
 }
 
-/// The last rate is held. Without any, nothing that was known holds.
+/// The last rate is held. Without any, nothing that was known holds but directions of just now.
 void AttitudeEstimator::coast(TaiTime t, Products& out) {
   if (t_ == t) {
     return;
   }
   if (!rate_rad_s_) {
     filter_.reset();
-    carried_.forget();
-    rejected_stars_.forget();
+    rival_.reset();
+    const double dt_s = t_ ? elapsed_s(*t_, t) : 0.0;
+    carried_.turn(t, Vector3d::Zero(), {.noise_rad2 = 0.0, .drift_rad = kUnknownRate_rad_s * dt_s},
+                  kAtOnce_s);
     t_ = t;
     return;
   }
@@ -218,16 +279,22 @@ void AttitudeEstimator::turn(const GyroSample& to, double turn_rad2) {
   if (span.dt_s == 0.0) {
     return;
   }
-  const CarryError error{.noise_rad2 = turn_rad2,
-                         .drift_rad = config_.gyro->bias_sigma_rad_s * span.dt_s};
-  if (!filter_) {
-    carried_.turn(to.t, turned_rad(span, Vector3d::Zero()), error);
-    return;
-  }
-  rejected_stars_.turn(turned_rad(span, filter_->bias_rad_s()), error);
   const double walk_rad_s = kBiasWalk_sqrt_s * config_.gyro->bias_sigma_rad_s;
-  filter_->propagate(span,
-                     {.turn_rad2 = turn_rad2, .bias_rad2_s2 = walk_rad_s * walk_rad_s * span.dt_s});
+  const SpanErrors errors{.turn_rad2 = turn_rad2,
+                          .bias_rad2_s2 = walk_rad_s * walk_rad_s * span.dt_s};
+  if (rival_) {
+    rival_->filter.propagate(span, errors);
+    if (is_unknown(rival_->filter)) {
+      rival_.reset();
+    }
+  }
+  if (filter_) {
+    filter_->propagate(span, errors);
+  } else {
+    carried_.turn(
+        to.t, turned_rad(span, Vector3d::Zero()),
+        {.noise_rad2 = turn_rad2, .drift_rad = config_.gyro->bias_sigma_rad_s * span.dt_s});
+  }
 }
 
 void AttitudeEstimator::take_in(const Sample& sample, Products& out) {
@@ -238,28 +305,45 @@ void AttitudeEstimator::take_in(const Sample& sample, Products& out) {
   }
 }
 
+ObservedAttitude AttitudeEstimator::observed_by(const StarFix& fix) const {
+  const StarTracker& tracker = *config_.star_tracker;
+  return {.q_icrf_body = fix.q_icrf_sensor.normalized() * tracker.q_body_sensor.conjugate(),
+          .sigma_rad = tracker.noise_rad};
+}
+
 void AttitudeEstimator::take_in_star(const StarFix& fix, Products& out) {
   const StarTracker& tracker = *config_.star_tracker;
-  const ObservedAttitude observed{
-      .q_icrf_body = fix.q_icrf_sensor.normalized() * tracker.q_body_sensor.conjugate(),
-      .sigma_rad = tracker.noise_rad};
+  const ObservedAttitude observed = observed_by(fix);
   const UncertainAttitude alone{
       .q_ref_body = observed.q_icrf_body,
       .covariance_rad2 = tracker.noise_rad * tracker.noise_rad * Matrix3d::Identity()};
   if (!filter_) {
     note_accepted(SampleKind::Star, fix.t);
+    has_fixes_ = true;
     begin(alone, out);
-  } else if (work_in(fix.t, SampleKind::Star, observed, std::nullopt, out)) {
-    rejected_stars_.forget();
-  } else if (filter_ && rejected_stars_.note(observed)) {
-    began_anew_ = true;
-    begin(alone, out);
+    return;
+  }
+  if (work_in(fix.t, SampleKind::Star, observed, std::nullopt, out)) {
+    has_fixes_ = true;
+    return;
+  }
+  if (rival_overrules()) {
+    overrule(out);
+  } else if (!rival_) {
+    rival_ = RivalAttitude{.filter = filter_at(alone), .since = fix.t, .star_fixes = 1};
+  }
+  if (!rival_ || rival_->star_fixes < RivalAttitude::kEnough) {
+    lose_where_rejected(out);
   }
 }
 
 void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& out) {
   if (filter_) {
     work_in(seen.t, seen.kind, seen.direction, seen.stronger, out);
+    if (rival_ && rival_->is_proven()) {
+      overrule(out);
+    }
+    lose_where_rejected(out);
     return;
   }
   if (const double strength = square_of(seen.stronger); strength > innovation_gate(1)) {
@@ -272,7 +356,13 @@ void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& o
   }
   note_accepted(seen.kind, seen.t);
   carried_.add(seen.kind, seen.t, seen.direction);
+  const SensorHealth& star = sensors_.at(index_of(SampleKind::Star));
+  if (!rate_rad_s_ && star.last_seen && star.rejected_in_a_row == 0 &&
+      elapsed_s(*star.last_seen, seen.t) <= kAtOnce_s) {
+    return;  // Its attitude is the better one.
+  }
   if (const auto attitude = carried_.attitude()) {
+    has_fixes_ = false;
     begin(*attitude, out);
   }
 }
@@ -283,16 +373,23 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
                                 const std::optional<double>& stronger, Products& out) {
   const int freedom = freedom_of(observed) + (stronger ? 1 : 0);
   const double squared_innovation = filter_->squared_innovation(observed) + square_of(stronger);
+  const bool fits = squared_innovation <= innovation_gate(freedom);
+  if (rival_) {
+    ask_rival(observed,
+              rival_->filter.squared_innovation(observed) + square_of(stronger) <=
+                  innovation_gate(freedom),
+              fits);
+  }
   InnovationRecord& innovations = innovations_.at(index_of(kind));
-  if (squared_innovation > innovation_gate(freedom)) {
-    innovations.rejected();
+  if (!fits) {
     leave_out({.t = t,
                .kind = kind,
                .rejected_by = SampleRejection::Innovation,
                .squared_innovation = squared_innovation},
               out);
-    if (++rejected_in_a_row_ >= kLostInARow) {
-      lose(out);
+    if (!is_out(kind)) {
+      innovations.rejected();
+      ++rejected_in_a_row_;
     }
     return false;
   }
@@ -302,16 +399,72 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
   since_given_.freedom += freedom;
   note_accepted(kind, t);
   rejected_in_a_row_ = 0;
-  if (!is_checked_) {
+  if (checks_ < kEnoughToCheck) {
     checked_ += axes_of(observed);
-    is_checked_ = Eigen::SelfAdjointEigenSolver<Matrix3d>{checked_, Eigen::EigenvaluesOnly}
-                      .eigenvalues()[0] >= kEnoughToCheck;
+    checks_ =
+        Eigen::SelfAdjointEigenSolver<Matrix3d>{checked_, Eigen::EigenvaluesOnly}.eigenvalues()[0];
   }
-  if (is_checked_) {
+  if (checks_ >= kEnoughToCheck) {
     unchecked_gaps_ = 0;
     longest_gap_s_ = 0.0;
   }
   return true;
+}
+
+/// One that star fixes made is past where they fit the attitude in force again, or neither before
+/// it is refuted.
+void AttitudeEstimator::ask_rival(const ObservedAttitude& fix, bool fits, bool fits_in_force) {
+  if (fits_in_force) {
+    rival_->star_fixes = 0;
+  } else if (fits) {
+    rival_->filter.update(fix);
+    ++rival_->star_fixes;
+  }
+  const bool is_past = fits_in_force || (!fits && !(rival_->stands() && rival_->is_refuted()));
+  if (is_past && !rival_->was_in_force) {
+    rival_.reset();
+  }
+}
+
+/// One that was in force is forgotten when it is refuted.
+void AttitudeEstimator::ask_rival(const ObservedDirection& direction, bool fits,
+                                  bool fits_in_force) {
+  rival_->against = std::clamp(rival_->against + (fits_in_force ? 1 : 0) - (fits ? 1 : 0),
+                               -kLostInARow, kLostInARow);
+  if (fits) {
+    rival_->filter.update(direction);
+  }
+  if (rival_->was_in_force && rival_->is_refuted()) {
+    rival_.reset();
+  }
+}
+
+/// For want of another sensor that decides: one that still holds the attitude would have by then.
+bool AttitudeEstimator::rival_overrules() const {
+  if (!rival_ || rival_->is_refuted() || rival_->star_fixes < RivalAttitude::kEnough) {
+    return false;
+  }
+  return rival_->was_in_force || !is_confirmed() ||
+         elapsed_s(rival_->since, *t_) >= RivalAttitude::kEnough * kHeld_s;
+}
+
+/// The one in force becomes the rival, unless nothing speaks for it any longer.
+void AttitudeEstimator::overrule(Products& out) {
+  const RivalAttitude winner = *std::exchange(rival_, std::nullopt);
+  const bool is_proven = winner.is_proven();
+  const bool is_back = winner.was_in_force && !is_proven;
+  if (is_proven ? winner.was_in_force : !is_back && is_confirmed()) {
+    rival_ = RivalAttitude{.filter = *filter_,
+                           .since = *t_,
+                           .was_in_force = !is_proven,
+                           .has_fixes = has_fixes_,
+                           .star_fixes = is_proven ? RivalAttitude::kEnough : 0,
+                           .against = -winner.against};
+  }
+  filter_ = winner.filter;
+  has_fixes_ = winner.has_fixes;
+  began_anew_ = true;
+  start(out);
 }
 
 void AttitudeEstimator::note_accepted(SampleKind kind, TaiTime t) {
@@ -329,15 +482,29 @@ void AttitudeEstimator::leave_out(const RejectedSample& rejected, Products& out)
   out.emplace_back(rejected);
 }
 
+Mekf AttitudeEstimator::filter_at(const UncertainAttitude& attitude) const {
+  return {attitude, config_.gyro ? config_.gyro->bias_sigma_rad_s : 0.0};
+}
+
+/// What was lost is forgotten where it agrees.
 void AttitudeEstimator::begin(const UncertainAttitude& attitude, Products& out) {
-  filter_.emplace(attitude, config_.gyro ? config_.gyro->bias_sigma_rad_s : 0.0);
+  if (rival_ &&
+      rival_->filter.squared_innovation(ObservedAttitude{
+          .q_icrf_body = attitude.q_ref_body,
+          .sigma_rad = std::sqrt(attitude.covariance_rad2.trace() / 3.0)}) <= innovation_gate(3)) {
+    rival_.reset();
+  }
+  filter_ = filter_at(attitude);
+  start(out);
+}
+
+void AttitudeEstimator::start(Products& out) {
   carried_.forget();
-  rejected_stars_.forget();
   innovations_ = {};
   since_given_ = {};
   rejected_in_a_row_ = 0;
   checked_.setZero();
-  is_checked_ = false;
+  checks_ = 0.0;
   unchecked_gaps_ = 0;
   longest_gap_s_ = 0.0;
   since_ = t_;
@@ -345,11 +512,18 @@ void AttitudeEstimator::begin(const UncertainAttitude& attitude, Products& out) 
 }
 
 void AttitudeEstimator::lose_where_unknown(Products& out) {
-  if (filter_ &&
-      filter_->attitude_covariance_rad2().trace() > kLargestSigma_rad * kLargestSigma_rad) {
+  if (filter_ && is_unknown(*filter_)) {
     lose(out);
   }
 }
+
+void AttitudeEstimator::lose_where_rejected(Products& out) {
+  if (rejected_in_a_row_ >= kLostInARow && !is_held()) {
+    lose(out);
+  }
+}
+
+/// Star fixes that it may contradict are to know of it.
 
 void AttitudeEstimator::lose(Products& out) {
   Assessment assessment{.quality = Quality::Lost, .reasons = {Reason{ReasonCode::AwaitingFix, {}}}};
@@ -362,6 +536,13 @@ void AttitudeEstimator::lose(Products& out) {
                                     .rate_body_rad_s = std::nullopt,
                                     .covariance_rad2 = any_attitude_rad2(),
                                     .assessment = std::move(assessment)});
+  if (!rival_ || !rival_->was_in_force) {
+    rival_.reset();
+    if (is_confirmed()) {
+      rival_ = RivalAttitude{
+          .filter = *filter_, .since = *t_, .was_in_force = true, .has_fixes = has_fixes_};
+    }
+  }
   filter_.reset();
   began_anew_ = true;
 }
@@ -394,20 +575,51 @@ double AttitudeEstimator::excess_noise() const {
   return most;
 }
 
+/// What it said until now is in another unit than what it says from now on.
+void AttitudeEstimator::forget_gyro() {
+  gyro_ = GyroWatch{*config_.gyro};
+  rate_rad_s_.reset();
+  coasting_ = false;
+}
+
 bool AttitudeEstimator::gyro_is_out() const {
-  return gyro_.last() && elapsed_s(gyro_.last()->t, *t_) > kGyroWait_s;
+  return gyro_.last() ? elapsed_s(gyro_.last()->t, *t_) > kGyroWait_s
+                      : gyro_.out_because().has_value();
+}
+
+/// More has spoken for it than the fix at which it began, and the gyro has carried it since.
+bool AttitudeEstimator::is_confirmed() const { return checks_ > 0.5 && !gyro_is_out(); }
+
+bool AttitudeEstimator::is_held() const {
+  return std::any_of(sensors_.begin() + index_of(SampleKind::Star), sensors_.end(),
+                     [this](const SensorHealth& sensor) {
+                       return sensor.rejected_in_a_row == 0 && sensor.last_seen &&
+                              elapsed_s(*sensor.last_seen, *t_) < kHeld_s;
+                     });
+}
+
+/// It is known that it is the sensor that is wrong: of a tracker, since others confirm what it has
+/// told itself before. Against what it never told it is one sensor's word against another's.
+bool AttitudeEstimator::is_out(SampleKind kind) const {
+  return frozen_.at(index_of(kind)).repeats() >= kFrozenForLong ||
+         (kind == SampleKind::Star && has_fixes_ && rival_ && rival_->stands() &&
+          rival_->is_refuted());
 }
 
 Reason AttitudeEstimator::why_no_gyro() const {
   const auto why = gyro_.out_because();
   return {ReasonCode::NoGyro,
           {{"why", std::string{why ? name_of(*why) : "silent"}},
-           {"since_tai_ns", tai_ns(gyro_.last()->t)}}};
+           {"since_tai_ns", tai_ns(gyro_.last() ? gyro_.last()->t : gyro_.out_since())}}};
 }
 
 Assessment AttitudeEstimator::assess() const {
-  Assessment assessment{.quality = is_checked_ ? Quality::Ok : Quality::Converging};
+  Assessment assessment{.quality = Quality::Ok};
   std::vector<Reason>& reasons = assessment.reasons;
+  std::vector<Reason> known;  // That leave no doubt about the attitude.
+  if (const auto factor = gyro_unit_.factor()) {
+    reasons.push_back({ReasonCode::GyroUnit, {{"factor", *factor}}});
+  }
   if (gyro_is_out()) {
     reasons.push_back(why_no_gyro());
   }
@@ -415,16 +627,25 @@ Assessment AttitudeEstimator::assess() const {
     reasons.push_back(
         {ReasonCode::GyroGaps, {{"count", unchecked_gaps_}, {"longest_s", longest_gap_s_}}});
   }
-  for (std::size_t kind = 0; kind < kSampleKinds; ++kind) {
-    const InnovationRecord& innovations = innovations_.at(kind);
-    const std::string sensor{name_of(static_cast<SampleKind>(kind))};
-    if (innovations.many_rejected()) {
+  bool is_checked = checks_ >= kEnoughToCheck;
+  for (std::size_t i = 0; i < kSampleKinds; ++i) {
+    const InnovationRecord& innovations = innovations_.at(i);
+    const auto kind = static_cast<SampleKind>(i);
+    const std::string sensor{name_of(kind)};
+    if (is_out(kind)) {
+      known.push_back({ReasonCode::SensorGated, {{"sensor", sensor}}});
+    } else if (innovations.many_rejected()) {
       reasons.push_back({ReasonCode::SensorGated, {{"sensor", sensor}}});
+    } else if (innovations.all_rejected()) {
+      is_checked = false;
     }
     if (const double excess = innovations.excess_noise(); excess > 1.0) {
       reasons.push_back(
           {ReasonCode::SensorNoise, {{"sensor", sensor}, {"factor", std::sqrt(excess)}}});
     }
+  }
+  if (rival_ && rival_->stands() && !rival_->is_refuted()) {
+    reasons.push_back({ReasonCode::StarFixesContradict, {}});
   }
   const double sigma_rad = std::sqrt(excess_noise() * filter_->attitude_covariance_rad2().trace());
   if (sigma_rad > kOpen_rad) {
@@ -432,7 +653,10 @@ Assessment AttitudeEstimator::assess() const {
   }
   if (!reasons.empty()) {
     assessment.quality = Quality::Doubtful;
+  } else if (!is_checked) {
+    assessment.quality = Quality::Converging;
   }
+  reasons.insert(reasons.end(), known.begin(), known.end());
   if (began_anew_) {
     reasons.push_back({ReasonCode::Since, {{"since_tai_ns", tai_ns(*since_)}}});
   }

@@ -5,17 +5,24 @@
 /// It begins at a star fix, or at two directions that agree (carried_directions.h); before that
 /// there is nothing. A star fix or a direction between two gyro samples is taken in when the second
 /// is there, as the rate changes evenly between them; where none comes the last rate is held, and
-/// the covariance grows by what the rate has shown of changing. An attitude that all sensors
-/// reject, or that nothing has held for long, is LOST; star fixes that it rejects and that agree
-/// with each other overrule it. Then it begins at the next fix.
+/// the covariance grows by what the rate has shown of changing. Without any gyro two directions of
+/// within a second give the attitude of that instant, as a star fix does. An attitude that all
+/// sensors reject, or that nothing has held for long, is LOST. Then it begins at the next fix.
+///
+/// Samples that repeat to the bit are left out (frozen_samples.h). Star fixes that the attitude
+/// rejects and that agree with each other make a rival (rival_attitude.h). Sun and field decide
+/// between the two; where they do not, the fixes overrule in the end, and whatever they say then is
+/// doubtful until Sun or field confirm it or the fixes return to where they were. An attitude that
+/// only the fix has spoken for at which it began gives way to the next ones at once.
 ///
 /// Its quality is
 ///     CONVERGING nothing speaks against it, but no ten fixes, or as much of directions about every
 ///                axis, have checked it since it began; without a gyro it begins at each fix
 ///     OK         all is well
-///     DOUBTFUL   a sensor's samples are rejected while another's agree, or scatter beyond their
-///                noise, and the covariance is raised by that; or the gyro is out, or was and
-///                nothing has checked since how the body turned meanwhile; or it is open by 10 deg
+///     DOUBTFUL   a sensor's samples are rejected while another's agree, and nobody knows which is
+///                wrong, or scatter beyond their noise, and the covariance is raised by that; or
+///                the gyro is out, or was and nothing has checked since how the body turned
+///                meanwhile; or it is open by 10 deg
 ///     LOST       it may point anywhere, and the covariance says so; said once
 
 #pragma once
@@ -31,12 +38,14 @@
 #include "pipelines/core/assessment.h"
 #include "pipelines/three_axis/carried_directions.h"
 #include "pipelines/three_axis/config.h"
+#include "pipelines/three_axis/frozen_samples.h"
+#include "pipelines/three_axis/gyro_unit.h"
 #include "pipelines/three_axis/gyro_watch.h"
 #include "pipelines/three_axis/innovation_record.h"
 #include "pipelines/three_axis/mekf.h"
 #include "pipelines/three_axis/products.h"
+#include "pipelines/three_axis/rival_attitude.h"
 #include "pipelines/three_axis/samples.h"
-#include "pipelines/three_axis/star_agreement.h"
 
 namespace spindrift {
 
@@ -57,6 +66,8 @@ class AttitudeEstimator {
   static constexpr double kGyroWait_s = 2.5;
   /// So many rejected in a row, by all sensors together, and the attitude is lost.
   static constexpr int kLostInARow = 10;
+  /// So long a sensor holds the attitude that has accepted its last sample.
+  static constexpr double kHeld_s = 10.0;
   /// So much must have been able to contradict the attitude: of star fixes, their number.
   static constexpr double kEnoughToCheck = 10.0;
 
@@ -84,19 +95,27 @@ class AttitudeEstimator {
  private:
   using Sample = std::variant<StarFix, SeenDirection>;
 
+  std::optional<SampleRejection> judge(const GyroSample& sample);
   void take_in_gyro(const GyroSample& sample, Products& out);
   void decide_suspect(const GyroSample& next, Products& out);
   void leave_out_suspect(Products& out);
   void give_way(TaiTime t, Products& out);
+  bool is_frozen(TaiTime t, SampleKind kind, const FrozenSamples::Values& values, double noise,
+                 Products& out);
   void push_direct(const Sample& sample, Products& out);
   bool waits_for_gyro(TaiTime t) const;
   void take_in_waiting(Products& out);
   void take_in(const Sample& sample, Products& out);
+  ObservedAttitude observed_by(const StarFix& fix) const;
   void take_in_star(const StarFix& fix, Products& out);
   void take_in_direction(const SeenDirection& seen, Products& out);
   template <class Observed>
   bool work_in(TaiTime t, SampleKind kind, const Observed& observed,
                const std::optional<double>& stronger, Products& out);
+  void ask_rival(const ObservedAttitude& fix, bool fits, bool fits_in_force);
+  void ask_rival(const ObservedDirection& direction, bool fits, bool fits_in_force);
+  bool rival_overrules() const;
+  void overrule(Products& out);
 
   /// Between two gyro samples.
   struct Interval {
@@ -111,18 +130,26 @@ class AttitudeEstimator {
   double coasted_rad2(TaiTime measured, TaiTime t) const;
   void turn(const GyroSample& to, double turn_rad2);
 
+  Mekf filter_at(const UncertainAttitude& attitude) const;
   void begin(const UncertainAttitude& attitude, Products& out);
+  void start(Products& out);
   void lose_where_unknown(Products& out);
+  void lose_where_rejected(Products& out);
   void lose(Products& out);
   void give(Products& out);
   void give_where_due(Products& out);
   double excess_noise() const;
+  void forget_gyro();
   bool gyro_is_out() const;
+  bool is_confirmed() const;
+  bool is_held() const;
+  bool is_out(SampleKind kind) const;
   Reason why_no_gyro() const;
   Assessment assess() const;
 
   ThreeAxisConfig config_;
   GyroWatch gyro_;
+  GyroUnit gyro_unit_;
   std::optional<GyroSample> suspect_;  ///< Waits for the next to tell what it is.
   std::deque<Sample> waiting_;         ///< For the gyro sample behind them.
 
@@ -130,14 +157,17 @@ class AttitudeEstimator {
   std::optional<Eigen::Vector3d> rate_rad_s_;  ///< As measured, there; empty: no gyro yet.
   bool coasting_ = false;                      ///< That rate is an older one, held.
   std::optional<Mekf> filter_;
+  bool has_fixes_ = false;     ///< Star fixes have spoken for that.
   CarriedDirections carried_;  ///< While there is no filter.
-  StarAgreement rejected_stars_;
+  std::optional<RivalAttitude> rival_;
 
+  /// By kind; that of the gyro is not used.
+  std::vector<FrozenSamples> frozen_{kSampleKinds, FrozenSamples::of_references()};
   SensorHealths sensors_;
   std::array<InnovationRecord, kSampleKinds> innovations_;  ///< Since it began; likewise:
   int rejected_in_a_row_ = 0;
   Eigen::Matrix3d checked_ = Eigen::Matrix3d::Zero();  ///< About which axes, ICRF.
-  bool is_checked_ = false;
+  double checks_ = 0.0;                                ///< About the axis that is checked least.
   std::int64_t unchecked_gaps_ =
       0;                        ///< Of the gyro, in which the body may have turned and stopped.
   double longest_gap_s_ = 0.0;  ///< Of those.

@@ -37,10 +37,10 @@ void CarriedDirections::add(SampleKind kind, TaiTime t, const ObservedDirection&
   directions_.insert(place, {.kind = kind, .t = t, .direction = direction, .error = {}});
 }
 
-void CarriedDirections::turn(TaiTime t, const Eigen::Vector3d& turned_rad,
-                             const CarryError& error) {
+void CarriedDirections::turn(TaiTime t, const Eigen::Vector3d& turned_rad, const CarryError& error,
+                             double longest_s) {
   std::erase_if(directions_,
-                [t](const Carried& carried) { return elapsed_s(carried.t, t) > kLongest_s; });
+                [&](const Carried& carried) { return elapsed_s(carried.t, t) > longest_s; });
   for (Carried& carried : directions_) {
     carried.direction.body = quaternion_by(-turned_rad) * carried.direction.body;
     carried.error.add(error);

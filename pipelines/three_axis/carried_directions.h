@@ -16,14 +16,16 @@ namespace spindrift {
 
 class CarriedDirections {
  public:
-  /// A direction older than that is forgotten.
+  /// Carried by a gyro, a direction older than that is forgotten.
   static constexpr double kLongest_s = 5.0;
 
   /// Takes the place of the one before of its sensor.
   void add(SampleKind kind, TaiTime t, const ObservedDirection& direction);
 
   /// The body turns until `t`.
-  void turn(TaiTime t, const Eigen::Vector3d& turned_rad, const CarryError& error);
+  /// @param longest_s A direction older than that is forgotten.
+  void turn(TaiTime t, const Eigen::Vector3d& turned_rad, const CarryError& error,
+            double longest_s = kLongest_s);
 
   void forget() { directions_.clear(); }
 

@@ -12,28 +12,30 @@ namespace spindrift {
 namespace {
 
 constexpr double kRecentInterval = 0.1;
-constexpr double kGap = 1.5;  // Usual intervals.
+constexpr double kGap = 1.5;        // Usual intervals.
+constexpr double kClipped = 0.999;  // Of the range.
 // Of the noise, of each axis of a sample: it comes to the median within some ten samples.
 constexpr double kRecentNoise = 0.05;
 
 }  // namespace
 
 bool is_saturated(const GyroSample& sample, const GyroSensor& sensor) {
-  return sensor.range_rad_s && sample.rate_body_rad_s.cwiseAbs().maxCoeff() >= *sensor.range_rad_s;
+  return sensor.range_rad_s &&
+         sample.rate_body_rad_s.cwiseAbs().maxCoeff() >= kClipped * *sensor.range_rad_s;
 }
 
 std::optional<SampleRejection> GyroWatch::judge(const GyroSample& sample) {
-  if (judged_) {
-    frozen_.learn(judged_->rate_body_rad_s, sample.rate_body_rad_s);
-  }
-  judged_ = sample;
-  const bool is_frozen = frozen_.repeated(sample.rate_body_rad_s) > 0;
+  const bool was_out = out_because_.has_value();
+  const bool is_frozen = frozen_.note(sample.rate_body_rad_s, sensor_.noise_rad_s) > 0;
   if (is_saturated(sample, sensor_)) {
     out_because_ = SampleRejection::Saturated;
   } else if (is_frozen) {
     out_because_ = SampleRejection::Frozen;
   } else {
     out_because_ = std::nullopt;
+  }
+  if (out_because_ && !was_out) {
+    out_since_ = sample.t;
   }
   return out_because_;
 }
@@ -47,9 +49,7 @@ bool GyroWatch::is_outlier(const GyroSample& suspect, const GyroSample& next) co
                     change_rad_s(*before_last_, *last_, last_->t, suspect.t), scatter_rad_s());
 }
 
-double GyroWatch::scatter_rad_s() const {
-  return std::max(noise_rad_s_, 0.5 * frozen_.step_rad_s());
-}
+double GyroWatch::scatter_rad_s() const { return std::max(noise_rad_s_, 0.5 * frozen_.step()); }
 
 void GyroWatch::accept(const GyroSample& sample) {
   wander_.note(sample.t, sample.rate_body_rad_s);

@@ -6,22 +6,21 @@
 #include <optional>
 
 #include "pipelines/three_axis/config.h"
-#include "pipelines/three_axis/frozen_gyro.h"
+#include "pipelines/three_axis/frozen_samples.h"
 #include "pipelines/three_axis/products.h"
 #include "pipelines/three_axis/rate_wander.h"
 #include "pipelines/three_axis/samples.h"
 
 namespace spindrift {
 
+/// Within a thousandth of the range or beyond it: a clipped rate is told by the last number that
+/// the telemetry has below the range.
 bool is_saturated(const GyroSample& sample, const GyroSensor& sensor);
 
 class GyroWatch {
  public:
   explicit GyroWatch(const GyroSensor& sensor)
-      : sensor_{sensor},
-        frozen_{sensor.noise_rad_s},
-        noise_rad_s_{sensor.noise_rad_s},
-        wander_{sensor.noise_rad_s} {}
+      : sensor_{sensor}, noise_rad_s_{sensor.noise_rad_s}, wander_{sensor.noise_rad_s} {}
 
   /// Once for each sample.
   /// @param sample Later than the one before.
@@ -42,6 +41,8 @@ class GyroWatch {
 
   /// Why the samples behind it are none; empty: there are no samples.
   std::optional<SampleRejection> out_because() const { return out_because_; }
+  /// The first of those.
+  TaiTime out_since() const { return out_since_; }
 
   double wander_rad2_s3() const { return wander_.rad2_s3(); }
 
@@ -54,11 +55,11 @@ class GyroWatch {
   double scatter_rad_s() const;
 
   GyroSensor sensor_;
-  FrozenGyro frozen_;
-  std::optional<GyroSample> judged_;
+  FrozenSamples frozen_ = FrozenSamples::of_gyro();
   std::optional<GyroSample> before_last_;
   std::optional<GyroSample> last_;
   std::optional<SampleRejection> out_because_;
+  TaiTime out_since_{};
   double intervals_ = 0.0;
   double usual_interval_s_ = 0.0;
   double noise_rad_s_;  ///< That of the samples, where it is more than stated.

@@ -17,6 +17,9 @@ class InnovationRecord {
   /// Two fifths of the recent samples, and more, are where the attitude does not have them.
   bool many_rejected() const;
 
+  /// None of its samples yet is where the attitude has it.
+  bool all_rejected() const { return samples_ > 0.0 && rejected_share_ == 1.0; }
+
   /// How many times the variance of the samples is what their stated noise makes it, where that is
   /// significantly more than 1; else 1.
   double excess_noise() const;

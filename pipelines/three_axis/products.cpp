@@ -11,9 +11,9 @@ std::string_view name_of(SampleKind kind) {
 }
 
 std::string_view name_of(SampleRejection rejection) {
-  static constexpr std::array<std::string_view, 11> kNames = {
-      "late",    "out_of_time", "no_sensor", "operator", "saturated", "frozen",
-      "outlier", "shadow",      "no_orbit",  "no_field", "innovation"};
+  static constexpr std::array<std::string_view, 13> kNames = {
+      "late",    "out_of_time", "contradicted", "no_sensor", "operator", "saturated", "frozen",
+      "outlier", "shadow",      "no_orbit",     "no_field",  "unit",     "innovation"};
   return kNames.at(static_cast<std::size_t>(rejection));
 }
 

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "pipelines/core/assessment.h"
+#include "pipelines/time/sample_contradiction.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -25,17 +26,19 @@ std::string_view name_of(SampleKind kind);
 
 /// Why a sample was left out.
 enum class SampleRejection {
-  Late,        ///< Arrived after its time had been processed.
-  OutOfTime,   ///< Far from all others in time, by a clock that nothing else agrees with.
-  NoSensor,    ///< The mission file has no such sensor.
-  Operator,    ///< An operator has left it out.
-  Saturated,   ///< Of the gyro: beyond its range.
-  Frozen,      ///< Of the gyro: the same numbers as too many before it.
-  Outlier,     ///< Of the gyro: off from its neighbours.
-  Shadow,      ///< Of the sun sensor: the Earth is before the Sun.
-  NoOrbit,     ///< Of an orbit state: on no ellipse round the Earth. Of a field: unknown where.
-  NoField,     ///< Of the magnetometer: the model of the field does not reach.
-  Innovation,  ///< Too far from where the attitude has it; of a field: or from its strength.
+  Late,          ///< Arrived after its time had been processed.
+  OutOfTime,     ///< Far from all others in time, by a clock that nothing else agrees with.
+  Contradicted,  ///< It came with another value, too, and nobody is preferred.
+  NoSensor,      ///< The mission file has no such sensor.
+  Operator,      ///< An operator has left it out.
+  Saturated,     ///< Of the gyro: beyond its range.
+  Frozen,        ///< The same numbers as too many before it.
+  Outlier,       ///< Of the gyro: off from its neighbours.
+  Shadow,        ///< Of the sun sensor: the Earth is before the Sun.
+  NoOrbit,       ///< Of an orbit state: on no ellipse round the Earth. Of a field: unknown where.
+  NoField,       ///< Of the magnetometer: the model of the field does not reach.
+  Unit,          ///< Of the gyro: its rates are in another unit, by the star fixes.
+  Innovation,    ///< Too far from where the attitude has it; of a field: or from its strength.
 };
 std::string_view name_of(SampleRejection rejection);
 
@@ -44,6 +47,7 @@ struct RejectedSample {
   SampleKind kind;
   SampleRejection rejected_by;
   std::optional<double> squared_innovation = {};  ///< Normalised; of Innovation.
+  std::optional<double> rate_rad_s = {};          ///< Of the gyro: the largest.
 };
 
 /// The record of one sensor in a pass.
@@ -77,6 +81,6 @@ struct AttitudeEstimate {
   double sigma_rad() const;  ///< Root of the trace.
 };
 
-using ThreeAxisProduct = std::variant<RejectedSample, AttitudeEstimate>;
+using ThreeAxisProduct = std::variant<RejectedSample, AttitudeEstimate, SampleContradiction>;
 
 }  // namespace spindrift

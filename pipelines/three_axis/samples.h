@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "pipelines/core/rounding.h"
+#include "pipelines/core/sender.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -17,18 +19,43 @@ inline constexpr double kUnitTolerance = 1e-3;
 struct GyroSample {
   TaiTime t;
   Eigen::Vector3d rate_body_rad_s = Eigen::Vector3d::Zero();
+  Sender sender = Sender::First;
 };
 
 /// Of the star tracker. v_icrf = q v_sensor q*; its length is 1 within kUnitTolerance.
 struct StarFix {
   TaiTime t;
   Eigen::Quaterniond q_icrf_sensor = Eigen::Quaterniond::Identity();
+  Sender sender = Sender::First;
 };
 
 /// Of the sun sensor: to the Sun, its length is 1 within kUnitTolerance.
 struct SunDirection {
   TaiTime t;
   Eigen::Vector3d sun_body = Eigen::Vector3d::UnitX();
+  Sender sender = Sender::First;
 };
+
+/// @name Whether two samples say the same, but for rounding
+/// @{
+inline bool are_same(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return same_but_for_rounding<3>({a.x(), a.y(), a.z()}, {b.x(), b.y(), b.z()});
+}
+inline bool say_the_same(const GyroSample& a, const GyroSample& b) {
+  return are_same(a.rate_body_rad_s, b.rate_body_rad_s);
+}
+/// As they are used: of length 1.
+inline bool say_the_same(const SunDirection& a, const SunDirection& b) {
+  return are_same(a.sun_body.normalized(), b.sun_body.normalized());
+}
+/// Likewise; q and -q are one attitude.
+inline bool say_the_same(const StarFix& a, const StarFix& b) {
+  const Eigen::Vector4d one = a.q_icrf_sensor.coeffs().normalized();
+  Eigen::Vector4d other = b.q_icrf_sensor.coeffs().normalized();
+  other *= one.dot(other) < 0.0 ? -1.0 : 1.0;
+  return same_but_for_rounding<4>({one.x(), one.y(), one.z(), one.w()},
+                                  {other.x(), other.y(), other.z(), other.w()});
+}
+/// @}
 
 }  // namespace spindrift

@@ -1,10 +1,25 @@
 #include "pipelines/three_axis/three_axis_pass.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/ephemeris/shadow.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/geomagnetism/field_at_spacecraft.h"
+#include "pipelines/three_axis/innovation_record.h"
 
 namespace spindrift {
+namespace {
+
+// Fewer may be left out by chance, or for what passes.
+constexpr std::int64_t kFewestLeftOut = 50;
+constexpr double kMostLeftOut = 0.9;
+
+/// Of what a sample is tested with: a field has a strength, too.
+int freedom_of(SampleKind kind) { return kind == SampleKind::Sun ? 2 : 3; }
+
+}  // namespace
 
 std::chrono::nanoseconds reorder_horizon(const OrderedSample& /*sample*/) {
   return std::chrono::seconds{1};
@@ -15,6 +30,7 @@ ThreeAxisPass::ThreeAxisPass(const ThreeAxisConfig& config, std::optional<Orbit>
     : config_{config},
       orbit_{std::move(orbit)},
       orbit_is_of_mission_{orbit_.has_value()},
+      orbit_steps_{orbit_ ? orbit_steps(*orbit_) : std::vector<OrbitStep>{}},
       field_{std::move(field)},
       estimator_{config} {}
 
@@ -34,12 +50,42 @@ ThreeAxisOutput ThreeAxisPass::take(const OrderedSample& sample) {
       leave_out(sample, SampleRejection::OutOfTime, out);
       say_once(Notice{NoticeCode::SamplesOutOfTime, {}}, out);
       break;
-    case Verdict::Held:
     case Verdict::Duplicate:
+      compare(sample, out);
+      break;
+    case Verdict::Held:
       break;
   }
   compute(window_.release(), out);
+  doubt_where_orbit_steps(out);
+  say_what_is_left_out(out);
   return out;
+}
+
+/// What has been computed stays as it is, whatever comes behind it.
+void ThreeAxisPass::compare(const OrderedSample& again, ThreeAxisOutput& out) {
+  const auto known = window_.find(again);
+  if (!known.released) {
+    contested_.note(*known.sample, again);
+  } else if (!say_the_same(*known.sample, again)) {
+    out.products.emplace_back(SampleContradiction{.t = again.t,
+                                                  .kind = name_of(again.kind()),
+                                                  .by = late_senders(*known.sample, again),
+                                                  .late = true});
+  }
+}
+
+/// @return what counts of all that was said in the place of `due`; empty: nothing.
+std::optional<OrderedSample> ThreeAxisPass::settled(const OrderedSample& due,
+                                                    ThreeAxisOutput& out) {
+  const std::vector<OrderedSample> said = contested_.take(due);
+  if (!is_contested(said)) {
+    return due;
+  }
+  auto used = one_that_counts(said);
+  out.products.emplace_back(
+      SampleContradiction{.t = due.t, .kind = name_of(due.kind()), .by = senders_of(said, used)});
+  return used;
 }
 
 void ThreeAxisPass::act(TaiTime t, const AttitudeAction& action) {
@@ -50,6 +96,8 @@ ThreeAxisOutput ThreeAxisPass::fall_silent() {
   ThreeAxisOutput out;
   compute(window_.fall_silent(), out);
   estimator_.settle(out.products);
+  doubt_where_orbit_steps(out);
+  say_what_is_left_out(out);
   return out;
 }
 
@@ -62,6 +110,8 @@ ThreeAxisOutput ThreeAxisPass::finish() {
   }
   compute(rest.in_time, out);
   estimator_.settle(out.products);
+  doubt_where_orbit_steps(out);
+  say_what_is_left_out(out);
   if (!estimator_.ever_began()) {
     const auto accepted = [this](SampleKind kind) {
       return estimator_.sensors().at(index_of(kind)).accepted;
@@ -78,10 +128,13 @@ ThreeAxisOutput ThreeAxisPass::finish() {
 
 void ThreeAxisPass::compute(const std::vector<OrderedSample>& in_order, ThreeAxisOutput& out) {
   for (const OrderedSample& sample : in_order) {
+    const auto used = settled(sample, out);
     if (excluded_.hold(sample.t, sample.kind())) {
       leave_out(sample, SampleRejection::Operator, out);
+    } else if (!used) {
+      leave_out(sample, SampleRejection::Contradicted, out);
     } else {
-      std::visit([&](const auto& is) { compute(is, out); }, sample.is);
+      std::visit([&](const auto& is) { compute(is, out); }, used->is);
     }
   }
 }
@@ -142,6 +195,8 @@ void ThreeAxisPass::compute(const MagneticField& field, ThreeAxisOutput& out) {
     say_once({NoticeCode::OutsideFieldModel, {{"t_tai_ns", tai_ns(field.t)}}}, out);
     return;
   }
+  first_field_ = first_field_.value_or(field.t);
+  last_field_ = field.t;
   const double noise_nt = config_.magnetometer->noise_nt;
   const double strength_nt = known_icrf_nt->norm();
   estimator_.push(SeenDirection{.t = field.t,
@@ -173,6 +228,58 @@ bool ThreeAxisPass::has_sensor(SampleKind kind) const {
       break;
   }
   return true;
+}
+
+/// Where the field was compared on both sides. To the Sun a step of the orbit is nothing.
+void ThreeAxisPass::doubt_where_orbit_steps(ThreeAxisOutput& out) {
+  if (orbit_steps_.empty() || !first_field_) {
+    return;
+  }
+  for (ThreeAxisProduct& product : out.products) {
+    auto* const estimate = std::get_if<AttitudeEstimate>(&product);
+    const auto step = estimate == nullptr ? std::nullopt
+                                          : step_within(orbit_steps_, *first_field_,
+                                                        std::min(*last_field_, estimate->t));
+    if (step) {
+      const Reason reason = reason_of(*step);
+      say_once({NoticeCode::OrbitStepsInPass, reason.values}, out);
+      doubt(estimate->assessment, reason);
+    }
+  }
+}
+
+/// Of each kind that one test leaves out almost altogether: that is no matter of single samples.
+void ThreeAxisPass::say_what_is_left_out(ThreeAxisOutput& out) {
+  for (const ThreeAxisProduct& product : out.products) {
+    const auto* const sample = std::get_if<RejectedSample>(&product);
+    if (sample == nullptr || sample->rejected_by == SampleRejection::Operator) {
+      continue;
+    }
+    const SensorHealth& sensor = sensors().at(index_of(sample->kind));
+    std::int64_t& count = left_out_[{sample->kind, sample->rejected_by}];
+    const double share =
+        static_cast<double>(++count) / static_cast<double>(sensor.accepted + sensor.rejected);
+    if (count >= kFewestLeftOut && share >= kMostLeftOut &&
+        said_left_out_.emplace(sample->kind, sample->rejected_by).second) {
+      out.notices.push_back(most_left_out(*sample, 100.0 * share));
+    }
+  }
+}
+
+Notice ThreeAxisPass::most_left_out(const RejectedSample& last, double percent) const {
+  Notice notice{NoticeCode::MostLeftOut,
+                {{"sensor", std::string{name_of(last.kind)}},
+                 {"percent", percent},
+                 {"rejected_by", std::string{name_of(last.rejected_by)}}}};
+  if (last.rejected_by == SampleRejection::Saturated) {
+    notice.values.push_back({"rate_deg_s", degrees(last.rate_rad_s.value())});
+    notice.values.push_back({"range_deg_s", degrees(config_.gyro->range_rad_s.value())});
+  }
+  if (last.squared_innovation) {
+    notice.values.push_back({"sigmas", std::sqrt(*last.squared_innovation)});
+    notice.values.push_back({"most_sigmas", std::sqrt(innovation_gate(freedom_of(last.kind)))});
+  }
+  return notice;
 }
 
 void ThreeAxisPass::say_once(Notice notice, ThreeAxisOutput& out) {

@@ -13,6 +13,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -23,6 +26,7 @@
 #include "pipelines/core/notice.h"
 #include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/ephemeris/orbit.h"
+#include "pipelines/ephemeris/orbit_steps.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/ephemeris/timed_orbit_state.h"
 #include "pipelines/exclusions/exclusions.h"
@@ -33,6 +37,7 @@
 #include "pipelines/three_axis/magnetic_field.h"
 #include "pipelines/three_axis/products.h"
 #include "pipelines/three_axis/samples.h"
+#include "pipelines/time/contested.h"
 #include "pipelines/time/reorder_window.h"
 
 namespace spindrift {
@@ -42,8 +47,7 @@ struct ThreeAxisOutput {
   std::vector<Notice> notices;             ///< What a person should know; each said once a pass.
 };
 
-/// Any sample in its place: those of one kind and instant are one, and the first that came counts,
-/// as in the archive.
+/// Any sample in its place: those of one kind and instant are one (Contested says which counts).
 struct OrderedSample {
   TaiTime t;
   /// As SampleKind.
@@ -55,8 +59,17 @@ struct OrderedSample {
   }
   friend bool operator==(const OrderedSample& a, const OrderedSample& b) { return (a <=> b) == 0; }
 };
+inline Sender sender_of(const OrderedSample& sample) {
+  return std::visit([](const auto& is) { return is.sender; }, sample.is);
+}
+/// Of two of one kind.
+inline bool say_the_same(const OrderedSample& a, const OrderedSample& b) {
+  return std::visit(
+      [&]<class Value>(const Value& is) { return say_the_same(is, std::get<Value>(b.is)); }, a.is);
+}
 /// A second, as for pulses.
 std::chrono::nanoseconds reorder_horizon(const OrderedSample& sample);
+inline std::size_t kind_in_order(const OrderedSample& sample) { return index_of(sample.kind()); }
 
 class ThreeAxisPass {
  public:
@@ -87,7 +100,9 @@ class ThreeAxisPass {
 
  private:
   ThreeAxisOutput take(const OrderedSample& sample);
+  void compare(const OrderedSample& again, ThreeAxisOutput& out);
   void compute(const std::vector<OrderedSample>& in_order, ThreeAxisOutput& out);
+  std::optional<OrderedSample> settled(const OrderedSample& due, ThreeAxisOutput& out);
   void compute(const TimedOrbitState& state, ThreeAxisOutput& out);
   void compute(const GyroSample& sample, ThreeAxisOutput& out);
   void compute(const StarFix& fix, ThreeAxisOutput& out);
@@ -96,18 +111,27 @@ class ThreeAxisPass {
   Expected<OrbitState> spacecraft_at(TaiTime t) const;
   void leave_out(const OrderedSample& sample, SampleRejection rejected_by, ThreeAxisOutput& out);
   bool has_sensor(SampleKind kind) const;
+  void doubt_where_orbit_steps(ThreeAxisOutput& out);
   void say_once(Notice notice, ThreeAxisOutput& out);
+  void say_what_is_left_out(ThreeAxisOutput& out);
+  Notice most_left_out(const RejectedSample& last, double percent) const;
 
   ThreeAxisConfig config_;
   std::optional<Orbit> orbit_;
   bool orbit_is_of_mission_;
+  std::vector<OrbitStep> orbit_steps_;
+  std::optional<TaiTime> first_field_;  ///< That was compared with the Earth's along the orbit.
+  std::optional<TaiTime> last_field_;
   ApparentSun sun_;
   std::optional<MainFieldModel> field_;
   TurningEarth earth_;
   BasicReorderWindow<OrderedSample> window_;
+  Contested<OrderedSample> contested_;
   AttitudeEstimator estimator_;
   Exclusions<SampleKind> excluded_;
   std::set<NoticeCode> said_;
+  std::map<std::pair<SampleKind, SampleRejection>, std::int64_t> left_out_;
+  std::set<std::pair<SampleKind, SampleRejection>> said_left_out_;
 };
 
 }  // namespace spindrift

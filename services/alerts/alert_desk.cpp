@@ -32,6 +32,20 @@ ConditionChanges changes_by_product(Conditions& conditions, const Product& produ
       product);
 }
 
+/// By results, which come in order.
+ConditionChanges contradictions_by(ContradictionConditions& conditions, const Product& product) {
+  if (const auto* const contradiction = std::get_if<SampleContradiction>(&product)) {
+    return conditions.see(*contradiction);
+  }
+  if (const auto* const attitude = std::get_if<AttitudeEstimate>(&product)) {
+    return conditions.see(attitude->t);
+  }
+  const auto* const axis = std::get_if<SpinEstimate>(&product);
+  // A solution of `batch` comes when it is made.
+  return axis != nullptr && axis->estimator != SpinEstimator::Batch ? conditions.see(axis->t)
+                                                                    : ConditionChanges{};
+}
+
 Occurrence occurrence_of(const ConditionChange& change, const std::string& run_id,
                          const Mission& mission) {
   return {.run_id = run_id,
@@ -80,6 +94,7 @@ AlertDesk::AlertDesk(const std::vector<Mission>& missions, RunMode mode, const G
     supervised = Supervised{.mission = mission,
                             .model = model == models.end() ? nullptr : model->second,
                             .conditions = conditions_of(mission),
+                            .contradictions = ContradictionConditions{mission.alerts},
                             .comparison = {},
                             .service = ServiceConditions{mission.alerts, mission.contact}};
     begin(*supervised);
@@ -96,6 +111,7 @@ AlertDesk::Conditions AlertDesk::conditions_of(const Mission& mission) {
 /// A run.
 void AlertDesk::begin(Supervised& supervised) {
   supervised.conditions = conditions_of(supervised.mission);
+  supervised.contradictions = ContradictionConditions{supervised.mission.alerts};
   if (supervised.model) {
     supervised.comparison.emplace(supervised.model, supervised.mission.alerts.departure_sigmas);
   }
@@ -244,6 +260,7 @@ std::vector<Alert> AlertDesk::changed_by(const ArchiveBatch& batch, Desk& desk) 
     append(std::visit([&](auto& conditions) { return changes_by_product(conditions, product); },
                       supervised.conditions),
            all);
+    append(contradictions_by(supervised.contradictions, product), all);
   }
   return settled(all, desk);
 }

@@ -16,6 +16,7 @@
 #include "pipelines/ground_model/comparison/model_comparison.h"
 #include "pipelines/supervision/alert_book.h"
 #include "pipelines/supervision/attitude_conditions.h"
+#include "pipelines/supervision/contradiction_conditions.h"
 #include "pipelines/supervision/service_conditions.h"
 #include "pipelines/supervision/spin_conditions.h"
 #include "services/archive/records.h"
@@ -88,6 +89,7 @@ class AlertDesk {
     Mission mission;
     std::shared_ptr<const GroundModel> model;  ///< Null: there is none.
     Conditions conditions;
+    ContradictionConditions contradictions;
     std::optional<ModelComparison> comparison;
     ServiceConditions service;
     std::string run_id = {};      ///< Empty: none yet.

@@ -21,7 +21,7 @@ std::int64_t as_signed(std::uint64_t value) { return static_cast<std::int64_t>(v
 
 /// What is stored already stays as it is, but for its place in the order of the run that takes it
 /// now (?4). What was left out, as its source's time is wrong, makes way for a sample that came
-/// (?5), and takes the place of none.
+/// (?5), and takes the place of none. With no run in ?4 nothing of what is stored changes.
 template <class Value>
 std::string insert_statement() {
   std::vector<std::string_view> names{"source", "session", "seq"};
@@ -82,6 +82,7 @@ BatchWriter::BatchWriter(SQLite::Database& database)
       source_count_{database,
                     "INSERT OR REPLACE INTO source_count (run_id, source, received, gaps,"
                     " duplicates, disordered) VALUES (?, ?, ?, ?, ?, ?)"},
+      contradictions_{database},
       products_{database} {}
 
 Expected<void> BatchWriter::write(std::span<const ArchiveBatch> batches) {
@@ -111,13 +112,13 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
   }
   batch.samples.for_each([&](const auto& of_kind) {
     for (const auto& sample : of_kind) {
-      insert(batch.run_id, sample, Came::Now);
+      insert(batch, sample, Came::Now);
     }
   });
   batch.moved.for_each([&]<class Value>(const std::vector<Arrived<Value>>& of_kind) {
     for (const auto& [arrival, value] : of_kind) {
       insert(
-          batch.run_id,
+          batch,
           TelemetrySample<Value>{
               .spacecraft = batch.spacecraft_id, .origin = {}, .value = value, .arrival = arrival},
           Came::Before);
@@ -133,7 +134,11 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
     insert(batch.run_id, rejected);
   }
   for (const Product& product : batch.products) {
-    products_.insert(batch.run_id, batch.spacecraft_id, product);
+    if (const auto* const contradiction = std::get_if<SampleContradiction>(&product)) {
+      contradictions_.settle(batch.run_id, *contradiction);
+    } else {
+      products_.insert(batch.run_id, batch.spacecraft_id, product);
+    }
   }
   if (batch.finished_utc) {
     execute(run_finished_, *batch.finished_utc, batch.run_id);
@@ -165,16 +170,27 @@ void BatchWriter::insert(const ArchiveBatch& batch, const RunStart& start) {
 }
 
 template <class Value>
-void BatchWriter::insert(const std::string& run_id, const TelemetrySample<Value>& sample,
+void BatchWriter::insert(const ArchiveBatch& batch, const TelemetrySample<Value>& sample,
                          Came came) {
-  std::apply(
-      [&](const auto&... column) {
-        execute(samples_[kTelemetryKind<Value>], sample.spacecraft, tai_ns(sample.value.t),
-                sample.arrival, run_id, std::int64_t{came == Came::Now}, sample.origin.source,
-                as_signed(sample.origin.session), as_signed(sample.origin.seq),
-                column.of(sample.value)...);
-      },
-      Telemetry<Value>::kColumns);
+  const auto store = [&](const std::string& run_id) {
+    std::apply(
+        [&](const auto&... column) {
+          execute(samples_[kTelemetryKind<Value>], sample.spacecraft, tai_ns(sample.value.t),
+                  sample.arrival, run_id, std::int64_t{came == Came::Now}, sample.origin.source,
+                  as_signed(sample.origin.session), as_signed(sample.origin.seq),
+                  column.of(sample.value)...);
+        },
+        Telemetry<Value>::kColumns);
+  };
+  if constexpr (HasSender<Value>) {
+    if (sample.arrival >= 0) {
+      store({});
+      if (database_.getChanges() > 0 || contradictions_.see(batch, sample)) {
+        return;
+      }
+    }
+  }
+  store(batch.run_id);
 }
 
 void BatchWriter::insert(const std::string& run_id, const OperatorAction& action) {

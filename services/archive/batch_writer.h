@@ -7,15 +7,55 @@
 #include <SQLiteCpp/Statement.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "pipelines/time/sample_contradiction.h"
 #include "services/archive/product_writer.h"
 #include "services/archive/records.h"
 
 namespace spindrift {
+
+/// Samples that come again with another value: what the table `contradiction` has. All of it throws
+/// SQLite::Exception.
+class ContradictionWriter {
+ public:
+  explicit ContradictionWriter(SQLite::Database& database);
+
+  /// Of a sample of an instant of which the archive has one. If they say different things, both
+  /// stand in the table from now on; so does what another source says of such an instant.
+  /// @return whether that is all: in the table of its kind nothing is to be changed.
+  template <class Value>
+  bool see(const ArchiveBatch& batch, const TelemetrySample<Value>& sample);
+
+  /// Which of the values count.
+  void settle(const std::string& run_id, const SampleContradiction& contradiction);
+
+ private:
+  struct Entry {
+    std::string_view kind;
+    TaiTime t;
+    Origin origin;
+    std::int64_t arrival;
+  };
+  bool is_contested(const std::string& run_id, const Entry& entry);
+  void add_both(const ArchiveBatch& batch, const Entry& there, const std::string& there_value,
+                const Entry& came, const std::string& came_value);
+  void add(const ArchiveBatch& batch, const Entry& entry, const std::string& value, bool used,
+           std::optional<std::int64_t> arrival);
+
+  std::vector<SQLite::Statement> find_;       ///< In the order of the list of kinds.
+  std::vector<SQLite::Statement> take_over_;  ///< Likewise.
+  SQLite::Statement first_arrival_;
+  SQLite::Statement contested_;
+  SQLite::Statement add_;
+  SQLite::Statement use_none_;
+  SQLite::Statement use_;
+};
 
 /// The prepared statements of one connection. `database` must outlive it.
 class BatchWriter {
@@ -34,7 +74,7 @@ class BatchWriter {
   /// A sample: now, or before, to be left out then.
   enum class Came { Now, Before };
   template <class Value>
-  void insert(const std::string& run_id, const TelemetrySample<Value>& sample, Came came);
+  void insert(const ArchiveBatch& batch, const TelemetrySample<Value>& sample, Came came);
   void insert(const std::string& run_id, const OperatorAction& action);
   void insert(const std::string& run_id, const RejectedInput& rejected);
   void insert(const std::string& run_id, const SourceCount& count);
@@ -52,6 +92,7 @@ class BatchWriter {
   SQLite::Statement stream_silence_;
   SQLite::Statement rejected_input_;
   SQLite::Statement source_count_;
+  ContradictionWriter contradictions_;
   ProductWriter products_;
 };
 

@@ -201,15 +201,15 @@ void ProductWriter::withdraw(const std::string& run_id, TaiTime from) {
   // What hangs on others goes before they do.
   for (const bool hangs_on_others : {true, false}) {
     for_each_product_kind([&]<class Kind>() {
-      for_each_table<Kind>([&]<class Table>() {
-        constexpr bool kStandsAlone = kHasTime<Table> && std::is_same_v<Table, MainTable<Kind>>;
-        if constexpr (!kStays<Kind>) {
+      if constexpr (!kStays<Kind>) {
+        for_each_table<Kind>([&]<class Table>() {
+          constexpr bool kStandsAlone = kHasTime<Table> && std::is_same_v<Table, MainTable<Kind>>;
           if (kStandsAlone != hangs_on_others) {
             SQLite::Statement statement{database_, withdrawal<Kind, Table>()};
             execute(statement, run_id, tai_ns(from));
           }
-        }
-      });
+        });
+      }
     });
   }
 }

@@ -60,9 +60,9 @@ struct SourceCount {
 /// The unit of submission: stored as a whole or not at all, in the order of the members.
 ///
 /// A run's first batch carries `start`, its last one `finished_utc`. A sample that the archive
-/// already holds is not stored again; a product with the key of an earlier one of its run, and a
-/// source's count, take its place. Only an edge that is late is not said to be so when something
-/// else has become of it: it arrived twice.
+/// already holds is not stored again, unless it says something else (table contradiction); a
+/// product with the key of an earlier one of its run, and a source's count, take its place. Only an
+/// edge that is late is not said to be so when something else has become of it: it arrived twice.
 struct ArchiveBatch {
   std::string run_id;  ///< Unique over all archives that may ever be merged.
   std::string spacecraft_id;
@@ -72,6 +72,8 @@ struct ArchiveBatch {
   /// With their order of arrival in the run; negative: the run leaves the sample out.
   TelemetrySamples samples = {};
   std::vector<OperatorAction> actions = {};  ///< Of this run, or still in force; likewise.
+  /// Of the sources that give a sample this one stands beside it; empty: the first that did.
+  std::string preferred_source = {};
   TelemetryValues moved = {};  ///< Stored already, and now of the run in this order of arrival.
   std::vector<std::int64_t> silences = {};  ///< Each before the sample of that arrival.
   std::vector<RejectedInput> rejected = {};

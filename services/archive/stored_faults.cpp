@@ -22,4 +22,19 @@ Expected<std::vector<RunFault>> find_faults(const std::filesystem::path& archive
   });
 }
 
+Expected<std::map<std::string, std::int64_t>> count_contradictions(
+    const std::filesystem::path& archive, const std::string& run_id) {
+  return read_archive(archive, [&](SQLite::Database& database) {
+    SQLite::Statement query{database,
+                            "SELECT kind, count(DISTINCT t_tai_ns) FROM contradiction"
+                            " WHERE run_id = ? GROUP BY kind"};
+    query.bind(1, run_id);
+    std::map<std::string, std::int64_t> counts;
+    while (query.executeStep()) {
+      counts.emplace(query.getColumn(0).getString(), query.getColumn(1).getInt64());
+    }
+    return counts;
+  });
+}
+
 }  // namespace spindrift

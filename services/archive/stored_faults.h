@@ -1,9 +1,11 @@
 /// @file
-/// What failed to compute of a run.
+/// What failed to compute of a run, and what contradicts itself in its samples.
 
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,5 +18,9 @@ namespace spindrift {
 /// @return As find_stored_passes.
 Expected<std::vector<RunFault>> find_faults(const std::filesystem::path& archive,
                                             const std::string& run_id);
+
+/// How many instants of a run have more than one value, by kind of sample. @return Likewise.
+Expected<std::map<std::string, std::int64_t>> count_contradictions(
+    const std::filesystem::path& archive, const std::string& run_id);
 
 }  // namespace spindrift

@@ -122,15 +122,33 @@ void bind_extent(SQLite::Statement& query, const std::string& spacecraft_id,
   }
 }
 
+/// What came again with another value.
+template <class Value>
+void read_contradicting(const SQLite::Database& database, SenderNames& senders, StoredPass& pass) {
+  SQLite::Statement query{database,
+                          "SELECT arrival, t_tai_ns, source, value FROM contradiction"
+                          " WHERE run_id = ? AND kind = ? AND arrival IS NOT NULL"};
+  query.bind(1, pass.run_id);
+  query.bind(2, std::string{contradiction_kind<Value>()});
+  while (query.executeStep()) {
+    pass.values.of<Value>().push_back(read_contradicting<Value>(query, senders));
+  }
+}
+
 template <class Value>
 void read_values(const SQLite::Database& database, const std::string& spacecraft_id,
-                 StoredPass& pass) {
-  SQLite::Statement query{database, fmt::format("SELECT {} FROM {}{}", arrived_columns<Value>(),
-                                                Telemetry<Value>::kTable, kExtent)};
+                 SenderNames& senders, StoredPass& pass) {
+  SQLite::Statement query{
+      database, fmt::format("SELECT {}{} FROM {}{}", arrived_columns<Value>(), kSourceColumn<Value>,
+                            Telemetry<Value>::kTable, kExtent)};
   bind_extent(query, spacecraft_id, pass);
   auto& values = pass.values.of<Value>();
   while (query.executeStep()) {
     values.push_back(read_arrived<Value>(query));
+    read_sender(query, senders, values.back().value);
+  }
+  if constexpr (HasSender<Value>) {
+    read_contradicting<Value>(database, senders, pass);
   }
   std::sort(values.begin(), values.end(),
             [](const Arrived<Value>& a, const Arrived<Value>& b) { return a.arrival < b.arrival; });
@@ -149,7 +167,7 @@ LeftOut& left_out_of(StoredPass& pass, Origin origin) {
 /// Negative arrivals: the latest first.
 template <class Value>
 void read_left_out(const SQLite::Database& database, const std::string& spacecraft_id,
-                   StoredPass& pass) {
+                   SenderNames& senders, StoredPass& pass) {
   SQLite::Statement query{
       database, fmt::format("SELECT {}, source, session, seq FROM {} WHERE spacecraft_id = ?"
                             " AND arrival < 0 AND arrival <= ? ORDER BY arrival LIMIT ?",
@@ -167,6 +185,9 @@ void read_left_out(const SQLite::Database& database, const std::string& spacecra
                .session = static_cast<std::uint64_t>(query.getColumn(source + 1).getInt64()),
                .seq = seq});
     left_out.last.seq = std::max(left_out.last.seq, seq);
+    if constexpr (HasSender<Value>) {
+      arrived.value.sender = senders.number_of(left_out.last.source);
+    }
     left_out.values.of<Value>().push_back(std::move(arrived));
   }
   for (LeftOut& left_out : pass.left_out) {
@@ -195,7 +216,7 @@ std::vector<Origin> last_origins(const SQLite::Database& database, std::string_v
 
 Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path& archive,
                                                      const std::string& spacecraft_id,
-                                                     const RunStart& start) {
+                                                     const RunStart& start, SenderNames& senders) {
   return read_archive(archive, [&](SQLite::Database& database) {
     std::vector<StoredPass> passes = find_runs(database, spacecraft_id, start);
     for (StoredPass& pass : passes) {
@@ -205,12 +226,12 @@ Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path
       read_reconstructed(database, pass);
       if (!pass.next_arrival) {
         TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
-          read_left_out<Value>(database, spacecraft_id, pass);
+          read_left_out<Value>(database, spacecraft_id, senders, pass);
         });
       }
       if (pass.earliest) {
         TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
-          read_values<Value>(database, spacecraft_id, pass);
+          read_values<Value>(database, spacecraft_id, senders, pass);
           pass.last_origins[kTelemetryKind<Value>] =
               last_origins(database, Telemetry<Value>::kTable, spacecraft_id, pass);
         });

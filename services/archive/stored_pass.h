@@ -17,6 +17,7 @@
 #include "services/archive/records.h"
 #include "services/telemetry/by_kind.h"
 #include "services/telemetry/last_origins.h"
+#include "services/telemetry/sender_names.h"
 
 namespace spindrift {
 
@@ -53,10 +54,11 @@ struct StoredPass {
 /// Of the runs of `spacecraft_id` that were made as `start` says (same mode, telemetry, program,
 /// mission file and orbit) those that are not finished, and the newest in any case; oldest first.
 /// Reads by a connection of its own.
+/// @param senders Give the samples the numbers of their sources.
 /// @return none when there is none; as open_for_reading; Unavailable when reading fails.
 Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path& archive,
                                                      const std::string& spacecraft_id,
-                                                     const RunStart& start);
+                                                     const RunStart& start, SenderNames& senders);
 
 /// What operators have said of the telemetry of a spacecraft to runs of the mode of `start`, in
 /// order of arrival. What is of another kind of spacecraft is left out: the mission has changed.

@@ -7,6 +7,8 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,7 +17,10 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "pipelines/time/contested.h"
 #include "services/telemetry/by_kind.h"
+#include "services/telemetry/sample_json.h"
+#include "services/telemetry/sender_names.h"
 
 namespace spindrift {
 
@@ -51,29 +56,87 @@ Arrived<Value> read_arrived(SQLite::Statement& row) {
   return arrived;
 }
 
+/// Behind those columns: whose it is, where that matters.
+template <class Value>
+inline constexpr std::string_view kSourceColumn = HasSender<Value> ? ", source" : "";
+
+/// From a row with these.
+template <class Value>
+void read_sender(const SQLite::Statement& row, SenderNames& senders, Value& value) {
+  if constexpr (HasSender<Value>) {
+    value.sender = senders.number_of(row.getColumn(row.getColumnCount() - 1).getString());
+  }
+}
+
+/// The kind as in the table `contradiction`: the last part of its topic.
+template <class Value>
+constexpr std::string_view contradiction_kind() {
+  constexpr std::string_view kTopic = Telemetry<Value>::kTopic;
+  return kTopic.substr(kTopic.rfind('/') + 1);
+}
+
+/// From arrival, t_tai_ns, source and value of that table.
+template <class Value>
+Arrived<Value> read_contradicting(const SQLite::Statement& row, SenderNames& senders) {
+  Arrived<Value> arrived{.arrival = row.getColumn(0).getInt64(), .value = {}};
+  arrived.value.t = tai_from_ns(row.getColumn(1).getInt64());
+  arrived.value.sender = senders.number_of(row.getColumn(2).getString());
+  put_json(row.getColumn(3).getString(), arrived.value);
+  return arrived;
+}
+
 /// Of a spacecraft in order of time, whatever run took them, both ends included; without those that
-/// a run left out since the time of their source was wrong.
+/// a run left out since the time of their source was wrong. Of those that contradict each other
+/// what counts, whenever they came: what was said since a run took the sample of the instant.
 template <class Value>
 std::vector<Value> read_between(const SQLite::Database& database, const std::string& spacecraft_id,
-                                TaiTime from, TaiTime to) {
-  SQLite::Statement query{
-      database, fmt::format("SELECT {} FROM {} WHERE spacecraft_id = ? AND t_tai_ns BETWEEN ? AND ?"
-                            " AND arrival >= 0 ORDER BY t_tai_ns",
-                            arrived_columns<Value>(), Telemetry<Value>::kTable)};
-  query.bind(1, spacecraft_id);
-  query.bind(2, tai_ns(from));
-  query.bind(3, tai_ns(to));
-  std::vector<Value> values;
-  while (query.executeStep()) {
-    values.push_back(read_arrived<Value>(query).value);
+                                TaiTime from, TaiTime to, SenderNames& senders) {
+  const auto read = [&](const std::string& sql, const auto& value_of) {
+    SQLite::Statement query{database, sql};
+    query.bind(1, spacecraft_id);
+    query.bind(2, tai_ns(from));
+    query.bind(3, tai_ns(to));
+    std::vector<Value> values;
+    while (query.executeStep()) {
+      values.push_back(value_of(query));
+    }
+    return values;
+  };
+  std::vector<Value> values =
+      read(fmt::format("SELECT {}{} FROM {} WHERE spacecraft_id = ?1 AND t_tai_ns BETWEEN ?2 AND ?3"
+                       " AND arrival >= 0 ORDER BY t_tai_ns",
+                       arrived_columns<Value>(), kSourceColumn<Value>, Telemetry<Value>::kTable),
+           [&](SQLite::Statement& row) {
+             Value value = read_arrived<Value>(row).value;
+             read_sender(row, senders, value);
+             return value;
+           });
+  if constexpr (HasSender<Value>) {
+    const std::vector<Value> contradicting = read(
+        fmt::format("SELECT c.arrival, c.t_tai_ns, c.source, c.value FROM contradiction AS c"
+                    " JOIN {} AS there USING (spacecraft_id, t_tai_ns) JOIN run USING (run_id)"
+                    " WHERE c.spacecraft_id = ?1 AND c.t_tai_ns BETWEEN ?2 AND ?3 AND c.kind = '{}'"
+                    " AND c.arrival IS NOT NULL AND there.arrival >= 0 AND run.first_arrival >="
+                    "  (SELECT max(first_arrival) FROM run WHERE spacecraft_id = ?1"
+                    "   AND first_arrival <= there.arrival)"
+                    " ORDER BY c.t_tai_ns, c.arrival",
+                    Telemetry<Value>::kTable, contradiction_kind<Value>()),
+        [&](SQLite::Statement& row) { return read_contradicting<Value>(row, senders).value; });
+    const auto middle = static_cast<std::ptrdiff_t>(values.size());
+    values.insert(values.end(), contradicting.begin(), contradicting.end());
+    std::inplace_merge(values.begin(), values.begin() + middle, values.end(),
+                       [](const Value& a, const Value& b) { return a.t < b.t; });
+    return those_that_count(values, [](const auto& /*said*/, const auto& /*used*/) {});
   }
   return values;
 }
 
 /// All kinds likewise, arrived in order of time.
+/// @param preferred_source Empty: none.
 /// @return As open_for_reading; Unavailable when reading fails.
 Expected<TelemetryValues> find_telemetry(const std::filesystem::path& archive,
-                                         const std::string& spacecraft_id, TaiTime from,
+                                         const std::string& spacecraft_id,
+                                         const std::string& preferred_source, TaiTime from,
                                          TaiTime to);
 
 }  // namespace spindrift

@@ -37,8 +37,9 @@ Exclusions<SampleKind> read_exclusions(SQLite::Database& database,
 
 template <class Value>
 std::vector<Value> read_from(const SQLite::Database& database, const std::string& spacecraft_id,
-                             TaiTime from, const Exclusions<SampleKind>& excluded) {
-  auto values = read_between<Value>(database, spacecraft_id, from, TaiTime::max());
+                             TaiTime from, const Exclusions<SampleKind>& excluded,
+                             SenderNames& senders) {
+  auto values = read_between<Value>(database, spacecraft_id, from, TaiTime::max(), senders);
   std::erase_if(values, [&](const Value& value) { return excluded.hold(value.t, kind_of(value)); });
   return values;
 }
@@ -76,14 +77,17 @@ Expected<StoredMission> find_stored_mission(const std::filesystem::path& archive
 
 Expected<SeparationSamples> find_separation_samples(const std::filesystem::path& archive,
                                                     const std::string& spacecraft_id,
+                                                    const std::string& preferred_source,
                                                     TaiTime from) {
   return read_archive(archive, [&](SQLite::Database& database) {
+    SenderNames senders{preferred_source};
     const auto excluded = read_exclusions(database, spacecraft_id);
     return SeparationSamples{
-        .gyro = read_from<GyroSample>(database, spacecraft_id, from, excluded),
-        .sun = read_from<SunDirection>(database, spacecraft_id, from, excluded),
-        .stars = read_from<StarFix>(database, spacecraft_id, from, excluded),
-        .orbit_states = read_from<TimedOrbitState>(database, spacecraft_id, from, excluded)};
+        .gyro = read_from<GyroSample>(database, spacecraft_id, from, excluded, senders),
+        .sun = read_from<SunDirection>(database, spacecraft_id, from, excluded, senders),
+        .stars = read_from<StarFix>(database, spacecraft_id, from, excluded, senders),
+        .orbit_states =
+            read_from<TimedOrbitState>(database, spacecraft_id, from, excluded, senders)};
   });
 }
 

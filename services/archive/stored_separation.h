@@ -36,8 +36,11 @@ struct SeparationSamples {
 /// Of a spacecraft from a time on, in order of time, whatever run took them, but for those that a
 /// run left out since the time of their source was wrong, and for what an operator had the newest
 /// run that took samples leave out.
+/// @param preferred_source As read_between.
 /// @return As open_for_reading; Unavailable when reading fails.
 Expected<SeparationSamples> find_separation_samples(const std::filesystem::path& archive,
-                                                    const std::string& spacecraft_id, TaiTime from);
+                                                    const std::string& spacecraft_id,
+                                                    const std::string& preferred_source,
+                                                    TaiTime from);
 
 }  // namespace spindrift

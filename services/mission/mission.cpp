@@ -88,22 +88,23 @@ Expected<Mission> parse(const std::filesystem::path& path, std::string text,
       ephemeris == nullptr
           ? std::vector<std::string>{}
           : orbit_doubts(*ephemeris, value_of<std::string>(values, "orbit.oem"), spacecraft_id);
-  return Mission{.spacecraft_id = std::move(spacecraft_id),
-                 .config = is_spinner(values)
-                               ? std::variant<SpinConfig, ThreeAxisConfig>{spin_config(values)}
-                               : three_axis_config(values),
-                 .separation = separation,
-                 .orbit = std::move(orbit->orbit),
-                 .toml_text = std::move(document->text),
-                 .sha256 = std::move(*sha256),
-                 .orbit_sha256 = std::move(orbit->file_sha256),
-                 .tables = tables_of(values),
-                 .orbit_doubts = std::move(doubts),
-                 .alerts = alert_limits(values),
-                 .target = spin_target(values),
-                 .contact = contact,
-                 .ground_model = ground_model(values, path.parent_path()),
-                 .path = std::filesystem::absolute(path)};
+  return Mission{
+      .spacecraft_id = std::move(spacecraft_id),
+      .config = is_spinner(values) ? std::variant<SpinConfig, ThreeAxisConfig>{spin_config(values)}
+                                   : three_axis_config(values),
+      .separation = separation,
+      .orbit = std::move(orbit->orbit),
+      .toml_text = std::move(document->text),
+      .sha256 = std::move(*sha256),
+      .orbit_sha256 = std::move(orbit->file_sha256),
+      .tables = tables_of(values),
+      .orbit_doubts = std::move(doubts),
+      .alerts = alert_limits(values),
+      .target = spin_target(values),
+      .contact = contact,
+      .preferred_source = value_if<std::string>(values, "sources.prefer").value_or(std::string{}),
+      .ground_model = ground_model(values, path.parent_path()),
+      .path = std::filesystem::absolute(path)};
 }
 
 Expected<Mission> load(const std::filesystem::path& path, std::optional<SpacecraftKind> only) {

@@ -34,6 +34,7 @@ struct Mission {
   AlertLimits alerts = {};
   std::optional<SpinTarget> target = {};
   std::optional<Contact> contact = {};
+  std::string preferred_source = {};                       ///< [sources] prefer; empty: none.
   std::optional<std::filesystem::path> ground_model = {};  ///< The scenario's file.
   std::filesystem::path path = {};  ///< Absolute; an orbit file is relative to it.
 

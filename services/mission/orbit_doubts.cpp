@@ -7,6 +7,7 @@
 
 #include "pipelines/core/shown.h"
 #include "pipelines/ephemeris/oem_holes.h"
+#include "pipelines/ephemeris/orbit_steps.h"
 #include "pipelines/ephemeris/state_jump.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/time/utc.h"
@@ -50,6 +51,24 @@ std::string doubt_about_jumps(const OrbitEphemeris& ephemeris, std::string_view 
       nadir_off_deg(worst));
 }
 
+/// Segments that do not meet, although nothing jumps: empty where there are none.
+std::string doubt_about_steps(const OrbitEphemeris& ephemeris, std::string_view file) {
+  std::vector<OrbitStep> steps = orbit_steps(ephemeris);
+  for (const OrbitJump& jump : orbit_jumps(ephemeris)) {
+    std::erase_if(steps, [&](const OrbitStep& step) { return step.line == jump.to.line; });
+  }
+  if (steps.empty()) {
+    return {};
+  }
+  const OrbitStep& first = steps.front();
+  return fmt::format(
+      "orbit.oem = \"{}\", line {}: two segments do not meet at {}: by {:.3f} km and {:.2f} m/s{}: "
+      "a manoeuvre, or segments of different solutions? Answers that rest on both are DOUBTFUL",
+      shown(file), first.line, format_utc(first.to), first.off_km, 1e3 * first.off_km_s,
+      steps.size() == 1 ? std::string{}
+                        : fmt::format(", the first of {} such steps", steps.size()));
+}
+
 /// Empty: none.
 std::string doubt_about_gaps(const OrbitEphemeris& ephemeris, std::string_view file) {
   const std::vector<OrbitGap> gaps = orbit_gaps(ephemeris);
@@ -71,9 +90,9 @@ std::string doubt_about_gaps(const OrbitEphemeris& ephemeris, std::string_view f
 
 std::vector<std::string> orbit_doubts(const OrbitEphemeris& ephemeris, std::string_view file,
                                       std::string_view spacecraft_id) {
-  std::vector<std::string> doubts = {doubt_about_name(ephemeris, spacecraft_id),
-                                     doubt_about_jumps(ephemeris, file),
-                                     doubt_about_gaps(ephemeris, file)};
+  std::vector<std::string> doubts = {
+      doubt_about_name(ephemeris, spacecraft_id), doubt_about_jumps(ephemeris, file),
+      doubt_about_steps(ephemeris, file), doubt_about_gaps(ephemeris, file)};
   std::erase(doubts, std::string{});
   return doubts;
 }

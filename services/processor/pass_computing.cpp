@@ -1,7 +1,11 @@
 #include "services/processor/pass_computing.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <tuple>
 
 #include "pipelines/time/utc.h"
 #include "services/standard_error/warning.h"
@@ -25,6 +29,41 @@ void say(const std::string& spacecraft_id, const std::vector<Notice>& notices) {
     warn(name_of(notice.code), std::move(values),
          fmt::format("{}: {}", spacecraft_id, sentence_of(notice)));
   }
+}
+
+void fill_in_names(SampleContradiction& contradiction, const std::vector<std::string>& names) {
+  for (SampleContradiction::By& by : contradiction.by) {
+    const auto number = static_cast<std::size_t>(by.sender);
+    by.name = number < names.size() ? names[number] : std::string{};
+  }
+  std::sort(contradiction.by.begin(), contradiction.by.end(),
+            [](const auto& one, const auto& other) {
+              return std::tie(one.name, one.used) < std::tie(other.name, other.used);
+            });
+}
+
+void say(const std::string& spacecraft_id, const SampleContradiction& contradiction) {
+  std::vector<std::string> sources;
+  std::string used;
+  for (const SampleContradiction::By& by : contradiction.by) {
+    if (std::find(sources.begin(), sources.end(), by.name) == sources.end()) {
+      sources.push_back(by.name);
+    }
+    used = by.used ? by.name : used;
+  }
+  const std::string decision =
+      used.empty()
+          ? "none of them is used; [sources] prefer in the mission file may name one that is"
+          : fmt::format("that of {} is used", used);
+  warn("contradiction",
+       {{"spacecraft", spacecraft_id},
+        {"kind", contradiction.kind},
+        {"t_tai_ns", tai_ns(contradiction.t)},
+        {"sources", sources}},
+       fmt::format("{}: {} samples of one time have different values, first at {} from {}: {}. "
+                   "All are in the table contradiction",
+                   spacecraft_id, contradiction.kind, format_utc(contradiction.t),
+                   fmt::join(sources, " and "), decision));
 }
 
 }  // namespace spindrift

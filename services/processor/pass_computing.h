@@ -7,7 +7,9 @@
 #include <chrono>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -38,6 +40,10 @@ using AllMadeBefore = std::map<std::string, MadeBefore>;
 RunFault fault_of(const std::string& spacecraft_id, const std::string& run_id, TaiTime t,
                   std::string what);
 void say(const std::string& spacecraft_id, const std::vector<Notice>& notices);
+void say(const std::string& spacecraft_id, const SampleContradiction& contradiction);
+
+/// Of its senders; by name from now on, for the numbers hang on who was heard first.
+void fill_in_names(SampleContradiction& contradiction, const std::vector<std::string>& names);
 
 /// The stream has fallen silent.
 struct FellSilent {};
@@ -71,6 +77,7 @@ class PassComputing {
     answers_ = {};
     reached_ = {};
     failed_ = false;
+    told_kinds_.clear();
   }
 
   const std::string& spacecraft_id() const { return spacecraft_id_; }
@@ -98,6 +105,7 @@ class PassComputing {
     for (ArchiveBatch& one : computed) {
       one = batch();
     }
+    senders_ = input.senders ? input.senders : senders_;
     // What was made of the samples before one that fails is kept, however many came with it.
     compute_or_fail(computed.front().products, note, [&] { compute(input, note, computed); });
     std::vector<ArchiveBatch> batches;
@@ -167,8 +175,21 @@ class PassComputing {
   template <class Note>
   void see(Output& output, const Note& note) {
     withheld_.take_from(output, answers_);
+    for (PassProduct& product : output.products) {
+      if (auto* const contradiction = std::get_if<SampleContradiction>(&product)) {
+        name_senders(*contradiction);
+      }
+    }
     say(spacecraft_id_, output.notices);
     note(std::as_const(output));
+  }
+
+  /// Of each kind the first is said.
+  void name_senders(SampleContradiction& contradiction) {
+    fill_in_names(contradiction, senders_ ? *senders_ : std::vector<std::string>{});
+    if (told_kinds_.insert(contradiction.kind).second) {
+      say(spacecraft_id_, contradiction);
+    }
   }
 
   /// @param t Of the sample that made it; none: a silence did.
@@ -215,6 +236,8 @@ class PassComputing {
   std::optional<TaiTime> again_from_;  ///< Until the pass is there again: what it makes is stored.
   TaiTime reached_ = {};               ///< The sample that was computed last.
   bool failed_ = false;
+  NamesOfSenders senders_;
+  std::set<std::string_view> told_kinds_;  ///< Whose samples contradict each other.
   Withheld withheld_;
   LastAnswers<PassProduct> answers_;
 };

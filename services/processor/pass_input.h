@@ -12,6 +12,7 @@
 
 #include "services/telemetry/by_kind.h"
 #include "services/telemetry/operator_action.h"
+#include "services/telemetry/sender_names.h"
 
 namespace spindrift {
 
@@ -22,6 +23,7 @@ struct PassInput {
   TelemetryValues values = {};               ///< `arrival`: the place of each among all in here.
   std::vector<OperatorAction> actions = {};  ///< Likewise, in a place of their own.
   std::vector<std::int64_t> silences = {};   ///< Each before what has that place.
+  NamesOfSenders senders = {};               ///< Of those of `values`.
   /// When the last of it came. Empty: it came before a restart, or nothing came that made it due.
   std::optional<std::chrono::steady_clock::time_point> came = {};
 };

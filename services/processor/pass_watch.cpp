@@ -2,14 +2,19 @@
 
 namespace spindrift {
 
-PassWatch::Verdict PassWatch::see(TaiTime t) {
+PassWatch::Verdict PassWatch::see(TaiTime t, std::size_t kind) {
   if (reached_ && t <= *reached_) {
     ++within_;
+    jump_.note(kind);
     return Verdict::Within;
   }
   const bool silent = reached_ && t - *reached_ > kLongestSilence;
-  if (silent && ++beyond_ < kEnoughToAccept) {
-    return Verdict::Undecided;
+  if (silent) {
+    ++beyond_;
+    jump_.see(t, kind);
+    if (!jump_.has_shown()) {
+      return Verdict::Undecided;
+    }
   }
   if (silent && within_ >= kEnoughToAccept) {
     return Verdict::NewPass;
@@ -17,6 +22,7 @@ PassWatch::Verdict PassWatch::see(TaiTime t) {
   within_ += beyond_ + (silent ? 0 : 1);
   reached_ = t;
   beyond_ = 0;
+  jump_.hear(kind);
   return Verdict::Onward;
 }
 

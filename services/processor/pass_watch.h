@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "pipelines/spin/telemetry_order/reorder_window.h"
 #include "pipelines/time/tai_time.h"
+#include "pipelines/time/time_jump.h"
 
 namespace spindrift {
 
@@ -17,15 +17,20 @@ class PassWatch {
  public:
   /// Longer a silence does not last within a pass.
   static constexpr std::chrono::hours kLongestSilence{1};
-  /// So many samples from beyond it are accepted, when none between them carries the pass on.
-  static constexpr std::size_t kEnoughToAccept = ReorderWindow::kEnoughToAccept;
+  /// Fewer samples are no pass.
+  static constexpr std::size_t kEnoughToAccept = TimeJump::kFewest;
 
   /// Within: not later than the pass has come, which says nothing of those from beyond. Onward: the
-  /// pass goes on, and what came from beyond was wrong. Undecided: from beyond. NewPass: accepted.
+  /// pass goes on, and what came from beyond was wrong. Undecided: from beyond. NewPass: time has
+  /// jumped there.
   /// A few stray samples before are no pass of their own: then what is accepted carries theirs on.
   enum class Verdict { Within, Onward, Undecided, NewPass };
 
-  Verdict see(TaiTime t);
+  /// @param kind Of the sample, as kTelemetryKind.
+  Verdict see(TaiTime t, std::size_t kind);
+
+  /// Nothing comes any more: whether those from beyond are a new pass.
+  bool ends_in_new_pass() const { return jump_.could_be() && within_ >= kEnoughToAccept; }
 
   /// The pass has come so far, without what came from beyond. Empty before its first sample.
   std::optional<TaiTime> reached() const { return reached_; }
@@ -33,7 +38,8 @@ class PassWatch {
  private:
   std::optional<TaiTime> reached_;
   std::size_t within_ = 0;  ///< Samples of the pass.
-  std::size_t beyond_ = 0;
+  std::size_t beyond_ = 0;  ///< Since the pass was carried on last.
+  TimeJump jump_;           ///< To beyond.
 };
 
 }  // namespace spindrift

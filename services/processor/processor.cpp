@@ -117,7 +117,8 @@ Expected<GoneOn> Processor::go_on(const std::filesystem::path& archive, const Mo
       return Unexpected{actions.error()};
     }
     runs_[i].take_up(*std::move(actions));
-    const auto stored = find_stored_passes(archive, runs_[i].spacecraft_id(), runs_[i].start());
+    const auto stored =
+        find_stored_passes(archive, runs_[i].spacecraft_id(), runs_[i].start(), runs_[i].senders());
     if (!stored) {
       return Unexpected{stored.error()};
     }

@@ -17,6 +17,7 @@ struct Count {
   }
   void operator()(const RevolutionProduct& /*revolution*/) const { ++summary.revolutions; }
   void operator()(const SpinMeasurement& /*measurement*/) const {}
+  void operator()(const SampleContradiction& /*contradiction*/) const {}
   void operator()(const SpinFix& fix) const {
     forget_ambiguous(fix.revolution);
     if (fix.resolution == Resolution::Ambiguous) {
@@ -56,8 +57,8 @@ void RunSummary::count(const SpinProduct& product) { std::visit(Count{*this}, pr
 void RunSummary::count(const ThreeAxisProduct& product) {
   if (const auto* const rejected = std::get_if<RejectedSample>(&product)) {
     ++samples_rejected.at(index_of(rejected->kind))[name_of(rejected->rejected_by)];
-  } else {
-    attitude = std::get<AttitudeEstimate>(product);
+  } else if (const auto* const estimate = std::get_if<AttitudeEstimate>(&product)) {
+    attitude = *estimate;
   }
 }
 

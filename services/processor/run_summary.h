@@ -46,9 +46,10 @@ struct RunSummary {
   std::optional<AttitudeEstimate> attitude;                 ///< The last.
   std::vector<ReconstructionProduct> reconstructions = {};  ///< Of the separation, by each method.
   /// @}
-  std::vector<Disagreement> disagreements = {};  ///< Likewise from the archive.
-  std::vector<RunFault> faults = {};             ///< Likewise.
-  PassVerdict verdict = {};                      ///< Likewise.
+  std::vector<Disagreement> disagreements = {};             ///< Likewise from the archive.
+  std::vector<RunFault> faults = {};                        ///< Likewise.
+  std::map<std::string, std::int64_t> contradictions = {};  ///< Likewise; by kind of sample.
+  PassVerdict verdict = {};                                 ///< Likewise.
 
   void count(const SpinProduct& product);
   void count(const ThreeAxisProduct& product);

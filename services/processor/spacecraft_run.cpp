@@ -63,6 +63,7 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
       run_id_{unique_id()},
       next_arrival_{start_.first_arrival},
       silent_before_{next_arrival_},
+      senders_{mission.preferred_source},
       notices_{mission},
       judges_sources_{source.mode != RunMode::Process},
       pace_{source.mode == RunMode::Live ? kLivePace : kReplayPace},
@@ -77,6 +78,7 @@ ArchiveBatch SpacecraftRun::batch() const {
   ArchiveBatch batch;
   batch.run_id = run_id_;
   batch.spacecraft_id = spacecraft_id_;
+  batch.preferred_source = senders_.preferred();
   return batch;
 }
 
@@ -279,12 +281,16 @@ SpacecraftRun::Taken SpacecraftRun::finish() {
          fmt::format("{}: {} samples are stored and left out, since their source's time disagrees",
                      spacecraft_id_, sources_.held()));
   }
+  if (watch_.ends_in_new_pass()) {
+    begin_new_pass_of_held(rest);
+  }
   release_held(rest.inputs);
   return rest;
 }
 
 template <class Value>
 void SpacecraftRun::sort(TelemetrySample<Value>&& sample, const Moment& moment, Taken& out) {
+  senders_.put_into(sample);
   switch (judge(sample, moment)) {
     case SourceWatch::Verdict::Apart:
       sample.arrival = -next_arrival_++;
@@ -338,18 +344,26 @@ void SpacecraftRun::accept(TelemetrySample<Value>&& sample, Taken& out) {
 
 /// Sent again: one sample is not to be believed for two.
 template <class Value>
-bool SpacecraftRun::is_known(const Value& value) const {
-  const auto& held = held_.of<Value>();
-  return (stored_ && stored_->hold(value)) ||
-         std::any_of(held.begin(), held.end(),
-                     [key = order_of(value)](const Arrived<Value>& arrived) {
-                       return order_of(arrived.value) == key;
-                     });
+bool SpacecraftRun::is_known(const Value& value) {
+  if (stored_ && stored_->hold(value)) {
+    return true;
+  }
+  auto& held = held_.of<Value>();
+  const auto same = std::find_if(held.begin(), held.end(), [&value](const Arrived<Value>& arrived) {
+    return is_the_same_sample(arrived.value, value);
+  });
+  if constexpr (HasSender<Value>) {
+    // As in the archive, the preferred source stands for what another gave, too.
+    if (same != held.end() && value.sender == Sender::Preferred) {
+      same->value.sender = value.sender;
+    }
+  }
+  return same != held.end();
 }
 
 template <class Value>
 void SpacecraftRun::place(const Arrived<Value>& arrived, Taken& out) {
-  const PassWatch::Verdict verdict = watch_.see(arrived.value.t);
+  const PassWatch::Verdict verdict = watch_.see(arrived.value.t, kTelemetryKind<Value>);
   if (verdict == PassWatch::Verdict::Within) {
     hand_on(arrived.value, out.inputs);
   } else if (verdict == PassWatch::Verdict::Onward) {
@@ -359,10 +373,7 @@ void SpacecraftRun::place(const Arrived<Value>& arrived, Taken& out) {
   } else {
     held_.of<Value>().push_back(arrived);
     if (verdict == PassWatch::Verdict::NewPass) {
-      const TelemetryValues its_first = std::exchange(held_, {});
-      in_order_of_arrival(its_first, [&](const auto& first) { received_.count(first.value, -1); });
-      spdlog::info("{}: more than an hour of silence, a new run begins", spacecraft_id_);
-      begin_new_pass(its_first, out);
+      begin_new_pass_of_held(out);
     }
   }
 }
@@ -373,7 +384,17 @@ void SpacecraftRun::hand_on(const Value& value, std::vector<PassInput>& inputs) 
     inputs.push_back({.spacecraft = index_, .run_id = run_id_});
   }
   const std::int64_t place = next_place(inputs.back());
+  if (inputs.back().senders != senders_.names()) {
+    inputs.back().senders = senders_.names();
+  }
   inputs.back().values.of<Value>().push_back({.arrival = place, .value = value});
+}
+
+void SpacecraftRun::begin_new_pass_of_held(Taken& out) {
+  const TelemetryValues its_first = std::exchange(held_, {});
+  in_order_of_arrival(its_first, [&](const auto& first) { received_.count(first.value, -1); });
+  spdlog::info("{}: more than an hour of silence, a new run begins", spacecraft_id_);
+  begin_new_pass(its_first, out);
 }
 
 void SpacecraftRun::release_held(std::vector<PassInput>& inputs) {

@@ -24,6 +24,7 @@
 #include "services/processor/spin_run.h"
 #include "services/processor/stored_samples.h"
 #include "services/telemetry/sample_batch.h"
+#include "services/telemetry/sender_names.h"
 
 namespace spindrift {
 
@@ -69,6 +70,9 @@ class SpacecraftRun {
   const RunStart& start() const { return start_; }
   /// @param run_id Of the run, or of one before it.
   Received received(const std::string& run_id) const;
+
+  /// What it reads back from an archive has numbers of these.
+  SenderNames& senders() { return senders_; }
 
   /// The archive holds a run that began so: what a new one takes is later than all of that run.
   void arrive_after(std::int64_t first_arrival);
@@ -121,7 +125,7 @@ class SpacecraftRun {
   void follow(const SourceId& successor, Taken& out);
   void note_earliest(ArchiveBatch& batch);
   template <class Value>
-  bool is_known(const Value& value) const;
+  bool is_known(const Value& value);
   template <class Value>
   void place(const Arrived<Value>& arrived, Taken& out);
   template <class Value>
@@ -132,6 +136,7 @@ class SpacecraftRun {
   void repeat_actions_before(std::int64_t first_arrival, Taken& out);
   void release_held(std::vector<PassInput>& inputs);
   void begin_new_pass(const TelemetryValues& its_first, Taken& out);
+  void begin_new_pass_of_held(Taken& out);
   std::vector<SourceCount> source_counts(const std::map<std::string, SequenceCounts>& by_source);
   ArchiveBatch batch() const;
 
@@ -148,6 +153,7 @@ class SpacecraftRun {
   std::map<std::string, SequenceCounts> latest_counts_;  ///< Since the service started.
   std::map<std::string, SequenceCounts> counts_before_;  ///< The run's, before a restart.
   std::map<std::string, SequenceCounts> counts_of_earlier_runs_;
+  SenderNames senders_;
   RunNotices notices_;
   bool judges_sources_;
   Pace pace_;

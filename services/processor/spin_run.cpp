@@ -23,7 +23,12 @@ Expected<BatchSolution> solve_edges(SpinConfig config, const Orbit& orbit, PassE
                                     const std::optional<SpinPrior>& prior) {
   config.prior = prior;
   const auto starts = edges.starts(prior);
-  return spindrift::solve_batch(config, orbit, std::move(edges).edges(), starts);
+  const bool noise_chose = edges.noise_chose_among_copies();
+  auto solution = spindrift::solve_batch(config, orbit, std::move(edges).edges(), starts);
+  if (solution && noise_chose) {
+    doubt(solution->estimate.assessment, {ReasonCode::CopiesInNoise});
+  }
+  return solution;
 }
 
 /// Its estimate, and what else it says.

@@ -4,6 +4,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "services/archive/stored_pass.h"
@@ -15,13 +20,40 @@ class StoredSamples {
  public:
   explicit StoredSamples(const StoredPass& stored);
 
+  /// That the preferred sender says the same as another did is news.
   template <class Value>
   bool hold(const Value& value) const {
-    return std::binary_search(keys_.begin(), keys_.end(), order_of(value));
+    const auto holds = [&](bool preferred) {
+      return std::binary_search(keys_.begin(), keys_.end(), key_of(value, preferred));
+    };
+    return holds(is_preferred(value)) || (!is_preferred(value) && holds(true));
   }
 
  private:
-  std::vector<TelemetryOrder> keys_;  ///< In order.
+  /// Where it stands, and a digest of what it says: what says something else is news.
+  using Key = std::pair<TelemetryOrder, std::size_t>;
+
+  template <class Value>
+  static bool is_preferred(const Value& value) {
+    if constexpr (HasSender<Value>) {
+      return value.sender == Sender::Preferred;
+    }
+    return false;
+  }
+
+  template <class Value>
+  static Key key_of(const Value& value, bool preferred) {
+    std::size_t digest = preferred ? 1 : 0;
+    if constexpr (HasSender<Value>) {
+      for_each_column(value, [&digest](std::string_view /*name*/, const auto& member) {
+        constexpr std::size_t kOdd = 0x9e3779b97f4a7c15;
+        digest = (digest ^ std::hash<std::remove_cvref_t<decltype(member)>>{}(member)) * kOdd;
+      });
+    }
+    return {order_of(value), digest};
+  }
+
+  std::vector<Key> keys_;  ///< In order.
 };
 
 }  // namespace spindrift

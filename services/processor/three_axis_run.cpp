@@ -104,8 +104,13 @@ void ThreeAxisRun::record(const PassInput& input) {
 template <class Value>
 void ThreeAxisRun::record(const Arrived<Value>& arrived) {
   if constexpr (requires { record_->push(arrived.value); }) {
-    if (!excluded_.hold(arrived.value.t, kind_of(arrived.value)) && record_->push(arrived.value) &&
-        plan_ == SolvingPlan::Meanwhile) {
+    if (excluded_.hold(arrived.value.t, kind_of(arrived.value))) {
+      return;
+    }
+    const bool is_due = record_->push(arrived.value);
+    const bool is_corrected = record_->take_correction();
+    has_forgotten_ = has_forgotten_ || is_corrected;
+    if ((is_due || is_corrected) && plan_ == SolvingPlan::Meanwhile) {
       hand_out_solutions();
     }
   }

@@ -87,9 +87,10 @@ Expected<void> see_files(const CompareOptions& options, const std::string& space
   return {};
 }
 
-Expected<void> see_archive(const CompareOptions& options, const std::string& spacecraft_id,
+Expected<void> see_archive(const CompareOptions& options, const Mission& mission,
                            Telling& telling) {
-  return find_telemetry(options.db, spacecraft_id, telling.span().from, telling.span().to)
+  return find_telemetry(options.db, mission.spacecraft_id, mission.preferred_source,
+                        telling.span().from, telling.span().to)
       .map([&](const TelemetryValues& values) {
         in_order_of_arrival(values, [&](const auto& arrived) { telling.see(arrived.value); });
       });
@@ -196,7 +197,7 @@ Expected<void> compare(const CompareOptions& options) {
   }
   const std::string& id = mission->spacecraft_id;
   Telling telling{*model, mission->alerts.departure_sigmas};
-  if (auto seen = options.telemetry.empty() ? see_archive(options, id, telling)
+  if (auto seen = options.telemetry.empty() ? see_archive(options, *mission, telling)
                                             : see_files(options, id, telling);
       !seen) {
     return seen;

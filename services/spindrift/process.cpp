@@ -97,19 +97,20 @@ Expected<bool> computed_without_fault(const Processor& processor, const std::fil
 }  // namespace
 
 Expected<bool> process(const ProcessOptions& options) {
-  const auto mission = load_mission(options.mission);
+  auto mission = load_mission(options.mission);
   if (!mission) {
     return Unexpected{mission.error()};
   }
   warn_of_orbit(options.mission, *mission);
+  auto telemetry = TelemetryInput::open(options.telemetry, mission->spacecraft_id, options.strict);
+  if (!telemetry) {
+    return Unexpected{telemetry.error()};
+  }
+  telemetry->find_preferred(*mission);
   auto processor = Processor::make(
       {*mission}, {.mode = RunMode::Process, .telemetry = texts_of(options.telemetry)});
   if (!processor) {
     return Unexpected{processor.error()};
-  }
-  auto telemetry = TelemetryInput::open(options.telemetry, mission->spacecraft_id, options.strict);
-  if (!telemetry) {
-    return Unexpected{telemetry.error()};
   }
   const auto models = load_ground_models({&*mission, 1});
   if (!models) {

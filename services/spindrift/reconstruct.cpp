@@ -3,17 +3,22 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
 #include "pipelines/core/shown.h"
+#include "pipelines/three_axis/sample_kind.h"
+#include "pipelines/time/contested.h"
 #include "services/archive/archive.h"
 #include "services/archive/stored_separation.h"
 #include "services/archive/submit_all.h"
 #include "services/clock/wall_clock.h"
 #include "services/mission/mission.h"
+#include "services/processor/pass_computing.h"
 #include "services/processor/processor.h"
 #include "services/processor/separation_solving.h"
 #include "services/requests/request_client.h"
@@ -68,26 +73,50 @@ Expected<Mission> mission_for(const ReconstructOptions& options) {
 struct Recorded {
   SeparationSamples samples;
   std::vector<SampleBatch> to_store;
+  std::vector<Product> contradictions;
   BadRows bad_rows;
 };
 
 template <class Value>
-void append(const SampleBatch& batch, const std::string& spacecraft_id,
+void append(const SampleBatch& batch, const std::string& spacecraft_id, SenderNames& senders,
             std::vector<Value>& values) {
-  for (const TelemetrySample<Value>& sample : batch.samples.of<Value>()) {
+  for (TelemetrySample<Value> sample : batch.samples.of<Value>()) {
     if (sample.spacecraft == spacecraft_id) {
+      senders.put_into(sample);
       values.push_back(sample.value);
     }
   }
 }
 
+/// Leaves those that count, and says what was contested.
+template <class Value>
+void settle(const std::string& spacecraft_id, const std::vector<std::string>& senders,
+            std::vector<Value>& values, std::vector<Product>& contradictions) {
+  const std::size_t before = contradictions.size();
+  const auto in_time = [](const Value& a, const Value& b) { return a.t < b.t; };
+  std::stable_sort(values.begin(), values.end(), in_time);
+  values = those_that_count(values, [&](const auto& said, const auto& used) {
+    SampleContradiction contradiction{
+        .t = said.front().t, .kind = name_of(kind_of(said.front())), .by = senders_of(said, used)};
+    fill_in_names(contradiction, senders);
+    if (contradictions.size() == before) {
+      say(spacecraft_id, contradiction);
+    }
+    contradictions.emplace_back(std::move(contradiction));
+  });
+}
+
 Expected<Recorded> recorded_in_files(const std::vector<std::filesystem::path>& paths,
-                                     const std::string& spacecraft_id) {
+                                     Mission& mission) {
+  const std::string& spacecraft_id = mission.spacecraft_id;
   auto input = TelemetryInput::open(paths, spacecraft_id, false);
   if (!input) {
     return Unexpected{std::move(input.error())};
   }
+  input->find_preferred(mission);
+  SenderNames senders{mission.preferred_source};
   Recorded recorded;
+  SeparationSamples& samples = recorded.samples;
   while (true) {
     auto batch = input->next();
     if (!batch) {
@@ -95,24 +124,29 @@ Expected<Recorded> recorded_in_files(const std::vector<std::filesystem::path>& p
     }
     if (is_empty(*batch)) {
       recorded.bad_rows = input->bad_rows();
+      const auto settle_all = [&](auto&... values) {
+        (settle(spacecraft_id, *senders.names(), values, recorded.contradictions), ...);
+      };
+      settle_all(samples.gyro, samples.sun, samples.stars, samples.orbit_states);
       return recorded;
     }
-    append(*batch, spacecraft_id, recorded.samples.gyro);
-    append(*batch, spacecraft_id, recorded.samples.sun);
-    append(*batch, spacecraft_id, recorded.samples.stars);
-    append(*batch, spacecraft_id, recorded.samples.orbit_states);
+    append(*batch, spacecraft_id, senders, samples.gyro);
+    append(*batch, spacecraft_id, senders, samples.sun);
+    append(*batch, spacecraft_id, senders, samples.stars);
+    append(*batch, spacecraft_id, senders, samples.orbit_states);
     recorded.to_store.push_back(std::move(*batch));
   }
 }
 
-Expected<Recorded> recorded(const ReconstructOptions& options, const Mission& mission) {
+Expected<Recorded> recorded(const ReconstructOptions& options, Mission& mission) {
   if (!options.telemetry.empty()) {
-    return recorded_in_files(options.telemetry, mission.spacecraft_id);
+    return recorded_in_files(options.telemetry, mission);
   }
-  return find_separation_samples(options.db, mission.spacecraft_id,
+  return find_separation_samples(options.db, mission.spacecraft_id, mission.preferred_source,
                                  mission.separation->times.separation)
       .map([](SeparationSamples&& samples) {
-        return Recorded{.samples = std::move(samples), .to_store = {}, .bad_rows = {}};
+        return Recorded{
+            .samples = std::move(samples), .to_store = {}, .contradictions = {}, .bad_rows = {}};
       });
 }
 
@@ -138,8 +172,8 @@ Expected<SolvedSeparation> solved(const ReconstructOptions& options, const Missi
 /// A run with the samples, by the path on which `process` stores them, and what was made of them.
 /// @return its id.
 Expected<std::string> store(const ReconstructOptions& options, const Mission& mission,
-                            std::vector<SampleBatch> samples,
-                            const std::vector<ReconstructionProduct>& methods, Archive& archive) {
+                            std::vector<SampleBatch> samples, std::vector<Product> products,
+                            Archive& archive) {
   std::vector<std::string> telemetry{options.telemetry.begin(), options.telemetry.end()};
   if (telemetry.empty()) {
     telemetry.push_back(options.db.string());
@@ -160,7 +194,7 @@ Expected<std::string> store(const ReconstructOptions& options, const Mission& mi
   }
   return stored
       .and_then([&] {
-        last.products.assign(methods.begin(), methods.end());
+        last.products = std::move(products);
         last.finished_utc = utc_now();
         return archive.submit(last);
       })
@@ -179,7 +213,7 @@ struct Shown {
 /// @param store_in Is given samples and products, and returns the run's id.
 template <class StoreIn>
 Expected<Shown> made(const ReconstructOptions& options, const StoreIn& store_in) {
-  const auto mission = mission_for(options);
+  auto mission = mission_for(options);
   if (!mission) {
     return Unexpected{mission.error()};
   }
@@ -195,7 +229,9 @@ Expected<Shown> made(const ReconstructOptions& options, const StoreIn& store_in)
   if (!answer) {
     return Unexpected{answer.error()};
   }
-  const auto run_id = store_in(*mission, std::move(from->to_store), answer->methods);
+  std::vector<Product> products = std::move(from->contradictions);
+  products.insert(products.end(), answer->methods.begin(), answer->methods.end());
+  const auto run_id = store_in(*mission, std::move(from->to_store), std::move(products));
   if (!run_id) {
     return Unexpected{run_id.error()};
   }
@@ -215,9 +251,9 @@ Expected<Shown> made(const ReconstructOptions& options, const StoreIn& store_in)
 /// Here, with the archive opened for it.
 Expected<Shown> made_here(const ReconstructOptions& options) {
   return made(options, [&](const Mission& mission, std::vector<SampleBatch> samples,
-                           const std::vector<ReconstructionProduct>& methods) {
+                           std::vector<Product> products) {
     return Archive::open(options.db, {}).and_then([&](std::unique_ptr<Archive>&& archive) {
-      auto run_id = store(options, mission, std::move(samples), methods, *archive);
+      auto run_id = store(options, mission, std::move(samples), std::move(products), *archive);
       return outcome_of(run_id.map([](const std::string&) {}), archive->close()).map([&] {
         return *run_id;
       });
@@ -293,8 +329,8 @@ nlohmann::json answer_reconstruct(const nlohmann::json& request, const std::file
     options.method = named(method->get_ref<const std::string&>(), ReconstructionMethod::Sequential);
   }
   const auto shown = made(options, [&](const Mission& mission, std::vector<SampleBatch> samples,
-                                       const std::vector<ReconstructionProduct>& methods) {
-    return store(options, mission, std::move(samples), methods, archive);
+                                       std::vector<Product> products) {
+    return store(options, mission, std::move(samples), std::move(products), archive);
   });
   if (!shown) {
     return {{"error", shown.error().message},

@@ -6,24 +6,38 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "services/mission/mission.h"
 #include "services/progress/progress_bar.h"
 #include "services/spindrift/telemetry_input.h"
 #include "services/spindrift/telemetry_output.h"
 #include "services/standard_error/warning.h"
+#include "services/telemetry_files/stray_rows.h"
 #include "services/words/counted.h"
 #include "services/words/json_line.h"
 
 namespace spindrift {
 namespace {
 
+/// When each is due: a stray one with the one before it.
+std::vector<TaiTime> due_times(const SampleBatch& batch) {
+  std::vector<TaiTime> due;
+  in_order_of_arrival(batch.samples, [&](const auto& sample) { due.push_back(sample.value.t); });
+  for (const auto& [row, after] : find_stray_rows(due)) {
+    due[row] = due[after];
+  }
+  return due;
+}
+
 /// `after_each()`: called for every sample that is out.
 template <class AfterEach>
 Expected<void> publish(const SampleBatch& batch, TelemetryOutput& output, AfterEach after_each) {
+  const std::vector<TaiTime> due = due_times(batch);
+  auto next = due.begin();
   Expected<void> sent;
   in_order_of_arrival(batch.samples, [&](const auto& sample) {
-    if (sent && (sent = output.publish(sample.spacecraft, sample.value))) {
+    if (sent && (sent = output.publish(sample.spacecraft, sample.value, *next++))) {
       after_each();
     }
   });

@@ -208,6 +208,13 @@ std::string faults_text(const RunSummary& summary) {
   return text;
 }
 
+std::string contradictions_text(const RunSummary& summary) {
+  return summary.contradictions.empty()
+             ? std::string{}
+             : fmt::format("  contradicted {}: samples with more than one value\n",
+                           listed(summary.contradictions));
+}
+
 std::string to_text(const PassVerdict& verdict) {
   const std::string answer =
       verdict.estimator.empty() || !verdict.quality
@@ -272,13 +279,14 @@ std::string to_text(const RunSummary& summary) {
     for (const auto& [plural, count] : summary.samples_received) {
       text += counted(count, plural) + ", ";
     }
-    text += rejected_text(summary) + "\n";
+    text += rejected_text(summary) + "\n" + contradictions_text(summary);
     return text + sensors_text(summary) + attitude_text(summary) + reconstructions_text(summary) +
            faults_text(summary);
   }
   text += fmt::format("  received     {} edges, {} of them stored, {} coded frames, {}\n",
                       summary.edges_received, summary.edges_stored, summary.coded_frames_received,
                       rejected_text(summary));
+  text += contradictions_text(summary);
   text += fmt::format("  edges        {} accepted\n", summary.edges_accepted);
   for (const auto& [test, count] : summary.edges_rejected) {
     text += fmt::format("               {} rejected: {}\n", count, test);
@@ -313,6 +321,7 @@ nlohmann::json to_json(const RunSummary& summary) {
                       {"attitude", nullptr},
                       {"reconstruction", nullptr},
                       {"faults", nlohmann::json::array()},
+                      {"contradictions", to_json(summary.contradictions)},
                       {"disagreements", nlohmann::json::array()}};
   for (const auto& [plural, count] : summary.samples_received) {
     json["samples_received"][json_key(plural)] = count;
@@ -386,6 +395,11 @@ Expected<std::string> report(const Processor& processor, const std::filesystem::
       return Unexpected{faults.error()};
     }
     summary.faults = *std::move(faults);
+    auto contradictions = count_contradictions(db, summary.run_id);
+    if (!contradictions) {
+      return Unexpected{contradictions.error()};
+    }
+    summary.contradictions = *std::move(contradictions);
     auto disagreements = find_disagreements(db, summary.run_id);
     if (!disagreements) {
       return Unexpected{disagreements.error()};

@@ -1,6 +1,7 @@
 #include "services/spindrift/telemetry_input.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -8,6 +9,7 @@
 #include <variant>
 
 #include "pipelines/core/shown.h"
+#include "services/standard_error/warning.h"
 #include "services/telemetry_files/telemetry_rows.h"
 #include "services/words/counted.h"
 
@@ -129,6 +131,25 @@ Expected<SampleBatch> TelemetryInput::next() {
     }
   }
   return batch;
+}
+
+void TelemetryInput::find_preferred(Mission& mission) const {
+  std::string& preferred = mission.preferred_source;
+  if (preferred.empty()) {
+    return;
+  }
+  std::string source = find_source(files_, preferred);
+  if (source.empty()) {
+    std::vector<std::string> sources;
+    for (const TelemetryFile& file : files_) {
+      sources.push_back(file.source);
+    }
+    warn("no_preferred_source", {{"spacecraft", mission.spacecraft_id}, {"prefer", preferred}},
+         fmt::format("{}: sources.prefer = \"{}\" is not one of the files, which are {}: where "
+                     "samples contradict each other none is used",
+                     mission.spacecraft_id, preferred, fmt::join(sources, ", ")));
+  }
+  preferred = std::move(source);
 }
 
 std::vector<TelemetryKind> TelemetryInput::kinds() const {

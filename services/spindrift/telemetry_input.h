@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "services/mission/mission.h"
 #include "services/telemetry_files/telemetry_files.h"
 #include "services/telemetry_files/telemetry_stream.h"
 
@@ -41,6 +42,10 @@ class TelemetryInput {
 
   /// As TelemetryStream.
   Expected<SampleBatch> next();
+
+  /// The preferred source of `mission` by the name that its samples have here. That it is none of
+  /// the files is said.
+  void find_preferred(Mission& mission) const;
 
   /// That there are files of, each once.
   std::vector<TelemetryKind> kinds() const;

@@ -65,14 +65,19 @@ class TelemetryOutput {
         rehearsal_{rehearsal},
         clock_{std::move(clock)} {}
 
-  /// When it is due, and for as long as a subscriber pushes back. Its kind is to be sent.
+  /// When its time is due, and for as long as a subscriber pushes back. Its kind is to be sent.
   /// @return as TelemetryPublisher::publish.
   template <class Value>
   Expected<void> publish(std::string_view spacecraft, const Value& value) {
+    return publish(spacecraft, value, value.t);
+  }
+  /// When `due` is.
+  template <class Value>
+  Expected<void> publish(std::string_view spacecraft, const Value& value, TaiTime due) {
     auto& publisher = *publishers_.of<Value>();
-    return tell_clock(spacecraft, publisher.next(), value.t)
+    return tell_clock(spacecraft, publisher.next(), due)
         .and_then([&] {
-          wait_until_due(value.t);
+          wait_until_due(due);
           return publisher.publish(spacecraft, value, stop_);
         })
         .map([&] { reached_ = value.t; });

@@ -181,4 +181,19 @@ constexpr TelemetryOrder order_of(const Value& value) {
   return order;
 }
 
+/// Kinds of which more may be said than that there was something.
+template <class Value>
+concept HasSender = requires(const Value& value) {
+  value.sender;
+};
+
+/// Whether one is the other, sent again. @see say_the_same
+template <class Value>
+bool is_the_same_sample(const Value& one, const Value& other) {
+  if constexpr (HasSender<Value>) {
+    return one.t == other.t && say_the_same(one, other);
+  }
+  return order_of(one) == order_of(other);
+}
+
 }  // namespace spindrift

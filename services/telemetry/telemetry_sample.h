@@ -8,8 +8,8 @@
 
 namespace spindrift {
 
-/// Which sample of which sender. On the bus: source, session and seq of the IDL. From a file: the
-/// file's name, 0 and the line.
+/// Which sample of which sender. On the bus: source, session and seq of the IDL. From a file: its
+/// name, told apart from others of that name, 0 and the line.
 struct Origin {
   std::string source;
   std::uint64_t session = 0;

@@ -6,11 +6,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "services/telemetry/by_kind.h"
+#include "services/telemetry_files/stray_rows.h"
 #include "services/telemetry_files/telemetry_rows.h"
 
 namespace spindrift {
@@ -24,10 +28,14 @@ bool comes_before(const TelemetryRow<Value>& a, const TelemetryRow<Value>& b) {
 
 /// Sorts a file of up to `capacity` rows completely. In a longer one every row finds its place that
 /// stands fewer than half as many rows from it; others come as soon as they are read.
+///
+/// Stray rows (find_stray_rows) keep their place, as they had it when they were received: sorted,
+/// they would stand together behind the others, as if the pass went on there. Each is given after
+/// another row in order, so that no number of them looks like that either.
 template <class Value>
 class SortedRows {
  public:
-  SortedRows(TelemetryRows<Value> rows, std::size_t capacity);
+  SortedRows(TelemetryRows<Value> rows, std::string source, std::size_t capacity);
 
   /// Reads until the head is known. False: there is more to read, but as many as `most_rejected`
   /// rejected rows stand in `rejected` and want to be taken away first.
@@ -35,22 +43,38 @@ class SortedRows {
   Expected<bool> fill(std::vector<RejectedInput>& rejected, std::size_t most_rejected);
 
   /// Null at the end of the file. To be asked for when filled.
-  const Value* head() const { return next_ < ready_ ? &rows_[next_].value : nullptr; }
-  std::uint64_t line() const { return rows_[next_].line; }
-  const std::string& spacecraft() const { return file_.spacecraft_of(rows_[next_]); }
-  void pop() { ++next_; }
+  const Value* head() const { return next_ < ready_ || is_stray() ? &head_row().value : nullptr; }
+  /// Where the head stands among the rows of all files: a stray one after the row before it.
+  TelemetryOrder order() const { return is_stray() ? given_ : order_of(head_row().value); }
+  /// Of the head.
+  bool is_stray() const {
+    return !strays_.empty() &&
+           (next_ < ready_ ? gave_one_in_order_ && strays_.front().after <= given_.t : ended_);
+  }
+  std::uint64_t line() const { return head_row().line; }
+  const std::string& spacecraft() const { return file_.spacecraft_of(head_row()); }
+  void pop();
 
-  const std::string& file_name() const { return file_name_; }
+  const std::string& source() const { return source_; }
   /// Of the file, up to the rows that are still held.
   std::uint64_t bytes_given() const;
 
  private:
+  struct Stray {
+    TelemetryRow<Value> row;
+    TaiTime after;
+  };
+
+  const TelemetryRow<Value>& head_row() const {
+    return is_stray() ? strays_.front().row : rows_[next_];
+  }
   void drop_popped();
   Expected<void> read(std::vector<RejectedInput>& rejected, std::size_t most_rejected);
+  void set_strays_aside();
   void sort();
 
   TelemetryRows<Value> file_;
-  std::string file_name_;
+  std::string source_;
   std::size_t capacity_;
   std::vector<TelemetryRow<Value>> rows_;
   std::size_t next_ = 0;    ///< The head.
@@ -58,20 +82,21 @@ class SortedRows {
   std::size_t sorted_ = 0;  ///< Up to here they are in order.
   std::uint64_t read_ = 0;  ///< Good rows of the file so far.
   bool ended_ = false;
+  std::deque<Stray> strays_;        ///< In the order of the file.
+  TelemetryOrder given_{};          ///< Of the last row in order.
+  bool gave_one_in_order_ = false;  ///< Since the last stray one.
 };
 
 template <class Value>
-SortedRows<Value>::SortedRows(TelemetryRows<Value> rows, std::size_t capacity)
-    : file_{std::move(rows)},
-      file_name_{shown(file_.path().filename().string())},
-      capacity_{capacity} {
+SortedRows<Value>::SortedRows(TelemetryRows<Value> rows, std::string source, std::size_t capacity)
+    : file_{std::move(rows)}, source_{std::move(source)}, capacity_{capacity} {
   rows_.reserve(capacity_);
 }
 
 template <class Value>
 Expected<bool> SortedRows<Value>::fill(std::vector<RejectedInput>& rejected,
                                        std::size_t most_rejected) {
-  if (next_ < ready_) {
+  if (head() != nullptr) {
     return true;
   }
   drop_popped();
@@ -82,7 +107,7 @@ Expected<bool> SortedRows<Value>::fill(std::vector<RejectedInput>& rejected,
     return false;
   }
   sort();
-  ready_ = ended_ ? rows_.size() : rows_.size() - capacity_ / 2;
+  ready_ = ended_ ? rows_.size() : rows_.size() - rows_.size() / 2;
   return true;
 }
 
@@ -115,10 +140,52 @@ Expected<void> SortedRows<Value>::read(std::vector<RejectedInput>& rejected,
   return {};
 }
 
+template <class Value>
+void SortedRows<Value>::pop() {
+  if (is_stray()) {
+    strays_.pop_front();
+    gave_one_in_order_ = false;
+  } else {
+    given_ = order_of(rows_[next_++].value);
+    gave_one_in_order_ = true;
+  }
+}
+
+/// Among those that were added. Of several spacecraft each may have a time of its own.
+template <class Value>
+void SortedRows<Value>::set_strays_aside() {
+  const std::span<const TelemetryRow<Value>> added = std::span{rows_}.subspan(sorted_);
+  if (std::any_of(added.begin(), added.end(), [&](const TelemetryRow<Value>& row) {
+        return row.spacecraft != added.front().spacecraft;
+      })) {
+    return;
+  }
+  std::vector<TaiTime> times(added.size());
+  std::transform(added.begin(), added.end(), times.begin(),
+                 [](const TelemetryRow<Value>& row) { return row.value.t; });
+  const std::vector<StrayRow> strays = find_stray_rows(times);
+  for (const auto& [row, after] : strays) {
+    strays_.push_back({.row = added[row], .after = times[after]});
+  }
+  auto stray = strays.begin();
+  std::size_t kept = sorted_;
+  for (std::size_t row = sorted_; row < rows_.size(); ++row) {
+    if (stray != strays.end() && sorted_ + stray->row == row) {
+      ++stray;
+    } else {
+      rows_[kept++] = rows_[row];
+    }
+  }
+  rows_.resize(kept);
+}
+
 // Telemetry mostly stands in order already, and to see that costs little.
 template <class Value>
 void SortedRows<Value>::sort() {
   const auto before = &comes_before<Value>;
+  if (!std::is_sorted(rows_.begin() + static_cast<std::ptrdiff_t>(sorted_), rows_.end(), before)) {
+    set_strays_aside();
+  }
   const auto added = rows_.begin() + static_cast<std::ptrdiff_t>(sorted_);
   if (!std::is_sorted(added, rows_.end(), before)) {
     std::sort(added, rows_.end(), before);
@@ -130,7 +197,7 @@ void SortedRows<Value>::sort() {
 
 template <class Value>
 std::uint64_t SortedRows<Value>::bytes_given() const {
-  const auto held = static_cast<double>(rows_.size() - next_);
+  const auto held = static_cast<double>(rows_.size() - next_ + strays_.size());
   const double given = read_ == 0 ? 1.0 : 1.0 - held / static_cast<double>(read_);
   return static_cast<std::uint64_t>(given * static_cast<double>(file_.bytes_read()));
 }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -44,7 +46,59 @@ Expected<TelemetryFile> recognised(const std::filesystem::path& path) {
   });
 }
 
+/// Its last parts, so many of them.
+std::filesystem::path end_of(const std::filesystem::path& path, std::size_t parts) {
+  std::filesystem::path end;
+  const auto all = std::distance(path.begin(), path.end());
+  for (auto part = std::next(path.begin(),
+                             std::max<std::ptrdiff_t>(all - static_cast<std::ptrdiff_t>(parts), 0));
+       part != path.end(); ++part) {
+    end /= *part;
+  }
+  return end;
+}
+
+std::size_t parts_of(const std::filesystem::path& path) {
+  return static_cast<std::size_t>(std::distance(path.begin(), path.end()));
+}
+
+/// Files are few; of two of one path the samples are the same.
+void name_sources(std::vector<TelemetryFile>& files) {
+  for (TelemetryFile& file : files) {
+    const auto path = file.path.lexically_normal();
+    std::size_t parts = 1;
+    const auto is_shared = [&] {
+      return std::any_of(files.begin(), files.end(), [&](const TelemetryFile& other) {
+        const auto other_path = other.path.lexically_normal();
+        return other_path != path && end_of(other_path, parts) == end_of(path, parts);
+      });
+    };
+    while (parts < parts_of(path) && is_shared()) {
+      ++parts;
+    }
+    file.source = shown(end_of(path, parts).string());
+  }
+}
+
 }  // namespace
+
+std::string find_source(std::span<const TelemetryFile> files, const std::string& name) {
+  const auto wanted = std::filesystem::path{name}.lexically_normal();
+  std::string found;
+  for (const TelemetryFile& file : files) {
+    const auto path = file.path.lexically_normal();
+    if (path == wanted) {
+      return file.source;
+    }
+    if (end_of(path, parts_of(wanted)) == wanted && file.source != found) {
+      if (!found.empty()) {
+        return {};
+      }
+      found = file.source;
+    }
+  }
+  return found;
+}
 
 Expected<std::vector<TelemetryFile>> scan_telemetry(std::span<const std::filesystem::path> paths) {
   std::vector<TelemetryFile> files;
@@ -71,6 +125,7 @@ Expected<std::vector<TelemetryFile>> scan_telemetry(std::span<const std::filesys
     return Unexpected{
         {ErrorCode::InvalidConfiguration, fmt::format("{}", fmt::join(problems, "\n"))}};
   }
+  name_sources(files);
   return files;
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "pipelines/core/expected.h"
@@ -16,7 +17,14 @@ namespace spindrift {
 struct TelemetryFile {
   std::filesystem::path path;
   std::optional<TelemetryKind> kind;  ///< None: the file is empty, without even a header.
+  /// As what it is the source of its samples: its name, behind as much of its path as tells it from
+  /// the others.
+  std::string source = {};
 };
+
+/// The source among `files` that a person calls `name`: by its path as it was given, or any end of
+/// that which no other one has. Empty: none, or several.
+std::string find_source(std::span<const TelemetryFile> files, const std::string& name);
 
 /// Every path is a CSV file or a directory, which means every *.csv in it, by name. In the order
 /// given.

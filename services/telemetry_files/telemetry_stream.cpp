@@ -14,6 +14,7 @@ constexpr std::size_t kFewestRowsHeld = 64;
 
 struct Opening {
   std::filesystem::path path;
+  std::string source;
   TelemetryKind kind;
   std::uint64_t bytes;
   std::size_t rows_held;
@@ -29,8 +30,11 @@ std::vector<Opening> openings_of(std::span<const TelemetryFile> files) {
     if (file.kind) {
       std::error_code gone;  // Opening it then says so.
       const auto bytes = std::filesystem::file_size(file.path, gone);
-      openings.push_back(
-          {.path = file.path, .kind = *file.kind, .bytes = gone ? 0 : bytes, .rows_held = 0});
+      openings.push_back({.path = file.path,
+                          .source = file.source,
+                          .kind = *file.kind,
+                          .bytes = gone ? 0 : bytes,
+                          .rows_held = 0});
     }
   }
   return openings;
@@ -58,14 +62,14 @@ template <class Value>
 Expected<SortedRows<Value>> opened(const Opening& opening, const std::string& spacecraft) {
   return TelemetryRows<Value>::open(opening.path, spacecraft)
       .map([&opening](TelemetryRows<Value>&& rows) {
-        return SortedRows<Value>{std::move(rows), opening.rows_held};
+        return SortedRows<Value>{std::move(rows), opening.source, opening.rows_held};
       });
 }
 
 template <class Value>
 TelemetrySample<Value> head_of(const SortedRows<Value>& rows, std::int64_t arrival) {
   return {.spacecraft = rows.spacecraft(),
-          .origin = {.source = rows.file_name(), .session = 0, .seq = rows.line()},
+          .origin = {.source = rows.source(), .session = 0, .seq = rows.line()},
           .value = *rows.head(),
           .arrival = arrival};
 }
@@ -103,7 +107,8 @@ TelemetryStream::TelemetryStream(std::vector<File> files, std::uint64_t bytes_to
 
 Expected<SampleBatch> TelemetryStream::next() {
   SampleBatch batch;
-  for (std::size_t taken = 0; taken < kBatch; ++taken) {
+  bool after_stray = false;
+  for (std::size_t taken = 0;; ++taken) {
     const auto found = find_heads(batch);
     if (!found) {
       return Unexpected{found.error()};
@@ -112,6 +117,12 @@ Expected<SampleBatch> TelemetryStream::next() {
       break;
     }
     const std::size_t first = heads_.top().second;
+    const bool is_stray =
+        std::visit([](const auto& rows) { return rows.is_stray(); }, files_[first]);
+    if (taken >= kBatch && !after_stray && !is_stray) {
+      break;
+    }
+    after_stray = is_stray;
     std::visit(
         [&]<class Value>(SortedRows<Value>& rows) {
           batch.samples.of<Value>().push_back(head_of(rows, static_cast<std::int64_t>(taken)));
@@ -136,8 +147,8 @@ Expected<bool> TelemetryStream::find_heads(SampleBatch& batch) {
     without_head_.pop_back();
     std::visit(
         [&](const auto& rows) {
-          if (const auto* const head = rows.head()) {
-            heads_.emplace(order_of(*head), file);
+          if (rows.head() != nullptr) {
+            heads_.emplace(rows.order(), file);
           }
         },
         files_[file]);

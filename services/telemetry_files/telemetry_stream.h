@@ -21,7 +21,8 @@
 namespace spindrift {
 
 /// The samples of any number of files, whatever the order of the files and of their rows;
-/// duplicates are kept.
+/// duplicates are kept. Only rows that their file shows to be stray (find_stray_rows) come at the
+/// place that they have in it, each after another row in order.
 ///
 /// Rows are held back to be sorted, in `buffer_bytes` for all files together. What that holds is
 /// sorted completely, and in what is longer every row finds its place that stands nearer to it than
@@ -39,8 +40,9 @@ class TelemetryStream {
                                         const std::string& spacecraft,
                                         std::size_t buffer_bytes = kBufferBytes);
 
-  /// Up to kBatch samples and as many rejected rows; none of both at the end. The
-  /// origin of a sample is the file's name, 0 and the line.
+  /// Up to kBatch samples, and what it takes to end and go on with none that is stray, and as many
+  /// rejected rows; none of both at the end. The origin of a sample is the file's source, 0 and the
+  /// line.
   /// @return Unavailable when reading fails on the way.
   Expected<SampleBatch> next();
 

@@ -35,6 +35,8 @@ constexpr std::array<Words, kAlertCodes> kWords{{
     {LinkRepeated, "a new session brings what came before it", "none: it is stored once"},
     {LinkRestarted, "sessions that the source began in the last minute",
      "none, if it was to be started again"},
+    {LinkContradiction, "samples of the last minute that another source gives with other values",
+     "look at the table contradiction; [sources] prefer names the one whose value counts"},
     {ServiceTwice, "another service publishes results of the spacecraft in this partition",
      "stop one of the two; `spindrift doctor` says who is on the bus"},
     {ChannelSilent, "nothing of a channel that should give something",
@@ -133,6 +135,9 @@ std::string evidence_json(const Evidence& evidence, std::string_view config_sha2
                               {"config_sha256", config_sha256}};
   if (evidence.sigma) {
     json["sigma"] = *evidence.sigma;
+  }
+  if (!evidence.sources.empty()) {
+    json["sources"] = evidence.sources;
   }
   return json.dump();
 }

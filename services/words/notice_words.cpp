@@ -24,12 +24,23 @@ constexpr std::array<Pattern<NoticeCode>, kNoticeCodes> kNoticePatterns{{
     {Interfered,
      "{one} and {other} were too near to each other in {revolutions} revolutions from "
      "{first_tai_ns} to {last_tai_ns}: their edges there are left out"},
+    {CopiesBegin,
+     "{t_tai_ns}: the edges of {channel} come several times (are two receivers heard?): the "
+     "earliest of a revolution counts, the others are left out as 'copy'"},
+    {Copied,
+     "{edges} edges of {channels} are copies, on average {apart_s:.3g} s from the edge of their "
+     "revolution that counts: they are left out as 'copy'; look for a second receiver"},
     {CountUncertain,
      "after a silence the count of revolutions is uncertain by about {turns:.1f}, from "
      "revolution {revolution} on"},
     {NoPeriod,
      "no spin period was found in the edges, of rates from {slowest_rpm} to {fastest_rpm} rpm: "
      "no revolution, and no axis"},
+    {TimesOnGrid,
+     "{t_tai_ns}: the times of the edges lie on a grid of {grid_s:g} s: the steps of a counter on "
+     "board, or cut on the way, where nanoseconds are to be kept. What that leaves open of each is "
+     "in "
+     "every sigma, as an error that does not average out"},
     {EdgesLeftOut,
      "{percent:.0f} % of all edges do not fit and are left out, most as '{most}': the count of "
      "revolutions, and what is made of the others, may be wrong"},
@@ -43,6 +54,12 @@ constexpr std::array<Pattern<NoticeCode>, kNoticeCodes> kNoticePatterns{{
     {RangeImpossible,
      "{t_tai_ns}: the orbit of the mission file lies below the infrared horizon or beyond a "
      "million km: such revolutions give no axis"},
+    {OrbitStepsInPass,
+     "{t_tai_ns}: the orbit steps by {km:.3f} km and {m_s:.2f} m/s within the pass: segments of "
+     "the "
+     "OEM do not meet, or its states do not follow from each other. Ask whoever made the orbit; "
+     "was "
+     "it a manoeuvre, mark it"},
     {MuchOutsideOrbit,
      "orbit: {revolutions} revolutions outside it gave no axis, the last at {t_tai_ns}"},
     {NoFix, "revolution {revolution} is the first that gives no fix: {why}"},
@@ -125,9 +142,49 @@ constexpr std::array<Pattern<NoticeCode>, kNoticeCodes> kNoticePatterns{{
     {AttitudeNeverBegan,
      "no attitude: {star} star fixes, {sun} sun vectors, {magnetometer} fields and {gyro} gyro "
      "samples do not anchor one; it takes a star fix, or two directions that agree and are not in "
-     "line within 5 s"},
+     "line within 5 s, without a gyro within 1 s"},
+    {MostLeftOut,
+     "{percent:.0f} % of the {sensor} samples so far are left out as '{rejected_by}': "
+     "{what_to_do}"},
 }};
 static_assert(are_by_code(kNoticePatterns));
+
+/// By what they were left out (schemas/tables.sql): the limit that they failed, and what helps.
+struct WhatToDo {
+  std::string_view rejected_by;
+  std::string_view text;
+};
+constexpr std::array kWhatToDo = {
+    WhatToDo{"late",
+             "they arrive after their time has been processed, a second behind the others; look at "
+             "their sender and its link"},
+    WhatToDo{"out_of_time",
+             "they are a minute and more from the times of all others; set their sender's clock"},
+    WhatToDo{"contradicted",
+             "they came with other values, too; name in [sources] prefer whose values count"},
+    WhatToDo{"no_sensor", "describe the sensor under [three_axis] in the mission file"},
+    WhatToDo{"saturated",
+             "the last has {rate_deg_s:.4g} deg/s, and range_deg_s = {range_deg_s:.4g}; correct "
+             "that, or send the rates in rad/s"},
+    WhatToDo{"frozen", "they repeat their numbers; look at the sensor and at who sends it"},
+    WhatToDo{"outlier",
+             "they are far from their neighbours; look for bad values, or raise noise_deg_s"},
+    WhatToDo{"shadow", "the orbit has the Earth before the Sun; look at the orbit's times"},
+    WhatToDo{"no_orbit", "no orbit reaches them; it takes [orbit] or good orbit states"},
+    WhatToDo{"no_field", "the model of the field does not reach them; get a newer program"},
+    WhatToDo{"unit",
+             "turns between star fixes are those of the rates in another unit; send them in rad/s"},
+    WhatToDo{"innovation",
+             "the last is {sigmas:.1f} sigmas off the attitude, of {most_sigmas:.1f} allowed; look "
+             "at its mounting, its noise and its unit, and at those of the gyro"},
+};
+
+std::string_view what_to_do(std::string_view rejected_by) {
+  const auto* const found =
+      std::find_if(kWhatToDo.begin(), kWhatToDo.end(),
+                   [&](const WhatToDo& what) { return what.rejected_by == rejected_by; });
+  return found == kWhatToDo.end() ? "look at rejected_sample" : found->text;
+}
 
 /// Why fixes of a case leave several candidates.
 std::string_view what_is_missing(std::int64_t geometry_case) {
@@ -152,13 +209,17 @@ std::string_view name_of(NoticeCode code) {
       "edges_out_of_time",
       "interference_begins",
       "interfered",
+      "copies_begin",
+      "copied",
       "count_uncertain",
       "no_period",
+      "times_on_grid",
       "edges_left_out",
       "silent_channels",
       "channels_without_sensor",
       "outside_orbit",
       "range_impossible",
+      "orbit_steps_in_pass",
       "much_outside_orbit",
       "no_fix",
       "no_axis",
@@ -186,6 +247,7 @@ std::string_view name_of(NoticeCode code) {
       "field_without_orbit",
       "outside_field_model",
       "attitude_never_began",
+      "most_left_out",
   };
   return kNames.at(static_cast<std::size_t>(code));
 }
@@ -216,6 +278,13 @@ std::string sentence_of(const Notice& notice) {
   if (of_case != values.end()) {
     const auto geometry_case = std::get<std::int64_t>(of_case->value);
     values.push_back({"missing", std::string{what_is_missing(geometry_case)}});
+  }
+  if (notice.code == NoticeCode::MostLeftOut) {
+    const auto rejected_by =
+        std::find_if(values.begin(), values.end(),
+                     [](const NamedValue& value) { return value.name == "rejected_by"; });
+    const std::string_view pattern = what_to_do(std::get<std::string>(rejected_by->value));
+    values.push_back({"what_to_do", filled(pattern, values, kMilliseconds)});
   }
   return filled(pattern_of(kNoticePatterns, notice.code), values, kMilliseconds);
 }

@@ -25,8 +25,8 @@ using testing::start_of;
 
 class ArchiveRestart : public testing::ArchiveFixture {
  protected:
-  std::optional<StoredPass> stored(const RunStart& start = kRunStart) const {
-    const auto passes = find_stored_passes(path(), "SPINNER", start).value();
+  std::optional<StoredPass> stored(const RunStart& start = kRunStart) {
+    const auto passes = find_stored_passes(path(), "SPINNER", start, senders_).value();
     return passes.empty() ? std::nullopt : std::optional{passes.back()};
   }
 
@@ -61,6 +61,8 @@ class ArchiveRestart : public testing::ArchiveFixture {
             .value = frame,
             .arrival = arrival};
   }
+
+  SenderNames senders_{""};
 };
 
 std::vector<std::int64_t> times_of(const StoredPass& pass) {
@@ -201,7 +203,7 @@ TEST_F(ArchiveRestart, WhatARunLeftOutComesBackApartUntilARunTakesIt) {
   EXPECT_TRUE(pass->left_out.empty());
   EXPECT_EQ(text("SELECT group_concat(source || ' ' || seq, ', ') FROM pulse WHERE arrival >= 200"),
             "station 7, station 8");
-  EXPECT_THAT(times_of(find_stored_passes(path(), "SPINNER", kRunStart).value().front()),
+  EXPECT_THAT(times_of(find_stored_passes(path(), "SPINNER", kRunStart, senders_).value().front()),
               ElementsAre(50));
 }
 
@@ -247,7 +249,7 @@ TEST_F(ArchiveRestart, OnlyARunThatWasMadeTheSameWayIsContinued) {
   other = kRunStart;
   other.telemetry.pop_back();
   EXPECT_FALSE(stored(other));
-  EXPECT_TRUE(find_stored_passes(path(), "OTHER", kRunStart).value().empty());
+  EXPECT_TRUE(find_stored_passes(path(), "OTHER", kRunStart, senders_).value().empty());
 }
 
 Product revolution_at(std::int64_t number) {

@@ -25,15 +25,14 @@ namespace spindrift::processor_restart_test {
 
 using Batches = std::vector<ArchiveBatch>;
 
-constexpr std::size_t kEdgesOfAPass = 120;
-// The one in which the second pass is believed, 117 to 129, begins in the first; its eighth edge
-// does not end it.
+constexpr std::size_t kEdgesOfAPass = 180;
+// The second pass is believed in the midst of one, with the edge that is 20 s behind its first.
 constexpr std::size_t kEdgesABatch = 13;
 constexpr std::chrono::hours kSilence{2};
 
 const std::filesystem::path kPass = recorded_passes() / "nominal";
 
-/// Twenty revolutions, and the same again after the silence, for which there is no orbit.
+/// Thirty revolutions, and the same again after the silence, for which there is no orbit.
 std::vector<TelemetrySample<Pulse>> two_passes() {
   const std::vector<TelemetryFile> files{{.path = kPass / "pulses.csv", .kind = Kind<Pulse>{}}};
   std::vector<TelemetrySample<Pulse>> all =
@@ -199,7 +198,7 @@ TEST_F(ProcessorRestart, KilledAtAnyPointBetweenTwoPassesGivesWhatNoRestartWould
   store(db("whole"), first(unstopped, unstopped.samples.size(), unstopped.products.size()));
   const std::vector<std::string> whole = rows(db("whole"));
   ASSERT_EQ(number_of(db("whole"), "SELECT count(*) FROM run"), 2);
-  ASSERT_EQ(number_of(db("whole"), "SELECT count(*) FROM revolution"), 2 * 20);
+  ASSERT_EQ(number_of(db("whole"), "SELECT count(*) FROM revolution"), 2 * 30);
 
   const auto begun = std::find_if(all.samples.begin() + 1, all.samples.end(),
                                   [](const ArchiveBatch& batch) { return batch.start; });

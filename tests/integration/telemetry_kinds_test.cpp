@@ -122,7 +122,8 @@ TEST_F(StoredKinds, EachComesBackFromTheArchiveInTheOrderOfArrival) {
   ASSERT_TRUE(archive->submit(batch));
   ASSERT_TRUE(archive->flush());
 
-  const auto passes = find_stored_passes(path(), "SPINNER", start).value();
+  SenderNames senders{""};
+  const auto passes = find_stored_passes(path(), "SPINNER", start, senders).value();
   ASSERT_EQ(passes.size(), 1U);
   TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
     SCOPED_TRACE(Telemetry<Value>::kName);

@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <fstream>
+#include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -48,6 +52,43 @@ std::vector<AnySample> disordered_samples(const std::filesystem::path& pass) {
   return all;
 }
 
+template <class Value>
+void spoil(Value& value) {
+  for_each_column(value, [](std::string_view /*name*/, auto& member) { member = -member; });
+}
+void spoil(CodedFrame& /*frame*/) {}
+void spoil(StarFix& fix) { fix.q_icrf_sensor *= Eigen::Quaterniond{0.8, 0.6, 0.0, 0.0}; }
+
+/// Of a second front-end, besides: of every fifth sample something else, at once or, of one in
+/// three, long after it was computed; of every seventh the same, so that it stands for it, too.
+std::vector<AnySample> contradicted(const std::vector<AnySample>& samples) {
+  std::vector<AnySample> all;
+  std::multimap<std::size_t, AnySample> later;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    all.push_back(samples[i]);
+    for (auto due = later.equal_range(i); due.first != due.second; ++due.first) {
+      all.push_back(due.first->second);
+    }
+    AnySample again = samples[i];
+    std::visit(
+        [&]<class Value>(TelemetrySample<Value>& sample) {
+          sample.origin = {.source = "second", .session = 3, .seq = i};
+          if constexpr (HasSender<Value>) {
+            if (i % 5 == 1) {
+              spoil(sample.value);
+            }
+          }
+        },
+        again);
+    if (i % 5 == 1 && i % 3 == 0) {
+      later.emplace(i + 60, again);
+    } else if (i % 5 == 1 || i % 7 == 0) {
+      all.push_back(again);
+    }
+  }
+  return all;
+}
+
 std::vector<SampleBatch> in_batches(const std::vector<AnySample>& samples) {
   std::vector<SampleBatch> batches;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -79,7 +120,8 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
     pass_ = directory() / "pass";
     std::filesystem::create_directory(pass_);
     testing::write_three_axis_pass(pass_, kLongPass);
-    sent_ = in_batches(disordered_samples(pass_));
+    samples_ = disordered_samples(pass_);
+    sent_ = in_batches(samples_);
     first_ns_ = tai_ns(sent_.front().samples.of<GyroSample>().front().value.t);
     said_ = parse_action({{"spacecraft", "SAT"},
                           {"by", "shift"},
@@ -146,7 +188,45 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
     store(db, rest.samples, rest.products);
   }
 
+  /// What a service makes that nobody stops.
+  void receive_unstopped(const std::filesystem::path& db) const {
+    Processor unstopped = new_processor();
+    Submitted whole;
+    whole.samples = unstopped.begin();
+    receive(unstopped, 0, sent_.size(), whole);
+    Batches last = unstopped.finish();
+    std::move(last.begin(), last.end(), std::back_inserter(whole.products));
+    store(db, whole.samples, whole.products);
+  }
+
+  /// @param behind So many of the last products are not stored.
+  void receive_killed(const std::filesystem::path& db, std::size_t killed,
+                      std::size_t behind) const {
+    Processor processor = new_processor();
+    Submitted first;
+    first.samples = processor.begin();
+    receive(processor, 0, killed, first);
+    first.products.resize(first.products.size() - std::min(first.products.size(), behind));
+    store(db, first.samples, first.products);
+    go_on(db, killed);
+  }
+
+  /// @param after So many batches, each.
+  void expect_the_same_killed(const std::vector<std::size_t>& after,
+                              const std::filesystem::path& whole_db) const {
+    const std::vector<std::string> rows = all_rows(whole_db);
+    for (const std::size_t killed : after) {
+      for (const std::size_t behind : {0U, 60U}) {
+        SCOPED_TRACE(fmt::format("after {} batches, {} of products behind", killed, behind));
+        const auto db = directory() / fmt::format("killed-{}-{}.db", killed, behind);
+        receive_killed(db, killed, behind);
+        ASSERT_EQ(all_rows(db), rows);
+      }
+    }
+  }
+
   std::filesystem::path pass_;
+  std::vector<AnySample> samples_;
   std::vector<SampleBatch> sent_;
   OperatorAction said_;                 ///< Of a segment of what the reconstruction rests on.
   std::optional<std::size_t> says_at_;  ///< Before that batch, long behind the segment.
@@ -156,14 +236,7 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
 TEST_F(ThreeAxisRestart, KilledAtAnyPointGivesWhatNoRestartWouldHave) {
   says_at_ = 80;
   const auto whole_db = directory() / "whole.db";
-  Processor unstopped = new_processor();
-  Submitted whole;
-  whole.samples = unstopped.begin();
-  receive(unstopped, 0, sent_.size(), whole);
-  Batches last = unstopped.finish();
-  std::move(last.begin(), last.end(), std::back_inserter(whole.products));
-  store(whole_db, whole.samples, whole.products);
-  const std::vector<std::string> rows = all_rows(whole_db);
+  receive_unstopped(whole_db);
   ASSERT_GT(number_of(whole_db, "SELECT count(*) FROM attitude WHERE source = 'mekf'"), 1000);
   ASSERT_EQ(rows_of(whole_db, "SELECT method, event FROM reconstruction_event WHERE event = 'T1'"),
             (std::vector<std::string>{"batch|T1|", "sequential|T1|"}));
@@ -178,21 +251,73 @@ TEST_F(ThreeAxisRestart, KilledAtAnyPointGivesWhatNoRestartWouldHave) {
                                       "AND 79999999999",
                                       first_ns_)));
 
-  for (const std::size_t killed :
-       {std::size_t{1}, std::size_t{50}, kSilence, kSilence + 1, sent_.size() - 5, sent_.size()}) {
-    for (const std::size_t behind : {0U, 60U}) {
-      SCOPED_TRACE(fmt::format("after {} batches, {} of products behind", killed, behind));
-      Processor processor = new_processor();
-      Submitted first;
-      first.samples = processor.begin();
-      receive(processor, 0, killed, first);
-      first.products.resize(first.products.size() - std::min(first.products.size(), behind));
-      const auto db = directory() / fmt::format("killed-{}-{}.db", killed, behind);
-      store(db, first.samples, first.products);
-      go_on(db, killed);
+  expect_the_same_killed(
+      {std::size_t{1}, std::size_t{50}, kSilence, kSilence + 1, sent_.size() - 5, sent_.size()},
+      whole_db);
+}
+
+TEST_F(ThreeAxisRestart, ContradictionsAreDecidedAsWithoutOne) {
+  sent_ = in_batches(contradicted(samples_));
+  for (const std::string preferred : {"", "second"}) {
+    SCOPED_TRACE(preferred);
+    if (!preferred.empty()) {
+      std::ofstream{pass_ / "mission.toml", std::ios::app} << "[sources]\nprefer = \"" << preferred
+                                                           << "\"\n";
+    }
+    const auto whole_db = directory() / fmt::format("whole-{}.db", preferred);
+    receive_unstopped(whole_db);
+    const std::vector<std::string> rows = all_rows(whole_db);
+    ASSERT_GT(number_of(whole_db, "SELECT count(*) FROM attitude WHERE source = 'mekf'"), 500);
+    // What was late is only recorded, and of two that came in time none counts, or the second.
+    const std::int64_t contested = number_of(
+        whole_db, "SELECT count(*) FROM contradiction WHERE source = 'second' AND seq % 3 > 0");
+    ASSERT_GT(contested, 100);
+    // Where both were late the first of them keeps its mark.
+    ASSERT_EQ(number_of(whole_db,
+                        "SELECT count(*) FROM contradiction WHERE used = 1 AND source ="
+                        " 'front-end' AND t_tai_ns NOT IN (SELECT t_tai_ns FROM"
+                        " contradiction WHERE source = 'second' AND seq % 3 = 0)"
+                        " AND t_tai_ns NOT IN (SELECT t_tai_ns FROM rejected_sample"
+                        " WHERE rejected_by = 'late')"),
+              0);
+    const std::int64_t left_out = number_of(
+        whole_db, "SELECT count(*) FROM rejected_sample WHERE rejected_by = 'contradicted'");
+    ASSERT_EQ(left_out == 0, !preferred.empty());
+    for (const std::size_t killed : {std::size_t{40}, kSilence + 1, sent_.size() - 3}) {
+      SCOPED_TRACE(fmt::format("after {} batches", killed));
+      const auto db = directory() / fmt::format("contradicted-{}-{}.db", preferred, killed);
+      receive_killed(db, killed, 20);
       ASSERT_EQ(all_rows(db), rows);
     }
   }
+}
+
+/// Twenty in a row, half an hour ahead, and as many among the others, beyond the hour that ends a
+/// pass.
+TEST_F(ThreeAxisRestart, StrayStampsAreLeftOutHoweverItIsKilled) {
+  std::vector<AnySample> samples = disordered_samples(pass_);
+  std::size_t seen = 0;
+  for (AnySample& sample : samples) {
+    auto* const gyro = std::get_if<TelemetrySample<GyroSample>>(&sample);
+    if (gyro == nullptr) {
+      continue;
+    }
+    if (seen >= 300 && seen < 320) {
+      gyro->value.t += std::chrono::minutes{30};
+    } else if (seen >= 400 && seen < 800 && seen % 20 == 0) {
+      gyro->value.t += std::chrono::hours{2};
+    }
+    ++seen;
+  }
+  sent_ = in_batches(samples);
+  const auto whole_db = directory() / "whole.db";
+  receive_unstopped(whole_db);
+  ASSERT_EQ(number_of(whole_db, "SELECT count(*) FROM run"), 1);
+  ASSERT_EQ(
+      number_of(whole_db, "SELECT count(*) FROM rejected_sample WHERE rejected_by = 'out_of_time'"),
+      40);
+  // Killed among both, and behind them.
+  expect_the_same_killed({std::size_t{31}, std::size_t{60}, sent_.size() - 5}, whole_db);
 }
 
 TEST_F(ThreeAxisRestart, MakesOnlyTheLastTenMinutesAgain) {

@@ -18,9 +18,9 @@ inline bool restarted(const Assessment& assessment) {
 }
 
 /// Of the first such reason or notice; -1 where there is none, or it has no such number.
-template <class Code>
-double number_of(const std::vector<Coded<Code>>& said, Code code, std::string_view name) {
-  for (const Coded<Code>& one : said) {
+template <class Said, class Code>
+double number_of(const std::vector<Said>& said, Code code, std::string_view name) {
+  for (const Said& one : said) {
     for (const NamedValue& value : one.values) {
       if (one.code == code && value.name == name) {
         const auto* const real = std::get_if<double>(&value.value);

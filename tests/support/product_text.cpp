@@ -82,6 +82,15 @@ Line line_of(const SpinEstimate& estimate) {
   return line;
 }
 
+Line line_of(const SampleContradiction& contradiction) {
+  Line line;
+  line << "contradiction" << contradiction.t << contradiction.kind << contradiction.late;
+  for (const SampleContradiction::By& by : contradiction.by) {
+    line << by.name << by.used;
+  }
+  return line;
+}
+
 template <class Sample>
 SpinOutput run_whole(SpinPass pass, const std::vector<Sample>& arrivals) {
   SpinOutput all;

@@ -68,6 +68,28 @@ TEST(Alerts, NameAChannelThatDiesInTheMidstOfAPass) {
   EXPECT_THAT(rows_of(pass.db, kOpenKeys), ElementsAre("channel.silent:north_in|"));
 }
 
+/// As two stations send them; the second is 5 ms behind.
+TEST(Alerts, SayThatEdgesComeSeveralTimes) {
+  constexpr std::int64_t kBehind_ns = 5'000'000;
+  const PassCopy pass{"nominal"};
+  std::istringstream rows{text_of(kPasses / "nominal" / "pulses.csv")};
+  std::ofstream twice{pass.folder.path() / "pulses.csv", std::ios::app};
+  std::string row;
+  std::getline(rows, row);
+  while (std::getline(rows, row)) {
+    const auto comma = row.find(',');
+    twice << std::stoll(row.substr(0, comma)) + kBehind_ns << row.substr(comma) << "\n";
+  }
+  twice.close();
+  process(pass);
+  EXPECT_THAT(rows_of(pass.db, kOpenKeys), ElementsAre("spin.rejection|"));
+  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse_use WHERE rejected_by = 'copy'"), 3600);
+  EXPECT_EQ(rows_of(pass.db,
+                    "SELECT quality FROM spin_estimate WHERE estimator <> 'mean' ORDER BY t_tai_ns "
+                    "DESC LIMIT 2"),
+            std::vector<std::string>(2, "OK|"));
+}
+
 TEST(Alerts, NameAChannelThatIsDeadFromTheStart) {
   for (const std::string dead : {"sun2", "south_out"}) {
     const PassCopy pass{"nominal"};

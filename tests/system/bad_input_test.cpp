@@ -1,6 +1,7 @@
 // What no pass should bring: the program says so and makes no number up. Bad rows and files of
 // telemetry are in process_test.cpp.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -326,6 +327,59 @@ TEST(SplicedOrbit, IsRefusedByLineWhereNoOrbitCouldBeSo) {
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.log, HasSubstr("line 31: the orbit jumps: 50 km from"));
   EXPECT_FALSE(std::filesystem::exists(outcome.db));
+}
+
+/// Two segments, the second with that much speed more, at 03:05.
+std::filesystem::path stepped_copy(const TemporaryFolder& folder, double faster_km_s) {
+  auto pass = nominal_copy(folder);
+  std::istringstream whole{text_of(kNominal / "orbit.oem")};
+  std::string meta;
+  std::string first;
+  std::string second;
+  for (std::string line; std::getline(whole, line);) {
+    const bool is_state = line.starts_with("2026-11-20T");
+    first += !is_state || line < "2026-11-20T03:05:00.5" ? line + "\n" : "";
+    meta += line == "META_START" || (!meta.empty() && !is_state) ? line + "\n" : "";
+    if (is_state && line > "2026-11-20T03:04:59.5") {
+      std::istringstream words{line};
+      std::string time;
+      double x_km = 0.0;
+      double y_km = 0.0;
+      double z_km = 0.0;
+      double vx_km_s = 0.0;
+      double vy_km_s = 0.0;
+      double vz_km_s = 0.0;
+      words >> time >> x_km >> y_km >> z_km >> vx_km_s >> vy_km_s >> vz_km_s;
+      // Half a minute from state to state.
+      const auto states = std::count(second.begin(), second.end(), '\n');
+      second += fmt::format("{} {} {} {} {} {} {}\n", time, x_km, y_km,
+                            z_km + 30.0 * static_cast<double>(states) * faster_km_s, vx_km_s,
+                            vy_km_s, vz_km_s + faster_km_s);
+    }
+  }
+  std::ofstream{pass / "orbit.oem"} << first << meta << second;
+  return pass;
+}
+
+TEST(OrbitWithAStep, IsWarnedOfAndWhatRestsOnBothSidesIsDoubtful) {
+  for (const double faster_km_s : {0.0, 0.12}) {
+    const TemporaryFolder folder;
+    const auto outcome = process(folder, stepped_copy(folder, faster_km_s));
+    EXPECT_EQ(outcome.status, 0) << outcome.log;
+    const bool steps = faster_km_s > 0.0;
+    EXPECT_EQ(outcome.log.find("two segments do not meet at 2026-11-20T03:05:00.000Z: by 0.000 km "
+                               "and 120.00 m/s") != std::string::npos,
+              steps)
+        << outcome.log;
+    for (const std::string estimator : {"mean", "sequential", "batch"}) {
+      EXPECT_EQ(number_of(outcome.db,
+                          "SELECT count(*) FROM spin_estimate WHERE quality = 'OK' AND "
+                          "t_tai_ns > 1795143937000000000 AND estimator = '" +
+                              estimator + "'") == 0,
+                steps)
+          << estimator;
+    }
+  }
 }
 
 TEST(OrbitWithAHole, IsWarnedOfAndGivesNoAxisThere) {

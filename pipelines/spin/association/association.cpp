@@ -28,6 +28,9 @@ constexpr int kSilentReference = 10;
 // many turns, and in one of so many.
 constexpr std::size_t kFewestSeen = 3;
 constexpr std::size_t kMostTurnsAnEdge = 3;
+// The other channels' edges of as many turns as a step of the rate is looked for in, and a few
+// more.
+constexpr std::size_t kMostRecent = 16 * kPulseChannels;
 // From so many good edges in a row on a channel is fit to set the clock.
 constexpr int kFitReference = 3;
 
@@ -151,14 +154,42 @@ void Associator::give_up_clock(const Pulse& pulse, Association& out) {
   phases_ = ExpectedPhases{config_};
   turns_without_reference_ = 0;
   rate_step_.forget();
+  recent_.clear();
   intervals_.forget_notes_before(pulse.t);
+}
+
+/// Of those that have waited: the first of copies, and none that came alone where they are usual.
+std::vector<Pulse> Associator::telling_edges() {
+  for (const Pulse& pulse : waiting_) {
+    copies_.behind_first_s(pulse, clock_->period_s());
+  }
+  std::vector<Pulse> first;
+  std::vector<bool> alone;
+  std::array<std::size_t, kPulseChannels> last{};
+  for (const Pulse& pulse : waiting_) {
+    if (copies_.behind_first_s(pulse, clock_->period_s())) {
+      alone.at(last.at(index_of(pulse.channel))) = false;
+    } else {
+      last.at(index_of(pulse.channel)) = first.size();
+      first.push_back(pulse);
+      alone.push_back(true);
+    }
+  }
+  std::vector<Pulse> telling;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const PulseChannel channel = first[i].channel;
+    if (!alone[i] || !copies_.are_apart(channel, edge_sigma_s(config_.noise, channel))) {
+      telling.push_back(first[i]);
+    }
+  }
+  return telling;
 }
 
 /// Those that have an edge in some of the turns; the others once they have.
 void Associator::learn_phases() {
   std::array<std::vector<double>, kPulseChannels> counts;
   std::set<double> turns;
-  for (const Pulse& pulse : waiting_) {
+  for (const Pulse& pulse : telling_edges()) {
     const double count = clock_->phase_turns(pulse.t);
     counts.at(index_of(pulse.channel)).push_back(count);
     if (pulse.channel == reference_) {
@@ -176,6 +207,33 @@ void Associator::learn_phases() {
   }
 }
 
+void Associator::note_recent(const Pulse& pulse) {
+  recent_.push_back(pulse);
+  if (recent_.size() > kMostRecent) {
+    recent_.pop_front();
+  }
+}
+
+/// A step to quite another rate: a second edge in each turn of the reference alone is none.
+bool Associator::is_of_all_channels(const PulseTrain& comb) const {
+  const auto begin = std::find_if(recent_.begin(), recent_.end(), [&](const Pulse& pulse) {
+    return elapsed_s(comb.t, pulse.t) >= -kOnComb_sigma * comb.scatter_s;
+  });
+  const OtherChannels others =
+      other_channels(config_, std::vector<Pulse>(begin, recent_.end()), reference_);
+  return !others.are_heard ||
+         std::any_of(others.periods_s.begin(), others.periods_s.end(),
+                     [&](double period_s) { return !is_another_period(period_s, comb.period_s); });
+}
+
+bool Associator::is_good_reference(const Pulse& pulse) const {
+  const double phase = clock_->phase_turns(pulse.t);
+  const double turn = std::round(phase - phases_.at(reference_, phase));
+  return clock_->accepts(turn + phases_.at(reference_, turn), pulse.t,
+                         edge_sigma_s(config_.noise, reference_), reference_wander(),
+                         {.sigma = config_.screening.sigma, .most = gate_turns(reference_)});
+}
+
 /// After a step in the spin rate the last edges of the reference agree with one another and not
 /// with the clock: it is set by them, its count not behind the old one's.
 void Associator::restart_after_step(const Pulse& pulse) {
@@ -183,12 +241,10 @@ void Associator::restart_after_step(const Pulse& pulse) {
   const double expected = phases_.at(reference_, phase);
   const double turn = std::round(phase - expected);
   const double noise_s = edge_sigma_s(config_.noise, reference_);
-  const bool good =
-      clock_->accepts(turn + phases_.at(reference_, turn), pulse.t, noise_s, reference_wander(),
-                      {.sigma = config_.screening.sigma, .most = gate_turns(reference_)});
-  rate_step_.add(pulse.t, good);
+  rate_step_.add(pulse.t, is_good_reference(pulse));
   const auto comb = rate_step_.new_pulse_train(clock_->scale() * noise_s, clock_->period_s());
-  if (!comb) {
+  if (!comb ||
+      (is_another_period(comb->period_s, clock_->period_s()) && !is_of_all_channels(*comb))) {
     return;
   }
   SpinClock::Setting setting = setting_of(*comb, noise_s);
@@ -238,14 +294,24 @@ double Associator::reach_turns(PulseChannel channel, double phase_turns) const {
 }
 
 void Associator::place(const Pulse& pulse, bool spoilt, Association& out) {
-  if (pulse.channel == reference_ && !spoilt) {
-    restart_after_step(pulse);
+  const auto behind_s = copies_.behind_first_s(pulse, clock_->period_s());
+  if (!behind_s) {
+    note_recent(pulse);
+    if (pulse.channel == reference_ && !spoilt) {
+      restart_after_step(pulse);
+    }
+  } else if (pulse.channel == reference_ && is_good_reference(pulse) &&
+             !copies_.disagree_with_others(reference_)) {
+    rate_step_.replace_last(pulse.t);
   }
   const double phase = clock_->phase_turns(pulse.t);
   close_before(phase, out);
   const bool lies_near = phases_.knows(pulse.channel) && count_of(pulse).near;
-  if (pulse.channel != reference_ && !lies_near) {
-    phases_.stray(pulse.channel, phase,
+  // Where copies matter, the first of them tells where its channel is once another has come.
+  const bool tells = behind_s.has_value() ==
+                     copies_.are_apart(pulse.channel, edge_sigma_s(config_.noise, pulse.channel));
+  if (pulse.channel != reference_ && !lies_near && tells) {
+    phases_.stray(pulse.channel, clock_->phase_turns(later_by_s(pulse.t, -behind_s.value_or(0.0))),
                   spoilt ? interfering_pairs_.displacement_s() / clock_->period_s() : 0.0,
                   clock_sigma_turns(phase));
   }
@@ -253,7 +319,7 @@ void Associator::place(const Pulse& pulse, bool spoilt, Association& out) {
   if (Revolution* const revolution = revolution_of(pulse)) {
     put(*revolution, pulse, spoilt_by, out);
   } else {
-    out.left_over.push_back(left_over(pulse, spoilt_by));
+    leave_over(pulse, spoilt_by, behind_s.value_or(clock_->period_s()), out);
   }
 }
 
@@ -283,15 +349,66 @@ void Associator::put(Revolution& revolution, const Pulse& pulse, std::optional<R
   const auto off = [&](TaiTime t) { return std::abs(clock_->phase_turns(t) - expected); };
   std::optional<TaiTime>& edge = revolution.edges.at(index_of(pulse.channel));
   std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(pulse.channel));
-  if (edge && off(*edge) <= off(pulse.t)) {
-    out.left_over.push_back(left_over(pulse, spoilt_by));
-    return;
-  }
   if (edge) {
-    out.left_over.push_back(left_over({.t = *edge, .channel = pulse.channel}, rejection));
+    const Pulse earlier{.t = *edge, .channel = pulse.channel};
+    const double apart_s = elapsed_s(earlier.t, pulse.t);
+    const bool copied = is_copy(pulse, apart_s);
+    const bool earlier_counts =
+        off(earlier.t) <= off(pulse.t) || (copied && earliest_counts(revolution, earlier));
+    bool& has_copy = revolution.has_copy.at(index_of(pulse.channel));
+    has_copy = has_copy || apart_s <= kCopies_turns * clock_->period_s();
+    if (copied) {
+      copies_.note_choice(pulse.channel, !earlier_counts);
+    }
+    if (earlier_counts) {
+      leave_over(pulse, spoilt_by, apart_s, out);
+      return;
+    }
+    leave_over(earlier, rejection, apart_s, out);
   }
   edge = pulse.t;
   rejection = spoilt_by;
+}
+
+/// Of copies, the earliest of which lies further from where it is expected. It counts all the same
+/// where all are one; where they come in any order, as all channels then are early by the same and
+/// no limit of a channel's own cuts that; and where this channel has followed the later of two
+/// receivers and others the earlier.
+bool Associator::earliest_counts(const Revolution& revolution, const Pulse& earliest) const {
+  const PulseChannel channel = earliest.channel;
+  return !copies_.are_apart(channel, edge_sigma_s(config_.noise, channel)) ||
+         noise_chose_among_copies_ || copies_.disagree_with_others(channel) ||
+         is_expected(revolution, earliest);
+}
+
+/// As the edge of its channel in that revolution.
+bool Associator::is_expected(const Revolution& revolution, const Pulse& pulse) const {
+  const auto turn = static_cast<double>(revolution.number);
+  if (pulse.channel != reference_) {
+    return phases_.accepts(pulse.channel, revolution.number, clock_->phase_turns(pulse.t) - turn,
+                           clock_sigma_turns(turn));
+  }
+  return clock_->accepts(turn + phases_.at(reference_, turn), pulse.t,
+                         edge_sigma_s(config_.noise, reference_), reference_wander(),
+                         {.sigma = config_.screening.sigma, .most = reach_turns(reference_, turn)});
+}
+
+/// @param apart_s From another edge of its channel.
+bool Associator::is_copy(const Pulse& pulse, double apart_s) const {
+  return apart_s <= kCopies_turns * clock_->period_s() && copies_.are_usual(pulse.channel);
+}
+
+/// @param apart_s From the edge of its channel that counts.
+void Associator::leave_over(const Pulse& pulse, std::optional<Rejection> spoilt_by, double apart_s,
+                            Association& out) {
+  const bool copy = !spoilt_by && is_copy(pulse, apart_s);
+  if (copy) {
+    out.copies.push_back({.pulse = pulse, .apart_s = apart_s});
+    noise_chose_among_copies_ =
+        noise_chose_among_copies_ ||
+        copies_.are_in_any_order(pulse.channel, edge_sigma_s(config_.noise, pulse.channel));
+  }
+  out.left_over.push_back(left_over(pulse, copy ? Rejection::Copy : spoilt_by));
 }
 
 /// Empty when that revolution is closed already, or precedes the first.
@@ -323,6 +440,7 @@ void Associator::close_front(Association& out) {
   const auto began =
       interfering_pairs_.expect(phases_, turn, clock_sigma_turns(turn), clock_->t_of(turn));
   out.began_to_interfere.insert(out.began_to_interfere.end(), began.begin(), began.end());
+  judge_lone(revolution);
   judge_reference(revolution);
   judge_others(revolution);
   revolution.t_start = t_start_of(revolution);
@@ -345,9 +463,20 @@ double Associator::displaced_turns(const Revolution& revolution, PulseChannel ch
   return displaced ? interfering_pairs_.displacement_s() / clock_->period_s() : 0.0;
 }
 
+/// Where copies are usual one of them alone may be either: it is not used, and tells of no place.
+void Associator::judge_lone(Revolution& revolution) const {
+  for (const PulseChannel channel : kChannels) {
+    std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
+    if (revolution.edge(channel) && !rejection && !revolution.has_copy.at(index_of(channel)) &&
+        copies_.are_apart(channel, edge_sigma_s(config_.noise, channel))) {
+      rejection = Rejection::Copy;
+    }
+  }
+}
+
 void Associator::judge_reference(Revolution& revolution) {
   const std::optional<TaiTime>& edge = revolution.edge(reference_);
-  if (!edge) {
+  if (!edge || revolution.edge_rejections.at(index_of(reference_)) == Rejection::Copy) {
     return;
   }
   const auto turn = static_cast<double>(revolution.number);
@@ -368,7 +497,8 @@ void Associator::judge_others(Revolution& revolution) {
   const double clock_sigma = clock_sigma_turns(turn);
   for (const PulseChannel channel : kChannels) {
     const std::optional<TaiTime>& edge = revolution.edge(channel);
-    if (!edge || channel == reference_) {
+    std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
+    if (!edge || channel == reference_ || rejection == Rejection::Copy) {
       continue;
     }
     const double count = clock_->phase_turns(*edge);
@@ -378,7 +508,6 @@ void Associator::judge_others(Revolution& revolution) {
         (phases_.knows(channel) && phases_.follow(channel, revolution.number, count - turn,
                                                   std::hypot(clock_sigma, displaced))) ||
         phases_.stray(channel, count, displaced, clock_sigma);
-    std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
     if (!believed && !rejection) {
       rejection = Rejection::Phase;
     }

@@ -10,6 +10,10 @@
 /// revolution and rejected. After a silence too long for the clock to say what turn it is, it
 /// starts afresh, and the count goes on from the best guess. When the edges of a channel agree on
 /// another phase (the Earth moved during a silence, the spin rate stepped), that one is adopted.
+///
+/// Of copies the earliest counts that lies where it is expected: of those within the noise of each
+/// other the nearest would be chosen by what came before it, and their errors would not average
+/// out.
 
 #pragma once
 
@@ -18,6 +22,7 @@
 #include <optional>
 #include <vector>
 
+#include "pipelines/spin/association/copies.h"
 #include "pipelines/spin/association/expected_phases.h"
 #include "pipelines/spin/association/interfering_pairs.h"
 #include "pipelines/spin/association/period_intervals.h"
@@ -33,6 +38,7 @@ namespace spindrift {
 struct Association {
   std::vector<Revolution> closed;                            ///< In order of number.
   std::vector<PulseUse> left_over;                           ///< Edges that found no place.
+  std::vector<CopiedEdge> copies = {};                       ///< Of those.
   std::vector<InterferingChannels> began_to_interfere = {};  ///< In this pass for the first time.
 };
 
@@ -59,6 +65,8 @@ class Associator {
   const std::vector<InterferingChannels>& interfering() const {
     return interfering_pairs_.interfering();
   }
+  /// Likewise: which of several edges counted was left to noise.
+  bool noise_chose_among_copies() const { return noise_chose_among_copies_; }
 
  private:
   /// The turn whose edge a pulse is nearest to, and whether it is near enough to be that.
@@ -73,16 +81,26 @@ class Associator {
   void give_up_clock(const Pulse& pulse, Association& out);
   double clock_sigma_turns(double phase_turns) const;
   bool counts(TaiTime t) const;
+  std::vector<Pulse> telling_edges();
+  void note_recent(const Pulse& pulse);
+  bool is_of_all_channels(const PulseTrain& comb) const;
+  bool is_good_reference(const Pulse& pulse) const;
   void restart_after_step(const Pulse& pulse);
   void place(const Pulse& pulse, bool spoilt, Association& out);
   Count count_of(const Pulse& pulse) const;
   Revolution* revolution_of(const Pulse& pulse);
   void put(Revolution& revolution, const Pulse& pulse, std::optional<Rejection> spoilt_by,
            Association& out);
+  bool is_expected(const Revolution& revolution, const Pulse& pulse) const;
+  bool earliest_counts(const Revolution& revolution, const Pulse& earliest) const;
+  bool is_copy(const Pulse& pulse, double apart_s) const;
+  void leave_over(const Pulse& pulse, std::optional<Rejection> spoilt_by, double apart_s,
+                  Association& out);
   Revolution* open_revolution(std::int64_t number);
   void close_before(double phase_turns, Association& out);
   void close_front(Association& out);
   double displaced_turns(const Revolution& revolution, PulseChannel channel) const;
+  void judge_lone(Revolution& revolution) const;
   void judge_reference(Revolution& revolution);
   void judge_others(Revolution& revolution);
   void judge_neighbours(Revolution& revolution) const;
@@ -104,6 +122,9 @@ class Associator {
   bool sun1_known_ = false;                      ///< Phase 0 is where sun1 is.
   int turns_without_reference_ = 0;
   RateStepDetector rate_step_;
+  std::deque<Pulse> recent_;  ///< The last, without copies.
+  Copies copies_;
+  bool noise_chose_among_copies_ = false;
   ExpectedPhases phases_;
   InterferingPairs interfering_pairs_;
   PeriodIntervals intervals_;

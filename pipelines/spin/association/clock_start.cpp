@@ -29,6 +29,9 @@ constexpr std::size_t kNotesToAgree = 3;
 // whole.
 constexpr double kHidden_scatters = 3.0;
 constexpr double kSamePeriod = 0.01;
+// What channels say of the period differs by less, unless one has half of its edges or twice as
+// many.
+constexpr double kAnotherPeriod = 1.2;
 // A pass begins where so many edges follow within so many turns.
 constexpr std::ptrdiff_t kFewestOfRun = 3;
 constexpr double kOneRun_turns = 10.0;
@@ -67,6 +70,19 @@ PeriodNote note_of_one_turn(const std::vector<PeriodNote>& notes, const PeriodNo
   return shortest;
 }
 
+/// More channels agree on another period: this one may miss every other edge, or have a second one
+/// half a turn later, and all turn alike.
+bool is_outvoted(const OtherChannels& others, double period_s) {
+  std::vector<double> said_s = others.periods_s;
+  said_s.push_back(period_s);
+  const auto votes_for = [&](double one_s) {
+    return std::count_if(said_s.begin(), said_s.end(),
+                         [&](double other_s) { return !is_another_period(one_s, other_s); });
+  };
+  return std::any_of(said_s.begin(), said_s.end(),
+                     [&](double one_s) { return votes_for(one_s) > votes_for(period_s); });
+}
+
 /// The setting with its turns counted so that the first edge near the comb is on turn 0; a stray
 /// one before, which happens to be near it as well, has few behind it.
 SpinClock counted_from(SpinClock::Setting setting, const std::vector<TaiTime>& edges,
@@ -92,6 +108,27 @@ SpinClock counted_from(SpinClock::Setting setting, const std::vector<TaiTime>& e
 }
 
 }  // namespace
+
+bool is_another_period(double one_s, double other_s) {
+  return std::max(one_s, other_s) > kAnotherPeriod * std::min(one_s, other_s);
+}
+
+OtherChannels other_channels(const SpinConfig& config, std::span<const Pulse> pulses,
+                             PulseChannel channel) {
+  OtherChannels others;
+  for (const PulseChannel other : kByPreference) {
+    const std::vector<TaiTime> edges = times_of(pulses, other);
+    if (other == channel || edges.size() < kFewestAtEnd) {
+      continue;
+    }
+    others.are_heard = true;
+    if (const auto train =
+            find_pulse_train(edges, edge_sigma_s(config.noise, other), kFewestAtEnd)) {
+      others.periods_s.push_back(train->period_s);
+    }
+  }
+  return others;
+}
 
 double defined_phase_turns(const SpinConfig& config, PulseChannel channel) {
   switch (channel) {
@@ -136,7 +173,7 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
     const std::size_t fewest =
         at_end ? kFewestAtEnd : (channel == Sun1 ? kFewestSun1 : kFewestOthers);
     const auto comb = find_pulse_train(edges, noise_s, fewest);
-    if (!comb) {
+    if (!comb || is_outvoted(other_channels(config, waiting, channel), comb->period_s)) {
       continue;
     }
     const double phase_turns = defined_phase_turns(config, channel);

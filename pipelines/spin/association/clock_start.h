@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "pipelines/spin/association/period_search.h"
 #include "pipelines/spin/association/spin_clock.h"
@@ -32,8 +33,19 @@ struct PeriodNote {
 /// that the setting is left uncertain by what a drift may hide in their scatter.
 SpinClock::Setting setting_of(const PulseTrain& comb, double noise_s);
 
+/// Channels differ by so much only where one of them has half of its edges, or twice as many.
+bool is_another_period(double one_s, double other_s);
+
+/// What the edges of the channels but one say of the period.
+struct OtherChannels {
+  bool are_heard = false;              ///< Any gave enough edges to tell.
+  std::vector<double> periods_s = {};  ///< Of those that are even trains.
+};
+OtherChannels other_channels(const SpinConfig& config, std::span<const Pulse> pulses,
+                             PulseChannel channel);
+
 /// By sun1; by another channel, sun2 rather than an infrared one, only when that has gone on for
-/// twenty edges without sun1.
+/// twenty edges without sun1, or with one that is outvoted.
 /// @param waiting In order of time.
 /// @param at_end Nothing more will come: three edges must do.
 std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const Pulse> waiting,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/spin/association/copies.h"
 #include "pipelines/spin/association/robust_line.h"
 
 namespace spindrift {
@@ -35,6 +36,8 @@ constexpr std::size_t kMostStrays = 9;
 constexpr int kAgreeWithin = 20;
 // Without a good edge in so many revolutions a channel is silent.
 constexpr int kSilent = 30;
+// Of where the slits stand to each other: beyond, the Sun is on the other side of the body.
+constexpr double kSlitLag_turns = 0.25;
 
 double fraction(double turns) { return turns - std::floor(turns); }
 
@@ -58,6 +61,30 @@ bool is_no_chance(const std::vector<PhasePoint>& points, const RobustLine& line,
          (turns_among(line.agreeing) >= kStraysToAgree && line.scatter <= kWidest_turns);
 }
 
+/// Half as many turns as have one on the line, and one, have an edge at another place: no copy, as
+/// it is further away.
+bool has_another_place(std::span<const double> counts, const RobustLine& line) {
+  std::vector<double> elsewhere;
+  std::copy_if(counts.begin(), counts.end(), std::back_inserter(elsewhere), [&](double count) {
+    const double off = count - line.at(std::round(count - line.phase));
+    return std::abs(std::remainder(off, 1.0)) > kCopies_turns;
+  });
+  if (elsewhere.empty()) {
+    return false;
+  }
+  std::vector<double> phases(elsewhere.size());
+  std::transform(elsewhere.begin(), elsewhere.end(), phases.begin(), fraction);
+  const double place = circular_median(phases);
+  std::set<double> turns;
+  for (const double count : elsewhere) {
+    const double turn = std::round(count - place);
+    if (std::abs(count - place - turn) <= kCopies_turns) {
+      turns.insert(turn);
+    }
+  }
+  return turns.size() > turns_among(line.agreeing) / 2;
+}
+
 }  // namespace
 
 double earth_wander_turns(PulseChannel channel, double period_s) {
@@ -72,6 +99,11 @@ ExpectedPhases::ExpectedPhases(const SpinConfig& config)
 
 double ExpectedPhases::noise_turns(PulseChannel channel) const {
   return edge_sigma_s(noise_, channel) / period_s_;
+}
+
+DriftNoise ExpectedPhases::drift_noise(PulseChannel channel, double clock_sigma_turns) const {
+  return {.measured = std::hypot(noise_turns(channel), clock_sigma_turns),
+          .wander = wander(channel)};
 }
 
 double ExpectedPhases::most_drift(PulseChannel channel) const {
@@ -96,9 +128,12 @@ void ExpectedPhases::define(PulseChannel channel, std::int64_t turn, double phas
   of(channel).last_seen = revolution_;
 }
 
-bool ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts,
-                           std::size_t fewest_turns, double clock_sigma_turns) {
-  counts = counts.last(std::min(counts.size(), kMostLearnt));
+std::optional<RobustLine> ExpectedPhases::place_of(PulseChannel channel,
+                                                   std::span<const double> counts,
+                                                   std::size_t fewest_turns) const {
+  if (counts.empty()) {
+    return std::nullopt;
+  }
   std::vector<double> phases(counts.size());
   std::transform(counts.begin(), counts.end(), phases.begin(), fraction);
   const double median = circular_median(phases);
@@ -108,8 +143,37 @@ bool ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts,
     const double turn = std::round(count - place);
     return PhasePoint{.turn = turn, .phase = count - turn};
   });
-  const auto line = fit_robust_line(points, noise_turns(channel), most_drift(channel));
-  if (!is_no_chance(points, *line, gate_sigma_ * noise_turns(channel), fewest_turns)) {
+  auto line = fit_robust_line(points, noise_turns(channel), most_drift(channel));
+  return is_no_chance(points, *line, gate_sigma_ * noise_turns(channel), fewest_turns)
+             ? std::move(line)
+             : std::nullopt;
+}
+
+bool ExpectedPhases::can_be_at(PulseChannel channel, double count) const {
+  const PulseChannel other = channel == Sun1 ? Sun2 : Sun1;
+  if (!sees_the_sun(channel) || !knows(other)) {
+    return true;
+  }
+  const double behind = count - at(other, count);
+  const double lag = (channel == Sun2 ? behind : -behind) - slit_separation_turns_;
+  return std::abs(std::remainder(lag, 1.0)) < kSlitLag_turns;
+}
+
+bool ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts,
+                           std::size_t fewest_turns, double clock_sigma_turns) {
+  counts = counts.last(std::min(counts.size(), kMostLearnt));
+  const auto only_place = [&](std::span<const double> some) {
+    auto line = place_of(channel, some, fewest_turns);
+    return line && !has_another_place(some, *line) ? std::move(line) : std::nullopt;
+  };
+  auto line = only_place(counts);
+  if (!line) {
+    std::vector<double> possible;
+    std::copy_if(counts.begin(), counts.end(), std::back_inserter(possible),
+                 [&](double count) { return can_be_at(channel, count); });
+    line = only_place(possible);
+  }
+  if (!line) {
     return false;
   }
   const auto edges = static_cast<double>(line->agreeing.size());
@@ -145,12 +209,18 @@ void ExpectedPhases::end_revolution() {
   }
 }
 
+bool ExpectedPhases::accepts(PulseChannel channel, std::int64_t turn, double phase_turns,
+                             double clock_sigma_turns) const {
+  return of(channel).phase->accepts(static_cast<double>(turn), phase_turns,
+                                    drift_noise(channel, clock_sigma_turns),
+                                    {.sigma = gate_sigma_, .most = gate_turns(channel)});
+}
+
 bool ExpectedPhases::follow(PulseChannel channel, std::int64_t turn, double phase_turns,
                             double clock_sigma_turns) {
   Channel& own = of(channel);
-  const DriftNoise noise{.measured = std::hypot(noise_turns(channel), clock_sigma_turns),
-                         .wander = wander(channel)};
-  const bool accepted = own.phase->follow(static_cast<double>(turn), phase_turns, noise,
+  const bool accepted = own.phase->follow(static_cast<double>(turn), phase_turns,
+                                          drift_noise(channel, clock_sigma_turns),
                                           {.sigma = gate_sigma_, .most = gate_turns(channel)});
   if (accepted) {
     own.strays.clear();
@@ -197,6 +267,9 @@ bool ExpectedPhases::stray(PulseChannel channel, double count, double displaced_
                            double clock_sigma_turns) {
   Channel& own = of(channel);
   own.in_a_row = 0;
+  if (!own.known && !can_be_at(channel, count)) {
+    return false;
+  }
   const auto place =
       std::upper_bound(own.strays.begin(), own.strays.end(), count,
                        [](double later, const Stray& stray) { return later < stray.count; });
@@ -220,6 +293,9 @@ bool ExpectedPhases::stray(PulseChannel channel, double count, double displaced_
       line->agreeing.back().phase != points.back().phase) {
     return false;
   }
+  if (!own.known && strays_have_another_place(channel, count, *line)) {
+    return false;
+  }
   std::vector<double> counts(line->agreeing.size());
   std::transform(line->agreeing.begin(), line->agreeing.end(), counts.begin(),
                  [&](const PhasePoint& point) { return count + point.turn + point.phase; });
@@ -230,6 +306,17 @@ bool ExpectedPhases::stray(PulseChannel channel, double count, double displaced_
     own.in_a_row = static_cast<int>(needed);
   }
   return agree;
+}
+
+/// @param line Of phases behind `count`.
+bool ExpectedPhases::strays_have_another_place(PulseChannel channel, double count,
+                                               RobustLine line) const {
+  const std::deque<Stray>& strays = of(channel).strays;
+  std::vector<double> counts(strays.size());
+  std::transform(strays.begin(), strays.end(), counts.begin(),
+                 [](const Stray& stray) { return stray.count; });
+  line.phase += count;
+  return has_another_place(counts, line);
 }
 
 void ExpectedPhases::shift(std::int64_t turn, double phase_turns, double drift) {

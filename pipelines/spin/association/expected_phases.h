@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 
+#include "pipelines/spin/association/robust_line.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/pulse.h"
 #include "pipelines/statistics/drift_filter.h"
@@ -57,14 +58,19 @@ class ExpectedPhases {
   double drift_sigma(PulseChannel channel, double turn) const;
 
   /// Learns a channel from what most of its edges agree on, where they do in so many turns: one
-  /// edge alone may be a stray of a channel that is silent.
+  /// edge alone may be a stray of a channel that is silent. Of a channel with edges at two places
+  /// of a turn nothing is learnt, unless the Sun can be at one of them only.
   /// @param counts Phases of edges, with the turns counted by the spin clock; at least one.
   /// @param clock_sigma_turns One sigma of the count of the last, which they have in common.
   /// @return Whether they do.
   bool learn(PulseChannel channel, std::span<const double> counts, std::size_t fewest_turns,
              double clock_sigma_turns);
 
-  /// @return Whether an edge of a known channel lies where it should; if so it is followed.
+  /// @return Whether an edge of a known channel lies where it should.
+  bool accepts(PulseChannel channel, std::int64_t turn, double phase_turns,
+               double clock_sigma_turns) const;
+
+  /// The same; if so it is followed.
   bool follow(PulseChannel channel, std::int64_t turn, double phase_turns,
               double clock_sigma_turns);
 
@@ -107,7 +113,14 @@ class ExpectedPhases {
   };
   const Channel& of(PulseChannel channel) const { return channels_.at(index_of(channel)); }
   Channel& of(PulseChannel channel) { return channels_.at(index_of(channel)); }
+  /// Where most of the edges lie, in so many turns.
+  std::optional<RobustLine> place_of(PulseChannel channel, std::span<const double> counts,
+                                     std::size_t fewest_turns) const;
+  bool strays_have_another_place(PulseChannel channel, double count, RobustLine line) const;
+  /// One slit tells on which side of the body the Sun passes the other.
+  bool can_be_at(PulseChannel channel, double count) const;
   double unwrapped(PulseChannel channel, double phase_turns, double turn) const;
+  DriftNoise drift_noise(PulseChannel channel, double clock_sigma_turns) const;
   double noise_turns(PulseChannel channel) const;
   double sigma_turns(PulseChannel channel, double turn, double clock_sigma_turns) const;
   double most_drift(PulseChannel channel) const;

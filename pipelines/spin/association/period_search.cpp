@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "pipelines/spin/association/copies.h"
 #include "pipelines/spin/association/robust_line.h"
 #include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/time_span.h"
@@ -30,6 +31,10 @@ constexpr double kMostLost = 5.0;
 constexpr double kMostDrift_per_s2 = drift_per_s2(kMostDrift_rpm_h);
 // An uneven comb must leave this part of the scatter about an even one.
 constexpr double kFarBetter = 0.5;
+// This share of the intervals is shorter than a turn, or hardly longer, where up to six receivers
+// give each edge; and a turn is no shorter than half of the interval there.
+constexpr double kAboutATurn = 0.875;
+constexpr double kLeastOfInterval = 0.5;
 
 using Teeth = std::vector<PhasePoint>;  // The phase here is a time in seconds.
 
@@ -137,10 +142,8 @@ double bend_of(const Teeth& teeth, double noise, double period_s) {
   return better && possible ? bend : 0.0;
 }
 
-}  // namespace
-
-std::optional<PulseTrain> find_pulse_train(std::span<const TaiTime> edges, double noise_s,
-                                           std::size_t fewest) {
+std::optional<PulseTrain> train_of(std::span<const TaiTime> edges, double noise_s,
+                                   std::size_t fewest) {
   edges = edges.last(std::min(edges.size(), kMostEdges));
   if (edges.size() < fewest) {
     return std::nullopt;
@@ -181,6 +184,48 @@ std::optional<PulseTrain> find_pulse_train(std::span<const TaiTime> edges, doubl
                     .scatter_s = line->scatter * period_s,
                     .edges = static_cast<std::size_t>(on_it),
                     .turns = points.back().turn};
+}
+
+/// Nearly a turn where edges come several times, and else nearly two, or less.
+double interval_about_a_turn_s(std::span<const TaiTime> edges) {
+  std::vector<double> intervals_s(edges.size() - 1);
+  std::transform(edges.begin(), edges.end() - 1, edges.begin() + 1, intervals_s.begin(), elapsed_s);
+  const auto place =
+      intervals_s.begin() +
+      static_cast<std::ptrdiff_t>(kAboutATurn * static_cast<double>(intervals_s.size()));
+  std::nth_element(intervals_s.begin(), place, intervals_s.end());
+  return *place;
+}
+
+/// The first of those that lie within a span; empty where most lie alone.
+std::vector<TaiTime> first_of_copies(std::span<const TaiTime> edges, double within_s) {
+  std::vector<TaiTime> first;
+  std::vector<bool> copied;
+  for (const TaiTime t : edges) {
+    if (!first.empty() && elapsed_s(first.back(), t) <= within_s) {
+      copied.back() = true;
+    } else {
+      first.push_back(t);
+      copied.push_back(false);
+    }
+  }
+  const auto with = std::count(copied.begin(), copied.end(), true);
+  return 2 * with > std::ssize(copied) ? first : std::vector<TaiTime>{};
+}
+
+}  // namespace
+
+std::optional<PulseTrain> find_pulse_train(std::span<const TaiTime> edges, double noise_s,
+                                           std::size_t fewest) {
+  if (auto train = train_of(edges, noise_s, fewest)) {
+    return train;
+  }
+  if (edges.size() < 2) {
+    return std::nullopt;
+  }
+  const double interval_s = interval_about_a_turn_s(edges);
+  auto train = train_of(first_of_copies(edges, kCopies_turns * interval_s), noise_s, fewest);
+  return train && train->period_s >= kLeastOfInterval * interval_s ? train : std::nullopt;
 }
 
 }  // namespace spindrift

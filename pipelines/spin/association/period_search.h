@@ -26,7 +26,8 @@ struct PulseTrain {
 
 /// Tries the intervals between neighbouring edges as the period, counts for each how many edges
 /// fall on its comb, and takes the longest period that explains nearly as many as any: half of it
-/// explains as many, twice of it half.
+/// explains as many, twice of it half. Where none explains enough and most edges come several times
+/// within a twentieth of a turn, those that come first are looked at.
 ///
 /// @param edges In order of time; the last thirty-two are looked at.
 /// @param noise_s Standard deviation of an edge that is stated.

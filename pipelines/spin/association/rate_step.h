@@ -16,6 +16,12 @@ class RateStepDetector {
  public:
   /// @param good The clock expects an edge there.
   void add(TaiTime t, bool good);
+  /// A copy of the last one that the clock expects where it came: it stands for that.
+  void replace_last(TaiTime t) {
+    if (!recent_.empty()) {
+      recent_.back() = {.t = t, .good = true};
+    }
+  }
 
   /// The comb of the last edges, where the clock should be set by it: the last one lies on it and
   /// is not good, and it is not the clock's own.

@@ -24,7 +24,7 @@ bool is_change(const std::optional<Changepoint>& change, const EvaluatedFit& fou
   if (!change) {
     return false;
   }
-  const auto bias = most_significant_bias(found.information, found.estimated);
+  const auto bias = most_significant_bias(found.beside_offsets(), found.estimated);
   return !bias || change->gain > bias->gain + kSettled;
 }
 

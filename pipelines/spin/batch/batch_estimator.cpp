@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pipelines/ephemeris/orbit_steps.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/uncertain_attitude.h"
@@ -18,12 +19,19 @@
 #include "pipelines/spin/batch/initial_state.h"
 #include "pipelines/spin/batch/observability.h"
 #include "pipelines/spin/batch/pass_nutation.h"
+#include "pipelines/spin/telemetry_order/time_grid.h"
 #include "pipelines/statistics/variance_factor.h"
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift {
 namespace {
+
+// A parabola through three times, at the ends and in the middle of a pass: by how many times their
+// own errors its slope at the end, and its curvature, are off, over the length and its square. So
+// much may a grid of the times hide where it shifts slowly against the turns.
+constexpr double kLastRateOfThree = 5.1;
+constexpr double kDriftOfThree = 9.8;
 
 /// @param bound_rad2 Of the axis.
 std::optional<Error> axis_left_open(const Eigen::Matrix2d& bound_rad2) {
@@ -57,10 +65,11 @@ Error why_diverged(const Solved& solved) {
 
 /// Of the biases not estimated, what one step from the state would make of all together.
 std::vector<BiasEstimate> all_biases(const EvaluatedFit& found) {
+  const PassInformation information = found.beside_offsets();
   const SensorBiases& now = found.fit.state.biases;
-  const Observability together{found.information, seen_biases(found.information) | found.estimated};
-  const Observability alone{found.information, found.estimated};
-  const SensorBiases step = together.bias_step(found.information, now);
+  const Observability together{information, seen_biases(information) | found.estimated};
+  const Observability alone{information, found.estimated};
+  const SensorBiases step = together.bias_step(information, now);
   std::vector<BiasEstimate> biases = together.biases(now + step);
   for (BiasEstimate& bias : biases) {
     bias.estimated = false;
@@ -114,18 +123,24 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
   const double excess_noise = best.excess_noise();
   const Eigen::Matrix2d turned = tangent_from_tilts(best.fit.state.q_icrf_spin);
   const double half_s = solved.model.half_s();
+  const double of_grid_rad = best.fit.state.rate_rad_s * grid_sigma_s(solved.model.config().noise);
   BatchSolution solution{
-      .estimate =
-          {.t = solved.edges.back().pulse.t,
-           .estimator = SpinEstimator::Batch,
-           .axis_icrf = best.fit.state.axis_icrf(),
-           .covariance_rad2 = turned * (bound_rad2 * (excess_noise / kEfficiency) + open_rad2) *
-                              turned.transpose(),
-           .spin_rate_rad_s = best.fit.state.rate_rad_s + best.fit.state.drift_rad_s2 * half_s,
-           .spin_rate_sigma_rad_s = std::sqrt(observed.last_rate_variance(half_s) * excess_noise),
-           .assessment = {}},
+      .estimate = {.t = solved.edges.back().pulse.t,
+                   .estimator = SpinEstimator::Batch,
+                   .axis_icrf = best.fit.state.axis_icrf(),
+                   .covariance_rad2 = turned *
+                                      (bound_rad2 * (excess_noise / kEfficiency) + open_rad2 +
+                                       observed.offsets_rad2(information, best.offsets_s2)) *
+                                      turned.transpose(),
+                   .spin_rate_rad_s =
+                       best.fit.state.rate_rad_s + best.fit.state.drift_rad_s2 * half_s,
+                   .spin_rate_sigma_rad_s =
+                       std::hypot(std::sqrt(observed.last_rate_variance(half_s) * excess_noise),
+                                  kLastRateOfThree * of_grid_rad / (2.0 * half_s)),
+                   .assessment = {}},
       .drift_rad_s2 = best.fit.state.drift_rad_s2,
-      .drift_sigma_rad_s2 = std::sqrt(observed.drift_variance(half_s) * excess_noise),
+      .drift_sigma_rad_s2 = std::hypot(std::sqrt(observed.drift_variance(half_s) * excess_noise),
+                                       kDriftOfThree * of_grid_rad / (4.0 * half_s * half_s)),
       .bound_rad = std::sqrt(bound_rad2.trace()),
       .consider_sigma_rad = consider_sigma_rad(best, excess_noise),
       .biases = all_biases(best),
@@ -200,7 +215,7 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
   }
   const BiasSet suspected = config.batch.biases.value_or(seen_biases(information));
   solution.undetermined = Observability{information, suspected}.undetermined();
-  const auto wanted = most_significant_bias(information, best.estimated);
+  const auto wanted = most_significant_bias(best.beside_offsets(), best.estimated);
   solution.estimate.assessment = assess(
       solution,
       {.alternate_axis_icrf = solved->of.alternate_axis_icrf,
@@ -210,14 +225,28 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
        .at_bound = best.fit.at_bound,
        .coning_by_edges = !config.batch.biases.has_value(),
        .wanted = wanted ? std::optional{wanted->bias} : std::nullopt});
+  if (const auto step = step_within(orbit_steps(orbit), solved->edges.front().pulse.t,
+                                    solved->edges.back().pulse.t)) {
+    doubt(solution.estimate.assessment, reason_of(*step));
+  }
   return Heard{.solution = std::move(solution),
                .noise = noise_seen(solved->model, solved->edges, best.fit.state)};
 }
 
+double grid_of(const PulseNoise& noise, std::span<const PassEdge> edges) {
+  TimeGrid grid{noise};
+  for (const PassEdge& edge : edges) {
+    grid.note(edge.pulse);
+  }
+  return grid.width_s();
+}
+
 }  // namespace
 
-Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit,
+Expected<BatchSolution> solve_batch(const SpinConfig& stated, const Orbit& orbit,
                                     std::span<const PassEdge> edges, const StartingAxes& starts) {
+  SpinConfig config = stated;
+  config.noise.grid_s = grid_of(stated.noise, edges);
   auto as_stated = solve_with_noise(config, orbit, edges, starts, 1.0);
   if (!as_stated) {
     return Unexpected{std::move(as_stated).error()};

@@ -66,7 +66,7 @@ Expected<BiasSelection> select_biases(const PassModel& model, std::span<const Pa
   BiasSelection added{.best = std::move(without), .open_rad2 = Eigen::Matrix2d::Zero()};
   for (int i = 0; i < kMostBiases; ++i) {
     const EvaluatedFit& now = added.best;
-    const auto wanted = significant_biases(now.information, now.estimated);
+    const auto wanted = significant_biases(now.beside_offsets(), now.estimated);
     if (wanted.empty()) {
       break;
     }
@@ -74,7 +74,7 @@ Expected<BiasSelection> select_biases(const PassModel& model, std::span<const Pa
     if (!likeliest) {
       return Unexpected{likeliest.error()};
     }
-    added.open_rad2 += other_biases_rad2(now.information, now.estimated, likeliest->first);
+    added.open_rad2 += other_biases_rad2(now.beside_offsets(), now.estimated, likeliest->first);
     if (likeliest->first == ConingX) {
       // A sensor misplaced in a way that is no bias here looks like it, and then the axis is off by
       // about as much in any direction.

@@ -42,7 +42,8 @@ PulseNoise noise_seen(const PassModel& model, std::span<const PassEdge> edges,
   };
   const PulseNoise& stated = model.config().noise;
   return {.sun_s = stated.sun_s * times_stated(of_slits),
-          .infrared_s = stated.infrared_s * times_stated(of_beams)};
+          .infrared_s = stated.infrared_s * times_stated(of_beams),
+          .grid_s = stated.grid_s};
 }
 
 }  // namespace spindrift

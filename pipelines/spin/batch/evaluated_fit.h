@@ -18,8 +18,12 @@ struct EvaluatedFit {
   BatchFit fit;
   BiasSet estimated;
   PassInformation information;  ///< Less what the unknowns of its nutation take of it.
+  OffsetPrior offsets_s2;       ///< Of the channels' times, which it takes for zero.
   std::optional<NutationSearch> nutation;
 
+  /// What the edges say whatever the offsets of their channels are: of the state that fits best
+  /// then, as far as one step leads there.
+  PassInformation beside_offsets() const;
   double excess_noise() const;
   double misfit() const;
 };

@@ -57,6 +57,13 @@ Observability::Observability(const PassInformation& information, BiasSet estimat
       unit.asDiagonal() * with_priors.ldlt().solve(Matrix::Identity()).eval() * unit.asDiagonal();
 }
 
+Eigen::Matrix2d Observability::offsets_rad2(const PassInformation& information,
+                                            const OffsetPrior& offsets_s2) const {
+  const Eigen::Matrix<double, 2, kChannelOffsets> moved =
+      covariance_.topRows<2>() * information.offsets.shared;
+  return moved * offsets_s2 * moved.transpose();
+}
+
 double Observability::drift_variance(double half_s) const {
   return covariance_(4, 4) * std::pow(2.0 / (half_s * half_s), 2);
 }
@@ -67,7 +74,6 @@ double Observability::last_rate_variance(double half_s) const {
   return last.dot(covariance_.block<2, 2>(3, 3) * last);
 }
 
-/// Zero for biases that are known.
 Eigen::Matrix<double, kBatchUnknowns, 1> Observability::step(const PassInformation& information,
                                                              const SensorBiases& biases) const {
   Eigen::Matrix<double, kBatchUnknowns, 1> score = information.score;

@@ -28,10 +28,19 @@ class Observability {
   Eigen::Matrix2d coning_covariance_rad2() const {
     return covariance_.block<2, 2>(kMotionUnknowns + ConingX, kMotionUnknowns + ConingX);
   }
+  /// What offsets of the channels' times, taken for zero, add to it.
+  /// @param information Of which it is.
+  Eigen::Matrix2d offsets_rad2(const PassInformation& information,
+                               const OffsetPrior& offsets_s2) const;
   /// Of the drift of the rate, (rad/s^2)^2. @param half_s Half length of the pass.
   double drift_variance(double half_s) const;
   /// Of the rate at the end of the pass. @param half_s Its half length.
   double last_rate_variance(double half_s) const;
+
+  /// What all unknowns would move by from a state, to the best. Zero for biases that are known.
+  /// @param information Of that state; @param biases too.
+  Eigen::Matrix<double, kBatchUnknowns, 1> step(const PassInformation& information,
+                                                const SensorBiases& biases) const;
 
   /// What the estimated biases would move by from a state that is the best with others held.
   /// @param information Of that state; @param biases too.
@@ -52,8 +61,6 @@ class Observability {
   std::vector<BiasSet> undetermined() const;
 
  private:
-  Eigen::Matrix<double, kBatchUnknowns, 1> step(const PassInformation& information,
-                                                const SensorBiases& biases) const;
   Eigen::MatrixXd of_biases() const;
 
   std::vector<SensorBias> estimated_;

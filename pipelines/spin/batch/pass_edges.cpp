@@ -23,6 +23,8 @@ bool is_bad(Rejection rejection) {
     case Unassociated:
     case Late:
     case OutOfTime:
+    case Contradicted:
+    case Copy:
     case Interference:
     case Operator:
     case Phase:
@@ -86,6 +88,8 @@ void PassEdges::take(const PulseUse& use) {
 }
 
 void PassEdges::take(const SpinEstimate& estimate) {
+  noise_chose_among_copies_ =
+      noise_chose_among_copies_ || has(estimate.assessment, ReasonCode::CopiesInNoise);
   if (estimate.estimator == SpinEstimator::Mean) {
     mean_ = estimate;
   } else if (estimate.estimator == SpinEstimator::Sequential) {

@@ -34,6 +34,9 @@ class PassEdges {
   /// When the last of them was: the time of the solution of all. Empty: there are none.
   std::optional<TaiTime> last() const;
 
+  /// As the other estimators say (CopiesInNoise).
+  bool noise_chose_among_copies() const { return noise_chose_among_copies_; }
+
   /// More than `kMost` came.
   bool forgot_some() const { return forgot_some_; }
 
@@ -59,6 +62,7 @@ class PassEdges {
   std::set<TaiTime> manoeuvres_;  ///< To come.
   std::int64_t last_revolution_ = 0;
   bool forgot_some_ = false;
+  bool noise_chose_among_copies_ = false;
   std::optional<SpinEstimate> mean_;
   std::optional<SpinEstimate> sequential_;
   std::optional<SpinFix> last_fix_;

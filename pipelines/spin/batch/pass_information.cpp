@@ -19,6 +19,7 @@ const double kSignificantSigmas = normal_beyond(1e-6);
 PassInformation& PassInformation::operator+=(const PassInformation& other) {
   information += other.information;
   score += other.score;
+  offsets += other.offsets;
   squares += other.squares;
   edges += other.edges;
   outliers += other.outliers;
@@ -45,6 +46,14 @@ double PassInformation::excess_noise(int unknowns) const {
   return squares > limit ? squares / freedom : 1.0;
 }
 
+PassInformation PassInformation::less_offsets(const OffsetPrior& offsets_s2) const {
+  PassInformation less = *this;
+  offsets.eliminate(offsets_s2, less.information, less.score);
+  less.squares -= offsets.explained(offsets_s2);
+  less.offsets = {};
+  return less;
+}
+
 PassInformation information_of(const PassModel& model, std::span<const PassEdge> edges,
                                const SpinState& state, double outlier_sigmas) {
   const PassAtState at = model.at(state);
@@ -59,6 +68,11 @@ PassInformation information_of(const PassModel& model, std::span<const PassEdge>
     const double part = residual->off / outlier_sigmas;
     const double weight = (1.0 - part * part) * (1.0 - part * part) / kMeanSlope;
     sum.score += residual->slopes.transpose() * (weight * residual->off);
+    const auto channel = static_cast<Eigen::Index>(edge.pulse.channel);
+    const double by_offset = 1.0 / edge_sigma_s(model.config().noise, edge.pulse.channel);
+    sum.offsets.shared.col(channel) += residual->slopes.transpose() * by_offset;
+    sum.offsets.own(channel, channel) += by_offset * by_offset;
+    sum.offsets.score(channel) += by_offset * weight * residual->off;
     sum.squares += residual->off * residual->off;
     ++sum.edges;
   }

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "pipelines/spin/batch/pass_model.h"
+#include "pipelines/spin/types/channel_offsets.h"
+#include "pipelines/statistics/considered.h"
 
 namespace spindrift {
 
@@ -27,7 +29,8 @@ struct PassInformation {
       Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns>::Zero();
   /// Slopes times residuals: where a step of the unknowns by -(information^-1 score) leads to zero.
   Eigen::Matrix<double, kBatchUnknowns, 1> score = Eigen::Matrix<double, kBatchUnknowns, 1>::Zero();
-  double squares = 0.0;  ///< Of the residuals.
+  Considered<kBatchUnknowns, kChannelOffsets> offsets = {};  ///< Of the channels' times.
+  double squares = 0.0;                                      ///< Of the residuals.
   std::int64_t edges = 0;
   std::int64_t outliers = 0;  ///< Not among these.
 
@@ -37,6 +40,8 @@ struct PassInformation {
   /// How many times their variance is what the stated noise makes it; 1 unless significantly more.
   /// @param unknowns Estimated from these edges.
   double excess_noise(int unknowns) const;
+  /// What they say whatever the offsets of the channels' times are, which are no biases.
+  PassInformation less_offsets(const OffsetPrior& offsets_s2) const;
 };
 
 /// @param outlier_sigmas Infinity for a state so far off that all edges seem outliers.

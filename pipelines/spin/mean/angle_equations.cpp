@@ -35,6 +35,17 @@ struct Seen {
   }
 };
 
+/// What each edge adds to an angle where it comes a second late, from one standard deviation.
+Eigen::Matrix<double, 1, kPulseChannels> per_second(const EdgeNoise& noise_rad,
+                                                    const PulseNoise& noise) {
+  Eigen::Matrix<double, 1, kPulseChannels> slopes;
+  for (std::size_t i = 0; i < kPulseChannels; ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    slopes(column) = noise_rad(column) / edge_sigma_s(noise, static_cast<PulseChannel>(i));
+  }
+  return slopes;
+}
+
 class Slopes {
  public:
   Slopes(const SpinConfig& config, const SunEarthDirections& sun_earth, const Eigen::Vector3d& axis)
@@ -125,6 +136,7 @@ void AngleEquations::add(const SpinConfig& config, const RevolutionMeasurements&
   Eigen::Matrix<double, kMostAngles, kUnknowns> design;
   Eigen::Matrix<double, kMostAngles, 1> off_rad;
   Eigen::Matrix<double, kMostAngles, kPulseChannels> noise_rad;
+  Eigen::Matrix<double, kMostAngles, kChannelOffsets> by_offsets;
   int rows = 0;
   for (const Residual& residual : residuals(config, measured, sun_earth, axis_icrf)) {
     const Measured value = *good_value_of(measured, residual.quantity);
@@ -133,6 +145,7 @@ void AngleEquations::add(const SpinConfig& config, const RevolutionMeasurements&
       design.row(rows) << slope->by_axis.transpose() * basis, slope->by_errors.transpose();
       off_rad(rows) = residual.value_rad + slope->by_axis.dot(axis_icrf - reference_icrf_);
       noise_rad.row(rows) = value.noise_rad.transpose();
+      by_offsets.row(rows) = per_second(value.noise_rad, measured.noise);
       ++rows;
     }
   }
@@ -147,6 +160,10 @@ void AngleEquations::add(const SpinConfig& config, const RevolutionMeasurements&
   normal_ += white_design.transpose() * white_design;
   right_ += white_design.transpose() * white_off;
   squares_ += white_off.squaredNorm();
+  const auto white_offsets = covariance.matrixL().solve(by_offsets.topRows(rows)).eval();
+  offsets_.shared += white_design.transpose() * white_offsets;
+  offsets_.own += white_offsets.transpose() * white_offsets;
+  offsets_.score += white_offsets.transpose() * white_off;
   angles_ += rows;
 }
 
@@ -154,6 +171,7 @@ AngleEquations& AngleEquations::operator+=(const AngleEquations& other) {
   normal_ += other.normal_;
   right_ += other.right_;
   squares_ += other.squares_;
+  offsets_ += other.offsets_;
   angles_ += other.angles_;
   return *this;
 }
@@ -189,6 +207,10 @@ Eigen::Matrix2d AngleEquations::scatter_rad2(const Eigen::Matrix2d& of_right) co
 Eigen::Matrix<double, 2, kModelErrors> AngleEquations::model_shift() const {
   return tangent_from_reference() *
          axis_information().ldlt().solve(normal_.topRightCorner<2, kModelErrors>());
+}
+
+Eigen::Matrix<double, 2, kChannelOffsets> AngleEquations::offset_shift() const {
+  return tangent_from_reference() * axis_information().ldlt().solve(offsets_.shared.topRows<2>());
 }
 
 }  // namespace spindrift

@@ -1,12 +1,13 @@
 /// @file
 /// The measured angles of many revolutions as one linear least-squares problem,
 ///
-///     r = H x + B b + noise,
+///     r = H x + B b + C c + noise,
 ///
 /// with the residuals r against an axis near the true one, the displacement x of the axis in the
-/// tangent plane, the errors b of the model, and the noise of the edges that the angles share. The
-/// slopes H and B are those at the axis that the angles are compared with, never at what was
-/// measured: what an angle weighs must not depend on its own noise, or the mean lies to one side.
+/// tangent plane, the errors b of the model, the offsets c of the channels' times, and the noise of
+/// the edges that the angles share. The slopes H and B are those at the axis that the angles are
+/// compared with, never at what was measured: what an angle weighs must not depend on its own
+/// noise, or the mean lies to one side.
 
 #pragma once
 
@@ -14,9 +15,11 @@
 #include <utility>
 
 #include "pipelines/spin/measurement/measurement.h"
+#include "pipelines/spin/types/channel_offsets.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/model_allowance.h"
 #include "pipelines/spin/types/sun_earth_directions.h"
+#include "pipelines/statistics/considered.h"
 
 namespace spindrift {
 
@@ -46,12 +49,16 @@ class AngleEquations {
   /// What each error of the model moves the axis by, for every radian of it; likewise.
   Eigen::Matrix<double, 2, kModelErrors> model_shift() const;
 
+  /// What the offset of each channel's times moves the axis by, rad/s; likewise.
+  Eigen::Matrix<double, 2, kChannelOffsets> offset_shift() const;
+
   /// @name The normal equations of x and b
   /// @{
   const Eigen::Matrix<double, kUnknowns, kUnknowns>& normal() const { return normal_; }
   const Eigen::Matrix<double, kUnknowns, 1>& right() const { return right_; }
   double squares() const { return squares_; }  ///< Of the residuals against the reference.
   int angles() const { return angles_; }
+  const Considered<kUnknowns, kChannelOffsets>& offsets() const { return offsets_; }
   /// @}
 
  private:
@@ -64,6 +71,7 @@ class AngleEquations {
   Eigen::Matrix<double, kUnknowns, 1> right_ = Eigen::Matrix<double, kUnknowns, 1>::Zero();
   double squares_ = 0.0;
   int angles_ = 0;
+  Considered<kUnknowns, kChannelOffsets> offsets_;
 };
 
 }  // namespace spindrift

@@ -26,10 +26,21 @@ constexpr double kScattered = 9.0;
 // Of two that differ nobody knows which is right.
 constexpr std::size_t kFewestFixes = 3;
 
+/// The clock's, and what a grid of the times leaves open at both ends of the turns that it rests
+/// on: at least as many as would make the noise of a slit so small in a line through them.
+double period_sigma_s(const SpinPeriod& period, const PulseNoise& noise) {
+  if (noise.grid_s == 0.0) {
+    return period.sigma_s;
+  }
+  const double turns = std::pow(std::sqrt(12.0) * noise.sun_s / period.sigma_s, 2.0 / 3.0);
+  return std::hypot(period.sigma_s, std::sqrt(2.0) * grid_sigma_s(noise) / turns);
+}
+
 }  // namespace
 
 void MeanEstimator::keep(std::int64_t revolution, const RevolutionMeasurements& measured,
                          const SunEarthDirections& sun_earth) {
+  noise_ = measured.noise;
   kept_.push_back({.revolution = revolution, .measured = measured, .sun_earth = sun_earth});
   if (kept_.size() > static_cast<std::size_t>(config_.screening.window) + 1) {
     kept_.pop_front();
@@ -88,7 +99,7 @@ void MeanEstimator::settle(Kept& kept, const SpinFix& fix) {
     relinearise();
   }
   if (mean_->covariance_rad2.trace() < kLinear_rad * kLinear_rad) {
-    verdict_ = test_model(mean_->equations, 0.0);
+    verdict_ = test_model(mean_->equations, 0.0, offset_prior_s2(noise_));
   }
 }
 
@@ -156,7 +167,15 @@ Eigen::Matrix2d MeanEstimator::covariance_rad2() const {
 
 Eigen::Matrix2d MeanEstimator::least_squares_covariance_rad2() const {
   const Eigen::Matrix<double, 2, kModelErrors> shift = mean_->equations.model_shift();
-  return mean_->covariance_rad2 * excess_noise() + shift * verdict_.errors_rad2 * shift.transpose();
+  const Eigen::Matrix2d shown_rad2 =
+      mean_->covariance_rad2 * excess_noise() + shift * verdict_.errors_rad2 * shift.transpose();
+  return shown_rad2 + offsets_rad2();
+}
+
+/// What the offsets of the channels' times have moved the least squares by.
+Eigen::Matrix2d MeanEstimator::offsets_rad2() const {
+  const Eigen::Matrix<double, 2, kChannelOffsets> shift = mean_->equations.offset_shift();
+  return shift * offset_prior_s2(noise_) * shift.transpose();
 }
 
 /// By the residuals; or by the fixes themselves, where these differ and no error of the model
@@ -196,19 +215,20 @@ Eigen::Matrix2d MeanEstimator::covariance_if_moved_rad2() const {
   if (!agrees_with_average()) {
     return average_.covariance_rad2() * static_cast<double>(average_.count());
   }
-  return excess_noise() > 1.0 ? mean_->covariance_rad2 : covariance_rad2();
+  return excess_noise() > 1.0 ? Eigen::Matrix2d{mean_->covariance_rad2 + offsets_rad2()}
+                              : covariance_rad2();
 }
 
 SpinEstimate MeanEstimator::estimate(const Revolution& revolution) const {
   const double rate_rad_s = kTurn_rad / revolution.period.period_s;
-  return {
-      .t = revolution.t_start,
-      .estimator = SpinEstimator::Mean,
-      .axis_icrf = mean_ ? axis_icrf() : *abandoned_axis_icrf_,
-      .covariance_rad2 = mean_ ? covariance_rad2() : anywhere_covariance_rad2(),
-      .spin_rate_rad_s = rate_rad_s,
-      .spin_rate_sigma_rad_s = rate_rad_s / revolution.period.period_s * revolution.period.sigma_s,
-      .assessment = assess()};
+  return {.t = revolution.t_start,
+          .estimator = SpinEstimator::Mean,
+          .axis_icrf = mean_ ? axis_icrf() : *abandoned_axis_icrf_,
+          .covariance_rad2 = mean_ ? covariance_rad2() : anywhere_covariance_rad2(),
+          .spin_rate_rad_s = rate_rad_s,
+          .spin_rate_sigma_rad_s =
+              rate_rad_s / revolution.period.period_s * period_sigma_s(revolution.period, noise_),
+          .assessment = assess()};
 }
 
 /// Empty where nothing speaks against it but its residuals.

@@ -11,9 +11,10 @@
 /// where the least squares begin, and what they are held against: where they leave it, or the
 /// angles are not linear and leave the axis open, the plain average stands in for them.
 ///
-/// Its covariance holds the noise of the fixes, what it may have moved it by that others were left
-/// out for their noise (fixes_by_case.h), and what the residuals show to be wrong with noise and
-/// model. Cases that it may move by more than they help are not in it. Its quality is
+/// Its covariance holds the noise of the fixes, what a grid of their times leaves open, what it may
+/// have moved it by that others were left out for their noise (fixes_by_case.h), and what the
+/// residuals show to be wrong with noise and model. Cases that it may move by more than they help
+/// are not in it. Its quality is
 ///     OK         all is well, or the model is off within its allowance
 ///     CONVERGING likewise, but of too few fixes (convergence.h)
 ///     DOUBTFUL   the residuals scatter more than their noise, or the model is off by more; or most
@@ -87,6 +88,7 @@ class MeanEstimator {
   void relinearise();
   void linearise_about(const Eigen::Vector3d& axis_icrf);
   Eigen::Matrix2d least_squares_covariance_rad2() const;
+  Eigen::Matrix2d offsets_rad2() const;
   double excess_noise() const;
   double fix_rad2() const;
   bool less_informative_than_one_fix() const;
@@ -96,7 +98,8 @@ class MeanEstimator {
   Assessment assess() const;
 
   SpinConfig config_;
-  std::deque<Kept> kept_;  ///< The last revolutions.
+  PulseNoise noise_{config_.noise};  ///< Of the last measurements.
+  std::deque<Kept> kept_;            ///< The last revolutions.
   FixesByCase fixes_;
   std::size_t settled_ = 0;          ///< So many are in these.
   std::optional<MeanOfCases> mean_;  ///< The least squares.

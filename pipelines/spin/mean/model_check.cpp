@@ -18,6 +18,7 @@ using Errors = Eigen::Matrix<double, kModelErrors, 1>;
 using ErrorMatrix = Eigen::Matrix<double, kModelErrors, kModelErrors>;
 using SomeErrors = Eigen::VectorXd;
 using SomeErrorsMatrix = Eigen::MatrixXd;
+using Right = Eigen::Matrix<double, AngleEquations::kUnknowns, 1>;
 using Normal = Eigen::Matrix<double, AngleEquations::kUnknowns, AngleEquations::kUnknowns>;
 
 /// That the errors are not greater than said.
@@ -164,21 +165,26 @@ double excess_noise(const AngleEquations& equations) {
 
 }  // namespace
 
-ModelTest test_model(const AngleEquations& equations, double allowed_rad) {
-  const Normal& normal = equations.normal();
+ModelTest test_model(const AngleEquations& equations, double allowed_rad,
+                     const OffsetPrior& offsets_s2) {
+  Normal normal = equations.normal();
+  Right right = equations.right();
+  equations.offsets().eliminate(offsets_s2, normal, right);
   const auto axis = (normal.topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity()).ldlt();
   const Eigen::Matrix<double, 2, kModelErrors> coupling = normal.topRightCorner<2, kModelErrors>();
   const ErrorMatrix information = normal.bottomRightCorner<kModelErrors, kModelErrors>() -
                                   coupling.transpose() * axis.solve(coupling);
-  const Errors score = equations.right().tail<kModelErrors>() -
-                       coupling.transpose() * axis.solve(equations.right().head<2>());
+  const Errors score =
+      right.tail<kModelErrors>() - coupling.transpose() * axis.solve(right.head<2>());
   return test_model_errors({.information = information, .score = score}, excess_noise(equations),
                            allowed_rad);
 }
 
-ModelTest test_model_errors(const ErrorInformation& errors, double excess_noise,
-                            double allowed_rad) {
+ModelTest test_model_errors(const ErrorInformation& seen, double excess_noise, double allowed_rad,
+                            const OffsetPrior& offsets_s2) {
   ModelTest verdict{.excess_noise = excess_noise};
+  ErrorInformation errors = seen;
+  errors.offsets.eliminate(offsets_s2, errors.information, errors.score);
   const Spectrum spectrum{errors.information, errors.score, excess_noise};
   if (spectrum.freedom() == 0) {
     return verdict;

@@ -181,7 +181,8 @@ void reject(RevolutionMeasurements& measured, SpinQuantity quantity, Rejection w
 }
 
 RevolutionMeasurements measure(const SpinConfig& config, const Revolution& revolution) {
-  RevolutionMeasurements measured{.t_sun1 = revolution.good_edge(Sun1),
+  RevolutionMeasurements measured{.noise = config.noise,
+                                  .t_sun1 = revolution.good_edge(Sun1),
                                   .sun_angle = {},
                                   .mixed_azimuth = {},
                                   .crossings = {},
@@ -189,9 +190,9 @@ RevolutionMeasurements measure(const SpinConfig& config, const Revolution& revol
   const std::optional<TaiTime>& sun1 = revolution.edge(Sun1);
   const std::optional<TaiTime>& sun2 = revolution.edge(Sun2);
   if (sun1 && sun2) {
-    measured.sun_angle =
-        sun_angle(config.sun_sensor, seconds_between(*sun1, *sun2),
-                  revolution.rate_rad_s(*sun1 + (*sun2 - *sun1) / 2), config.noise.sun_s);
+    measured.sun_angle = sun_angle(config.sun_sensor, seconds_between(*sun1, *sun2),
+                                   revolution.rate_rad_s(*sun1 + (*sun2 - *sun1) / 2),
+                                   edge_sigma_s(config.noise, Sun1));
     if (measured.sun_angle) {
       measured.sun_angle->rejected_by = rejection_of(revolution, {Sun1, Sun2});
     }

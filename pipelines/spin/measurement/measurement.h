@@ -46,6 +46,7 @@ Measured circular_mean(const Measured& one, const Measured& other);
 
 /// All that the edges of one revolution determine, good or not.
 struct RevolutionMeasurements {
+  PulseNoise noise;                   ///< Of the edges, as stated when it was measured.
   std::optional<TaiTime> t_sun1;      ///< Of a good edge only.
   std::optional<Measured> sun_angle;  ///< theta_s, (0, pi).
   /// w (t_mid - t_sun2) - a, (-pi, pi], the mean of the sensors; only where sun1 is not good.

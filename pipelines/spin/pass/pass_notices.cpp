@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
@@ -19,8 +20,9 @@ constexpr std::int64_t kFewestToJudge = 100;
 /// It is the edges themselves, or what the mission says of them, that does not fit.
 bool is_of_the_edge(Rejection rejection) {
   return rejection != Rejection::Late && rejection != Rejection::OutOfTime &&
-         rejection != Rejection::Interference && rejection != Rejection::Operator &&
-         rejection != Rejection::NoSensor && rejection != Rejection::NoOrbit;
+         rejection != Rejection::Copy && rejection != Rejection::Interference &&
+         rejection != Rejection::Operator && rejection != Rejection::NoSensor &&
+         rejection != Rejection::NoOrbit;
 }
 
 NamedValue at(TaiTime t) { return {"t_tai_ns", tai_ns(t)}; }
@@ -54,6 +56,13 @@ void PassNotices::edge_out_of_time() { say_once({NoticeCode::EdgesOutOfTime}); }
 void PassNotices::associated(const Association& association) {
   left_over_any_ = left_over_any_ || !association.left_over.empty();
   closed_any_ = closed_any_ || !association.closed.empty();
+  for (const CopiedEdge& copy : association.copies) {
+    copied_channels_.insert(copy.pulse.channel);
+    ++copies_;
+    copies_apart_s_ += copy.apart_s;
+    say_once(
+        {NoticeCode::CopiesBegin, {at(copy.pulse.t), {"channel", text_of(copy.pulse.channel)}}});
+  }
   for (const InterferingChannels& channels : association.began_to_interfere) {
     say({NoticeCode::InterferenceBegins,
          {at(channels.first),
@@ -67,6 +76,10 @@ void PassNotices::counted_on(const Revolution& revolution) {
   if (const auto& off_turns = revolution.count_sigma_turns) {
     say({NoticeCode::CountUncertain, {{"turns", *off_turns}, {"revolution", revolution.number}}});
   }
+}
+
+void PassNotices::times_on_grid(TaiTime t, double width_s) {
+  say_once({NoticeCode::TimesOnGrid, {at(t), {"grid_s", width_s}}});
 }
 
 void PassNotices::outside_orbit(TaiTime t, ErrorCode code) {
@@ -173,6 +186,7 @@ void PassNotices::pass_ended(std::span<const InterferingChannels> interfering,
          {{"slowest_rpm", kSlowestSearched_rpm}, {"fastest_rpm", kFastestSearched_rpm}}});
   }
   if (closed_any_) {
+    say_what_was_copied();
     say_what_was_left_out();
   }
   if (auto silent = channels_where(false, true); closed_any_ && !silent.empty()) {
@@ -196,6 +210,19 @@ void PassNotices::pass_ended(std::span<const InterferingChannels> interfering,
     say({NoticeCode::MuchOutsideOrbit, {{"revolutions", outside_orbit_}, at(last_outside_orbit_)}});
   }
   say_what_the_axis_lacks(sequential);
+}
+
+void PassNotices::say_what_was_copied() {
+  if (copies_ == 0) {
+    return;
+  }
+  std::vector<std::string> channels;
+  std::transform(copied_channels_.begin(), copied_channels_.end(), std::back_inserter(channels),
+                 text_of);
+  say({NoticeCode::Copied,
+       {{"channels", std::move(channels)},
+        {"edges", copies_},
+        {"apart_s", copies_apart_s_ / static_cast<double>(copies_)}}});
 }
 
 void PassNotices::say_what_was_left_out() {

@@ -40,10 +40,12 @@ class PassNotices {
   void edge_out_of_time();
   void associated(const Association& association);
   void counted_on(const Revolution& revolution);
+  void times_on_grid(TaiTime t, double width_s);
   /// @param code Of SunEarthEphemeris::sun_earth.
   void outside_orbit(TaiTime t, ErrorCode code);
   /// The end of the pass cuts the revolution, which may give no fix for that alone.
   void cut_short(std::int64_t revolution) { cut_short_ = revolution; }
+  void orbit_steps(Notice notice) { say_once(std::move(notice)); }
   void without_fix(std::int64_t revolution, const WhyNoFix& why);
   /// @param fix Of the revolution itself.
   /// @param prior On its candidates, or on the last that it was asked about.
@@ -76,6 +78,7 @@ class PassNotices {
   void say_first(NoticeCode kind, Notice notice);
   /// Those that brought edges or none, and that the mission describes or not.
   std::vector<std::string> channels_where(bool heard, bool described) const;
+  void say_what_was_copied();
   void say_what_was_left_out();
   void say_why_no_mean();
   Notice why_ambiguous() const;
@@ -88,11 +91,14 @@ class PassNotices {
   std::array<bool, kPulseChannels> heard_{};
   std::int64_t edges_ = 0;
   std::map<Rejection, std::int64_t> left_out_;  ///< Of them.
-  bool closed_any_ = false;                     ///< Revolution.
-  bool left_over_any_ = false;                  ///< Edge of none.
-  std::optional<Quality> quality_;              ///< Of `sequential`; empty: it never began.
-  bool fixes_near_tangent_ = false;             ///< That it rests on.
-  int last_case_ = 0;                           ///< Of the last fix.
+  std::set<PulseChannel> copied_channels_;
+  std::int64_t copies_ = 0;          ///< Of edges.
+  double copies_apart_s_ = 0.0;      ///< Their sum.
+  bool closed_any_ = false;          ///< Revolution.
+  bool left_over_any_ = false;       ///< Edge of none.
+  std::optional<Quality> quality_;   ///< Of `sequential`; empty: it never began.
+  bool fixes_near_tangent_ = false;  ///< That it rests on.
+  int last_case_ = 0;                ///< Of the last fix.
   std::optional<PriorVerdict> prior_verdict_;
   bool prior_contradicted_ = false;
   bool mean_began_ = false;

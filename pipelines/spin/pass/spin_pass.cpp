@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -19,6 +20,8 @@ namespace {
 
 // So many fixes must agree on an axis before it speaks for or against a candidate.
 constexpr std::size_t kEstablishedFixes = 10;
+
+constexpr std::string_view kFrameKind = "coded_frame";
 
 Eigen::Vector3d median_axis(const std::vector<Eigen::Vector3d>& axes) {
   Eigen::Vector3d median;
@@ -39,9 +42,11 @@ SpinPass::SpinPass(const SpinConfig& config, Orbit orbit)
     : config_{config},
       told_prior_{config.prior},
       notices_{config},
+      orbit_steps_{orbit_steps(orbit)},
       sun_earth_{std::move(orbit), config.horizon.co2_altitude_km},
       interference_{config.screening.interference_s},
       associator_{config},
+      grid_{config.noise},
       screening_{config.screening},
       recent_axes_{static_cast<std::size_t>(config.screening.window)},
       disambiguator_{config},
@@ -61,18 +66,21 @@ SpinOutput SpinPass::push(const CodedFrame& frame) {
   SpinOutput out;
   switch (frames_.add(frame)) {
     case FrameReorderWindow::Verdict::Held:
-      for (const CodedFrame& due : frames_.release()) {
-        take(due, out);
-      }
+      take_due(frames_.release(), out);
       break;
     case FrameReorderWindow::Verdict::Late:
-    case FrameReorderWindow::Verdict::OutOfTime:
-      // As edges they are late or out of time as well, and are left out as such.
+      // As edges they are late as well, and are left out as such.
       for (const Pulse& edge : edges_of(frame)) {
         take(edge, out);
       }
       break;
+    case FrameReorderWindow::Verdict::OutOfTime:
+      for (const Pulse& edge : edges_of(frame)) {
+        leave_out_of_time(edge, out);
+      }
+      break;
     case FrameReorderWindow::Verdict::Duplicate:
+      compare(frame, out);
       break;
   }
   notices_.used(out.products);
@@ -94,9 +102,7 @@ void SpinPass::act(TaiTime t, const SpinAction& action) {
 
 SpinOutput SpinPass::fall_silent() {
   SpinOutput out;
-  for (const CodedFrame& due : frames_.fall_silent()) {
-    take(due, out);
-  }
+  take_due(frames_.fall_silent(), out);
   sort_out(reorder_.fall_silent(), out);
   notices_.used(out.products);
   out.notices = notices_.take();
@@ -106,11 +112,7 @@ SpinOutput SpinPass::fall_silent() {
 SpinOutput SpinPass::finish() {
   SpinOutput out;
   const FrameReorderWindow::Rest frames = frames_.release_all();
-  for (const std::vector<CodedFrame>& some : {frames.in_time, frames.out_of_time}) {
-    for (const CodedFrame& frame : some) {
-      take(frame, out);
-    }
-  }
+  take_due(frames.in_time, out);
   take_edges_before(TaiTime::max(), out);
   const ReorderWindow::Rest rest = reorder_.release_all();
   sort_out(rest.in_time, out);
@@ -123,14 +125,56 @@ SpinOutput SpinPass::finish() {
   if (!started_) {
     settle_first(out);
   }
+  // Once more among the edges, stray frames would be a stream by themselves.
+  for (const CodedFrame& frame : frames.out_of_time) {
+    for (const Pulse& edge : edges_of(frame)) {
+      leave_out_of_time(edge, out);
+    }
+  }
   for (const Pulse& pulse : rest.out_of_time) {
-    leave_out(pulse, Rejection::OutOfTime, out);
-    notices_.edge_out_of_time();
+    leave_out_of_time(pulse, out);
   }
   notices_.used(out.products);
   notices_.pass_ended(associator_.interfering(), sequential_);
   out.notices = notices_.take();
   return out;
+}
+
+/// What has been computed stays as it is, whatever comes behind it.
+void SpinPass::compare(const CodedFrame& again, SpinOutput& out) {
+  const auto known = frames_.find(again);
+  if (!known.released) {
+    contested_.note(*known.sample, again);
+  } else if (!say_the_same(*known.sample, again)) {
+    out.products.emplace_back(SampleContradiction{
+        .t = again.t, .kind = kFrameKind, .by = late_senders(*known.sample, again), .late = true});
+  }
+}
+
+/// Of frames that contradict each other all edges are left out, unless one of them counts.
+void SpinPass::take_due(const std::vector<CodedFrame>& due, SpinOutput& out) {
+  for (const CodedFrame& frame : due) {
+    const std::vector<CodedFrame> said = contested_.take(frame);
+    if (!is_contested(said)) {
+      take(frame, out);
+      continue;
+    }
+    const auto used = one_that_counts(said);
+    out.products.emplace_back(
+        SampleContradiction{.t = frame.t, .kind = kFrameKind, .by = senders_of(said, used)});
+    if (used) {
+      take(*used, out);
+      continue;
+    }
+    std::set<Pulse> edges;
+    for (const CodedFrame& one : said) {
+      const std::vector<Pulse> of_one = edges_of(one);
+      edges.insert(of_one.begin(), of_one.end());
+    }
+    for (const Pulse& edge : edges) {
+      leave_out(edge, Rejection::Contradicted, out);
+    }
+  }
 }
 
 void SpinPass::take(const CodedFrame& frame, SpinOutput& out) {
@@ -163,7 +207,7 @@ void SpinPass::take(const Pulse& pulse, SpinOutput& out) {
       notices_.edge_came_late();
       break;
     case ReorderWindow::Verdict::OutOfTime:
-      leave_out(pulse, Rejection::OutOfTime, out);
+      leave_out_of_time(pulse, out);
       break;
     case ReorderWindow::Verdict::Duplicate:
       break;  // The same edge once more: what becomes of it is said once.
@@ -172,6 +216,11 @@ void SpinPass::take(const Pulse& pulse, SpinOutput& out) {
 
 void SpinPass::leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out) {
   out.products.emplace_back(PulseUse{.pulse = pulse, .revolution = {}, .rejected_by = rejected_by});
+}
+
+void SpinPass::leave_out_of_time(const Pulse& pulse, SpinOutput& out) {
+  leave_out(pulse, Rejection::OutOfTime, out);
+  notices_.edge_out_of_time();
 }
 
 void SpinPass::sort_out(const std::vector<Pulse>& in_time, SpinOutput& out) {
@@ -199,8 +248,28 @@ void SpinPass::collect(Association association, SpinOutput& out) {
   }
 }
 
+/// A grid is in the noise from where it is known on, which is before an answer can be OK.
+void SpinPass::hear(const Revolution& revolution) {
+  const auto sun1 = revolution.good_edge(PulseChannel::Sun1);
+  for (std::size_t i = 0; i < kPulseChannels; ++i) {
+    const auto channel = static_cast<PulseChannel>(i);
+    const auto t = revolution.good_edge(channel);
+    // The end of a chord that the next sun1 interrupts may have been counted from there.
+    const bool of_next = sun1 && t && seconds_between(*sun1, *t) > revolution.period.period_s;
+    if (t && !of_next) {
+      grid_.note({.t = *t, .channel = channel});
+    }
+  }
+  if (grid_.width_s() != config_.noise.grid_s) {
+    config_.noise.grid_s = grid_.width_s();
+    sequential_.hear(config_.noise);
+    notices_.times_on_grid(revolution.t_start, grid_.width_s());
+  }
+}
+
 void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
   notices_.counted_on(revolution);
+  hear(revolution);
   Candidate candidate{.revolution = revolution,
                       .measured = measure(config_, revolution),
                       .sun_earth = {},
@@ -354,6 +423,7 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   const Revolution& revolution = candidate.revolution;
   const bool had_mean = mean_.count() > 0;
   first_axis_ = first_axis_.value_or(revolution.t_start);
+  on_orbit_since_ = on_orbit_since_.value_or(revolution.t_start);
   do_what_is_due(revolution.t_start);
   const std::vector<SpinFix> fixes = find_fixes(candidate);
   std::optional<SpinEstimate> sequential;
@@ -380,13 +450,31 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
       mean_moved = true;
     }
   }
+  const auto doubt_copies = [this](Assessment& assessment) {
+    if (associator_.noise_chose_among_copies()) {
+      doubt(assessment, {ReasonCode::CopiesInNoise});
+    }
+  };
   if (mean_moved || mean_given_up) {
-    out.products.emplace_back(mean_.estimate(revolution));
+    SpinEstimate mean = mean_.estimate(revolution);
+    doubt_copies(mean.assessment);
+    doubt_where_orbit_steps(mean);
+    out.products.emplace_back(std::move(mean));
     notices_.mean_began();
   }
   if (sequential) {
+    doubt_copies(sequential->assessment);
+    doubt_where_orbit_steps(*sequential);
     notices_.estimated(*sequential);
     out.products.emplace_back(std::move(*sequential));
+  }
+}
+
+void SpinPass::doubt_where_orbit_steps(SpinEstimate& estimate) {
+  if (const auto step = step_within(orbit_steps_, *on_orbit_since_, estimate.t)) {
+    const Reason reason = reason_of(*step);
+    notices_.orbit_steps({NoticeCode::OrbitStepsInPass, reason.values});
+    doubt(estimate.assessment, reason);
   }
 }
 
@@ -447,6 +535,7 @@ void SpinPass::apply(TaiTime t, const MarkManoeuvre& /*action*/) {
     return;
   }
   begin_anew(t);
+  on_orbit_since_ = t;
   sequential_ = SequentialEstimator{config_};
   restarts_handled_ = 0;
 }

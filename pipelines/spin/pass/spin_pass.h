@@ -4,6 +4,7 @@
 ///
 ///     frame -> order of time -> its edges -+
 ///     pulse -------------------------------+-> order of time -> interference -> revolution, period
+///       -> grid of the times
 ///       -> measurements -> screening -> candidates for the axis -> fix -> mean
 ///                                    -> good edges -------------------> sequential
 ///
@@ -24,6 +25,7 @@
 
 #include "pipelines/core/notice.h"
 #include "pipelines/ephemeris/orbit.h"
+#include "pipelines/ephemeris/orbit_steps.h"
 #include "pipelines/exclusions/exclusions.h"
 #include "pipelines/spin/association/association.h"
 #include "pipelines/spin/disambiguation/disambiguation.h"
@@ -38,10 +40,12 @@
 #include "pipelines/spin/sequential/sequential.h"
 #include "pipelines/spin/telemetry_order/interference.h"
 #include "pipelines/spin/telemetry_order/reorder_window.h"
+#include "pipelines/spin/telemetry_order/time_grid.h"
 #include "pipelines/spin/types/coded_frame.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/products.h"
 #include "pipelines/spin/types/spin_action.h"
+#include "pipelines/time/contested.h"
 
 namespace spindrift {
 
@@ -87,10 +91,13 @@ class SpinPass {
 
   void take(const Pulse& pulse, SpinOutput& out);
   void take(const CodedFrame& frame, SpinOutput& out);
+  void compare(const CodedFrame& again, SpinOutput& out);
+  void take_due(const std::vector<CodedFrame>& due, SpinOutput& out);
   void take_edges_before(TaiTime t, SpinOutput& out);
   void sort_out(const std::vector<Pulse>& in_time, SpinOutput& out);
   void associate(const std::vector<InterferenceWindow::Judged>& pulses, SpinOutput& out);
   void collect(Association association, SpinOutput& out);
+  void hear(const Revolution& revolution);
   void consider(const Revolution& revolution, SpinOutput& out);
   void settle_first(SpinOutput& out);
   void settle(Candidate& candidate, SpinOutput& out);
@@ -113,17 +120,23 @@ class SpinPass {
   void choose_root(TaiTime t, const AxisCandidates& candidates);
   void forget_prior(TaiTime t);
   void begin_anew(TaiTime t);
+  void doubt_where_orbit_steps(SpinEstimate& estimate);
   static void leave_out(const Pulse& pulse, Rejection rejected_by, SpinOutput& out);
+  void leave_out_of_time(const Pulse& pulse, SpinOutput& out);
 
   SpinConfig config_;
   std::optional<SpinPrior> told_prior_;
   PassNotices notices_;
+  std::vector<OrbitStep> orbit_steps_;
+  std::optional<TaiTime> on_orbit_since_;  ///< The first revolution of the estimates.
   SunEarthEphemeris sun_earth_;
   FrameReorderWindow frames_;
+  Contested<CodedFrame> contested_;
   std::vector<Pulse> of_next_frame_;  ///< Edges behind the sun1 of a frame that is still to come.
   ReorderWindow reorder_;
   InterferenceWindow interference_;
   Associator associator_;
+  TimeGrid grid_;
   std::vector<Candidate> first_;  ///< Held back; empty once settled.
   bool started_ = false;
   /// The mean attitude that measurements are compared with.

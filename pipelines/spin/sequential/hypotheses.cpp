@@ -124,8 +124,10 @@ bool Hypotheses::work_in(const SpinConfig& config, const Revolution& revolution,
     SpinFilter& filter = hypothesis.filter;
     filter.predict(revolution.t_start);
     if (filter.phase_sigma_rad() > kPhaseLost_rad) {
-      filter = SpinFilter::about(filter.axis_icrf(), filter.axis_covariance_rad2(), config,
-                                 revolution, sky)
+      filter = SpinFilter::about(filter.axis_icrf(),
+                                 filter.axis_covariance_rad2() +
+                                     filter.offsets_rad2(offset_prior_s2(config.noise)),
+                                 config, revolution, sky)
                    .value_or(filter);
       hypothesis.tally = {};
     } else {

@@ -33,16 +33,14 @@ void InnovationMonitor::note(const EdgeStatistics& tally) {
   const double squares = tally.squared_innovations - (with_gated ? 0.0 : tally.squared_gates);
   squared_innovation_ += (squares - counted * squared_innovation_) / edges_;
   error_edges_ += accepted;
-  errors_.information += tally.errors.information;
-  errors_.score += tally.errors.score;
+  errors_ += tally.errors;
 }
 
 void InnovationMonitor::fade() {
   edges_ = std::min(edges_, kFewestEdges);
   const double share = error_edges_ > kFadedEdges ? kFadedEdges / error_edges_ : 1.0;
   error_edges_ *= share;
-  errors_.information *= share;
-  errors_.score *= share;
+  errors_ *= share;
 }
 
 void InnovationMonitor::discard_transient() {

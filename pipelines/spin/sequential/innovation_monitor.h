@@ -29,7 +29,10 @@ class InnovationMonitor {
   /// significantly more than 1; else 1.
   double excess_noise() const;
 
-  ModelTest verdict() const { return test_model_errors(errors_, excess_noise(), 0.0); }
+  /// @param offsets_s2 As test_model_errors().
+  ModelTest verdict(const OffsetPrior& offsets_s2 = OffsetPrior::Zero()) const {
+    return test_model_errors(errors_, excess_noise(), 0.0, offsets_s2);
+  }
 
  private:
   double edges_ = 0.0;  ///< So many speak in the following two.

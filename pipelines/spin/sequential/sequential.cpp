@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,13 @@ constexpr int kFewestNearTangent = 20;
 // Weight of one fix in the share of those that graze.
 constexpr double kRecentFix = 0.02;
 constexpr double kNearlyAll = 0.8;
+
+/// The rate is that of the last seconds, as long as its own error takes to make that of the phase.
+/// Where the times are on a grid both ends of these are off by what the grid leaves open.
+double rate_sigma_rad_s(const SpinFilter& filter, const PulseNoise& noise) {
+  const double ends_rad = filter.rate_rad_s() * std::numbers::sqrt2 * grid_sigma_s(noise);
+  return filter.rate_sigma_rad_s() * std::hypot(1.0, ends_rad / filter.phase_sigma_rad());
+}
 
 }  // namespace
 
@@ -41,14 +49,14 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
     work_in(revolution, sky);
   }
   const SpinFilter& best = hypotheses_.published().filter;
-  return SpinEstimate{
-      .t = revolution.t_start,
-      .estimator = SpinEstimator::Sequential,
-      .axis_icrf = best.axis_icrf(),
-      .covariance_rad2 = covariance_rad2(),
-      .spin_rate_rad_s = best.rate_rad_s(),
-      .spin_rate_sigma_rad_s = best.rate_sigma_rad_s() * std::sqrt(verdict_.excess_noise),
-      .assessment = assess()};
+  return SpinEstimate{.t = revolution.t_start,
+                      .estimator = SpinEstimator::Sequential,
+                      .axis_icrf = best.axis_icrf(),
+                      .covariance_rad2 = covariance_rad2(),
+                      .spin_rate_rad_s = best.rate_rad_s(),
+                      .spin_rate_sigma_rad_s =
+                          rate_sigma_rad_s(best, config_.noise) * std::sqrt(verdict_.excess_noise),
+                      .assessment = assess()};
 }
 
 /// @return Whether filters began here.
@@ -144,7 +152,7 @@ bool SequentialEstimator::begin(const SpinFix& fix, std::span<const StartingPoin
   }
   noise_at_restart_ = verdict_.excess_noise;
   watch_.fade();
-  verdict_ = watch_.verdict();
+  verdict_ = watch_.verdict(offset_prior_s2(config_.noise));
   gating_ = {};
   oscillating_ = {};
   contradiction_ = {};
@@ -202,7 +210,7 @@ void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) 
   gating_.note(published.tally);
   oscillating_.note(published.tally);
   watch_.note(published.tally);
-  verdict_ = watch_.verdict();
+  verdict_ = watch_.verdict(offset_prior_s2(config_.noise));
   // The first edges pull the filter from its start to where they fit.
   const auto edges =
       static_cast<double>(published.tally.accepted.count() + published.tally.gated.count());
@@ -218,8 +226,9 @@ Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
   }
   const SpinFilter& filter = hypotheses_.published().filter;
   const Eigen::Matrix<double, 2, kModelErrors> moved = filter.axis_of_errors();
-  return filter.axis_covariance_rad2() * verdict_.excess_noise +
-         moved * verdict_.errors_rad2 * moved.transpose();
+  const Eigen::Matrix2d shown_rad2 = filter.axis_covariance_rad2() * verdict_.excess_noise +
+                                     moved * verdict_.errors_rad2 * moved.transpose();
+  return shown_rad2 + filter.offsets_rad2(offset_prior_s2(config_.noise));
 }
 
 double SequentialEstimator::model_leverage() const {

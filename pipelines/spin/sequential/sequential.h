@@ -63,6 +63,9 @@ class SequentialEstimator {
   std::optional<SpinEstimate> update(const Revolution& revolution, const Sky& sky,
                                      std::span<const SpinFix> settled);
 
+  /// What is known of the noise of the edges to come, and of the grid of their times.
+  void hear(const PulseNoise& noise) { config_.noise = noise; }
+
   /// How often it gave up its axis for another.
   int restarts() const { return restarts_; }
 

@@ -87,6 +87,8 @@ void SpinFilter::predict(TaiTime t) {
   rate_rad_s_ += drift_rad_s2_ * dt_s;
   of_errors_.row(kPhase) += dt_s * (of_errors_.row(kRate) + 0.5 * dt_s * of_errors_.row(kDrift));
   of_errors_.row(kRate) += dt_s * of_errors_.row(kDrift);
+  of_offsets_.row(kPhase) += dt_s * (of_offsets_.row(kRate) + 0.5 * dt_s * of_offsets_.row(kDrift));
+  of_offsets_.row(kRate) += dt_s * of_offsets_.row(kDrift);
   covariance_.row(kPhase) += dt_s * (covariance_.row(kRate) + 0.5 * dt_s * covariance_.row(kDrift));
   covariance_.col(kPhase) += dt_s * (covariance_.col(kRate) + 0.5 * dt_s * covariance_.col(kDrift));
   covariance_.row(kRate) += dt_s * covariance_.row(kDrift);
@@ -142,6 +144,7 @@ SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prio
   tally = {};
   covariance_ = prior.covariance_;
   of_errors_ = prior.of_errors_;
+  of_offsets_ = prior.of_offsets_;
   Error error = error_of(prior);
   const auto gate_of = [&noise = noise](PulseChannel channel) {
     return square(kGateSigmas) * noise.at(index_of(channel));
@@ -172,7 +175,8 @@ SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prio
         .sigma_rad = sigma_rad,
         .slope = Error{predicted->phase_per_rotation.x(), predicted->phase_per_rotation.y(),
                        by_phase, by_phase * dt_s, by_phase * 0.5 * square(dt_s)},
-        .per_error = predicted->phase_per_error};
+        .per_error = predicted->phase_per_error,
+        .per_offset_rad_s = rate_rad_s_};
     if (!work_in(measured, gate_of(edge.channel), error, tally)) {
       leave_out(edge);
       continue;
@@ -203,6 +207,14 @@ bool SpinFilter::work_in(const Measured& measured, double gate, Error& error,
   of_errors_ -= gain_unscaled * innovation_of_errors / variance;
   tally.errors.information += innovation_of_errors.transpose() * innovation_of_errors / variance;
   tally.errors.score += innovation_of_errors.transpose() * (innovation / variance);
+  Eigen::Matrix<double, 1, kChannelOffsets> innovation_of_offsets =
+      measured.slope.transpose() * of_offsets_;
+  innovation_of_offsets(static_cast<Eigen::Index>(measured.channel)) += measured.per_offset_rad_s;
+  of_offsets_ -= gain_unscaled * innovation_of_offsets / variance;
+  tally.errors.offsets.shared +=
+      innovation_of_errors.transpose() * innovation_of_offsets / variance;
+  tally.errors.offsets.own += innovation_of_offsets.transpose() * innovation_of_offsets / variance;
+  tally.errors.offsets.score += innovation_of_offsets.transpose() * (innovation / variance);
   error += gain_unscaled * (innovation / variance);
   covariance_ -= gain_unscaled * gain_unscaled.transpose() / variance;
   tally.log_likelihood += log_normal_density(squared_innovation, variance);
@@ -236,6 +248,12 @@ Eigen::Matrix2d SpinFilter::axis_covariance_rad2() const {
 
 Eigen::Matrix<double, 2, kModelErrors> SpinFilter::axis_of_errors() const {
   return tangent_from_tilts(q_icrf_spin_) * of_errors_.topRows<2>();
+}
+
+Eigen::Matrix2d SpinFilter::offsets_rad2(const OffsetPrior& offsets_s2) const {
+  const Eigen::Matrix<double, 2, kChannelOffsets> moved =
+      tangent_from_tilts(q_icrf_spin_) * of_offsets_.topRows<2>();
+  return moved * offsets_s2 * moved.transpose();
 }
 
 double SpinFilter::rate_sigma_rad_s() const { return std::sqrt(covariance_(kRate, kRate)); }

@@ -82,6 +82,8 @@ class SpinFilter {
   Eigen::Matrix2d axis_covariance_rad2() const;
   /// What each error of the model has moved the axis by, rad/rad; likewise.
   Eigen::Matrix<double, 2, kModelErrors> axis_of_errors() const;
+  /// What offsets of the channels' times add to the covariance of the axis; likewise.
+  Eigen::Matrix2d offsets_rad2(const OffsetPrior& offsets_s2) const;
   double rate_rad_s() const { return rate_rad_s_; }
   double rate_sigma_rad_s() const;
   double phase_sigma_rad() const;
@@ -117,6 +119,7 @@ class SpinFilter {
     double sigma_rad;
     Error slope;
     Eigen::Matrix<double, 1, kModelErrors> per_error;
+    double per_offset_rad_s;  ///< Change of the phase for a second that the channel is late.
   };
   Linearised update_linearised_here(const SpinFilter& prior, const RevolutionEdges& seen,
                                     Missing missing, EdgeStatistics& tally);
@@ -133,6 +136,9 @@ class SpinFilter {
   /// The error that each error of the model has made, per rad of it.
   Eigen::Matrix<double, 5, kModelErrors> of_errors_ =
       Eigen::Matrix<double, 5, kModelErrors>::Zero();
+  /// Likewise the offset of each channel's times, per second.
+  Eigen::Matrix<double, 5, kChannelOffsets> of_offsets_ =
+      Eigen::Matrix<double, 5, kChannelOffsets>::Zero();
 };
 
 /// The good edges of a revolution; of channels without a sensor none are.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 
 #include "pipelines/spin/types/coded_frame.h"
 #include "pipelines/spin/types/pulse.h"
@@ -16,6 +17,10 @@ namespace spindrift {
 /// say how long those are.
 std::chrono::nanoseconds reorder_horizon(const Pulse& pulse);
 std::chrono::nanoseconds reorder_horizon(const CodedFrame& frame);
+
+/// One clock stamps all channels.
+constexpr std::size_t kind_in_order(const Pulse& /*pulse*/) { return 0; }
+constexpr std::size_t kind_in_order(const CodedFrame& /*frame*/) { return 0; }
 
 extern template class BasicReorderWindow<Pulse>;
 extern template class BasicReorderWindow<CodedFrame>;

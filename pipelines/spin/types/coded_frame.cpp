@@ -3,9 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/core/rounding.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
+
+bool say_the_same(const CodedFrame& a, const CodedFrame& b) {
+  const auto is_one = [](const std::optional<double>& one, const std::optional<double>& other) {
+    return one.has_value() == other.has_value() &&
+           (!one || same_but_for_rounding<1>({*one}, {*other}));
+  };
+  return is_one(a.period_s, b.period_s) &&
+         std::equal(a.delay_s.begin(), a.delay_s.end(), b.delay_s.begin(), is_one);
+}
 
 std::vector<Pulse> edges_of(const CodedFrame& frame) {
   std::vector<Pulse> edges{{.t = frame.t, .channel = PulseChannel::Sun1}};

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "pipelines/core/sender.h"
 #include "pipelines/spin/types/pulse.h"
 #include "pipelines/time/tai_time.h"
 
@@ -23,11 +24,15 @@ struct CodedFrame {
   std::optional<double> period_s;  ///< T12, between this sun1 and its neighbour.
   /// Behind sun1 by channel, up to two periods; that of sun1 itself is empty.
   std::array<std::optional<double>, kPulseChannels> delay_s;
+  Sender sender = Sender::First;
 
-  // Frames of one instant are one, and the first that came counts, as in the archive.
+  // Frames of one instant are one (Contested says which counts).
   friend auto operator<=>(const CodedFrame& a, const CodedFrame& b) { return a.t <=> b.t; }
   friend bool operator==(const CodedFrame& a, const CodedFrame& b) { return a.t == b.t; }
 };
+
+/// But for rounding. What one has and the other lacks is no rounding.
+bool say_the_same(const CodedFrame& a, const CodedFrame& b);
 
 /// Its edges in order of time: sun1, and the others behind it. A counter on board that begins anew
 /// with each sun1 has the end of a chord that straddles sun1 in the frame behind that of its

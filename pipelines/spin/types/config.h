@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "pipelines/spin/types/pulse.h"
@@ -28,10 +30,21 @@ struct InfraredSensor {
 struct PulseNoise {
   double sun_s;
   double infrared_s;
+  /// Width of the grid that all times are cut or rounded to; 0: none.
+  double grid_s = 0.0;
 };
 
-constexpr double edge_sigma_s(const PulseNoise& noise, PulseChannel channel) {
-  return sees_the_sun(channel) ? noise.sun_s : noise.infrared_s;
+/// Of what a grid leaves open of a time: uniform over its width. What cutting takes from all times
+/// alike is no error, but a shift by half a width against the orbit, which moves by metres in it.
+inline double grid_sigma_s(const PulseNoise& noise) {
+  return noise.grid_s / (2.0 * std::numbers::sqrt3);
+}
+
+/// Of one edge. Noise averages out over the edges of a channel. What the grid adds does so only
+/// where the spin rate is not commensurate with it, and so counts once more, as an offset of each
+/// channel's times that is the same all over the pass.
+inline double edge_sigma_s(const PulseNoise& noise, PulseChannel channel) {
+  return std::hypot(sees_the_sun(channel) ? noise.sun_s : noise.infrared_s, grid_sigma_s(noise));
 }
 
 enum class HorizonModel { Sphere, Ellipsoid };

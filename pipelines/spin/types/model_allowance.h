@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/spin/types/channel_offsets.h"
+#include "pipelines/statistics/considered.h"
 
 namespace spindrift {
 
@@ -22,6 +24,20 @@ struct ErrorInformation {
       Eigen::Matrix<double, kModelErrors, kModelErrors>::Zero();  ///< 1/rad^2
   /// 1/rad; its covariance is `information` where all errors are zero.
   Eigen::Matrix<double, kModelErrors, 1> score = Eigen::Matrix<double, kModelErrors, 1>::Zero();
+  Considered<kModelErrors, kChannelOffsets> offsets = {};
+
+  ErrorInformation& operator+=(const ErrorInformation& other) {
+    information += other.information;
+    score += other.score;
+    offsets += other.offsets;
+    return *this;
+  }
+  ErrorInformation& operator*=(double share) {
+    information *= share;
+    score *= share;
+    offsets *= share;
+    return *this;
+  }
 };
 
 /// One standard deviation of what stays the same in every revolution: the beam's mounting angle,

@@ -12,6 +12,7 @@
 
 #include "pipelines/core/assessment.h"
 #include "pipelines/spin/types/pulse.h"
+#include "pipelines/time/sample_contradiction.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -33,6 +34,8 @@ enum class Rejection {
   Unassociated,  ///< No revolution had a place for the edge.
   Late,          ///< Arrived after its time had been processed.
   OutOfTime,     ///< Far from all others in time, by a clock that nothing else agrees with.
+  Contradicted,  ///< Of a coded frame that came with other values, too, and nobody is preferred.
+  Copy,          ///< Its channel's edges come several times: another counts, or it came alone.
   Interference,  ///< An edge of another channel is so near that both are spoilt.
   Operator,      ///< An operator has left it out.
   Phase,     ///< Not where the edges of its channel lie; of a measurement: rests on such an edge.
@@ -113,7 +116,7 @@ struct SpinEstimate {
   Assessment assessment;
 };
 
-using SpinProduct =
-    std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate>;
+using SpinProduct = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix,
+                                 SpinEstimate, SampleContradiction>;
 
 }  // namespace spindrift

@@ -20,6 +20,8 @@ struct Revolution {
   std::array<std::optional<TaiTime>, kPulseChannels> edges;
   /// Why an edge that is there is not to be used: it lies where those of its channel do not.
   std::array<std::optional<Rejection>, kPulseChannels> edge_rejections = {};
+  /// Another edge of the channel was left out as this one's copy.
+  std::array<bool, kPulseChannels> has_copy = {};
   /// The interval that ends at its sun1, or what the spacecraft said of it; without sun1 at all,
   /// the interval that ends at the edge that the clock is set by.
   std::optional<PeriodCandidate> period_candidate;

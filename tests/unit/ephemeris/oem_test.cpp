@@ -241,6 +241,13 @@ TEST(Oem, SegmentsFollowEachOther) {
   EXPECT_THAT(fault(kValid + segment), AllOf(HasSubstr("segment 2"), HasSubstr("begin before")));
 }
 
+TEST(Oem, IsOfOneObject) {
+  const std::string segment = replaced(kValid.substr(kValid.find("META_START")), "T03:", "T04:");
+  EXPECT_THAT(fault(kValid + replaced(segment, "2026-999A", "2026-999B")),
+              AllOf(HasSubstr("line 24:"), HasSubstr("OBJECT_ID = 2026-999B: must be 2026-999A")));
+  EXPECT_EQ(fault(kValid + replaced(segment, "SPINNER", "SPINNER 1")), "accepted");
+}
+
 // --- messages of others
 
 TEST(Oem, EarthCentredMessagesOfOthersAreRead) {

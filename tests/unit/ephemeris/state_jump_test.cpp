@@ -178,6 +178,33 @@ TEST(UnexplainedStep, IsNoneWithAManoeuvreOf10MetresASecondAtAnyTimeOfIt) {
   }
 }
 
+TEST(Departure, IsNoneRoundAnEarthWithJ2) {
+  for (const double step_s : kSparseSteps_s) {
+    std::mt19937 rng{8};
+    for (const Shape& shape : kShapes) {
+      for (int trial = 0; trial < 50; ++trial) {
+        const OrbitState from = random_state(rng, shape);
+        EXPECT_FALSE(departure(point(0.0, from), point(step_s, flown(from, step_s))))
+            << shape.name << ", " << step_s << " s";
+      }
+    }
+  }
+}
+
+TEST(Departure, IsAManoeuvreOrAStepOfAnySort) {
+  std::mt19937 rng{9};
+  for (const Shape& shape : kShapes) {
+    const OrbitState from = random_state(rng, shape);
+    OrbitState to = from;
+    to.velocity_icrf_km_s += 0.002 * random_direction(rng);
+    EXPECT_NEAR(departure(point(0.0, from), point(0.0, to)).value().km_s, 0.002, 1e-12);
+    to = from;
+    to.position_icrf_km += 1.1 * random_direction(rng);
+    EXPECT_NEAR(departure(point(0.0, from), point(0.0, to)).value().km, 1.1, 1e-9);
+    EXPECT_FALSE(departure(point(0.0, from), point(0.0, from)));
+  }
+}
+
 /// A minute a point, the first of it `line`; usable without the first and the last `margin` points.
 OemSegment segment_of(const std::vector<OrbitState>& states, int first_minute, int line,
                       int margin) {

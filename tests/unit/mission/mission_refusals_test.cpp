@@ -243,9 +243,10 @@ TEST(MissionRefusals, HasTheLaunchersChainWholeOrIsRefused) {
 TEST(MissionRefusals, WithUnknownNamesIsRefused) {
   EXPECT_THAT(problems_of(std::string{kElements} + "[spni.noise]\nsun_pulse_s = 1\n"),
               ElementsAre("mission.toml:12: spni: unknown; did you mean spin?"));
-  EXPECT_THAT(problems_of("colour = \"red\"\n" + std::string{kElements}),
-              ElementsAre("mission.toml:1: colour: unknown; allowed here: alerts, contact, "
-                          "ground_model, orbit, reconstruction, spacecraft, spin, three_axis"));
+  EXPECT_THAT(
+      problems_of("colour = \"red\"\n" + std::string{kElements}),
+      ElementsAre("mission.toml:1: colour: unknown; allowed here: alerts, contact, "
+                  "ground_model, orbit, reconstruction, sources, spacecraft, spin, three_axis"));
   EXPECT_THAT(problems_of(replaced(contract(), "\\[spin.noise\\]", "[spin.nose]")),
               ElementsAre(HasSubstr("spin.nose: unknown; did you mean noise?")));
 }

@@ -225,6 +225,35 @@ TEST(Mission, DoubtsAnOrbitThatJumps) {
           HasSubstr("off by up to 0.12 deg there"))));
 }
 
+TEST(Mission, DoubtsAnOrbitWhoseSegmentsDoNotMeet) {
+  const std::string orbit = text_of(kData / "mission" / "orbit.oem");
+  const std::string head = orbit.substr(0, orbit.find("2026-03-01T03:58:00.000 "));
+  // The state that both segments have.
+  const std::size_t joint = orbit.find("2026-03-01T04:02:00.000 ");
+  const std::size_t behind = orbit.find("2026-03-01T04:02:30.000 ");
+  const std::string two =
+      orbit.substr(0, behind) + head.substr(head.find("META_START")) + orbit.substr(joint);
+  for (const bool meet : {true, false}) {
+    const TemporaryFolder folder;
+    std::string text = two;
+    if (!meet) {
+      const std::string speed = "-0.774484845657";
+      text.replace(text.rfind(speed), speed.size(), "-0.654484845657");
+    }
+    folder.write("orbit.oem", text);
+    const auto mission =
+        load_mission(folder.write("mission.toml", contract_with("spacecraft.id", "'LEOSAT'")));
+    ASSERT_TRUE(mission) << mission.error().message;
+    if (meet) {
+      EXPECT_THAT(mission->orbit_doubts, IsEmpty());
+    } else {
+      EXPECT_THAT(mission->orbit_doubts,
+                  ElementsAre(HasSubstr("line 38: two segments do not meet at "
+                                        "2026-03-01T04:02:00.000Z: by 0.000 km and 120.00 m/s: ")));
+    }
+  }
+}
+
 TEST(Mission, HasTheLimitsOfAlertsThatThePipelinesHaveByThemselves) {
   const auto mission = load(kElements);
   ASSERT_TRUE(mission) << mission.error().message;

@@ -107,6 +107,50 @@ TEST_F(SeparationRecordTest, ForgetsWhatAnOperatorLeavesOutAndIsDueOnceASolution
   EXPECT_LT(record.request().sun_directions.back().t, at(280.0));
 }
 
+TEST_F(SeparationRecordTest, OfContradictingSamplesNoneCountsUnlessOneIsPreferred) {
+  SeparationRecord record = empty();
+  for (const AnySample& sample : samples_of(flight_)) {
+    push(sample, record);
+  }
+  const auto whole = record.request();
+  GyroSample other = flight_.gyro.at(40);
+  other.sender = static_cast<Sender>(2);
+  record.push(other);
+  EXPECT_EQ(record.request().gyro.size(), whole.gyro.size());
+  other.rate_body_rad_s.x() += 0.1;
+  record.push(other);
+  EXPECT_EQ(record.request().gyro.size(), whole.gyro.size() - 1);
+  GyroSample preferred = flight_.gyro.at(40);
+  preferred.sender = Sender::Preferred;
+  record.push(preferred);
+  ASSERT_EQ(record.request().gyro.size(), whole.gyro.size());
+  EXPECT_EQ(record.request().gyro.at(40).t, preferred.t);
+  EXPECT_EQ(record.request().gyro.at(40).rate_body_rad_s, preferred.rate_body_rad_s);
+  preferred.rate_body_rad_s.y() += 0.1;
+  record.push(preferred);
+  EXPECT_EQ(record.request().gyro.size(), whole.gyro.size() - 1);
+}
+
+TEST_F(SeparationRecordTest, AnotherSolutionIsDueWhereOneRestedOnWhatIsContradicted) {
+  SeparationRecord record{{.sensors = flight_.sensors,
+                           .times = times_,
+                           .gyro = {},
+                           .sun_directions = {},
+                           .star_fixes = {},
+                           .orbit = flight_.orbit}};
+  bool was_due = false;
+  for (const AnySample& sample : samples_of(flight_)) {
+    was_due = push(sample, record) || was_due;
+    EXPECT_FALSE(record.take_correction());
+  }
+  ASSERT_TRUE(was_due);
+  SunDirection other = flight_.sun.front();
+  other.sun_body = -other.sun_body;
+  EXPECT_FALSE(record.push(other));
+  EXPECT_TRUE(record.take_correction());
+  EXPECT_FALSE(record.take_correction());
+}
+
 TEST_F(SeparationRecordTest, ASolutionIsDueWithTheStarFixAndIsThatOfAllSamples) {
   EXPECT_THAT(due_at_s(samples_of(flight_)), ElementsAre(300.0));
   ReconstructionRequest whole = flight_.request();

@@ -119,6 +119,29 @@ TEST(AngleEquations, SlopesToTheSunAngleAreThoseOfAWrongSeparation) {
   }
 }
 
+TEST(AngleEquations, AChannelThatIsLateMovesTheAxisByItsOffset) {
+  const Scene scene;
+  const auto axis_of = [&](const Revolution& revolution) {
+    AngleEquations equations{scene.axis_icrf};
+    equations.add(scene.config, measure(scene.config, revolution), scene.sun_earth(),
+                  scene.axis_icrf);
+    return equations;
+  };
+  const AngleEquations in_time = axis_of(scene.seen());
+  const double late_s = kStep_rad / scene.rate_rad_s;
+  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+    SCOPED_TRACE(name_of(static_cast<PulseChannel>(channel)));
+    Revolution late = scene.seen();
+    late.edges.at(channel) = shifted(*late.edges.at(channel), late_s);
+    const Eigen::Vector2d moved_rad = tangent_basis(scene.axis_icrf).transpose() *
+                                      (axis_of(late).axis_icrf() - in_time.axis_icrf());
+    const Eigen::Vector2d expected_rad =
+        in_time.offset_shift().col(static_cast<Eigen::Index>(channel)) * late_s;
+    // The period has a noise of its own in the dihedrals, some percent of that of the edges.
+    EXPECT_LT((moved_rad - expected_rad).norm(), 0.05 * expected_rad.norm() + 1e-3 * kStep_rad);
+  }
+}
+
 TEST(AngleEquations, AChordThatGrazesTheLimbIsLeftOut) {
   Scene scene;
   const double disc_rad = scene.sun_earth().disc_rad;

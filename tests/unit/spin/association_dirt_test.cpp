@@ -19,6 +19,7 @@
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/spin/association/association.h"
+#include "tests/support/pulse_trains.h"
 #include "tests/support/recorded_pass.h"
 #include "tests/support/spinning_body.h"
 #include "tests/support/test_paths.h"
@@ -32,6 +33,7 @@ const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 void append(Association& all, const Association& some) {
   all.closed.insert(all.closed.end(), some.closed.begin(), some.closed.end());
   all.left_over.insert(all.left_over.end(), some.left_over.begin(), some.left_over.end());
+  all.copies.insert(all.copies.end(), some.copies.begin(), some.copies.end());
 }
 
 Association associated(const SpinConfig& config, std::vector<Pulse> pulses) {
@@ -262,6 +264,125 @@ TEST(AssociationDirt, AGoodEdgeBehindASpoiltOneTakesItsPlace) {
   for (const PulseUse& use : all.left_over) {
     EXPECT_FALSE(pass.turns.contains(use.pulse));
     EXPECT_EQ(use.rejected_by, Rejection::Unassociated);
+  }
+}
+
+/// Those of the first receiver have a place, those of the second are left out as copies.
+void expect_first_of_copies_used(const Pass& first, const Association& all) {
+  for (const PulseUse& use : all.left_over) {
+    ASSERT_FALSE(first.turns.contains(use.pulse)) << name_of(use.pulse.channel);
+    ASSERT_EQ(use.rejected_by, Rejection::Copy);
+  }
+  EXPECT_EQ(all.copies.size(), all.left_over.size());
+  EXPECT_FALSE(all.closed.empty());
+}
+
+TEST(AssociationDirt, OfCopiesTheEarliestCounts) {
+  std::mt19937_64 rng{310};
+  for (const double behind_s : {1e-9, 1e-3, 0.005, 0.02}) {
+    for (const double rpm : {40.0, 60.0, 100.0}) {
+      SCOPED_TRACE(::testing::Message() << behind_s << " s at " << rpm << " rpm");
+      const Pass pass = made({.period_s = 60.0 / rpm, .turns = 60}, rng);
+      const Association all = associated(testing::copied(pass.pulses, {.behind_s = behind_s}, rng));
+      expect_first_of_copies_used(pass, all);
+      EXPECT_EQ(all.copies.size(), pass.pulses.size());
+      for (const CopiedEdge& copy : all.copies) {
+        ASSERT_NEAR(copy.apart_s, behind_s, 2e-9);
+      }
+    }
+  }
+}
+
+TEST(AssociationDirt, ACopyOfOneChannelLeavesTheOthers) {
+  std::mt19937_64 rng{311};
+  for (const PulseChannel channel : testing::kEveryChannel) {
+    SCOPED_TRACE(name_of(channel));
+    const Pass pass = made({.turns = 60}, rng);
+    expect_first_of_copies_used(
+        pass,
+        associated(testing::copied(pass.pulses, {.behind_s = 0.005, .channels = {channel}}, rng)));
+  }
+}
+
+/// Three sigma reject 0.27 % of good edges.
+constexpr double kOneInAHundred = 0.01;
+
+/// Those that had been received so far, not those that are earlier than expected.
+TEST(AssociationDirt, CopiesThatBeginMidwayMoveNoChannel) {
+  std::mt19937_64 rng{312};
+  for (const double behind_s : {-0.005, 0.005}) {
+    SCOPED_TRACE(behind_s);
+    const Pass pass = made({.turns = 60}, rng);
+    const Association all =
+        associated(testing::copied(pass.pulses, {.behind_s = behind_s, .from_share = 0.5}, rng));
+    const Mistakes counted = mistakes(pass, all);
+    EXPECT_EQ(counted.misplaced, 0);
+    EXPECT_LE(counted.rejected, kOneInAHundred * counted.good);
+    // Of thirty turns, but the first of them.
+    EXPECT_GE(all.copies.size(), 25U * kPulseChannels);
+  }
+}
+
+/// The first receiver begins with a channel late, when that is known where the second has it.
+TEST(AssociationDirt, AllChannelsAreOfTheSameReceiverInTheEnd) {
+  std::mt19937_64 rng{315};
+  for (const PulseChannel channel : testing::kEveryChannel) {
+    SCOPED_TRACE(name_of(channel));
+    const Pass pass = made({.turns = 80}, rng);
+    std::vector<Pulse> pulses = testing::copied(pass.pulses, {.behind_s = 0.005}, rng);
+    std::erase_if(pulses, [&](const Pulse& pulse) {
+      const auto turn = pass.turns.find(pulse);
+      return pulse.channel == channel && turn != pass.turns.end() && turn->second < 12;
+    });
+    const auto good = good_edges(associated(pulses));
+    int of_first = 0;
+    for (const auto& [pulse, turn] : pass.turns) {
+      of_first += turn >= 40 && good.contains(pulse) ? 1 : 0;
+    }
+    // Three sigma reject 0.27 %.
+    EXPECT_GE(of_first, 0.98 * 40 * kPulseChannels);
+  }
+}
+
+TEST(AssociationDirt, AChannelThatHasHalfOfItsEdgesOrTwiceAsManyMovesNoPeriod) {
+  std::mt19937_64 rng{313};
+  for (const double rpm : {5.0, 60.0, 200.0}) {
+    for (const PulseChannel channel : {Sun1, Sun2}) {
+      SCOPED_TRACE(::testing::Message() << name_of(channel) << " at " << rpm << " rpm");
+      const double period_s = 60.0 / rpm;
+      const Pass pass = made({.period_s = period_s, .turns = 100}, rng);
+      const Pass half{.pulses = testing::halved(pass.pulses, channel), .turns = pass.turns};
+      const Association of_half = associated(half.pulses);
+      ASSERT_FALSE(of_half.closed.empty());
+      EXPECT_NEAR(of_half.closed.back().period.period_s, period_s, 1e-4 * period_s);
+      EXPECT_EQ(mistakes(half, of_half).misplaced, 0);
+      EXPECT_LE(mistakes(half, of_half).rejected, kOneInAHundred * mistakes(half, of_half).good);
+      for (const double from_share : {0.0, 0.5}) {
+        const Association of_two = associated(testing::copied(pass.pulses,
+                                                              {.behind_s = 0.5 * period_s,
+                                                               .jitter_s = 1e-4,
+                                                               .channels = {channel},
+                                                               .from_share = from_share},
+                                                              rng));
+        ASSERT_FALSE(of_two.closed.empty());
+        EXPECT_NEAR(of_two.closed.back().period.period_s, period_s, 1e-4 * period_s);
+        EXPECT_EQ(mistakes(pass, of_two).misplaced, 0);
+        EXPECT_LE(mistakes(pass, of_two).rejected, kOneInAHundred * mistakes(pass, of_two).good);
+      }
+    }
+  }
+}
+
+/// Neither sun2 nor anything else says on which side the Sun is.
+TEST(AssociationDirt, OfTwoSun1HalfATurnApartWithoutSun2NoneIsUsed) {
+  std::mt19937_64 rng{314};
+  Pass pass = made({.turns = 100}, rng);
+  std::erase_if(pass.pulses, [](const Pulse& pulse) { return pulse.channel == Sun2; });
+  const auto good = good_edges(associated(
+      testing::copied(pass.pulses, {.behind_s = 0.5, .jitter_s = 1e-4, .channels = {Sun1}}, rng)));
+  EXPECT_GT(good.size(), 350U);
+  for (const auto& [pulse, turn] : good) {
+    EXPECT_NE(pulse.channel, Sun1) << turn;
   }
 }
 

@@ -197,7 +197,8 @@ RevolutionMeasurements measured_at(const SpinConfig& config, const PredictedAngl
   const auto exact = [](double value_rad) {
     return Measured{.value_rad = value_rad, .sigma_rad = 0.0, .noise_rad = EdgeNoise::Zero()};
   };
-  RevolutionMeasurements measured{.t_sun1 = Scene{}.start,
+  RevolutionMeasurements measured{.noise = config.noise,
+                                  .t_sun1 = Scene{}.start,
                                   .sun_angle = exact(angles.sun_angle_rad),
                                   .mixed_azimuth = {},
                                   .crossings = {},

@@ -12,6 +12,7 @@
 #include "pipelines/spin/batch/pass_edges.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "tests/support/recorded_pass.h"
+#include "tests/support/stepped_orbit.h"
 
 namespace spindrift::batch_recorded_test {
 
@@ -40,9 +41,9 @@ struct Recorded {
   double limit_deg;
 };
 
-class BatchOfRecorded : public ::testing::TestWithParam<Recorded> {};
+class BatchOfRecordedPass : public ::testing::TestWithParam<Recorded> {};
 
-TEST_P(BatchOfRecorded, IsWithinItsLimitAndThreeSigmas) {
+TEST_P(BatchOfRecordedPass, IsWithinItsLimitAndThreeSigmas) {
   testing::RecordedPass recorded = testing::recorded_pass(GetParam().name);
   recorded.config.horizon.model = GetParam().horizon;
   const auto solution = solved(recorded);
@@ -55,7 +56,7 @@ TEST_P(BatchOfRecorded, IsWithinItsLimitAndThreeSigmas) {
   EXPECT_LT(error_deg, 3.0 * sigma_deg);
 }
 
-INSTANTIATE_TEST_SUITE_P(Passes, BatchOfRecorded,
+INSTANTIATE_TEST_SUITE_P(Passes, BatchOfRecordedPass,
                          ::testing::Values(Recorded{"nominal", HorizonModel::Sphere, 0.05},
                                            Recorded{"dirty", HorizonModel::Ellipsoid, 0.05},
                                            Recorded{"coded", HorizonModel::Sphere, 0.1},
@@ -66,5 +67,32 @@ INSTANTIATE_TEST_SUITE_P(Passes, BatchOfRecorded,
                            std::erase(name, '-');
                            return name;
                          });
+
+double sigmas_off(const testing::RecordedPass& recorded, const SpinEstimate& estimate) {
+  return angle_between_rad(estimate.axis_icrf, recorded.true_axis_icrf) /
+         std::sqrt(estimate.covariance_rad2.trace());
+}
+
+TEST(BatchOfRecorded, HasTheGridOfItsTimesInItsSigma) {
+  const testing::RecordedPass recorded = testing::recorded_pass("../faults/times-in-ms");
+  const auto solution = solved(recorded);
+  ASSERT_TRUE(solution) << solution.error().message;
+  EXPECT_EQ(solution->estimate.assessment.quality, Quality::Ok);
+  EXPECT_LT(sigmas_off(recorded, solution->estimate), 4.0);
+}
+
+TEST(BatchOfRecorded, DoubtsAStepOfTheOrbitWithinThePass) {
+  testing::RecordedPass recorded = testing::recorded_pass("nominal");
+  const OemSegment segment = testing::of_few_points(recorded.orbit.ephemeris()->segments().front());
+  const TaiTime begins = recorded.pulses.front().t;
+  for (const double after_s : {240.0, -100.0}) {
+    recorded.orbit = Orbit{testing::stepped(segment, shifted(begins, after_s),
+                                            Eigen::Vector3d::Zero(), {0.0, 0.0, 0.12})};
+    const auto solution = solved(recorded);
+    ASSERT_TRUE(solution) << solution.error().message;
+    EXPECT_EQ(has(solution->estimate.assessment, ReasonCode::OrbitSteps), after_s > 0.0);
+    EXPECT_FALSE(after_s > 0.0 && is_unopposed(solution->estimate.assessment.quality));
+  }
+}
 
 }  // namespace spindrift::batch_recorded_test

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "tests/support/spinning_body.h"
@@ -42,6 +45,43 @@ TEST(StartClock, ByEdgesIsNotMisledByStrayOnesNearAThirdOfATurn) {
     }
   }
   EXPECT_GT(started, 8);
+}
+
+/// Every sun1 of a turn of one second, or some of them, among the edges of four other channels.
+std::vector<Pulse> among_others(double sun1_every_s) {
+  std::vector<Pulse> pulses;
+  for (double t_s = 0.0; t_s < 30.0; t_s += sun1_every_s) {
+    pulses.push_back({.t = shifted(kStart, t_s), .channel = PulseChannel::Sun1});
+  }
+  for (int turn = 0; turn < 30; ++turn) {
+    for (const auto& [channel, phase] : {std::pair{PulseChannel::Sun2, 0.1},
+                                         {PulseChannel::NorthIn, 0.4},
+                                         {PulseChannel::NorthOut, 0.5},
+                                         {PulseChannel::SouthIn, 0.45}}) {
+      pulses.push_back({.t = shifted(kStart, turn + phase), .channel = channel});
+    }
+  }
+  std::sort(pulses.begin(), pulses.end());
+  return pulses;
+}
+
+TEST(StartClock, ByEdgesTakesThePeriodThatMostChannelsAgreeOn) {
+  for (const double sun1_every_s : {0.5, 1.0, 2.0}) {
+    SCOPED_TRACE(sun1_every_s);
+    std::vector<Pulse> pulses;
+    std::optional<ClockStart> start;
+    for (const Pulse& pulse : among_others(sun1_every_s)) {
+      pulses.push_back(pulse);
+      start = start_clock(testing::usual_config(), pulses, false);
+      if (start) {
+        break;
+      }
+    }
+    ASSERT_TRUE(start);
+    // Times are whole nanoseconds.
+    EXPECT_NEAR(start->clock.period_s(), 1.0, 1e-9);
+    EXPECT_EQ(start->reference, sun1_every_s == 1.0 ? PulseChannel::Sun1 : PulseChannel::Sun2);
+  }
 }
 
 TEST(StartClock, ByNotesTakesThePeriodOfThreeThatAgree) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <map>
@@ -209,6 +210,61 @@ TEST(CodedFrame, ARecordedPassIsWhole) {
     }
   }
   EXPECT_LE(rejected, 18U);  // 1 % of 1794: at three sigma 0.27 % are expected.
+}
+
+/// Of what two senders give, a frame with another delay is left out with all its edges, whoever
+/// comes first; the rest is as if it had not come at all.
+TEST(CodedFrame, FramesThatContradictEachOtherAreLeftOut) {
+  const testing::RecordedPass pass = testing::recorded_pass("coded");
+  const std::vector<CodedFrame>& frames = pass.frames;
+  std::vector<CodedFrame> uncontested;
+  std::array<std::vector<CodedFrame>, 2> both;
+  std::array<std::vector<CodedFrame>, 2> preferring;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    CodedFrame wrong = frames[i];
+    wrong.sender = static_cast<Sender>(2);
+    const bool is_wrong = i % 5 == 3;
+    if (is_wrong) {
+      wrong.delay_s[index_of(Sun2)] = wrong.delay_s[index_of(Sun2)].value_or(0.0) + 0.01;
+    } else {
+      uncontested.push_back(frames[i]);
+    }
+    CodedFrame preferred = frames[i];
+    preferred.sender = Sender::Preferred;
+    for (const bool wrong_first : {false, true}) {
+      auto& order = both[wrong_first ? 1 : 0];
+      order.insert(order.end(), {wrong_first ? wrong : frames[i], wrong_first ? frames[i] : wrong});
+      auto& preferred_order = preferring[wrong_first ? 1 : 0];
+      preferred_order.insert(preferred_order.end(),
+                             {wrong_first ? wrong : preferred, wrong_first ? preferred : wrong});
+    }
+  }
+  const auto made_of = [&](const std::vector<CodedFrame>& arrivals) {
+    std::vector<std::string> texts;
+    std::size_t contradicted_edges = 0;
+    for (const SpinProduct& product :
+         testing::run(SpinPass{pass.config, pass.orbit}, arrivals).products) {
+      const auto* const use = std::get_if<PulseUse>(&product);
+      if (use != nullptr && use->rejected_by == Rejection::Contradicted) {
+        ++contradicted_edges;
+      } else if (!std::holds_alternative<SampleContradiction>(product)) {
+        texts.push_back(testing::text_of(product));
+      }
+    }
+    return std::pair{texts, contradicted_edges};
+  };
+  const auto expected = made_of(uncontested).first;
+  const auto whole = made_of(frames).first;
+  ASSERT_NE(expected, whole);
+  for (const auto& arrivals : both) {
+    const auto [texts, contradicted_edges] = made_of(arrivals);
+    EXPECT_EQ(texts, expected);
+    // Seven where the frame is whole: sun2 by either.
+    EXPECT_GT(contradicted_edges, 6U * (frames.size() - uncontested.size()));
+  }
+  for (const auto& arrivals : preferring) {
+    EXPECT_EQ(made_of(arrivals).first, whole);
+  }
 }
 
 TEST(FrameReorderWindow, SortsFramesTwoTurnsOutOfOrder) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -106,6 +107,46 @@ TEST_F(ExpectedPhasesTest, EdgesAnywhereAreNotLearnt) {
     learnt += ExpectedPhases{phases_}.learn(NorthIn, edges, kFewest, 0.0) ? 1 : 0;
   }
   EXPECT_EQ(learnt, 0);
+}
+
+/// Edges of two places in each turn.
+std::vector<double> both(std::vector<double> one, const std::vector<double>& other) {
+  one.insert(one.end(), other.begin(), other.end());
+  std::sort(one.begin(), one.end());
+  return one;
+}
+
+TEST_F(ExpectedPhasesTest, OfTwoPlacesInATurnNothingIsLearnt) {
+  for (const double apart : {0.1, 0.3, 0.5}) {
+    SCOPED_TRACE(apart);
+    const auto all = both(counts(12, 0.3), counts(12, 0.3 + apart));
+    EXPECT_FALSE(phases_.learn(NorthIn, all, kFewest, 0.0));
+    // Nor where a few are lost, of one of them or the other.
+    const auto most = both(counts(12, 0.3), counts(8, 0.3 + apart));
+    EXPECT_FALSE(phases_.learn(NorthIn, most, kFewest, 0.0));
+    ExpectedPhases strays{phases_};
+    for (const double count : all) {
+      EXPECT_FALSE(strays.stray(NorthIn, count, 0.0, 0.0)) << count;
+    }
+  }
+}
+
+TEST_F(ExpectedPhasesTest, OfTwoPlacesTheSunIsOnTheSideOfTheOtherSlit) {
+  const double slit_turns = config_.sun_sensor.slit_separation_rad / (2.0 * std::numbers::pi);
+  const auto all = both(counts(12, slit_turns - 0.1), counts(12, slit_turns + 0.4));
+  ASSERT_TRUE(phases_.learn(Sun2, all, kFewest, 0.0));
+  EXPECT_NEAR(phases_.at(Sun2, 10.0), slit_turns - 0.1, 1e-6);
+
+  ExpectedPhases by_sun2{config_};
+  by_sun2.set_period(kPeriod_s);
+  by_sun2.set_reference(Sun2);
+  by_sun2.define(Sun2, 0, slit_turns);
+  const auto strays = both(counts(12, 0.1), counts(12, 0.6));
+  const bool learnt = std::any_of(strays.begin(), strays.end(), [&](double count) {
+    return by_sun2.stray(Sun1, count, 0.0, 0.0);
+  });
+  ASSERT_TRUE(learnt);
+  EXPECT_NEAR(by_sun2.at(Sun1, 10.0), 0.1, 1e-6);
 }
 
 TEST_F(ExpectedPhasesTest, OnlyEdgesWithinTheGateAreFollowed) {

@@ -56,6 +56,18 @@ TEST(PassEdges, AreThoseThatARevolutionHasAPlaceForInOrderAndOnce) {
   EXPECT_EQ(edges[2].pulse.channel, PulseChannel::NorthIn);
 }
 
+TEST(PassEdges, KnowThatNoiseChoseAmongCopies) {
+  PassEdges pass;
+  SpinEstimate mean = estimate(SpinEstimator::Mean, Eigen::Vector3d::UnitX(), Quality::Ok);
+  pass.note(mean);
+  EXPECT_FALSE(pass.noise_chose_among_copies());
+  doubt(mean.assessment, {ReasonCode::CopiesInNoise});
+  EXPECT_EQ(mean.assessment.quality, Quality::Doubtful);
+  pass.note(mean);
+  pass.note(estimate(SpinEstimator::Sequential, Eigen::Vector3d::UnitX(), Quality::Lost));
+  EXPECT_TRUE(pass.noise_chose_among_copies());
+}
+
 TEST(PassEdges, OfMoreThanADayAreTheLast) {
   PassEdges pass;
   constexpr auto kMost = static_cast<std::int64_t>(PassEdges::kMost);

@@ -13,6 +13,7 @@
 
 namespace spindrift::pass_notices_test {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
@@ -111,6 +112,26 @@ TEST(PassNotices, SayThatMostEdgesDoNotFit) {
   EXPECT_THAT(said(used(200, 100, Rejection::Phase)), IsEmpty());
   EXPECT_THAT(said(used(90, 90, Rejection::Phase)), IsEmpty());
   EXPECT_THAT(said(used(200, 200, Rejection::NoOrbit)), IsEmpty());
+}
+
+TEST(PassNotices, CopiesAreSaidAsTheyBeginAndInTheEndHowManyAndHowFarApart) {
+  PassNotices notices{kConfig};
+  for (const PulseChannel channel : {Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut}) {
+    notices.edge_came(channel);
+  }
+  Association association = of_one_revolution();
+  const Pulse copy{.t = tai_from_ns(1'795'143'637'000'000'000), .channel = Sun2};
+  association.copies = {{.pulse = copy, .apart_s = 0.004}};
+  notices.associated(association);
+  EXPECT_THAT(taken(notices),
+              ElementsAre(AllOf(HasSubstr("2026-11-20T03:00:00"),
+                                HasSubstr("the edges of sun2 come several times"))));
+  association.copies = {{.pulse = {.t = copy.t, .channel = Sun1}, .apart_s = 0.006},
+                        {.pulse = copy, .apart_s = 0.005}};
+  notices.associated(association);
+  EXPECT_THAT(taken(notices), IsEmpty());
+  EXPECT_THAT(at_the_end(notices),
+              ElementsAre(HasSubstr("3 edges of sun1, sun2 are copies, on average 0.005 s")));
 }
 
 TEST(PassNotices, EachThingIsSaidOnce) {

@@ -133,6 +133,34 @@ TEST(PeriodSearch, LostAndStrayEdgesChangeNeitherThePeriodNorItsCount) {
   EXPECT_GT(found, kTrials * 9 / 10);
 }
 
+/// Two receivers, each with a tenth of the edges lost and a clock of its own.
+TEST(PeriodSearch, EdgesThatComeSeveralTimesHaveThePeriodOfTheFirst) {
+  std::mt19937_64 rng{44};
+  std::normal_distribution<double> normal;
+  std::bernoulli_distribution lost{0.1};
+  for (const double period_s : {0.6, 1.0, 10.0}) {
+    for (const double behind_s : {1e-9, 1e-4, 0.005, 0.02}) {
+      for (const int receivers : {2, 3}) {
+        SCOPED_TRACE(::testing::Message() << period_s << " s, " << behind_s << " s behind");
+        std::vector<double> times_s;
+        for (int n = 0; n < 20; ++n) {
+          const double t_s = n * period_s + kNoise_s * normal(rng);
+          for (int receiver = 0; receiver < receivers; ++receiver) {
+            if (!lost(rng)) {
+              times_s.push_back(t_s +
+                                receiver * (behind_s / (receivers - 1) + kNoise_s * normal(rng)));
+            }
+          }
+        }
+        const auto comb = find_pulse_train(instants(times_s), kNoise_s, kFewest);
+        ASSERT_TRUE(comb);
+        // The sigma of the slope of twenty, with the noise of two, is a thirteenth of it.
+        EXPECT_NEAR(comb->period_s, period_s, kNoise_s);
+      }
+    }
+  }
+}
+
 TEST(PeriodSearch, EdgesAtRandomHaveSeldomAPeriod) {
   std::mt19937_64 rng{43};
   std::uniform_real_distribution<double> t_s{0.0, 60.0};

@@ -125,7 +125,7 @@ TEST(ReorderWindow, DuplicatesOfHeldSamplesChangeNothing) {
     window.add(pulse_at(i));
   }
   for (std::int64_t i = 0; i < 8; ++i) {
-    EXPECT_EQ(window.add(pulse_at((1000 + i) * kSecond_ns)), Held);
+    EXPECT_EQ(window.add(pulse_at((1000 + 3 * i) * kSecond_ns)), Held);
     EXPECT_EQ(window.add(pulse_at(0)), Duplicate);
   }
   EXPECT_EQ(window.release().size(), 15U);
@@ -145,9 +145,11 @@ TEST(ReorderWindow, GoesOnAfterASilenceOfAnyLength) {
   }
   for (std::int64_t i = 0; i < 20; ++i) {
     receive((3600 + i) * kSecond_ns);
+    EXPECT_EQ(released.size(), 19U) << "a clock may be wrong for so long";
   }
+  receive(3620 * kSecond_ns);
   EXPECT_TRUE(std::is_sorted(released.begin(), released.end()));
-  EXPECT_EQ(released.size(), 39U);
+  EXPECT_EQ(released.size(), 40U);
   EXPECT_EQ(window.release_all().in_time.size(), 1U);
 }
 
@@ -269,7 +271,7 @@ TEST(ReorderWindow, ADuplicateDoesNotSpeakAgainstAJump) {
   window.add(pulse_at(0));
   for (std::int64_t i = 0; i < 8; ++i) {
     EXPECT_EQ(window.add(pulse_at(0)), Duplicate);
-    EXPECT_EQ(window.add(pulse_at((100 + i) * kSecond_ns)), Held);
+    EXPECT_EQ(window.add(pulse_at((100 + 3 * i) * kSecond_ns)), Held);
   }
   EXPECT_THAT(window.release(), ::testing::Contains(pulse_at(100 * kSecond_ns)));
 }

@@ -64,6 +64,41 @@ TEST(SpinFilter, ReachesTheInformationLimitOfTheDesign) {
   EXPECT_LT(squared_error(filter, pass.true_axis_icrf), kOneInTenThousand);
 }
 
+/// The axis that the edges of the pass lead to.
+SpinFilter filtered(const testing::RecordedPass& pass,
+                    const std::vector<ObservedRevolution>& seen) {
+  SpinFilter filter = SpinFilter::about(pass.true_axis_icrf, round_covariance(1.0 * kRadPerDeg),
+                                        pass.config, seen[0].revolution, seen[0].sky)
+                          .value();
+  for (std::size_t i = 1; i <= 200; ++i) {
+    work_in(filter, pass.config, seen[i]);
+  }
+  return filter;
+}
+
+TEST(SpinFilter, AChannelThatIsLateMovesTheAxisByWhatItsOffsetAddsToTheCovariance) {
+  const auto pass = testing::recorded_pass("nominal");
+  const auto seen = testing::observed(pass.config, pass.orbit, pass.pulses);
+  const SpinFilter in_time = filtered(pass, seen);
+  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+    SCOPED_TRACE(name_of(static_cast<PulseChannel>(channel)));
+    constexpr double kLate_s = 2e-5;
+    auto late = seen;
+    for (ObservedRevolution& one : late) {
+      if (auto& edge = one.revolution.edges.at(channel)) {
+        edge = shifted(*edge, kLate_s);
+      }
+    }
+    OffsetPrior offsets_s2 = OffsetPrior::Zero();
+    offsets_s2(static_cast<Eigen::Index>(channel), static_cast<Eigen::Index>(channel)) =
+        kLate_s * kLate_s;
+    const double moved_rad =
+        angle_between_rad(filtered(pass, late).axis_icrf(), in_time.axis_icrf());
+    // A fifth of the noise of an edge: another edge may be gated, and slopes change a little.
+    EXPECT_NEAR(moved_rad, std::sqrt(in_time.offsets_rad2(offsets_s2).trace()), 0.03 * moved_rad);
+  }
+}
+
 TEST(SpinFilter, StartsWithWhatIsKnownOfTheAxisAndLittleOfPhaseAndRate) {
   const auto pass = testing::recorded_pass("nominal");
   const auto seen = testing::observed(pass.config, pass.orbit, pass.pulses);

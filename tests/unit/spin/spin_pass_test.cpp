@@ -7,15 +7,19 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <random>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/assessed.h"
 #include "tests/support/product_text.h"
+#include "tests/support/pulse_trains.h"
 #include "tests/support/recorded_pass.h"
+#include "tests/support/stepped_orbit.h"
 
 namespace spindrift::spin_pass_test {
 
@@ -84,6 +88,27 @@ TEST(SpinPass, RejectsTheBadEdgesOfADirtyPassAndKeepsTheGood) {
   const auto good = static_cast<double>(pass.pulses.size()) - bad;
   EXPECT_GE(static_cast<double>(bad_rejected), 0.97 * bad);
   EXPECT_LE(static_cast<double>(good_rejected), 0.01 * good);
+}
+
+/// Two receivers, whose times differ by nothing that matters, or by a noise of their own.
+TEST(SpinPass, OfCopiesWithinTheNoiseEveryAnswerIsDoubtful) {
+  const RecordedPass pass = recorded_pass("nominal");
+  for (const double jitter_s : {0.0, 1e-4}) {
+    SCOPED_TRACE(jitter_s);
+    std::mt19937_64 rng{316};
+    const SpinOutput output =
+        run(SpinPass{pass.config, pass.orbit},
+            testing::copied(pass.pulses, {.behind_s = 1e-9, .jitter_s = jitter_s}, rng));
+    for (const SpinEstimate& last : {mean_of(output), sequential_of(output)}) {
+      const bool noisy = jitter_s > 0.0;
+      EXPECT_EQ(has(last.assessment, ReasonCode::CopiesInNoise), noisy);
+      EXPECT_EQ(last.assessment.quality, noisy ? Quality::Doubtful : Quality::Ok);
+      EXPECT_LT(error_rad(pass, last), 5.0 * sigma_rad(last));
+    }
+    EXPECT_TRUE(testing::has(output.notices, NoticeCode::CopiesBegin));
+    EXPECT_EQ(testing::number_of(output.notices, NoticeCode::Copied, "edges"),
+              static_cast<double>(pass.pulses.size()));
+  }
 }
 
 TEST(SpinPass, WithOneBeamNoFixIsOfTwo) {
@@ -214,7 +239,7 @@ TEST(SpinPass, DuplicatesChangeNothingHoweverLateTheyArrive) {
   }
 }
 
-TEST(SpinPass, OfTwoFramesOfOneInstantTheFirstCounts) {
+TEST(SpinPass, OfTwoFramesOfOneInstantThatSayDifferentThingsNoneCounts) {
   const RecordedPass pass = recorded_pass("coded");
   std::vector<CodedFrame> twice;
   for (const CodedFrame& frame : pass.frames) {
@@ -222,8 +247,15 @@ TEST(SpinPass, OfTwoFramesOfOneInstantTheFirstCounts) {
     twice.push_back({.t = frame.t, .period_s = frame.period_s, .delay_s = {}});
     twice.back().delay_s[index_of(PulseChannel::Sun2)] = 0.1;
   }
-  EXPECT_EQ(texts_of(run(SpinPass{pass.config, pass.orbit}, twice)),
-            texts_of(run(SpinPass{pass.config, pass.orbit}, pass.frames)));
+  std::size_t edges = 0;
+  for (const SpinProduct& product : run(SpinPass{pass.config, pass.orbit}, twice).products) {
+    if (const auto* const use = std::get_if<PulseUse>(&product)) {
+      EXPECT_EQ(use->rejected_by, Rejection::Contradicted);
+      ++edges;
+    }
+    EXPECT_FALSE(std::holds_alternative<SpinFix>(product));
+  }
+  EXPECT_GT(edges, 6 * pass.frames.size());
 }
 
 TEST(SpinPass, ALatePulseIsToldAndLeftOut) {
@@ -347,6 +379,72 @@ TEST(SpinPass, SaysInTheEndWhyThereIsNoMeanAndWhyThePriorDoesNotSettleTheAxis) {
                         {"not_accepted", std::int64_t{0}}}};
   EXPECT_THAT(output.notices, Contains(no_mean));
   EXPECT_TRUE(testing::has(output.notices, NoticeCode::AmbiguousPriorNoHelp));
+}
+
+/// Of estimates from that instant on.
+void expect_doubts_of_orbit(const SpinOutput& output, TaiTime from) {
+  for (const SpinEstimate& estimate : all_of<SpinEstimate>(output)) {
+    const bool both_sides = estimate.t > from;
+    EXPECT_EQ(has(estimate.assessment, ReasonCode::OrbitSteps), both_sides);
+    EXPECT_FALSE(both_sides && is_unopposed(estimate.assessment.quality));
+  }
+}
+
+TEST(SpinPass, DoubtsWhatRestsOnBothSidesOfAStepOfTheOrbit) {
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d off{0.0, 0.0, 1.0};
+  RecordedPass pass = recorded_pass("nominal");
+  const OemSegment segment = testing::of_few_points(pass.orbit.ephemeris()->segments().front());
+  const TaiTime begins = pass.pulses.front().t;
+  for (const bool of_velocity : {true, false}) {
+    const OrbitEphemeris orbit = testing::stepped(segment, shifted(begins, 240.0),
+                                                  of_velocity ? none : Eigen::Vector3d{20.0 * off},
+                                                  of_velocity ? Eigen::Vector3d{0.12 * off} : none);
+    pass.orbit = Orbit{orbit};
+    const SpinOutput output = run(pass);
+    ASSERT_TRUE(testing::has(output.notices, NoticeCode::OrbitStepsInPass));
+    expect_doubts_of_orbit(output, orbit.segments()[1].usable_from);
+  }
+  // Segments that go on, and a step beside the pass.
+  for (const double after_s : {240.0, -100.0}) {
+    pass.orbit = Orbit{
+        testing::stepped(segment, shifted(begins, after_s), after_s > 0.0 ? none : off, none)};
+    const SpinOutput output = run(pass);
+    EXPECT_FALSE(testing::has(output.notices, NoticeCode::OrbitStepsInPass));
+    expect_doubts_of_orbit(output, TaiTime::max());
+  }
+}
+
+TEST(SpinPass, AMarkedManoeuvreLeavesTheStepOfTheOrbitBehind) {
+  RecordedPass pass = recorded_pass("nominal");
+  const TaiTime burn = shifted(pass.pulses.front().t, 240.0);
+  const OrbitEphemeris orbit =
+      testing::stepped(pass.orbit.ephemeris()->segments().front(), burn, Eigen::Vector3d::Zero(),
+                       Eigen::Vector3d{0.0, 0.0, 0.02});
+  SpinPass spin{pass.config, Orbit{orbit}};
+  spin.act(orbit.segments()[1].usable_from, MarkManoeuvre{});
+  const SpinEstimate estimate = sequential_of(run(std::move(spin), pass.pulses));
+  EXPECT_FALSE(has(estimate.assessment, ReasonCode::OrbitSteps));
+}
+
+/// 60 rpm, and times cut to a millisecond: each channel has one error all over the pass.
+TEST(SpinPass, TimesOnAGridAreSaidAndInTheSigmaOfEveryEstimate) {
+  const RecordedPass pass = recorded_pass("../faults/times-in-ms");
+  const SpinOutput output = run(pass);
+  const auto said =
+      std::find_if(output.notices.begin(), output.notices.end(),
+                   [](const Notice& notice) { return notice.code == NoticeCode::TimesOnGrid; });
+  ASSERT_NE(said, output.notices.end());
+  EXPECT_EQ(said->values[1], (NamedValue{"grid_s", 1e-3}));
+  int ok = 0;
+  for (const SpinEstimate& estimate : all_of<SpinEstimate>(output)) {
+    if (estimate.assessment.quality == Quality::Ok) {
+      ++ok;
+      EXPECT_LT(error_rad(pass, estimate), 4.0 * sigma_rad(estimate));
+    }
+  }
+  EXPECT_GT(ok, 1000);
+  EXPECT_FALSE(testing::has(run(recorded_pass("nominal")).notices, NoticeCode::TimesOnGrid));
 }
 
 TEST(SpinPass, AnEmptyPassGivesNothing) {

@@ -123,6 +123,14 @@ TEST(AttitudeConditions, BelieveNoSampleAloneThatTimeHasGoneOn) {
   EXPECT_EQ(raised_by(conditions, {Gyro}, 20, 30), Keys{"channel.silent:star"});
 }
 
+TEST(AttitudeConditions, BelieveNoNumberOfSamplesThatTimeHasGoneOnUnlessItGoesOnFromThere) {
+  AttitudeConditions conditions{AlertLimits{}, std::nullopt};
+  EXPECT_EQ(raised_by(conditions, {Gyro, Star}, 0, 10), Keys{});
+  EXPECT_EQ(raised_by(conditions, {Gyro}, 1800, 1820), Keys{});
+  EXPECT_EQ(raised_by(conditions, {Gyro, Star}, 10, 20), Keys{});
+  EXPECT_EQ(raised_by(conditions, {Gyro}, 3600, 3630), Keys{"channel.silent:star"});
+}
+
 TEST(AttitudeConditions, ExpectNoSunThatTheEarthHides) {
   const Eigen::Vector3d to_sun = geometric_sun_icrf_km(at(0)).normalized();
   const Eigen::Vector3d across = to_sun.unitOrthogonal();

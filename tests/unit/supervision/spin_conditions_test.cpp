@@ -293,6 +293,52 @@ TEST(SpinConditions, RaiseSharesOfTheLastHundredRevolutions) {
   EXPECT_EQ(pass.raised, (Keys{"spin.period", "spin.rejection"}));
 }
 
+TEST(SpinConditions, CountEdgesThatFoundNoRevolution) {
+  const auto left_over = [](int revolution, PulseChannel channel, Rejection rejection) {
+    return PulseUse{.pulse = {.t = at(revolution + 0.005), .channel = channel},
+                    .revolution = {},
+                    .rejected_by = rejection};
+  };
+  for (const Rejection rejection : {Rejection::Unassociated, Rejection::Copy}) {
+    Supervised copied;
+    Supervised without_axis;
+    for (int revolution = 0; revolution < 110; ++revolution) {
+      give_edges(copied, revolution, std::nullopt);
+      copied.see(left_over(revolution, PulseChannel::Sun1, rejection));
+      copied.see(left_over(revolution, PulseChannel::Sun2, rejection));
+      for (const PulseChannel channel :
+           {PulseChannel::Sun1, PulseChannel::Sun2, PulseChannel::NorthIn, PulseChannel::NorthOut,
+            PulseChannel::SouthIn, PulseChannel::SouthOut}) {
+        without_axis.see(left_over(revolution, channel, rejection));
+      }
+    }
+    EXPECT_EQ(copied.raised, Keys{"spin.rejection"});
+    EXPECT_EQ(without_axis.raised, Keys{"spin.rejection"});
+  }
+  Supervised by_operator;
+  for (int revolution = 0; revolution < 110; ++revolution) {
+    give_edges(by_operator, revolution, PulseChannel::Sun1);
+    by_operator.see(left_over(revolution, PulseChannel::Sun1, Rejection::Operator));
+  }
+  EXPECT_EQ(by_operator.raised, Keys{});
+}
+
+/// Ten copies of one channel are five turns, no ten.
+TEST(SpinConditions, TakeACopyForNoEdge) {
+  Supervised pass;
+  pass.see(estimate(0.0, Quality::Ok));
+  for (int revolution = 0; revolution < 30; ++revolution) {
+    give_edges(pass, revolution,
+               revolution < 20 ? std::nullopt : std::optional{PulseChannel::NorthIn});
+    if (revolution >= 28) {
+      EXPECT_EQ(pass.raised.contains("channel.silent:north_in"), revolution == 29);
+    }
+    pass.see(PulseUse{.pulse = {.t = at(revolution + 0.5), .channel = PulseChannel::Sun1},
+                      .revolution = {},
+                      .rejected_by = Rejection::Copy});
+  }
+}
+
 BatchSolution solution(double t_s, std::optional<double> half_angle_deg) {
   BatchSolution solution{};
   solution.estimate.t = at(t_s);

@@ -128,7 +128,7 @@ TEST(PulseFile, RejectsABadRowWithItsReasonAndGoesOn) {
   }
 }
 
-TEST(PulseFile, RejectsRowsUnderThePathAsGivenAndKeepsSamplesUnderTheName) {
+TEST(PulseFile, RejectsRowsUnderThePathAsGivenAndKeepsSamplesUnderFolderAndName) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "a");
   std::filesystem::create_directory(folder.path() / "b");
@@ -140,8 +140,8 @@ TEST(PulseFile, RejectsRowsUnderThePathAsGivenAndKeepsSamplesUnderTheName) {
   EXPECT_EQ(pulses.rejected[0].source, a.string());
   EXPECT_EQ(pulses.rejected[1].source, b.string());
   ASSERT_EQ(pulses.samples.size(), 2U);
-  EXPECT_EQ(pulses.samples[0].origin.source, "pulses.csv");
-  EXPECT_EQ(pulses.samples[1].origin.source, "pulses.csv");
+  EXPECT_EQ(pulses.samples[0].origin.source, "a/pulses.csv");
+  EXPECT_EQ(pulses.samples[1].origin.source, "b/pulses.csv");
 }
 
 TEST(PulseFile, TakesTheFirstAndTheLastInstantThatItAllows) {

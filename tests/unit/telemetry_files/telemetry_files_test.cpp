@@ -142,4 +142,27 @@ TEST(TelemetryFiles, ThatAreNoRegularFilesAreRefusedInsteadOfReadForEver) {
                                                "/dev/zero: cannot be read: not a regular file");
 }
 
+TEST(TelemetryFiles, AreSourcesByAsMuchOfTheirPathAsTellsThemApart) {
+  const TemporaryFolder folder;
+  constexpr const char* kHeader = "t_tai_ns,qx,qy,qz,qw\n";
+  for (const char* name : {"a", "a/one", "b", "b/one"}) {
+    std::filesystem::create_directory(folder.path() / name);
+  }
+  const auto files =
+      scan({folder.write("a/one/star.csv", kHeader), folder.write("b/one/star.csv", kHeader),
+            folder.write("b/star.csv", kHeader), folder.write("b/other.csv", kHeader)})
+          .value();
+  const std::array<std::string, 4> expected{"a/one/star.csv", "b/one/star.csv", "b/star.csv",
+                                            "other.csv"};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(files[i].source, expected.at(i));
+    EXPECT_EQ(find_source(files, expected.at(i)), expected.at(i));
+    EXPECT_EQ(find_source(files, files[i].path.string()), expected.at(i));
+  }
+  EXPECT_EQ(find_source(files, "star.csv"), "");
+  EXPECT_EQ(find_source(files, "one/star.csv"), "");
+  EXPECT_EQ(find_source(files, "x/other.csv"), "");
+  EXPECT_EQ(find_source(files, "b"), "");
+}
+
 }  // namespace spindrift::telemetry_files_test

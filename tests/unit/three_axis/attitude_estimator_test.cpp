@@ -33,6 +33,11 @@ class AttitudeEstimatorTest : public ::testing::Test {
     fix.q_icrf_sensor = quaternion_by(off_rad) * fix.q_icrf_sensor;
     estimator_.push(fix, products_);
   }
+  StarFix turned_fix(double t_s) {
+    StarFix fix = sensors_.star(t_s);
+    fix.q_icrf_sensor = quaternion_by({0.05, -0.05, 0.05}) * fix.q_icrf_sensor;
+    return fix;
+  }
   void direction(double t_s, SampleKind kind, const Vector3d& ref_icrf, double sigma_rad) {
     estimator_.push(
         SeenDirection{.t = at_s(t_s),
@@ -40,6 +45,17 @@ class AttitudeEstimatorTest : public ::testing::Test {
                       .direction = {.body = sensors_.direction(t_s, ref_icrf, sigma_rad),
                                     .ref = ref_icrf,
                                     .sigma_rad = sigma_rad}},
+        products_);
+  }
+  /// As a body sees it that is turned in ICRF.
+  void direction_of(const Eigen::Quaterniond& turned, double t_s, SampleKind kind,
+                    const Vector3d& ref_icrf) {
+    constexpr double kSigma_rad = 0.5 * kRadPerDeg;
+    estimator_.push(
+        SeenDirection{at_s(t_s),
+                      kind,
+                      {sensors_.direction(t_s, turned.conjugate() * ref_icrf, kSigma_rad), ref_icrf,
+                       kSigma_rad}},
         products_);
   }
   void sun(double t_s) {
@@ -77,6 +93,12 @@ class AttitudeEstimatorTest : public ::testing::Test {
   double error_deg(const AttitudeEstimate& estimate) const {
     const double t_s = std::round(seconds_of(estimate) * 1e3) * 1e-3;
     return degrees(error_rad(estimate.q_icrf_body, body_.q_icrf_body(t_s)).norm());
+  }
+  std::int64_t rejected(SampleKind kind, SampleRejection rejected_by) const {
+    return std::count_if(products_.begin(), products_.end(), [&](const ThreeAxisProduct& product) {
+      const auto* const sample = std::get_if<RejectedSample>(&product);
+      return sample != nullptr && sample->kind == kind && sample->rejected_by == rejected_by;
+    });
   }
   const SensorHealth& health(SampleKind kind) const {
     return estimator_.sensors().at(index_of(kind));
@@ -245,10 +267,251 @@ TEST_F(AttitudeEstimatorTest, AStuckTrackerOverrulesNothing) {
     sun(t_s);
     field(t_s);
   });
-  EXPECT_LT(error_deg(last()), 1.0);
-  EXPECT_EQ(quality(), Quality::Doubtful);
+  EXPECT_LT(error_deg(last()), 0.1);
+  EXPECT_LT(error_deg(last()), 3.0 * degrees(last().sigma_rad()));
+  // The others hold it, and it is known what is wrong.
+  EXPECT_EQ(quality(), Quality::Ok);
   EXPECT_TRUE(has(last().assessment, ReasonCode::SensorGated));
   EXPECT_FALSE(has(last().assessment, ReasonCode::Since));
+  EXPECT_EQ(rejected(SampleKind::Star, SampleRejection::Frozen), 19);
+}
+
+/// A body at 0.005 deg/s, beside which the noise of one fix is large.
+TEST_F(AttitudeEstimatorTest, AStuckTrackerDoesNotStopASlowBody) {
+  const TurningBody slow{testing::any_attitude(rng_), kLong_s, [](double) {
+                           return Vector3d{5e-5, 5e-5, -5e-5};
+                         }};
+  Sensors sensors{slow, config_, rng_};
+  StarFix stuck;
+  for (int i = 0; i < 4 * 100; ++i) {
+    const double t_s = 0.25 * i;
+    estimator_.push(sensors.gyro(t_s), products_);
+    if (i % 4 == 0) {
+      StarFix fix = t_s < 30.0 ? sensors.star(t_s) : stuck;
+      stuck = fix;
+      fix.t = at_s(t_s);
+      // Of either sign.
+      fix.q_icrf_sensor.coeffs() *= i % 8 == 0 ? 1.0 : -1.0;
+      estimator_.push(fix, products_);
+    }
+  }
+  for (const AttitudeEstimate& row : estimates()) {
+    const double off_rad = error_rad(row.q_icrf_body, slow.q_icrf_body(seconds_of(row))).norm();
+    EXPECT_LT(off_rad, 5.0 * row.sigma_rad()) << seconds_of(row);
+  }
+  EXPECT_EQ(rejected(SampleKind::Star, SampleRejection::Frozen), 70);
+  EXPECT_TRUE(has(last().assessment, ReasonCode::SensorGated));
+}
+
+TEST_F(AttitudeEstimatorTest, ATurnedTrackerDoesNotOverruleWhatSunAndFieldConfirm) {
+  gyro(0.0);
+  star(0.0);
+  // Of the Sun and of the field one sample in five seconds each, and more fixes than make it lost.
+  run(0.0, 110.0, [&](double t_s) {
+    if (t_s <= 60.0) {
+      star(t_s);
+    } else {
+      estimator_.push(turned_fix(t_s), products_);
+    }
+    const int second = static_cast<int>(std::lround(t_s));
+    if (second % 5 == 0) {
+      sun(t_s);
+    } else if (second % 5 == 2) {
+      field(t_s);
+    }
+  });
+  for (const AttitudeEstimate& row : estimates()) {
+    EXPECT_NE(row.assessment.quality, Quality::Lost);
+    EXPECT_FALSE(has(row.assessment, ReasonCode::Since));
+    EXPECT_LT(error_deg(row), 5.0 * degrees(row.sigma_rad())) << seconds_of(row);
+  }
+  EXPECT_EQ(quality(), Quality::Ok);
+  EXPECT_EQ(last().assessment.reasons,
+            (std::vector{Reason{ReasonCode::SensorGated, {{"sensor", std::string{"star"}}}}}));
+  EXPECT_EQ(rejected(SampleKind::Star, SampleRejection::Innovation), 50);
+}
+
+/// Whether the tracker was wrong before or is now, the gyro alone cannot tell.
+TEST_F(AttitudeEstimatorTest, WithoutSunAndFieldATurnedTrackerIsDoubtfulUntilItReturns) {
+  gyro(0.0);
+  star(0.0);
+  run(0.0, 30.0, [&](double t_s) { star(t_s); });
+  EXPECT_EQ(quality(), Quality::Ok);
+  run(30.0, 60.0, [&](double t_s) { estimator_.push(turned_fix(t_s), products_); });
+  for (const AttitudeEstimate& row : estimates()) {
+    if (row.assessment.quality == Quality::Ok) {
+      EXPECT_LT(error_deg(row), 1.0);
+    }
+  }
+  EXPECT_EQ(quality(), Quality::Doubtful);
+  EXPECT_TRUE(has(last().assessment, ReasonCode::StarFixesContradict));
+  EXPECT_LT(error_deg(last()), 1.0);
+  // In the end it is followed.
+  run(60.0, 80.0, [&](double t_s) { estimator_.push(turned_fix(t_s), products_); });
+  EXPECT_EQ(quality(), Quality::Doubtful);
+  EXPECT_TRUE(has(last().assessment, ReasonCode::StarFixesContradict));
+  EXPECT_GT(error_deg(last()), 4.0);
+  run(80.0, 100.0, [&](double t_s) { star(t_s); });
+  EXPECT_EQ(quality(), Quality::Ok);
+  EXPECT_LT(error_deg(last()), 0.03);
+}
+
+TEST_F(AttitudeEstimatorTest, ATurnedTrackerIsNotOkAgainByItsOwnFixes) {
+  gyro(0.0);
+  star(0.0);
+  run(0.0, 20.0, [&](double t_s) { star(t_s); });
+  // Behind ten fixes that agree with nothing, too: they make it lost.
+  run(20.0, 31.0, [&](double t_s) {
+    StarFix junk = sensors_.star(t_s);
+    junk.q_icrf_sensor = testing::any_attitude(rng_);
+    estimator_.push(junk, products_);
+  });
+  const auto lost = estimates();
+  EXPECT_TRUE(std::any_of(lost.begin(), lost.end(), [](const AttitudeEstimate& row) {
+    return row.assessment.quality == Quality::Lost;
+  }));
+  products_.clear();
+  run(31.0, 110.0, [&](double t_s) { estimator_.push(turned_fix(t_s), products_); });
+  for (const AttitudeEstimate& row : estimates()) {
+    EXPECT_NE(row.assessment.quality, Quality::Ok) << seconds_of(row);
+  }
+  EXPECT_TRUE(has(last().assessment, ReasonCode::StarFixesContradict));
+  // The Sun and the field confirm the fixes: it was the attitude before that was wrong.
+  const Eigen::Quaterniond turned =
+      turned_fix(110.0).q_icrf_sensor * sensors_.star(110.0).q_icrf_sensor.conjugate();
+  run(110.0, 115.0, [&](double t_s) {
+    estimator_.push(turned_fix(t_s), products_);
+    direction_of(turned, t_s, SampleKind::Sun, sun_icrf_);
+    direction_of(turned, t_s, SampleKind::Magnetometer, field_icrf_);
+  });
+  EXPECT_EQ(quality(), Quality::Ok);
+}
+
+TEST_F(AttitudeEstimatorTest, SunAndFieldProveAFixThatTheAttitudeRejects) {
+  gyro(0.0);
+  estimator_.push(turned_fix(0.0), products_);
+  run(0.0, 30.0, [&](double t_s) {
+    estimator_.push(turned_fix(t_s), products_);
+    sun(t_s);
+    field(t_s);
+  });
+  for (const AttitudeEstimate& row : estimates()) {
+    EXPECT_NE(row.assessment.quality, Quality::Ok) << seconds_of(row);
+  }
+  run(30.0, 33.0, [&](double t_s) {
+    star(t_s);
+    sun(t_s);
+    field(t_s);
+  });
+  EXPECT_LT(error_deg(last()), 0.03);
+  run(33.0, 45.0, [&](double t_s) {
+    star(t_s);
+    sun(t_s);
+    field(t_s);
+  });
+  EXPECT_EQ(quality(), Quality::Ok);
+}
+
+/// A magnetometer that is mounted 6 deg off, about the Sun: its word against that of the tracker.
+TEST_F(AttitudeEstimatorTest, FixesThatContradictWhatTheyNeverSaidAreDoubtful) {
+  const Eigen::Quaterniond off{Eigen::AngleAxisd{6.0 * kRadPerDeg, sun_icrf_}};
+  gyro(0.0);
+  run(0.0, 60.0, [&](double t_s) {
+    sun(t_s);
+    direction_of(off, t_s, SampleKind::Magnetometer, field_icrf_);
+  });
+  EXPECT_GT(error_deg(last()), 4.0);
+  products_.clear();
+  run(60.0, 110.0, [&](double t_s) {
+    star(t_s);
+    sun(t_s);
+    direction_of(off, t_s, SampleKind::Magnetometer, field_icrf_);
+  });
+  for (const AttitudeEstimate& row : estimates()) {
+    if (seconds_of(row) > 70.0) {
+      EXPECT_EQ(row.assessment.quality, Quality::Doubtful) << seconds_of(row);
+    }
+  }
+  EXPECT_TRUE(has(last().assessment, ReasonCode::SensorGated));
+}
+
+TEST_F(AttitudeEstimatorTest, AStuckFieldIsNamedAndTheOthersHoldTheAttitude) {
+  gyro(0.0);
+  star(0.0);
+  run(0.0, 20.0, [&](double t_s) {
+    star(t_s);
+    sun(t_s);
+    field(t_s);
+  });
+  const Vector3d stuck = Vector3d{0.9, -0.3, 0.2};
+  run(20.0, 60.0, [&](double t_s) {
+    star(t_s);
+    sun(t_s);
+    estimator_.push(SeenDirection{at_s(t_s), SampleKind::Magnetometer, {stuck, field_icrf_, 0.01}},
+                    products_);
+  });
+  EXPECT_EQ(quality(), Quality::Ok);
+  EXPECT_EQ(
+      last().assessment.reasons,
+      (std::vector{Reason{ReasonCode::SensorGated, {{"sensor", std::string{"magnetometer"}}}}}));
+  EXPECT_EQ(rejected(SampleKind::Magnetometer, SampleRejection::Frozen), 39);
+  EXPECT_LT(error_deg(last()), 0.03);
+}
+
+/// Of a sensor that nothing has fitted yet one sample keeps the others from being believed.
+TEST_F(AttitudeEstimatorTest, IsNotOkWhileAllOfASensorIsRejected) {
+  gyro(0.0);
+  estimator_.push(turned_fix(0.0), products_);
+  run(0.0, 30.0, [&](double t_s) {
+    estimator_.push(turned_fix(t_s), products_);
+    if (std::lround(t_s) % 10 == 5) {
+      field(t_s);
+    }
+  });
+  EXPECT_EQ(health(SampleKind::Magnetometer).accepted, 0);
+  EXPECT_EQ(quality(), Quality::Converging);
+}
+
+TEST_F(AttitudeEstimatorTest, WithoutAGyroSunAndFieldOfWithinASecondGiveAnAttitude) {
+  for (const double apart_s : {0.0, 0.01, 0.5, 1.0}) {
+    SCOPED_TRACE(apart_s);
+    estimator_ = AttitudeEstimator{config_};
+    products_.clear();
+    sun(20.0);
+    field(20.0 + apart_s);
+    ASSERT_EQ(estimates().size(), 1U);
+    EXPECT_EQ(last().t, at_s(20.0 + apart_s));
+    EXPECT_FALSE(last().rate_body_rad_s);
+    EXPECT_EQ(quality(), Quality::Converging);
+    // Two directions of 0.5 deg nearly across each other, the first by 5 deg/s about each axis.
+    const double sun_deg = std::hypot(0.5, 5.0 * apart_s);
+    const double along_both_deg = 1.0 / std::hypot(1.0 / sun_deg, 1.0 / 0.5);
+    EXPECT_NEAR(degrees(last().sigma_rad()), std::hypot(0.5, sun_deg, along_both_deg),
+                0.05 * sun_deg);
+    EXPECT_LT(error_deg(last()), 4.0 * degrees(last().sigma_rad()));
+  }
+  estimator_ = AttitudeEstimator{config_};
+  products_.clear();
+  sun(20.0);
+  field(21.005);
+  EXPECT_TRUE(estimates().empty());
+}
+
+TEST_F(AttitudeEstimatorTest, WithoutAGyroEachPairOfDirectionsIsAnAttitudeAndAStarFixABetterOne) {
+  for (int second = 0; second < 60; ++second) {
+    sun(second);
+    field(second + 0.05);
+  }
+  EXPECT_EQ(estimates().size(), 60U);
+  EXPECT_EQ(quality(), Quality::Converging);
+  products_.clear();
+  for (int second = 60; second < 70; ++second) {
+    star(second);
+    sun(second + 0.05);
+    field(second + 0.1);
+  }
+  EXPECT_EQ(estimates().size(), 10U);
+  EXPECT_LT(degrees(last().sigma_rad()), 0.02);
 }
 
 TEST_F(AttitudeEstimatorTest, WhereAllIsRejectedItIsLostAndBeginsAtTheNextFix) {

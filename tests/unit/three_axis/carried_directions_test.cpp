@@ -138,6 +138,14 @@ TEST(CarriedDirections, AfterFiveSecondsADirectionIsForgotten) {
   EXPECT_TRUE(carried.attitude());
 }
 
+TEST(CarriedDirections, MayBeForgottenSooner) {
+  CarriedDirections carried = both(10.0);
+  carried.turn(at_s(11.0), Vector3d::Zero(), {}, 1.0);
+  EXPECT_TRUE(carried.attitude());
+  carried.turn(at_s(11.1), Vector3d::Zero(), {}, 1.0);
+  EXPECT_TRUE(is_unobservable(carried));
+}
+
 /// The attitude that fits two directions of one sigma best shares between them what the angle
 /// between them is off by: half each, chi-square off^2 / (2 sigma^2) of one degree of freedom.
 TEST(CarriedDirections, ContradictEachOtherWhereTheirAngleIsOffByMoreThanNoise) {

@@ -35,6 +35,19 @@ TEST(GyroWatch, ASaturatedSampleIsNoMeasurement) {
   EXPECT_EQ(watch.out_because(), std::nullopt);
 }
 
+/// As the decimals of a file, a single precision or a step of a sixteen bit telemetry leave it.
+TEST(GyroWatch, ARateThatIsClippedARoundingBelowItsRangeIsSaturated) {
+  const double range_rad_s = *kGyro.range_rad_s;
+  for (const double below : {1e-9, 6e-8, 1.0 / 32768.0, 1.0 / 2048.0}) {
+    GyroWatch watch{kGyro};
+    for (int i = 0; i < 20; ++i) {
+      EXPECT_EQ(judge(watch, {at_s(0.1 * i), {0.1, -range_rad_s * (1.0 - below), 0.1}}),
+                SampleRejection::Saturated)
+          << below;
+    }
+  }
+}
+
 TEST(GyroWatch, WithoutARangeNothingIsSaturated) {
   GyroWatch watch{{.noise_rad_s = 3e-5, .bias_sigma_rad_s = 2e-4, .range_rad_s = std::nullopt}};
   EXPECT_EQ(judge(watch, {at_s(0.0), {10.0, 0.0, 0.0}}), std::nullopt);

@@ -51,6 +51,16 @@ TEST(InnovationRecord, FourSamplesAreNotMany) {
   EXPECT_TRUE(record.many_rejected());
 }
 
+TEST(InnovationRecord, OfWhichNoneFitsIsRejectedAltogether) {
+  InnovationRecord record;
+  EXPECT_FALSE(record.all_rejected());
+  reject(record, 1);
+  EXPECT_TRUE(record.all_rejected());
+  accept(record, 1);
+  reject(record, 100);
+  EXPECT_FALSE(record.all_rejected());
+}
+
 /// Of the first twenty the plain share.
 TEST(InnovationRecord, TwoFifthsOfTheFirstSamplesAreNotYetMany) {
   for (const int rejected : {8, 9}) {

@@ -11,6 +11,8 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/geomagnetism/field_at_spacecraft.h"
 #include "services/geomagnetism/igrf.h"
+#include "tests/support/assessed.h"
+#include "tests/support/stepped_orbit.h"
 #include "tests/support/turning_body.h"
 
 namespace spindrift::three_axis_pass_test {
@@ -136,15 +138,13 @@ TEST_F(ThreeAxisPassTest, RepeatedSamplesChangeNothing) {
     }
   };
   for (int i = 0; i < 80; ++i) {
-    GyroSample sample = sensors_.gyro(0.25 * i);
+    const GyroSample sample = sensors_.gyro(0.25 * i);
     const StarFix fix = sensors_.star(0.25 * i);
     keep(once.push(fix), of_once);
     keep(once.push(sample), of_once);
     keep(twice.push(fix), of_twice);
     keep(twice.push(sample), of_twice);
     keep(twice.push(fix), of_twice);
-    // Of the same instant, with other numbers: the first one counts, as in the archive.
-    sample.rate_body_rad_s *= 2.0;
     keep(twice.push(sample), of_twice);
   }
   keep(once.finish(), of_once);
@@ -254,6 +254,42 @@ class MagnetometerPassTest : public ThreeAxisPassTest {
   MainFieldModel model_ = igrf().value();
   TurningEarth earth_;
 };
+
+/// The field on either side is that of another orbit, one of which is not the spacecraft's.
+TEST_F(MagnetometerPassTest, AStepOfTheOrbitBetweenFieldsIsDoubted) {
+  OemSegment segment{.usable_from = at_s(-60.0),
+                     .usable_to = at_s(120.0),
+                     .interpolation = Interpolation::Hermite,
+                     .degree = 7,
+                     .points = {}};
+  for (double t_s = -60.0; t_s <= 120.0; t_s += 10.0) {
+    segment.points.push_back({.t = at_s(t_s), .state = orbit_.at(at_s(t_s)).value()});
+  }
+  for (const double step_s : {30.0, -30.0}) {
+    products_.clear();
+    notices_.clear();
+    pass_ = {config_,
+             Orbit{testing::stepped(segment, at_s(step_s), Eigen::Vector3d::Zero(),
+                                    Eigen::Vector3d{0.0, 0.12, 0.0})},
+             model_};
+    for (int second = 0; second < kSeconds; ++second) {
+      add(pass_.push(sun(second)));
+      add(pass_.push(field(second)));
+      gyro(second, second + 1.0);
+    }
+    add(pass_.finish());
+    EXPECT_EQ(testing::has(notices_, NoticeCode::OrbitStepsInPass), step_s > 0.0);
+    EXPECT_EQ(has(last().assessment, ReasonCode::OrbitSteps), step_s > 0.0);
+    for (const ThreeAxisProduct& product : products_) {
+      if (const auto* const estimate = std::get_if<AttitudeEstimate>(&product)) {
+        EXPECT_FALSE(step_s > 0.0 && estimate->t > at_s(step_s + 2.0) &&
+                     is_unopposed(estimate->assessment.quality));
+        EXPECT_FALSE(estimate->t < at_s(step_s) &&
+                     has(estimate->assessment, ReasonCode::OrbitSteps));
+      }
+    }
+  }
+}
 
 TEST_F(MagnetometerPassTest, FieldSunAndGyroMakeAnAttitude) {
   for (int second = 0; second < kSeconds; ++second) {

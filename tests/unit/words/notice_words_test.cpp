@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
 #include <string_view>
+
+#include "pipelines/three_axis/products.h"
 
 namespace spindrift::notice_words_test {
 
@@ -45,6 +48,32 @@ TEST(NoticeWords, GiveTheirValuesAndThoseOfWhyThereIsNoFix) {
                       WhyNoFix{NoFixCode::SunEarthInLine, {{"sun_earth_deg", 0.5}}}};
   EXPECT_EQ(values_of(notice), nlohmann::json({{"revolution", 4}, {"sun_earth_deg", 0.5}}));
   EXPECT_EQ(values_of({LateEdges}), nlohmann::json::object());
+}
+
+TEST(NoticeWords, SayWhatMostOfAKindAreLeftOutForAndWhatHelps) {
+  EXPECT_EQ(sentence_of({MostLeftOut,
+                         {{"sensor", std::string{"gyro"}},
+                          {"percent", 99.7},
+                          {"rejected_by", std::string{"saturated"}},
+                          {"rate_deg_s", 57.3},
+                          {"range_deg_s", 10.0}}}),
+            "100 % of the gyro samples so far are left out as 'saturated': the last has 57.3 "
+            "deg/s, and range_deg_s = 10; correct that, or send the rates in rad/s");
+  for (int i = 0; i <= static_cast<int>(SampleRejection::Innovation); ++i) {
+    const std::string rejected_by{name_of(static_cast<SampleRejection>(i))};
+    const std::string sentence = sentence_of({MostLeftOut,
+                                              {{"sensor", std::string{"sun"}},
+                                               {"percent", 95.0},
+                                               {"rejected_by", rejected_by},
+                                               {"rate_deg_s", 1.0},
+                                               {"range_deg_s", 1.0},
+                                               {"sigmas", 9.0},
+                                               {"most_sigmas", 5.0}}});
+    if (rejected_by != "operator") {
+      EXPECT_EQ(sentence.find("look at rejected_sample"), std::string::npos) << sentence;
+    }
+    EXPECT_EQ(sentence.find('{'), std::string::npos) << sentence;
+  }
 }
 
 TEST(NoticeWords, SayWhatIsNotFinite) {

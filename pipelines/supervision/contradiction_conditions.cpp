@@ -1,0 +1,64 @@
+#include "pipelines/supervision/contradiction_conditions.h"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <utility>
+
+#include "pipelines/time/time_span.h"
+
+namespace spindrift {
+namespace {
+
+constexpr std::chrono::minutes kRecent{1};
+
+}  // namespace
+
+ConditionChanges ContradictionConditions::see(const SampleContradiction& contradiction) {
+  newest_ = std::max(newest_, contradiction.t);
+  std::set<std::string> all;
+  std::set<std::string> doubted;
+  for (const SampleContradiction::By& by : contradiction.by) {
+    all.insert(by.name);
+    if (by.sender != Sender::Preferred) {
+      doubted.insert(by.name);
+    }
+  }
+  ConditionChanges changes;
+  for (const std::string& name : doubted.empty() ? all : doubted) {
+    Source& source = sources_.try_emplace(name, name).first->second;
+    source.last_minute.push_back(newest_);
+    if (auto change = look(source)) {
+      change->evidence.sources.assign(all.begin(), all.end());
+      for (const std::string& other : all) {
+        if (other != name) {
+          change->who += (change->who.empty() ? "" : ", ") + other;
+        }
+      }
+      changes.push_back(*std::move(change));
+    }
+  }
+  return changes;
+}
+
+ConditionChanges ContradictionConditions::see(TaiTime t) {
+  ConditionChanges changes;
+  if (t > newest_) {
+    newest_ = t;
+    for (auto& [name, source] : sources_) {
+      add(look(source), changes);
+    }
+  }
+  return changes;
+}
+
+std::optional<ConditionChange> ContradictionConditions::look(Source& source) const {
+  auto& times = source.last_minute;
+  while (!times.empty() && span_between(times.front(), newest_) >= kRecent) {
+    times.pop_front();
+  }
+  return source.watch.see(newest_,
+                          {.value = static_cast<double>(times.size()), .limit = limit_samples_});
+}
+
+}  // namespace spindrift

@@ -1,0 +1,99 @@
+#include "pipelines/three_axis/gyro_unit.h"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "pipelines/frames/rotation_vector.h"
+#include "pipelines/time/time_span.h"
+
+namespace spindrift {
+namespace {
+
+// Shorter turns between two fixes are lost in their noise.
+constexpr double kSignificant = 20.0;  // Standard deviations of a fix.
+// What may be left of a turn that agrees: the rate's changes between the samples, and the noise of
+// two fixes and the bias, whose three axes are beyond so many sigmas once in a thousand times.
+constexpr double kLeft = 0.05;
+constexpr double kSigmas = 4.0;
+// More than that of a turn is another turn, whatever the bias; else rates that are too small in
+// another unit would agree with every slow turn.
+constexpr double kAnother = 0.5;
+// Longer turns are not followed: what the bias adds would count.
+constexpr double kLongest_s = 60.0;
+constexpr double kLongestStep_s = 2.5;
+constexpr int kEnough = 3;
+
+}  // namespace
+
+void GyroUnit::note(const GyroSample& sample) {
+  if (is_heard_at(sample.t)) {
+    turn_to(sample.t, 0.5 * (last_->rate_body_rad_s + sample.rate_body_rad_s));
+  } else {
+    fix_.reset();
+    reached_ = sample.t;
+  }
+  last_ = sample;
+}
+
+void GyroUnit::note(TaiTime t, const ObservedAttitude& fix) {
+  if (!is_heard_at(t)) {
+    fix_.reset();
+    return;
+  }
+  turn_to(t, last_->rate_body_rad_s);
+  if (!fix_ || elapsed_s(fixed_, t) > kLongest_s) {
+    begin(t, fix);
+    return;
+  }
+  const Eigen::Quaterniond seen = fix_->conjugate() * fix.q_icrf_body;
+  if (rotation_vector_of(seen).norm() < kSignificant * fix.sigma_rad) {
+    return;
+  }
+  if (const auto factor = factor_that_agrees(seen, fix.sigma_rad)) {
+    in_a_row_ = *factor == factor_ ? 0 : in_a_row_ + 1;
+    if (in_a_row_ >= kEnough) {
+      factor_ = *factor;
+      in_a_row_ = 0;
+    }
+  }
+  begin(t, fix);
+}
+
+bool GyroUnit::is_heard_at(TaiTime t) const {
+  return last_ && elapsed_s(last_->t, t) <= kLongestStep_s;
+}
+
+void GyroUnit::begin(TaiTime t, const ObservedAttitude& fix) {
+  fixed_ = t;
+  fix_ = fix.q_icrf_body;
+  turned_.fill(Eigen::Quaterniond::Identity());
+}
+
+void GyroUnit::turn_to(TaiTime t, const Eigen::Vector3d& rate_rad_s) {
+  const Eigen::Vector3d turn_rad = elapsed_s(std::exchange(reached_, t), t) * rate_rad_s;
+  for (std::size_t i = 0; i < kFactors.size(); ++i) {
+    turned_[i] = (turned_[i] * quaternion_by(turn_rad / kFactors[i])).normalized();
+  }
+}
+
+/// @return That of rad/s, or another that alone agrees; empty: none does.
+std::optional<double> GyroUnit::factor_that_agrees(const Eigen::Quaterniond& seen,
+                                                   double sigma_rad) const {
+  const double seen_rad = rotation_vector_of(seen).norm();
+  const double left_rad =
+      kLeft * seen_rad +
+      kSigmas * (std::numbers::sqrt2 * sigma_rad + bias_sigma_rad_s_ * elapsed_s(fixed_, reached_));
+  if (angle_between_rad(turned_.front(), seen) <= left_rad) {
+    return kFactors.front();
+  }
+  std::optional<double> agrees;
+  for (std::size_t i = 1; i < kFactors.size(); ++i) {
+    if (angle_between_rad(turned_[i], seen) <= std::min(left_rad, kAnother * seen_rad)) {
+      agrees = kFactors[i];
+    }
+  }
+  return agrees;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include "services/archive/batch_writer.h"
+#include "services/archive/bind.h"
+#include "services/archive/stored_rows.h"
+#include "services/telemetry/by_kind.h"
+#include "services/telemetry/sample_json.h"
+
+namespace spindrift {
+namespace {
+
+template <class Make>
+std::vector<SQLite::Statement> of_each_kind(SQLite::Database& database, const Make& make) {
+  std::vector<SQLite::Statement> statements;
+  TelemetryKinds::for_each(
+      [&]<class Value>(Kind<Value> kind) { statements.emplace_back(database, make(kind)); });
+  return statements;
+}
+
+}  // namespace
+
+ContradictionWriter::ContradictionWriter(SQLite::Database& database)
+    : find_{of_each_kind(database,
+                         []<class Value>(Kind<Value> /*kind*/) {
+                           return fmt::format(
+                               "SELECT {}, source, session, seq FROM {}"
+                               " WHERE spacecraft_id = ? AND t_tai_ns = ?",
+                               arrived_columns<Value>(), Telemetry<Value>::kTable);
+                         })},
+      take_over_{of_each_kind(database,
+                              []<class Value>(Kind<Value> /*kind*/) {
+                                return fmt::format(
+                                    "UPDATE {} SET source = ?3, session = ?4, seq = ?5"
+                                    " WHERE spacecraft_id = ?1 AND t_tai_ns = ?2",
+                                    Telemetry<Value>::kTable);
+                              })},
+      first_arrival_{database, "SELECT first_arrival FROM run WHERE run_id = ?"},
+      contested_{database,
+                 "SELECT EXISTS (SELECT 1 FROM contradiction WHERE run_id = ? AND kind = ?"
+                 " AND t_tai_ns = ?)"},
+      add_{database,
+           "INSERT INTO contradiction (run_id, spacecraft_id, kind, t_tai_ns, source, session, seq,"
+           " value, used, arrival) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING"},
+      use_none_{database,
+                "UPDATE contradiction SET used = 0 WHERE run_id = ? AND kind = ? AND t_tai_ns = ?"},
+      use_{database,
+           "UPDATE contradiction SET used = 1 WHERE run_id = ? AND kind = ? AND t_tai_ns = ?"
+           " AND source = ?"} {}
+
+template <class Value>
+bool ContradictionWriter::see(const ArchiveBatch& batch, const TelemetrySample<Value>& sample) {
+  SQLite::Statement& find = find_[kTelemetryKind<Value>];
+  find.tryReset();
+  find.bindNoCopy(1, sample.spacecraft);
+  find.bind(2, tai_ns(sample.value.t));
+  find.executeStep();
+  const Arrived<Value> stored = read_arrived<Value>(find);
+  const int origin = find.getColumnCount() - 3;
+  const Entry there{
+      .kind = contradiction_kind<Value>(),
+      .t = stored.value.t,
+      .origin = {.source = find.getColumn(origin).getString(),
+                 .session = static_cast<std::uint64_t>(find.getColumn(origin + 1).getInt64()),
+                 .seq = static_cast<std::uint64_t>(find.getColumn(origin + 2).getInt64())},
+      .arrival = stored.arrival};
+  find.reset();
+  if (stored.arrival < 0) {
+    return false;  // Left out since the time of its source is wrong: that was of another instant.
+  }
+  const Entry came{
+      .kind = there.kind, .t = there.t, .origin = sample.origin, .arrival = sample.arrival};
+  if (say_the_same(stored.value, sample.value)) {
+    if (came.origin.source == there.origin.source) {
+      return false;
+    }
+    if (is_contested(batch.run_id, there)) {
+      add(batch, came, json_of_sample(sample.value), false, came.arrival);
+    } else if (came.origin.source == batch.preferred_source) {
+      SQLite::Statement& take_over = take_over_[kTelemetryKind<Value>];
+      execute(take_over, sample.spacecraft, tai_ns(there.t), came.origin.source,
+              static_cast<std::int64_t>(came.origin.session),
+              static_cast<std::int64_t>(came.origin.seq));
+    }
+    return false;
+  }
+  add_both(batch, there, json_of_sample(stored.value), came, json_of_sample(sample.value));
+  return true;
+}
+
+template bool ContradictionWriter::see(const ArchiveBatch&, const TelemetrySample<CodedFrame>&);
+template bool ContradictionWriter::see(const ArchiveBatch&, const TelemetrySample<GyroSample>&);
+template bool ContradictionWriter::see(const ArchiveBatch&, const TelemetrySample<StarFix>&);
+template bool ContradictionWriter::see(const ArchiveBatch&, const TelemetrySample<SunDirection>&);
+template bool ContradictionWriter::see(const ArchiveBatch&, const TelemetrySample<MagneticField>&);
+template bool ContradictionWriter::see(const ArchiveBatch&,
+                                       const TelemetrySample<TimedOrbitState>&);
+
+void ContradictionWriter::settle(const std::string& run_id,
+                                 const SampleContradiction& contradiction) {
+  if (contradiction.late) {
+    return;
+  }
+  execute(use_none_, run_id, contradiction.kind, tai_ns(contradiction.t));
+  for (const SampleContradiction::By& by : contradiction.by) {
+    if (by.used) {
+      execute(use_, run_id, contradiction.kind, tai_ns(contradiction.t), by.name);
+    }
+  }
+}
+
+bool ContradictionWriter::is_contested(const std::string& run_id, const Entry& entry) {
+  contested_.tryReset();
+  bind(contested_, 1, run_id);
+  bind(contested_, 2, entry.kind);
+  bind(contested_, 3, tai_ns(entry.t));
+  contested_.executeStep();
+  const bool is_contested = contested_.getColumn(0).getInt() != 0;
+  contested_.reset();
+  return is_contested;
+}
+
+/// What came first stays used, until the pass says something else. What an earlier run took has not
+/// come in this one.
+void ContradictionWriter::add_both(const ArchiveBatch& batch, const Entry& there,
+                                   const std::string& there_value, const Entry& came,
+                                   const std::string& came_value) {
+  first_arrival_.tryReset();
+  bind(first_arrival_, 1, batch.run_id);
+  const bool is_of_run =
+      first_arrival_.executeStep() && there.arrival >= first_arrival_.getColumn(0).getInt64();
+  first_arrival_.reset();
+  const bool is_first = !is_of_run && !is_contested(batch.run_id, there);
+  add(batch, there, there_value, is_of_run, std::nullopt);
+  add(batch, came, came_value, is_first, came.arrival);
+}
+
+void ContradictionWriter::add(const ArchiveBatch& batch, const Entry& entry,
+                              const std::string& value, bool used,
+                              std::optional<std::int64_t> arrival) {
+  execute(add_, batch.run_id, batch.spacecraft_id, entry.kind, tai_ns(entry.t), entry.origin.source,
+          static_cast<std::int64_t>(entry.origin.session),
+          static_cast<std::int64_t>(entry.origin.seq), value, used, arrival);
+}
+
+}  // namespace spindrift

@@ -1,0 +1,131 @@
+// Three-axis passes in which a sensor lies, or is not there, through the program: beside their
+// truth.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "pipelines/frames/angle.h"
+#include "pipelines/frames/rotation_vector.h"
+#include "tests/support/archive_rows.h"
+#include "tests/support/processed_pass.h"
+#include "tests/support/test_paths.h"
+#include "tests/support/text_of.h"
+
+namespace spindrift::three_axis_faults_test {
+
+const std::filesystem::path kFaults = test_data() / "three-axis" / "faults";
+
+struct Row {
+  std::string quality;
+  double error_sigmas;
+};
+
+/// At the instants of the truth.
+std::vector<Row> rows_beside_truth(const std::filesystem::path& pass,
+                                   const std::filesystem::path& db) {
+  std::map<std::int64_t, Eigen::Quaterniond> truth;
+  const auto told = nlohmann::json::parse(text_of(pass / "truth.json"));
+  for (const auto& at : told["history"]) {
+    truth.emplace(at[0].get<std::int64_t>(),
+                  Eigen::Quaterniond{at[4].get<double>(), at[1].get<double>(), at[2].get<double>(),
+                                     at[3].get<double>()});
+  }
+  std::vector<Row> rows;
+  for (const std::string& text :
+       rows_of(db, "SELECT t_tai_ns, quality, sigma_deg, qw, qx, qy, qz FROM attitude")) {
+    std::istringstream fields{text};
+    std::vector<std::string> values;
+    for (std::string value; std::getline(fields, value, '|');) {
+      values.push_back(value);
+    }
+    if (const auto at = truth.find(std::stoll(values.at(0))); at != truth.end()) {
+      const Eigen::Quaterniond q{std::stod(values.at(3)), std::stod(values.at(4)),
+                                 std::stod(values.at(5)), std::stod(values.at(6))};
+      rows.push_back(
+          {values.at(1), degrees(angle_between_rad(q, at->second)) / std::stod(values.at(2))});
+    }
+  }
+  return rows;
+}
+
+struct Fault {
+  const char* pass;
+  const char* sensor;    ///< The one that is named.
+  const char* quality;   ///< At the end.
+  double least_ok;       ///< Share of rows.
+  const char* left_out;  ///< Why its samples are.
+};
+
+void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.pass; }
+
+class ThreeAxisFaults : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(ThreeAxisFaults, NoRowThatSaysOkIsBeyondFiveSigmaAndTheSensorIsNamed) {
+  const Fault& fault = GetParam();
+  const TemporaryFolder folder;
+  const Outcome outcome = process(folder, kFaults / fault.pass);
+  ASSERT_EQ(outcome.status, 0) << outcome.log;
+  const std::vector<Row> rows = rows_beside_truth(kFaults / fault.pass, outcome.db);
+  ASSERT_GT(rows.size(), 150U);
+  double ok = 0.0;
+  for (const Row& row : rows) {
+    EXPECT_NE(row.quality, "LOST");
+    if (row.quality == "OK") {
+      ok += 1.0;
+      EXPECT_LT(row.error_sigmas, 5.0);
+    }
+  }
+  EXPECT_GE(ok, fault.least_ok * static_cast<double>(rows.size()));
+  EXPECT_EQ(outcome.run["attitude"]["quality"], fault.quality);
+  EXPECT_GT(number_of(outcome.db,
+                      fmt::format("SELECT count(*) FROM rejected_sample WHERE kind = '{}' AND "
+                                  "rejected_by = '{}'",
+                                  fault.sensor, fault.left_out)),
+            25);
+  EXPECT_GT(
+      number_of(outcome.db,
+                fmt::format("SELECT count(*) FROM attitude WHERE status LIKE '%many {} samples "
+                            "gated%'",
+                            fault.sensor)),
+      80);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, ThreeAxisFaults,
+    ::testing::Values(Fault{"star-stuck", "star", "OK", 0.9, "frozen"},
+                      Fault{"star-stuck-alone", "star", "OK", 0.9, "frozen"},
+                      Fault{"star-turned-40", "star", "OK", 0.9, "innovation"},
+                      Fault{"magnetometer-stuck", "magnetometer", "OK", 0.9, "frozen"},
+                      Fault{"star-mounted-2-off", "magnetometer", "DOUBTFUL", 0.0, "innovation"}),
+    [](const auto& fault) {
+      std::string name = fault.param.pass;
+      std::replace(name.begin(), name.end(), '-', '_');
+      return name;
+    });
+
+TEST(ThreeAxisWithoutGyro, SunAndFieldGiveAnAttitude) {
+  const TemporaryFolder pass;
+  for (const char* file : {"mission.toml", "orbit.oem", "sun.csv", "magnetometer.csv"}) {
+    pass.write(file, text_of(kFaults / "star-stuck" / file));
+  }
+  const TemporaryFolder folder;
+  const Outcome outcome = process(folder, pass.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.log;
+  EXPECT_EQ(outcome.run["attitude"]["quality"], "CONVERGING");
+  // A field and a Sun 10 ms later, 160 times.
+  EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM attitude"), 160);
+  EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM attitude WHERE sigma_deg > 2"), 0);
+}
+
+}  // namespace spindrift::three_axis_faults_test

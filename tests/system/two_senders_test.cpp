@@ -1,0 +1,153 @@
+// The same samples from two files with different values, through the program.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/archive_rows.h"
+#include "tests/support/program.h"
+#include "tests/support/test_paths.h"
+#include "tests/support/text_of.h"
+
+namespace spindrift::two_senders_test {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+const std::filesystem::path kPass = test_data() / "faults" / "two-senders";
+
+struct Processed {
+  nlohmann::json run;
+  std::vector<std::string> attitudes;
+  std::string log;
+};
+
+class TwoSenders : public ::testing::Test {
+ protected:
+  /// @param prefer Empty: none.
+  void prefer(const std::string& prefer) {
+    mission_ = folder_.path() / "mission.toml";
+    std::filesystem::copy_file(kPass / "orbit.oem", folder_.path() / "orbit.oem",
+                               std::filesystem::copy_options::overwrite_existing);
+    std::ofstream{mission_} << text_of(kPass / "mission.toml")
+                            << fmt::format("[sources]\nprefer = \"{}\"\n", prefer);
+  }
+
+  Processed process(const std::string& name, std::vector<std::filesystem::path> telemetry) {
+    db_ = folder_.path() / (name + ".db");
+    std::vector<std::string> arguments{"process",    "--mission", mission_.string(), "--db",
+                                       db_.string(), "--json",    "--telemetry"};
+    for (const auto& path : telemetry) {
+      arguments.push_back(path.string());
+    }
+    Program program{arguments};
+    EXPECT_EQ(program.exit_status(), 0) << program.log();
+    return {.run = nlohmann::json::parse(program.out())["runs"][0],
+            .attitudes = rows_of(db_,
+                                 "SELECT t_tai_ns, qx, qy, qz, qw, sigma_deg, quality FROM"
+                                 " attitude ORDER BY t_tai_ns"),
+            .log = program.log()};
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path mission_ = kPass / "mission.toml";
+  std::filesystem::path db_;
+};
+
+TEST_F(TwoSenders, NeitherIsUsedAndBothAreKeptAndNamed) {
+  const std::int64_t fixes = 80;
+  for (const bool second_first : {false, true}) {
+    SCOPED_TRACE(second_first);
+    const Processed both = second_first ? process("second-first", {kPass / "second", kPass})
+                                        : process("second-last", {kPass, kPass / "second"});
+    EXPECT_THAT(both.attitudes, IsEmpty());
+    EXPECT_TRUE(both.run["attitude"].is_null());
+    const auto stars = both.run["contradictions"]["star"].get<std::int64_t>();
+    EXPECT_GT(stars, fixes);
+    EXPECT_EQ(both.run["sensors"]["star"]["rejected"]["contradicted"], stars);
+    EXPECT_EQ(both.run["sensors"]["star"]["accepted"], 0);
+    EXPECT_THAT(rows_of(db_,
+                        "SELECT kind, source, used, count(*) FROM contradiction GROUP BY 1, 2, "
+                        "3 ORDER BY 2"),
+                ElementsAre(fmt::format("star|second/star.csv|0|{}|", stars),
+                            fmt::format("star|two-senders/star.csv|0|{}|", stars)));
+    EXPECT_THAT(rows_of(db_,
+                        "SELECT key, severity, state, json_extract(evidence, '$.sources[0]'),"
+                        " json_extract(evidence, '$.sources[1]') FROM alert WHERE key LIKE"
+                        " 'link.contradiction:%' ORDER BY key"),
+                ElementsAre("link.contradiction:second/star.csv|warning|active|second/star.csv|"
+                            "two-senders/star.csv|",
+                            "link.contradiction:two-senders/star.csv|warning|active|"
+                            "second/star.csv|two-senders/star.csv|"));
+    EXPECT_THAT(both.log, HasSubstr("have different values"));
+  }
+}
+
+TEST_F(TwoSenders, ThePreferredOneIsUsedWhateverItIsCalled) {
+  const Processed alone = process("alone", {kPass});
+  ASSERT_THAT(alone.attitudes, SizeIs(::testing::Gt(100U)));
+  EXPECT_TRUE(alone.run["contradictions"].empty());
+  for (const std::string& name :
+       {std::string{"two-senders/star.csv"}, (kPass / "star.csv").string()}) {
+    SCOPED_TRACE(name);
+    prefer(name);
+    const Processed both = process("preferred", {kPass / "second", kPass});
+    EXPECT_EQ(both.attitudes, alone.attitudes);
+    EXPECT_EQ(number_of(db_,
+                        "SELECT count(*) FROM contradiction WHERE used = 1 AND source ="
+                        " 'two-senders/star.csv'"),
+              both.run["contradictions"]["star"]);
+    EXPECT_EQ(number_of(db_,
+                        "SELECT count(*) FROM contradiction WHERE used = 1 AND source ="
+                        " 'second/star.csv'"),
+              0);
+    EXPECT_THAT(rows_of(db_, "SELECT key FROM alert WHERE key LIKE 'link.contradiction:%'"),
+                ElementsAre("link.contradiction:second/star.csv|"));
+    std::filesystem::remove(db_);
+  }
+}
+
+TEST_F(TwoSenders, APreferredOneThatIsNoneOfTheFilesIsSaid) {
+  prefer("star.csv");
+  const Processed both = process("none", {kPass, kPass / "second"});
+  EXPECT_THAT(both.attitudes, IsEmpty());
+  EXPECT_THAT(both.log, HasSubstr("sources.prefer = \"star.csv\" is not one of the files"));
+}
+
+/// "%.9g" of what has twelve digits.
+TEST_F(TwoSenders, ACopyWithFewerDigitsIsTheSameSample) {
+  const auto copy = folder_.path() / "copy";
+  std::filesystem::create_directory(copy);
+  std::istringstream lines{text_of(kPass / "star.csv")};
+  std::ofstream csv{copy / "star.csv"};
+  std::string line;
+  std::getline(lines, line);
+  csv << line << '\n';
+  while (std::getline(lines, line)) {
+    std::istringstream fields{line};
+    std::string field;
+    std::getline(fields, field, ',');
+    csv << field;
+    while (std::getline(fields, field, ',')) {
+      csv << ',' << fmt::format("{:.6g}", std::stod(field));
+    }
+    csv << '\n';
+  }
+  csv.close();
+  const Processed alone = process("alone", {kPass});
+  const Processed both = process("both", {kPass, copy});
+  EXPECT_EQ(both.attitudes, alone.attitudes);
+  EXPECT_EQ(number_of(db_, "SELECT count(*) FROM contradiction"), 0);
+  EXPECT_EQ(number_of(db_, "SELECT count(*) FROM alert WHERE key LIKE 'link.contradiction:%'"), 0);
+}
+
+}  // namespace spindrift::two_senders_test
