@@ -220,7 +220,7 @@ bool Associator::is_of_all_channels(const PulseTrain& comb) const {
     return elapsed_s(comb.t, pulse.t) >= -kOnComb_sigma * comb.scatter_s;
   });
   const OtherChannels others =
-      other_channels(config_, std::vector<Pulse>(begin, recent_.end()), reference_);
+      other_channels(config_, std::vector<Pulse>(begin, recent_.end()), reference_, comb.period_s);
   return !others.are_heard ||
          std::any_of(others.periods_s.begin(), others.periods_s.end(),
                      [&](double period_s) { return !is_another_period(period_s, comb.period_s); });
@@ -305,13 +305,14 @@ void Associator::place(const Pulse& pulse, bool spoilt, Association& out) {
     rate_step_.replace_last(pulse.t);
   }
   const double phase = clock_->phase_turns(pulse.t);
+  const double first_phase = clock_->phase_turns(later_by_s(pulse.t, -behind_s.value_or(0.0)));
   close_before(phase, out);
   const bool lies_near = phases_.knows(pulse.channel) && count_of(pulse).near;
   // Where copies matter, the first of them tells where its channel is once another has come.
   const bool tells = behind_s.has_value() ==
                      copies_.are_apart(pulse.channel, edge_sigma_s(config_.noise, pulse.channel));
   if (pulse.channel != reference_ && !lies_near && tells) {
-    phases_.stray(pulse.channel, clock_->phase_turns(later_by_s(pulse.t, -behind_s.value_or(0.0))),
+    phases_.stray(pulse.channel, first_phase,
                   spoilt ? interfering_pairs_.displacement_s() / clock_->period_s() : 0.0,
                   clock_sigma_turns(phase));
   }

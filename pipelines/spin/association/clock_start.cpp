@@ -32,6 +32,8 @@ constexpr double kSamePeriod = 0.01;
 // What channels say of the period differs by less, unless one has half of its edges or twice as
 // many.
 constexpr double kAnotherPeriod = 1.2;
+// The Earth's motion and noise move an interval by less.
+constexpr double kSameInterval = 0.02;
 // A pass begins where so many edges follow within so many turns.
 constexpr std::ptrdiff_t kFewestOfRun = 3;
 constexpr double kOneRun_turns = 10.0;
@@ -68,6 +70,13 @@ PeriodNote note_of_one_turn(const std::vector<PeriodNote>& notes, const PeriodNo
     }
   }
   return shortest;
+}
+
+/// Of lost edges a train has a period of several turns; its other edges may be one turn apart.
+bool have_interval(const std::vector<TaiTime>& edges, double period_s) {
+  return std::adjacent_find(edges.begin(), edges.end(), [period_s](TaiTime a, TaiTime b) {
+           return std::abs(elapsed_s(a, b) - period_s) <= kSameInterval * period_s;
+         }) != edges.end();
 }
 
 /// More channels agree on another period: this one may miss every other edge, or have a second one
@@ -114,7 +123,7 @@ bool is_another_period(double one_s, double other_s) {
 }
 
 OtherChannels other_channels(const SpinConfig& config, std::span<const Pulse> pulses,
-                             PulseChannel channel) {
+                             PulseChannel channel, double period_s) {
   OtherChannels others;
   for (const PulseChannel other : kByPreference) {
     const std::vector<TaiTime> edges = times_of(pulses, other);
@@ -124,7 +133,8 @@ OtherChannels other_channels(const SpinConfig& config, std::span<const Pulse> pu
     others.are_heard = true;
     if (const auto train =
             find_pulse_train(edges, edge_sigma_s(config.noise, other), kFewestAtEnd)) {
-      others.periods_s.push_back(train->period_s);
+      const bool is_multiple = train->period_s > period_s && have_interval(edges, period_s);
+      others.periods_s.push_back(is_multiple ? period_s : train->period_s);
     }
   }
   return others;
@@ -173,7 +183,8 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
     const std::size_t fewest =
         at_end ? kFewestAtEnd : (channel == Sun1 ? kFewestSun1 : kFewestOthers);
     const auto comb = find_pulse_train(edges, noise_s, fewest);
-    if (!comb || is_outvoted(other_channels(config, waiting, channel), comb->period_s)) {
+    if (!comb ||
+        is_outvoted(other_channels(config, waiting, channel, comb->period_s), comb->period_s)) {
       continue;
     }
     const double phase_turns = defined_phase_turns(config, channel);

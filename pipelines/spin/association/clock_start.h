@@ -36,13 +36,13 @@ SpinClock::Setting setting_of(const PulseTrain& comb, double noise_s);
 /// Channels differ by so much only where one of them has half of its edges, or twice as many.
 bool is_another_period(double one_s, double other_s);
 
-/// What the edges of the channels but one say of the period.
+/// What the edges of the channels but one say of the period that this one has.
 struct OtherChannels {
   bool are_heard = false;              ///< Any gave enough edges to tell.
   std::vector<double> periods_s = {};  ///< Of those that are even trains.
 };
 OtherChannels other_channels(const SpinConfig& config, std::span<const Pulse> pulses,
-                             PulseChannel channel);
+                             PulseChannel channel, double period_s);
 
 /// By sun1; by another channel, sun2 rather than an infrared one, only when that has gone on for
 /// twenty edges without sun1, or with one that is outvoted.

@@ -61,28 +61,32 @@ bool is_no_chance(const std::vector<PhasePoint>& points, const RobustLine& line,
          (turns_among(line.agreeing) >= kStraysToAgree && line.scatter <= kWidest_turns);
 }
 
-/// Half as many turns as have one on the line, and one, have an edge at another place: no copy, as
-/// it is further away.
+/// More than half of the turns that have an edge on the line have one at another place besides.
 bool has_another_place(std::span<const double> counts, const RobustLine& line) {
-  std::vector<double> elsewhere;
-  std::copy_if(counts.begin(), counts.end(), std::back_inserter(elsewhere), [&](double count) {
-    const double off = count - line.at(std::round(count - line.phase));
-    return std::abs(std::remainder(off, 1.0)) > kCopies_turns;
-  });
-  if (elsewhere.empty()) {
-    return false;
-  }
-  std::vector<double> phases(elsewhere.size());
-  std::transform(elsewhere.begin(), elsewhere.end(), phases.begin(), fraction);
-  const double place = circular_median(phases);
-  std::set<double> turns;
-  for (const double count : elsewhere) {
-    const double turn = std::round(count - place);
-    if (std::abs(count - place - turn) <= kCopies_turns) {
-      turns.insert(turn);
+  std::vector<double> behind;  // The line, further than a copy.
+  std::vector<double> turns;
+  for (const double count : counts) {
+    const double turn = std::floor(count - line.phase + kCopies_turns);
+    const double off = count - turn - line.at(turn);
+    if (off > kCopies_turns && off < 1.0 - kCopies_turns) {
+      behind.push_back(off);
+      turns.push_back(turn);
     }
   }
-  return turns.size() > turns_among(line.agreeing) / 2;
+  if (behind.empty()) {
+    return false;
+  }
+  const double place = circular_median(behind);
+  std::set<double> there;
+  for (std::size_t i = 0; i < behind.size(); ++i) {
+    if (std::abs(behind[i] - place) <= kCopies_turns) {
+      there.insert(turns[i]);
+    }
+  }
+  const auto both =
+      std::count_if(line.agreeing.begin(), line.agreeing.end(),
+                    [&](const PhasePoint& point) { return there.contains(point.turn); });
+  return 2 * both > std::ssize(line.agreeing);
 }
 
 }  // namespace
