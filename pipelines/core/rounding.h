@@ -10,10 +10,11 @@
 
 namespace spindrift {
 
-/// What six digits keep, behind the point ("%f") or of the number ("%g", streams); what float32 and
-/// more digits keep is less than that.
+/// A number printed with "%f" keeps so much: six digits behind the point. Float32 and longer texts
+/// lose less.
 inline constexpr double kSixDecimals = 1e-6;
-inline constexpr double kSixDigits = 1e-5;  ///< Of the largest power of ten in it.
+/// A number printed with "%g" keeps this share of its largest power of ten: six digits in all.
+inline constexpr double kSixDigits = 1e-5;
 
 /// Of the components of one vector, in one unit. They are told apart from one unit of the sixth
 /// digit of the largest component on, or of the sixth decimal where that is more: rounding is half

@@ -19,8 +19,8 @@ struct OrbitStep {
   TaiTime
       from;  ///< The last instant before it, and the first behind: the same where segments touch.
   TaiTime to;
-  int line;       ///< Of the first state behind it.
-  double off_km;  ///< Of the states that both sides have there.
+  int line;       ///< The first state behind the step stands there in the OEM.
+  double off_km;  ///< The positions of both sides differ by this there, and the velocities:
   double off_km_s;
 };
 

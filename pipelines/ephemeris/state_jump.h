@@ -24,7 +24,7 @@ std::optional<double> jump_km(const EphemerisPoint& from, const EphemerisPoint& 
 /// a manoeuvre that is a quarter of a revolution back, too little shows in `to`.
 std::optional<double> unexplained_km(const EphemerisPoint& from, const EphemerisPoint& to);
 
-/// By how much two states of one instant, or carried to it, differ.
+/// The difference between two states that are of one instant, or are carried to it.
 struct Departure {
   double km;
   double km_s;
@@ -44,9 +44,9 @@ std::optional<Eigen::Vector3d> halfway_icrf_km(const EphemerisPoint& from,
 /// A step that nothing explains.
 struct OrbitJump {
   EphemerisPoint to;
-  double off_km;    ///< From where the point before it leads to.
-  double off_km_s;  ///< Likewise.
-  TaiTime from;     ///< Of that point.
+  double off_km;    ///< The position is so far from where the point before it leads to,
+  double off_km_s;  ///< and the velocity so far from what that point leads to.
+  TaiTime from;     ///< The point before it has this time.
 };
 
 /// In order of time, those between the points of a segment and, from the last point that is usable

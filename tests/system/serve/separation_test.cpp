@@ -201,6 +201,7 @@ TEST(ServeSeparation, TheCommandGoesThroughTheServiceThatHoldsTheArchive) {
   // Nothing of it is announced: what is in force is the pass's own, at the fix, at the end, and
   // where the machine is slow also when the stream has fallen silent.
   EXPECT_TRUE(eventually([&] { return listener.of("batch").size() >= 8; }));
+  EXPECT_EQ(listener.of("batch").size() % 4, 0U);  // T1 to T4 of each.
   const std::string run_of_command = nlohmann::json::parse(held.out()).at("run_id");
   for (const spindrift_AttitudeEstimate& announced : listener.of("batch")) {
     EXPECT_NE(announced.run_id, run_of_command);
