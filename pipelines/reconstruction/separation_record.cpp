@@ -54,7 +54,9 @@ void SeparationRecord::contest(std::vector<Sample>& samples, const Sample& sampl
   if (is_there == counts.has_value() && (!counts || say_the_same(*there, *counts))) {
     return;
   }
-  corrected_ = true;
+  if (was_due_ && !awaited_) {
+    corrected_ = std::max(corrected_.value_or(sample.t), sample.t);
+  }
   if (is_there) {
     there = samples.erase(there);
   }
@@ -63,8 +65,13 @@ void SeparationRecord::contest(std::vector<Sample>& samples, const Sample& sampl
   }
 }
 
-bool SeparationRecord::take_correction() {
-  return std::exchange(corrected_, false) && was_due_ && !awaited_;
+bool SeparationRecord::take_correction(std::chrono::nanoseconds apart) {
+  if (!corrected_ || (last_correction_ &&
+                      std::chrono::abs(span_between(*last_correction_, *corrected_)) < apart)) {
+    return false;
+  }
+  last_correction_ = std::exchange(corrected_, std::nullopt);
+  return true;
 }
 
 bool SeparationRecord::push(const GyroSample& sample) {
@@ -108,6 +115,9 @@ bool SeparationRecord::push(const StarFix& fix) {
 }
 
 bool SeparationRecord::fall_silent(std::chrono::nanoseconds apart) {
+  if (std::exchange(corrected_, std::nullopt)) {
+    return true;
+  }
   if (!was_due_ || !newest_used_ ||
       (last_silence_ && std::chrono::abs(span_between(*last_silence_, *newest_used_)) < apart)) {
     return false;
@@ -130,6 +140,7 @@ bool SeparationRecord::is_due(TaiTime reached) {
   const bool is_due = awaited_ && reached >= *awaited_;
   if (is_due) {
     was_due_ = true;
+    corrected_.reset();
     newest_used_.reset();
     awaited_.reset();
   }

@@ -44,9 +44,11 @@ class SeparationRecord {
   /// @return whether a solution rests on it: another one is due.
   bool forget(const Exclusions<SampleKind>& excluded);
 
-  /// What arrived has changed what counts of that before it, by a contradiction.
-  /// @return whether a solution rests on that: another one is due.
-  bool take_correction();
+  /// What arrived has changed what counts of that before it, by a contradiction, and a solution
+  /// rests on that. One that is not due yet is with the next silence.
+  /// @param apart Of telemetry, from one that was due for this to the next. @return whether a
+  /// solution is due.
+  bool take_correction(std::chrono::nanoseconds apart);
 
   /// All up to now, each kind in order of time.
   const ReconstructionRequest& request() const { return request_; }
@@ -65,9 +67,10 @@ class SeparationRecord {
   ReconstructionRequest request_;
   /// Of instants of which more than one thing was said.
   std::tuple<Said<GyroSample>, Said<SunDirection>, Said<StarFix>, Said<TimedOrbitState>> said_;
-  bool corrected_ = false;
-  bool has_acquisition_ = false;  ///< T3 was there at the last star fix.
-  std::int64_t fixes_ = 0;        ///< That have arrived behind it.
+  std::optional<TaiTime> corrected_;        ///< The newest instant that a solution has wrong.
+  std::optional<TaiTime> last_correction_;  ///< Likewise, when one was due for it.
+  bool has_acquisition_ = false;            ///< T3 was there at the last star fix.
+  std::int64_t fixes_ = 0;                  ///< That have arrived behind it.
   std::int64_t due_at_fixes_ = 1;
   std::optional<TaiTime> awaited_;       ///< A solution is due once gyro samples reach it.
   bool was_due_ = false;                 ///< A solution.

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "pipelines/core/expected.h"
@@ -43,6 +44,7 @@ class ContradictionWriter {
     std::int64_t arrival;
   };
   bool is_contested(const std::string& run_id, const Entry& entry);
+  std::int64_t first_arrival(const std::string& run_id);
   void add_both(const ArchiveBatch& batch, const Entry& there, const std::string& there_value,
                 const Entry& came, const std::string& came_value);
   void add(const ArchiveBatch& batch, const Entry& entry, const std::string& value, bool used,
@@ -50,7 +52,8 @@ class ContradictionWriter {
 
   std::vector<SQLite::Statement> find_;       ///< In the order of the list of kinds.
   std::vector<SQLite::Statement> take_over_;  ///< Likewise.
-  SQLite::Statement first_arrival_;
+  SQLite::Statement find_first_arrival_;
+  std::pair<std::string, std::int64_t> first_arrival_;  ///< Of the run that was asked for last.
   SQLite::Statement contested_;
   SQLite::Statement add_;
   SQLite::Statement use_none_;

@@ -34,7 +34,7 @@ ContradictionWriter::ContradictionWriter(SQLite::Database& database)
                                     " WHERE spacecraft_id = ?1 AND t_tai_ns = ?2",
                                     Telemetry<Value>::kTable);
                               })},
-      first_arrival_{database, "SELECT first_arrival FROM run WHERE run_id = ?"},
+      find_first_arrival_{database, "SELECT first_arrival FROM run WHERE run_id = ?"},
       contested_{database,
                  "SELECT EXISTS (SELECT 1 FROM contradiction WHERE run_id = ? AND kind = ?"
                  " AND t_tai_ns = ?)"},
@@ -70,8 +70,9 @@ bool ContradictionWriter::see(const ArchiveBatch& batch, const TelemetrySample<V
   const Entry came{
       .kind = there.kind, .t = there.t, .origin = sample.origin, .arrival = sample.arrival};
   if (say_the_same(stored.value, sample.value)) {
+    const bool is_of_run = there.arrival >= first_arrival(batch.run_id);
     if (came.origin.source == there.origin.source) {
-      return false;
+      return is_of_run;
     }
     if (is_contested(batch.run_id, there)) {
       add(batch, came, json_of_sample(sample.value), false, came.arrival);
@@ -81,7 +82,7 @@ bool ContradictionWriter::see(const ArchiveBatch& batch, const TelemetrySample<V
               static_cast<std::int64_t>(came.origin.session),
               static_cast<std::int64_t>(came.origin.seq));
     }
-    return false;
+    return is_of_run;
   }
   add_both(batch, there, json_of_sample(stored.value), came, json_of_sample(sample.value));
   return true;
@@ -119,16 +120,23 @@ bool ContradictionWriter::is_contested(const std::string& run_id, const Entry& e
   return is_contested;
 }
 
+std::int64_t ContradictionWriter::first_arrival(const std::string& run_id) {
+  if (first_arrival_.first != run_id) {
+    find_first_arrival_.tryReset();
+    bind(find_first_arrival_, 1, run_id);
+    find_first_arrival_.executeStep();
+    first_arrival_ = {run_id, find_first_arrival_.getColumn(0).getInt64()};
+    find_first_arrival_.reset();
+  }
+  return first_arrival_.second;
+}
+
 /// What came first stays used, until the pass says something else. What an earlier run took has not
 /// come in this one.
 void ContradictionWriter::add_both(const ArchiveBatch& batch, const Entry& there,
                                    const std::string& there_value, const Entry& came,
                                    const std::string& came_value) {
-  first_arrival_.tryReset();
-  bind(first_arrival_, 1, batch.run_id);
-  const bool is_of_run =
-      first_arrival_.executeStep() && there.arrival >= first_arrival_.getColumn(0).getInt64();
-  first_arrival_.reset();
+  const bool is_of_run = there.arrival >= first_arrival(batch.run_id);
   const bool is_first = !is_of_run && !is_contested(batch.run_id, there);
   add(batch, there, there_value, is_of_run, std::nullopt);
   add(batch, came, came_value, is_first, came.arrival);

@@ -108,7 +108,7 @@ void ThreeAxisRun::record(const Arrived<Value>& arrived) {
       return;
     }
     const bool is_due = record_->push(arrived.value);
-    const bool is_corrected = record_->take_correction();
+    const bool is_corrected = record_->take_correction(kBetweenSilences);
     has_forgotten_ = has_forgotten_ || is_corrected;
     if ((is_due || is_corrected) && plan_ == SolvingPlan::Meanwhile) {
       hand_out_solutions();

@@ -141,14 +141,25 @@ TEST_F(SeparationRecordTest, AnotherSolutionIsDueWhereOneRestedOnWhatIsContradic
   bool was_due = false;
   for (const AnySample& sample : samples_of(flight_)) {
     was_due = push(sample, record) || was_due;
-    EXPECT_FALSE(record.take_correction());
+    EXPECT_FALSE(record.take_correction(10s));
   }
   ASSERT_TRUE(was_due);
-  SunDirection other = flight_.sun.front();
-  other.sun_body = -other.sun_body;
-  EXPECT_FALSE(record.push(other));
-  EXPECT_TRUE(record.take_correction());
-  EXPECT_FALSE(record.take_correction());
+  const auto contradict = [&](SunDirection sun) {
+    sun.sun_body = -sun.sun_body;
+    EXPECT_FALSE(record.push(sun));
+    return record.take_correction(10s);
+  };
+  EXPECT_TRUE(contradict(flight_.sun.at(0)));
+  EXPECT_FALSE(record.take_correction(10s));
+  // Of many in a row not each makes one, and the last is not forgotten.
+  std::size_t next = 1;
+  while (flight_.sun.at(next).t < flight_.sun.front().t + 10s) {
+    EXPECT_FALSE(contradict(flight_.sun.at(next++)));
+  }
+  EXPECT_TRUE(contradict(flight_.sun.at(next)));
+  EXPECT_FALSE(contradict(flight_.sun.at(next + 1)));
+  EXPECT_TRUE(record.fall_silent(10s));
+  EXPECT_FALSE(record.take_correction(0s));
 }
 
 TEST_F(SeparationRecordTest, ASolutionIsDueWithTheStarFixAndIsThatOfAllSamples) {
