@@ -44,17 +44,21 @@ inline bool are_same(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 inline bool say_the_same(const GyroSample& a, const GyroSample& b) {
   return are_same(a.rate_body_rad_s, b.rate_body_rad_s);
 }
-/// As they are used: of length 1.
+inline bool are_same(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
+  return same_but_for_rounding<4>({a.x(), a.y(), a.z(), a.w()}, {b.x(), b.y(), b.z(), b.w()});
+}
+/// As they are sent, or as they are used: of length 1.
 inline bool say_the_same(const SunDirection& a, const SunDirection& b) {
-  return are_same(a.sun_body.normalized(), b.sun_body.normalized());
+  return are_same(a.sun_body, b.sun_body) ||
+         are_same(a.sun_body.normalized(), b.sun_body.normalized());
 }
 /// Likewise; q and -q are one attitude.
 inline bool say_the_same(const StarFix& a, const StarFix& b) {
-  const Eigen::Vector4d one = a.q_icrf_sensor.coeffs().normalized();
-  Eigen::Vector4d other = b.q_icrf_sensor.coeffs().normalized();
+  const Eigen::Vector4d one = a.q_icrf_sensor.coeffs();
+  Eigen::Vector4d other = b.q_icrf_sensor.coeffs();
   other *= one.dot(other) < 0.0 ? -1.0 : 1.0;
-  return same_but_for_rounding<4>({one.x(), one.y(), one.z(), one.w()},
-                                  {other.x(), other.y(), other.z(), other.w()});
+  return are_same(one, other) ||
+         are_same(Eigen::Vector4d{one.normalized()}, Eigen::Vector4d{other.normalized()});
 }
 /// @}
 

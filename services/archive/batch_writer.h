@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -49,6 +50,9 @@ class ContradictionWriter {
                 const Entry& came, const std::string& came_value);
   void add(const ArchiveBatch& batch, const Entry& entry, const std::string& value, bool used,
            std::optional<std::int64_t> arrival);
+  void say_rounded(const ArchiveBatch& batch, const Entry& there, const Entry& came);
+  void say_once(const ArchiveBatch& batch, std::string_view code, const Entry& there,
+                const Entry& came, const char* what);
 
   std::vector<SQLite::Statement> find_;       ///< In the order of the list of kinds.
   std::vector<SQLite::Statement> take_over_;  ///< Likewise.
@@ -58,6 +62,7 @@ class ContradictionWriter {
   SQLite::Statement add_;
   SQLite::Statement use_none_;
   SQLite::Statement use_;
+  std::set<std::string> said_;  ///< What has been warned of, by kind and run.
 };
 
 /// The prepared statements of one connection. `database` must outlive it.

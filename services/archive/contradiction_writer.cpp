@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include "pipelines/time/utc.h"
 #include "services/archive/batch_writer.h"
 #include "services/archive/bind.h"
 #include "services/archive/stored_rows.h"
+#include "services/standard_error/warning.h"
 #include "services/telemetry/by_kind.h"
 #include "services/telemetry/sample_json.h"
 
@@ -15,6 +17,22 @@ std::vector<SQLite::Statement> of_each_kind(SQLite::Database& database, const Ma
   TelemetryKinds::for_each(
       [&]<class Value>(Kind<Value> kind) { statements.emplace_back(database, make(kind)); });
   return statements;
+}
+
+/// Of what is not there NaN would equal nothing: a member of it is left out.
+template <class Value>
+std::vector<double> numbers_of(const Value& value) {
+  std::vector<double> numbers;
+  for_each_column(value, [&numbers]<class Member>(std::string_view /*name*/, const Member& member) {
+    if constexpr (requires { member.has_value(); }) {
+      if (member) {
+        numbers.push_back(*member);
+      }
+    } else {
+      numbers.push_back(member);
+    }
+  });
+  return numbers;
 }
 
 }  // namespace
@@ -74,6 +92,9 @@ bool ContradictionWriter::see(const ArchiveBatch& batch, const TelemetrySample<V
     if (came.origin.source == there.origin.source) {
       return is_of_run;
     }
+    if (is_of_run && numbers_of(stored.value) != numbers_of(sample.value)) {
+      say_rounded(batch, there, came);
+    }
     if (is_contested(batch.run_id, there)) {
       add(batch, came, json_of_sample(sample.value), false, came.arrival);
     } else if (came.origin.source == batch.preferred_source) {
@@ -132,7 +153,7 @@ std::int64_t ContradictionWriter::first_arrival(const std::string& run_id) {
 }
 
 /// What came first stays used, until the pass says something else. What an earlier run took has not
-/// come in this one.
+/// come in this one: its pass cannot know of it.
 void ContradictionWriter::add_both(const ArchiveBatch& batch, const Entry& there,
                                    const std::string& there_value, const Entry& came,
                                    const std::string& came_value) {
@@ -140,6 +161,35 @@ void ContradictionWriter::add_both(const ArchiveBatch& batch, const Entry& there
   const bool is_first = !is_of_run && !is_contested(batch.run_id, there);
   add(batch, there, there_value, is_of_run, std::nullopt);
   add(batch, came, came_value, is_first, came.arrival);
+  if (is_first) {
+    say_once(batch, "contradicts_earlier_run", there, came,
+             "samples have other values than an earlier run has of their time, there from {0}, "
+             "here from {1}. This run uses its own; one of the two is wrong. Process both in one "
+             "run, and see the table contradiction");
+  }
+}
+
+void ContradictionWriter::say_rounded(const ArchiveBatch& batch, const Entry& there,
+                                      const Entry& came) {
+  say_once(batch, "rounded", there, came,
+           "samples come from {0} and from {1}, of one of them with fewer digits. They are one "
+           "sample, and what came first is used");
+}
+
+/// @param what With {0} and {1} for the two sources.
+void ContradictionWriter::say_once(const ArchiveBatch& batch, std::string_view code,
+                                   const Entry& there, const Entry& came, const char* what) {
+  if (!said_.emplace(fmt::format("{} {} {}", code, came.kind, batch.run_id)).second) {
+    return;
+  }
+  warn(code,
+       {{"spacecraft", batch.spacecraft_id},
+        {"kind", came.kind},
+        {"t_tai_ns", tai_ns(came.t)},
+        {"sources", {there.origin.source, came.origin.source}}},
+       fmt::format("{}: {} {}; first at {}", batch.spacecraft_id, came.kind,
+                   fmt::format(fmt::runtime(what), there.origin.source, came.origin.source),
+                   format_utc(came.t)));
 }
 
 void ContradictionWriter::add(const ArchiveBatch& batch, const Entry& entry,

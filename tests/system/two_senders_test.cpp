@@ -21,6 +21,7 @@ namespace spindrift::two_senders_test {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 const std::filesystem::path kPass = test_data() / "faults" / "two-senders";
@@ -123,7 +124,15 @@ TEST_F(TwoSenders, APreferredOneThatIsNoneOfTheFilesIsSaid) {
   EXPECT_THAT(both.log, HasSubstr("sources.prefer = \"star.csv\" is not one of the files"));
 }
 
-/// "%.9g" of what has twelve digits.
+TEST_F(TwoSenders, TheValuesOfALaterRunAreItsOwnAndThatIsSaid) {
+  const Processed one = process("archive", {kPass});
+  EXPECT_THAT(one.log, Not(HasSubstr("than an earlier run")));
+  const Processed other = process("archive", {kPass / "second"});
+  EXPECT_THAT(other.log, HasSubstr("star samples have other values than an earlier run has"));
+  EXPECT_GT(number_of(db_, "SELECT count(*) FROM contradiction WHERE used = 1"), 0);
+}
+
+/// Four decimals of what has twelve.
 TEST_F(TwoSenders, ACopyWithFewerDigitsIsTheSameSample) {
   const auto copy = folder_.path() / "copy";
   std::filesystem::create_directory(copy);
@@ -138,7 +147,7 @@ TEST_F(TwoSenders, ACopyWithFewerDigitsIsTheSameSample) {
     std::getline(fields, field, ',');
     csv << field;
     while (std::getline(fields, field, ',')) {
-      csv << ',' << fmt::format("{:.6g}", std::stod(field));
+      csv << ',' << fmt::format("{:.4f}", std::stod(field));
     }
     csv << '\n';
   }
@@ -146,6 +155,7 @@ TEST_F(TwoSenders, ACopyWithFewerDigitsIsTheSameSample) {
   const Processed alone = process("alone", {kPass});
   const Processed both = process("both", {kPass, copy});
   EXPECT_EQ(both.attitudes, alone.attitudes);
+  EXPECT_THAT(both.log, HasSubstr("of one of them with fewer digits"));
   EXPECT_EQ(number_of(db_, "SELECT count(*) FROM contradiction"), 0);
   EXPECT_EQ(number_of(db_, "SELECT count(*) FROM alert WHERE key LIKE 'link.contradiction:%'"), 0);
 }

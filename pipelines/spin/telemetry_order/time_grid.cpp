@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "pipelines/time/time_span.h"
@@ -9,9 +10,9 @@
 namespace spindrift {
 namespace {
 
-constexpr int kRun = 16;
-// By chance a run has a multiple of the grid, one in 2^16 its double: a day does not have three.
-constexpr int kFewestRuns = 3;
+constexpr int kRun = 20;
+// By chance a run has a multiple of the grid, one in 2^20 its double, which is no harm.
+constexpr int kFewestRuns = 2;
 constexpr double kOfInterest = 1e-3;
 
 }  // namespace
@@ -20,18 +21,33 @@ TimeGrid::TimeGrid(const PulseNoise& noise)
     : least_ns_{std::max(kOfInterest * 1e9 * std::min(noise.sun_s, noise.infrared_s), 1.0)} {}
 
 void TimeGrid::note(const Pulse& edge) {
-  if (edge.channel == PulseChannel::Sun1 || !reference_) {
-    reference_ = edge.t;
-    return;
+  const std::optional<TaiTime>& sun1 = last_[index_of(PulseChannel::Sun1)];
+  std::optional<TaiTime>& last = last_[index_of(edge.channel)];
+  if (edge.channel != PulseChannel::Sun1 && sun1) {
+    add(span_between(*sun1, edge.t).count(), behind_sun1_);
   }
-  divisor_ns_ = std::gcd(divisor_ns_, span_between(*reference_, edge.t).count());
-  if (++differences_ < kRun) {
-    return;
+  if (last) {
+    add(span_between(*last, edge.t).count(), behind_each_other_[index_of(edge.channel)]);
   }
-  differences_ = 0;
-  const std::int64_t width_ns = std::exchange(divisor_ns_, 0);
-  if (static_cast<double>(width_ns) > least_ns_ && ++runs_[width_ns] >= kFewestRuns) {
-    width_s_ = std::max(width_s_, 1e-9 * static_cast<double>(width_ns));
+  last = edge.t;
+}
+
+void TimeGrid::add(std::int64_t difference_ns, Run& run) {
+  if (run.differences == 0) {
+    run.first_ns = difference_ns;
+  }
+  run.are_equal = run.are_equal && difference_ns == run.first_ns;
+  run.divisor_ns = std::gcd(run.divisor_ns, difference_ns);
+  if (++run.differences == kRun) {
+    end(std::exchange(run, {}));
+  }
+}
+
+/// Equal differences show no grid, since they have no noise that would have to lie on it.
+void TimeGrid::end(const Run& run) {
+  if (!run.are_equal && static_cast<double>(run.divisor_ns) > least_ns_ &&
+      ++runs_[run.divisor_ns] >= kFewestRuns) {
+    width_s_ = std::max(width_s_, 1e-9 * static_cast<double>(run.divisor_ns));
   }
 }
 

@@ -38,11 +38,28 @@ TEST(Rounding, WhatSixDigitsOrFloat32KeepIsTheSame) {
   }
 }
 
+TEST(Rounding, WhatIsRoundedToFourDigitsIsTheSame) {
+  EXPECT_TRUE(
+      same_but_for_rounding<3>({11454.7023, -13003.3937, 10.3712}, {11455.0, -13003.0, 10.0}));
+  EXPECT_TRUE(same_but_for_rounding<3>({0.8372, -0.3058, 0.4535}, {0.837182, -0.305838, 0.453475}));
+  EXPECT_TRUE(same_but_for_rounding<3>(
+      {0.837182, -0.305838, 0.453475},
+      {static_cast<double>(0.8372F), static_cast<double>(-0.3058F), static_cast<double>(0.4535F)}));
+  // Beyond half a unit, of another unit for each component, to three digits.
+  EXPECT_FALSE(
+      same_but_for_rounding<3>({11454.7023, -13003.3937, 10.3712}, {11454.0, -13003.0, 10.0}));
+  EXPECT_FALSE(
+      same_but_for_rounding<3>({11454.7023, -13003.3937, 10.3712}, {11455.0, -13003.2, 10.0}));
+  EXPECT_FALSE(same_but_for_rounding<3>({0.837182, -0.305838, 0.453475}, {0.837, -0.306, 0.453}));
+  // Both are on the grid, and are different.
+  EXPECT_FALSE(same_but_for_rounding<3>({11454.0, -13003.0, 10.0}, {11455.0, -13003.0, 10.0}));
+}
+
 TEST(Rounding, ADifferenceOfTwoUnitsOfTheSixthDigitIsNone) {
-  EXPECT_TRUE(same_but_for_rounding<3>({0.6, 0.8, 0.0}, {0.6, 0.8 + 9e-7, 0.0}));
-  EXPECT_FALSE(same_but_for_rounding<3>({0.6, 0.8, 0.0}, {0.6, 0.8 + 2e-6, 0.0}));
-  EXPECT_TRUE(same_but_for_rounding<3>({12345.6, 1.0, 0.0}, {12345.6, 1.09, 0.0}));
-  EXPECT_FALSE(same_but_for_rounding<3>({12345.6, 1.0, 0.0}, {12345.6, 1.2, 0.0}));
+  EXPECT_TRUE(same_but_for_rounding<3>({0.6, 0.7999991, 0.0}, {0.6, 0.8, 0.0}));
+  EXPECT_FALSE(same_but_for_rounding<3>({0.601234, 0.7999993, 0.0}, {0.601234, 0.8000013, 0.0}));
+  EXPECT_TRUE(same_but_for_rounding<3>({12345.63, 1.0, 0.0}, {12345.63, 1.09, 0.0}));
+  EXPECT_FALSE(same_but_for_rounding<3>({12345.63, 1.0, 0.0}, {12345.63, 1.2, 0.0}));
   EXPECT_FALSE(same_but_for_rounding<1>({0.0}, {1.1e-6}));
   EXPECT_FALSE(same_but_for_rounding<1>({1e6}, {0.0}));
 }

@@ -14,7 +14,9 @@ constexpr std::int64_t kTurn_ns = 1'000'000'000;
 /// Six channels at 60 rpm, with the noise that is stated.
 class Train {
  public:
-  explicit Train(std::int64_t grid_ns) : grid_ns_{grid_ns} {}
+  /// @param cut So many channels are, sun1 first.
+  explicit Train(std::int64_t grid_ns, std::size_t cut = kPulseChannels)
+      : grid_ns_{grid_ns}, cut_{cut} {}
 
   /// One turn more. @param steps_ns Of the delays behind sun1, as on-board counters have them.
   void turn(TimeGrid& grid, std::int64_t steps_ns = 1) {
@@ -25,7 +27,8 @@ class Train {
       const std::int64_t delay_ns =
           static_cast<std::int64_t>(i) * 123'456'789 + noise_ns(edge_sigma_s(kNoise, channel));
       const std::int64_t counted_ns = delay_ns / steps_ns * steps_ns;
-      grid.note({.t = tai_from_ns(on_grid(sun1_ns + counted_ns)), .channel = channel});
+      grid.note({.t = tai_from_ns(i < cut_ ? on_grid(sun1_ns + counted_ns) : sun1_ns + counted_ns),
+                 .channel = channel});
     }
   }
 
@@ -36,6 +39,7 @@ class Train {
   }
 
   std::int64_t grid_ns_;
+  std::size_t cut_;
   std::int64_t turns_ = 0;
   std::mt19937_64 rng_{7};
   std::normal_distribution<double> normal_;
@@ -86,6 +90,26 @@ TEST(TimeGrid, IsThatOfTheDelaysOfFramesWhoseSun1HasNone) {
     train.turn(grid, 1'000'000);
   }
   EXPECT_DOUBLE_EQ(grid.width_s(), 1e-3);
+}
+
+TEST(TimeGrid, MayBeOfSomeChannelsOnly) {
+  for (const std::size_t cut : {1U, 2U, 3U}) {
+    Train train{1'000'000, cut};
+    TimeGrid grid{kNoise};
+    for (int turn = 0; turn < 42; ++turn) {
+      train.turn(grid);
+    }
+    EXPECT_DOUBLE_EQ(grid.width_s(), 1e-3) << cut;
+  }
+}
+
+/// Edges without noise at a round rate.
+TEST(TimeGrid, IsNoneOfEqualIntervals) {
+  TimeGrid grid{kNoise};
+  for (std::int64_t turn = 0; turn < 1'000; ++turn) {
+    grid.note({.t = tai_from_ns(kStart_ns + turn * kTurn_ns), .channel = PulseChannel::Sun1});
+  }
+  EXPECT_EQ(grid.width_s(), 0.0);
 }
 
 TEST(TimeGrid, MayBeginInThePass) {
