@@ -254,7 +254,7 @@ INSERT INTO rejection VALUES
   ('outlier', 'the gyro''s samples beside it are elsewhere'),
   ('shadow', 'the Earth is before the Sun'),
   ('unit', 'the gyro''s rates are not in rad/s, by the turns between star fixes'),
-  ('innovation', 'too far from where the attitude has it'),
+  ('innovation', 'too far from where the estimator expects it, or it expects none there'),
   ('period', 'it failed the test of the spin period'),
   ('sun_angle', 'it failed the test of the sun angle'),
   ('north_chord', 'it failed the test of the north chord'),
@@ -274,6 +274,13 @@ CREATE TABLE pulse_use (
   revolution    INTEGER,  -- NULL: no revolution had a place for the edge
   accepted      INTEGER NOT NULL CHECK (accepted IN (0, 1)),
   rejected_by   TEXT REFERENCES rejection,
+  -- What it said to `sequential`, as that decided live (view edge_residual): measured minus expected time, its
+  -- sigma by what the filter knew before, the limit of the one over the other, and whether it was used. NULL: no
+  -- filter was asked; of residual_ns and sigma_ns also: the filter expected no such edge.
+  residual_ns    INTEGER,
+  sigma_ns       INTEGER,
+  residual_limit REAL,
+  used           INTEGER CHECK (used IN (0, 1)),
   PRIMARY KEY (run_id, t_tai_ns, channel),  -- a run has one spacecraft
   CHECK (accepted = (rejected_by IS NULL))
 ) STRICT, WITHOUT ROWID;
@@ -291,7 +298,38 @@ CREATE TABLE rejected_sample (
   -- Normalised, of 2 (sun) or 3 degrees of freedom, of a magnetometer 1 (the strength) where there is no
   -- attitude yet. NULL: not by innovation
   squared_innovation REAL,
+  -- What another test found, and what it was held against: saturated and outlier in deg/s, frozen how many samples
+  -- repeat, unit how many times too large the rates are. NULL: the test has no number
+  value              REAL,
+  "limit"            REAL,
   PRIMARY KEY (run_id, t_tai_ns, kind)
+) STRICT, WITHOUT ROWID;
+
+-- What each sample said to an estimator: measured minus expected, in components, with the sigma of each by what the
+-- estimator knew before. star: about the body's axes; sun: about two axes across it; magnetometer: likewise, and its
+-- strength, all in nT. nis: normalised innovation squared, a chi-square of dof degrees of freedom. Of the gyro only samples
+-- that were left out: residual_1 is what the test found, limit what that was held against (rejected_sample).
+CREATE TABLE sample_residual (
+  run_id      TEXT NOT NULL REFERENCES run,
+  estimator   TEXT NOT NULL CHECK (
+    estimator = 'mekf' OR estimator = 'usque' OR estimator = 'gukf' OR estimator = 'batch' OR estimator = 'sequential'),
+  t_tai_ns    INTEGER NOT NULL,
+  kind        TEXT NOT NULL CHECK (kind = 'gyro' OR kind = 'star' OR kind = 'sun' OR kind = 'magnetometer'),
+  dof         INTEGER NOT NULL CHECK (dof BETWEEN 0 AND 3),
+  unit        TEXT NOT NULL CHECK (
+    unit = 'deg' OR unit = 'nT' OR unit = 'deg_s' OR unit = 'samples' OR unit = 'times'),
+  residual_1  REAL,
+  residual_2  REAL,  -- NULL beyond dof; likewise the following
+  residual_3  REAL,
+  sigma_1     REAL,
+  sigma_2     REAL,
+  sigma_3     REAL,
+  nis         REAL,
+  "limit"     REAL NOT NULL,
+  used        INTEGER NOT NULL CHECK (used IN (0, 1)),
+  rejected_by TEXT REFERENCES rejection,
+  PRIMARY KEY (run_id, estimator, t_tai_ns, kind),
+  CHECK (used = (rejected_by IS NULL))
 ) STRICT, WITHOUT ROWID;
 
 -- Products: of a run, so that a reprocessing never overwrites an earlier one. Measurements and fixes do
@@ -317,6 +355,9 @@ CREATE TABLE spin_measurement (
   sigma       REAL NOT NULL CHECK (sigma >= 0),
   accepted    INTEGER NOT NULL CHECK (accepted IN (0, 1)),
   rejected_by TEXT REFERENCES rejection,
+  -- What the test of the quantity expected, and how far from that it might be; NULL: it was not tested.
+  expected    REAL,
+  "limit"     REAL CHECK ("limit" >= 0),
   PRIMARY KEY (run_id, revolution, quantity),
   CHECK (accepted = (rejected_by IS NULL))
 ) STRICT, WITHOUT ROWID;
@@ -429,6 +470,22 @@ CREATE TABLE spin_batch_undetermined (
   direction TEXT NOT NULL,
   PRIMARY KEY (run_id, t_tai_ns, position),
   FOREIGN KEY (run_id, t_tai_ns) REFERENCES spin_batch ON DELETE CASCADE
+) STRICT, WITHOUT ROWID;
+
+-- What each edge said to the last solution of `batch` (view edge_residual), of a run that has ended: columns as in
+-- pulse_use. In whole nanoseconds, which take half the room of seconds.
+CREATE TABLE batch_residual (
+  run_id         TEXT NOT NULL REFERENCES run,
+  is_last        INTEGER NOT NULL CHECK (is_last = 1),
+  t_tai_ns       INTEGER NOT NULL,
+  channel        TEXT NOT NULL CHECK (
+    channel = 'sun1' OR channel = 'sun2' OR channel = 'north_in' OR channel = 'north_out'
+    OR channel = 'south_in' OR channel = 'south_out'),
+  residual_ns    INTEGER,
+  sigma_ns       INTEGER NOT NULL,
+  residual_limit REAL NOT NULL,
+  used           INTEGER NOT NULL CHECK (used IN (0, 1)),
+  PRIMARY KEY (run_id, is_last, t_tai_ns, channel)
 ) STRICT, WITHOUT ROWID;
 
 -- The search for free nutation in what an even spin left of the edges. NULL from half_angle_deg on: none

@@ -97,6 +97,19 @@ FROM pulse_use JOIN rejection USING (rejected_by)
   LEFT JOIN pulse_utc USING (spacecraft_id, t_tai_ns, channel)
 WHERE accepted = 0;
 
+-- What each edge said to an estimator: measured minus expected time, its sigma by what the estimator knew before, and the
+-- limit of the one over the other.
+CREATE VIEW edge_residual AS
+SELECT run_id, t_tai_ns, channel, 'sequential' AS estimator, revolution,
+  residual_ns / 1e9 AS residual_s, sigma_ns / 1e9 AS sigma_s, residual_ns * 1.0 / sigma_ns AS whitened,
+  residual_limit AS "limit", used, CASE used WHEN 0 THEN 'innovation' END AS rejected_by
+FROM pulse_use WHERE used IS NOT NULL
+UNION ALL
+SELECT said.run_id, said.t_tai_ns, said.channel, 'batch', revolution,
+  said.residual_ns / 1e9, said.sigma_ns / 1e9, said.residual_ns * 1.0 / said.sigma_ns,
+  said.residual_limit, said.used, CASE said.used WHEN 0 THEN 'innovation' END
+FROM batch_residual AS said LEFT JOIN pulse_use USING (run_id, t_tai_ns, channel);
+
 -- How many edges, measurements, other samples and input rows were left out, by reason.
 CREATE VIEW rejection_summary AS
 SELECT run_id, 'pulse' AS what, channel AS name, rejected_by, count(*) AS rejected

@@ -8,6 +8,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/observation/innovation_gate.h"
 #include "pipelines/reconstruction/chain_covariance.h"
 #include "pipelines/reconstruction/chain_fit.h"
 #include "pipelines/reconstruction/chain_solution.h"
@@ -15,6 +16,7 @@
 #include "pipelines/reconstruction/methods.h"
 #include "pipelines/reconstruction/observations.h"
 #include "pipelines/reconstruction/reconstruction_assessment.h"
+#include "pipelines/reconstruction/star_consensus.h"
 #include "pipelines/statistics/significance.h"
 
 namespace spindrift {
@@ -26,21 +28,25 @@ using Eigen::Vector3d;
 // Fewer residuals say nothing of their noise.
 constexpr std::int64_t kFewResiduals = 10;
 
-SensorResiduals sun_residuals(const ChainSolution& fine) {
-  constexpr double kOutlierWeight = 0.5;
+SensorResiduals sun_residuals(const Observations& all, const ChainSolution& fine,
+                              std::vector<Observation>& said) {
+  static const double kLimit = squares_of(0.5);
   const Chain& chain = fine.solved.chain;
+  const Matrix3d noise_rad2 = std::pow(chain.noise.sun_rad, 2) * Matrix3d::Identity();
   SensorResiduals residuals;
   double squares = 0.0;
   for (const ChainSun& sun : chain.sun) {
-    const double own =
-        (predicted_sun(fine.solved.state, sun) - sun.of.measured_body).squaredNorm() /
-        std::pow(chain.noise.sun_rad, 2);
-    if (weight_of(own) < kOutlierWeight) {
+    Observation one = sun_observation(
+        all, sun.of, sun.of.measured_body - predicted_sun(fine.solved.state, sun), noise_rad2);
+    one.limit = kLimit;
+    if (one.nis > one.limit) {
+      one.rejected_by = Rejection::Innovation;
       ++residuals.outliers;
     } else {
-      squares += own;
+      squares += one.nis;
       ++residuals.count;
     }
+    said.push_back(one);
   }
   if (residuals.count > kFewResiduals) {
     residuals.noise =
@@ -49,16 +55,27 @@ SensorResiduals sun_residuals(const ChainSolution& fine) {
   return residuals;
 }
 
-SensorResiduals star_residuals(const ChainSolution& fine) {
+/// A fix that agrees with its neighbours is used however far the solution is from it.
+SensorResiduals star_residuals(const Observations& all, const ChainSolution& fine,
+                               std::vector<Observation>& said) {
   const Chain& chain = fine.solved.chain;
-  SensorResiduals residuals{.count = std::ssize(chain.stars), .outliers = fine.stars.gated};
+  SensorResiduals residuals{.count = std::ssize(chain.stars),
+                            .outliers = std::ssize(fine.stars.gated)};
   double squares = 0.0;
   for (const ChainStar& star : chain.stars) {
-    squares +=
-        std::pow(angle_between_rad(fine.solved.state.q_icrf_body[star.node], star.of.q_icrf_body) /
-                     chain.noise.star_rad,
-                 2);
+    const Vector3d off_rad = rotation_vector_of(
+        fine.solved.state.q_icrf_body[star.node].conjugate() * star.of.q_icrf_body);
+    const double nis = off_rad.squaredNorm() / std::pow(chain.noise.star_rad, 2);
+    squares += nis;
+    said.push_back({.t = shifted(all.origin, star.of.t_s),
+                    .source = SampleSource::Star,
+                    .residual = {.freedom = 3,
+                                 .value = off_rad,
+                                 .sigma = Vector3d::Constant(chain.noise.star_rad)},
+                    .nis = nis,
+                    .limit = std::max(nis, innovation_gate(3))});
   }
+  add_gated(all, fine.stars, said);
   if (fine.louder_star > 1.0) {
     residuals.noise = fine.louder_star;
   } else if (residuals.count > kFewResiduals) {
@@ -139,6 +156,9 @@ Expected<Reconstruction> reconstruct_batch(const ReconstructionRequest& request,
   const ChainCovariance known = covariance_of(solved.chain, solved.state);
   History history = history_of(request, all, nodes_of(solved, known, all.gyro_noise_rad_s));
   const Matrix3d bias_covariance_rad2_s2 = known.shared.topLeftCorner<3, 3>();
+  std::vector<Observation> said;
+  const SensorResiduals sun = sun_residuals(all, *fine, said);
+  const SensorResiduals star = star_residuals(all, *fine, said);
   Reconstruction result{.method = ReconstructionMethod::Batch,
                         .events = bounded_events(request, all, *fine, history),
                         .history = std::move(history.attitudes),
@@ -146,8 +166,9 @@ Expected<Reconstruction> reconstruct_batch(const ReconstructionRequest& request,
                         .misalignment = std::nullopt,
                         .open_bias = open_directions(all, *fine, bias_covariance_rad2_s2),
                         .gyro = gyro_residuals(all),
-                        .sun = sun_residuals(*fine),
-                        .star = star_residuals(*fine),
+                        .sun = sun,
+                        .star = star,
+                        .said = std::move(said),
                         .assessment = {},
                         .iterations = solved.iterations};
   if (solved.chain.noise.misalignment_rad) {

@@ -268,6 +268,10 @@ double weight_of(double squares) {
   return left * left;
 }
 
+double squares_of(double weight) {
+  return kNoWeight - (kNoWeight - kFullWeight) * std::sqrt(weight);
+}
+
 Expected<ChainFit> fit(const Chain& chain, ChainState start, SunLoss loss) {
   ChainFit found{.state = std::move(start), .iterations = 0};
   ChainProblem problem{chain, found.state, loss};

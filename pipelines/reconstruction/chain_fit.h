@@ -17,6 +17,8 @@ enum class SunLoss {
 /// What is left of a sun vector's weight.
 /// @param squares Of its residual, in sigmas.
 double weight_of(double squares);
+/// Where no more than that is left.
+double squares_of(double weight);
 
 struct ChainFit {
   ChainState state;

@@ -177,7 +177,7 @@ Expected<CoarseSolution> coarse_of(const ReconstructionRequest& request, const O
                     .bias_rad_s = solved->state.bias_rad_s,
                     .bias_covariance_rad2_s2 =
                         covariance_of(solved->chain, solved->state).shared.topLeftCorner<3, 3>()});
-  stars.gated += first.gated;
+  stars.gated.insert(stars.gated.end(), first.gated.begin(), first.gated.end());
   stars.contradict = stars.contradict || first.contradict;
   return CoarseSolution{.solved = *std::move(solved), .stars = std::move(stars)};
 }

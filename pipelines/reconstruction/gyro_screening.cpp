@@ -49,8 +49,9 @@ bool is_outlier(std::span<const GyroSample> samples, std::size_t i, double noise
   if (i + 2 < samples.size()) {
     change = change.cwiseMin(change_rad_s(behind, samples[i + 2], at.t, behind.t));
   }
-  return stands_out(before.rate_body_rad_s, at.rate_body_rad_s, behind.rate_body_rad_s, change,
-                    noise_rad_s);
+  return deviation(before.rate_body_rad_s, at.rate_body_rad_s, behind.rate_body_rad_s, change,
+                   noise_rad_s)
+      .stands_out();
 }
 
 std::vector<GyroSample> without_spikes(std::span<const GyroSample> samples, double noise_rad_s) {
@@ -74,7 +75,7 @@ std::ptrdiff_t off_at_end(Iterator first, Iterator last, double noise_rad_s) {
   if (std::distance(next, last) < 2) {
     return 0;
   }
-  const bool is_off = end_stands_out(*std::prev(next), *next, *std::next(next), noise_rad_s);
+  const bool is_off = deviation_at_end(*std::prev(next), *next, *std::next(next), noise_rad_s).stands_out();
   return is_off ? std::distance(first, next) : 0;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -185,6 +187,21 @@ std::optional<Error> turns_too_often(const Observations& all) {
 
 double held_s(std::span<const GyroSample> gyro) {
   return gyro.empty() ? 0.0 : kHeldSteps * usual_step_s(timed(gyro, gyro.front().t));
+}
+
+Observation sun_observation(const Observations& all, const SunObservation& sun,
+                            const Eigen::Vector3d& off, const Eigen::Matrix3d& covariance) {
+  Eigen::Matrix<double, 2, 3> across;
+  across.row(0) = sun.measured_body.unitOrthogonal();
+  across.row(1) = sun.measured_body.cross(across.row(0).transpose());
+  Observation said{.t = shifted(all.origin, sun.t_s),
+                   .source = SampleSource::Sun,
+                   .residual = {.freedom = 2},
+                   .nis = off.dot(covariance.llt().solve(off))};
+  said.residual.value.head<2>() = across * off;
+  said.residual.sigma.head<2>() =
+      (across * covariance * across.transpose()).diagonal().cwiseSqrt();
+  return said;
 }
 
 SensorResiduals gyro_residuals(const Observations& all) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "pipelines/observation/observation.h"
 #include "pipelines/reconstruction/event_times.h"
 #include "pipelines/reconstruction/rate_track.h"
 #include "pipelines/reconstruction/reconstruction.h"
@@ -49,6 +50,11 @@ struct Observations {
 
   double seconds_of(TaiTime t) const { return seconds_between(origin, t); }
 };
+
+/// What a sun vector says: about two axes across it.
+/// @param covariance Of measured minus expected, which is `off`.
+Observation sun_observation(const Observations& all, const SunObservation& sun,
+                            const Eigen::Vector3d& off, const Eigen::Matrix3d& covariance);
 
 /// So long behind T4 star fixes are used. The bias of the gyro is one value, and that of later is
 /// another: with 0.005 deg/s an hour ten minutes move T1 beyond its sigma, two do not, and where it

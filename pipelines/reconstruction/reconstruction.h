@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "pipelines/core/assessment.h"
+#include "pipelines/observation/observation.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -88,6 +89,8 @@ struct Reconstruction {
   SensorResiduals gyro;
   SensorResiduals sun;
   SensorResiduals star;
+  /// What sun vectors and star fixes said, used or not, in rad; each sensor in order of time.
+  std::vector<Observation> said;
   Assessment assessment;
   int iterations;  ///< Of Ceres.
 };

@@ -86,8 +86,8 @@ Assessment assess(const ReconstructionRequest& request, const Observations& all,
   const bool unchecked = result.sun.count == 0 && result.star.count == 1;
   Doubts doubts{.assessment = {unchecked ? Quality::Converging : Quality::Ok}};
   doubts.count(StarFixes, result.star.count, false);
-  doubts.count(StarFixesGated, stars.gated,
-               is_many(stars.gated, std::ssize(stars.accepted), kManyFixesGated));
+  doubts.count(StarFixesGated, std::ssize(stars.gated),
+               is_many(std::ssize(stars.gated), std::ssize(stars.accepted), kManyFixesGated));
   if (stars.contradict) {
     doubts.add({StarFixesContradict}, true);
   }

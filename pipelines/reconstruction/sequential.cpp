@@ -8,10 +8,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/observation/innovation_gate.h"
 #include "pipelines/reconstruction/chain_solution.h"
 #include "pipelines/reconstruction/history.h"
 #include "pipelines/reconstruction/methods.h"
@@ -19,8 +21,6 @@
 #include "pipelines/reconstruction/reconstruction_assessment.h"
 #include "pipelines/reconstruction/rotation_slopes.h"
 #include "pipelines/reconstruction/star_consensus.h"
-#include "pipelines/statistics/distributions.h"
-#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
@@ -147,15 +147,18 @@ class Backwards {
     covariance_.topLeftCorner<3, 3>() += turn.covariance_rad2;
   }
 
-  /// Whether the vector is where it can be by what is known.
-  bool accepts(const SunObservation& sun, double noise_rad) const {
-    static const double kLimit = chi_square_beyond(kContradictionChance, 2.0);
+  /// What a vector says, which is used where it can be by what is known.
+  Observation observe(const Observations& all, const SunObservation& sun, double noise_rad) const {
     const Vector3d predicted = q_.conjugate() * sun.sun_icrf;
     const Matrix3d slopes = cross_matrix(predicted);
     const Matrix3d covariance = slopes * covariance_.topLeftCorner<3, 3>() * slopes.transpose() +
                                 noise_rad * noise_rad * Matrix3d::Identity();
-    const Vector3d off = sun.measured_body - predicted;
-    return off.dot(covariance.llt().solve(off)) < kLimit;
+    Observation said = sun_observation(all, sun, sun.measured_body - predicted, covariance);
+    said.limit = innovation_gate(2);
+    if (said.nis >= said.limit) {
+      said.rejected_by = Rejection::Innovation;
+    }
+    return said;
   }
 
   bool correct(const SunObservation& sun, double noise_rad) {
@@ -223,6 +226,7 @@ Error not_solved(const Observations& all, double t_s) {
 struct Pass {
   NodeEstimates nodes;
   SensorResiduals sun;
+  std::vector<Observation> said;  ///< By the sun vectors, the last one first.
   int iterations;
 };
 
@@ -245,6 +249,7 @@ Expected<Pass> backwards(const ReconstructionRequest& request, const Observation
                       .start_bias_covariance = Matrix3d::Zero(),
                       .gyro_noise_rad_s = all.gyro_noise_rad_s},
             .sun = {},
+            .said = {},
             .iterations = 0};
   auto sun = std::find_if(all.sun.rbegin(), all.sun.rend(),
                           [=](const SunObservation& one) { return one.t_s < last_s; });
@@ -253,9 +258,10 @@ Expected<Pass> backwards(const ReconstructionRequest& request, const Observation
       return Unexpected{not_solved(all, times_s[i])};
     }
     for (; sun != all.sun.rend() && sun->t_s == times_s[i]; ++sun) {
-      const bool accepted = at.accepts(*sun, sun_noise_rad);
-      (accepted ? pass.sun.count : pass.sun.outliers) += 1;
-      if (accepted && !at.correct(*sun, sun_noise_rad)) {
+      const Observation said = at.observe(all, *sun, sun_noise_rad);
+      pass.said.push_back(said);
+      (said.rejected_by ? pass.sun.outliers : pass.sun.count) += 1;
+      if (!said.rejected_by && !at.correct(*sun, sun_noise_rad)) {
         return Unexpected{not_solved(all, times_s[i])};
       }
     }
@@ -294,9 +300,11 @@ Expected<Reconstruction> reconstruct_sequential(const ReconstructionRequest& req
                         .open_bias = {},
                         .gyro = gyro_residuals(all),
                         .sun = pass->sun,
-                        .star = {.count = 1, .outliers = stars.gated},
+                        .star = {.count = 1, .outliers = std::ssize(stars.gated)},
+                        .said = {pass->said.rbegin(), pass->said.rend()},
                         .assessment = {},
                         .iterations = pass->iterations};
+  add_gated(all, stars, result.said);
   result.assessment = assess(request, all, result, stars);
   return result;
 }

@@ -9,6 +9,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/uncertain_attitude.h"
+#include "pipelines/observation/innovation_gate.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -28,6 +29,12 @@ constexpr double kAtOnce_s = 1.0;
 // So many samples in a row that repeat are more than a sensor that is read more often than it
 // measures.
 constexpr int kFrozenForLong = 5;
+// A sensor of which every tenth sample is bad does not come near the limit of the share by chance,
+// one that is rejected altogether reaches it at the tenth. What is left out says nothing of noise.
+constexpr RecordRules kSampleRules{
+    .recent = 20.0, .fewest_freedoms = 30.0, .most_freedoms = 900.0, .noise_from_share = 1.0};
+constexpr double kMany = 0.4;
+constexpr double kFewestSamples = 5.0;
 // At most ten estimates a second of telemetry time, however the times of samples jitter.
 constexpr double kShortest_s = 0.095;
 
@@ -35,9 +42,6 @@ constexpr double kShortest_s = 0.095;
 Matrix3d any_attitude_rad2() {
   return (std::numbers::pi * std::numbers::pi / 3.0 + 2.0) / 3.0 * Matrix3d::Identity();
 }
-
-int freedom_of(const ObservedDirection& /*direction*/) { return 2; }
-int freedom_of(const ObservedAttitude& /*attitude*/) { return 3; }
 
 /// About which axes a measurement speaks, ICRF.
 Matrix3d axes_of(const ObservedDirection& direction) {
@@ -52,6 +56,31 @@ bool is_unknown(const Mekf& filter) {
 
 double square_of(const std::optional<double>& sigmas) { return sigmas ? *sigmas * *sigmas : 0.0; }
 
+/// How strong the measured field is is a degree of freedom more.
+template <class Observed>
+Observation observation_of(const Mekf& filter, const Observed& observed,
+                           const std::optional<double>& stronger) {
+  auto [residual, nis] = filter.innovation(observed);
+  if (stronger) {
+    residual.value[residual.freedom] = *stronger * observed.sigma_rad;
+    residual.sigma[residual.freedom] = observed.sigma_rad;
+    ++residual.freedom;
+  }
+  nis += square_of(stronger);
+  Observation observation{
+      .residual = residual, .nis = nis, .limit = innovation_gate(residual.freedom)};
+  if (nis > observation.limit) {
+    observation.rejected_by = Rejection::Innovation;
+  }
+  return observation;
+}
+
+/// Of a field, which has a length; that of the others is 1.
+double length_of(SampleKind kind, const ObservedDirection& direction) {
+  return kind == SampleKind::Magnetometer ? direction.body.norm() : 1.0;
+}
+double length_of(SampleKind /*kind*/, const ObservedAttitude& /*attitude*/) { return 1.0; }
+
 TaiTime time_of(const std::variant<StarFix, SeenDirection>& sample) {
   return std::visit([](const auto& is) { return is.t; }, sample);
 }
@@ -61,14 +90,16 @@ TaiTime time_of(const std::variant<StarFix, SeenDirection>& sample) {
 AttitudeEstimator::AttitudeEstimator(const ThreeAxisConfig& config)
     : config_{config},
       gyro_{config.gyro.value_or(GyroSensor{})},
-      gyro_unit_{config.gyro.value_or(GyroSensor{}).bias_sigma_rad_s} {}
+      gyro_unit_{config.gyro.value_or(GyroSensor{}).bias_sigma_rad_s},
+      ledger_{kSampleRules} {}
 
 void AttitudeEstimator::push(const GyroSample& sample, Products& out) {
   if (const auto rejection = judge(sample)) {
     leave_out({.t = sample.t,
                .kind = SampleKind::Gyro,
                .rejected_by = *rejection,
-               .rate_rad_s = sample.rate_body_rad_s.cwiseAbs().maxCoeff()},
+               .failed = gyro_unit_.factor() ? FailedTest{.value = *gyro_unit_.factor(), .limit = 1.0}
+                                             : gyro_.failed(sample)},
               out);
     if (!waits_for_gyro(sample.t)) {
       give_way(sample.t, out);
@@ -79,35 +110,40 @@ void AttitudeEstimator::push(const GyroSample& sample, Products& out) {
   if (suspect_) {
     decide_suspect(sample, out);
   }
-  if (gyro_.is_suspect(sample)) {
+  if (const auto off = gyro_.deviation_from_line(sample); off && off->stands_out()) {
     suspect_ = sample;
   } else {
     take_in_gyro(sample, out);
   }
 }
 
-std::optional<SampleRejection> AttitudeEstimator::judge(const GyroSample& sample) {
+std::optional<Rejection> AttitudeEstimator::judge(const GyroSample& sample) {
   gyro_unit_.note(sample);
   if (gyro_unit_.factor()) {
-    return SampleRejection::Unit;
+    return Rejection::Unit;
   }
   return gyro_.judge(sample);
 }
 
 void AttitudeEstimator::decide_suspect(const GyroSample& next, Products& out) {
-  if (gyro_.is_outlier(*suspect_, next)) {
-    leave_out_suspect(out);
+  if (const GyroDeviation off = gyro_.deviation_from_both(*suspect_, next); off.stands_out()) {
+    leave_out_suspect(off, out);
   } else {
     take_in_gyro(*std::exchange(suspect_, std::nullopt), out);
   }
 }
 
+void AttitudeEstimator::leave_out_suspect(const GyroDeviation& off, Products& out) {
+  leave_out({.t = std::exchange(suspect_, std::nullopt)->t,
+             .kind = SampleKind::Gyro,
+             .rejected_by = Rejection::Outlier,
+             .failed = FailedTest{.value = off.off_rad_s, .limit = off.limit_rad_s}},
+            out);
+}
+
 void AttitudeEstimator::leave_out_suspect(Products& out) {
   if (suspect_) {
-    leave_out({.t = std::exchange(suspect_, std::nullopt)->t,
-               .kind = SampleKind::Gyro,
-               .rejected_by = SampleRejection::Outlier},
-              out);
+    leave_out_suspect(gyro_.deviation_from_line(*suspect_).value(), out);
   }
 }
 
@@ -183,9 +219,15 @@ void AttitudeEstimator::push(const SeenDirection& seen, Products& out) {
 
 bool AttitudeEstimator::is_frozen(TaiTime t, SampleKind kind, const FrozenSamples::Values& values,
                                   double noise, Products& out) {
-  const bool is_frozen = frozen_.at(index_of(kind)).note(values, noise) > 0;
+  FrozenSamples& frozen = frozen_.at(index_of(kind));
+  const bool is_frozen = frozen.note(values, noise) > 0;
   if (is_frozen) {
-    leave_out({.t = t, .kind = kind, .rejected_by = SampleRejection::Frozen}, out);
+    leave_out({.t = t,
+               .kind = kind,
+               .rejected_by = Rejection::Frozen,
+               .failed = FailedTest{.value = static_cast<double>(frozen.repeats()),
+                                    .limit = frozen.most_by_chance()}},
+              out);
   }
   return is_frozen;
 }
@@ -349,7 +391,7 @@ void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& o
   if (const double strength = square_of(seen.stronger); strength > innovation_gate(1)) {
     leave_out({.t = seen.t,
                .kind = seen.kind,
-               .rejected_by = SampleRejection::Innovation,
+               .rejected_by = Rejection::Innovation,
                .squared_innovation = strength},
               out);
     return;
@@ -371,32 +413,33 @@ void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& o
 template <class Observed>
 bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& observed,
                                 const std::optional<double>& stronger, Products& out) {
-  const int freedom = freedom_of(observed) + (stronger ? 1 : 0);
-  const double squared_innovation = filter_->squared_innovation(observed) + square_of(stronger);
-  const bool fits = squared_innovation <= innovation_gate(freedom);
+  Observation said = observation_of(*filter_, observed, stronger);
+  said.t = t;
+  said.source = source_of(kind);
   if (rival_) {
-    ask_rival(observed,
-              rival_->filter.squared_innovation(observed) + square_of(stronger) <=
-                  innovation_gate(freedom),
-              fits);
+    ask_rival(observed, !observation_of(rival_->filter, observed, stronger).rejected_by,
+              !said.rejected_by);
   }
-  InnovationRecord& innovations = innovations_.at(index_of(kind));
-  if (!fits) {
+  const double length = length_of(kind, observed);
+  said.residual.value *= length;
+  said.residual.sigma *= length;
+  out.emplace_back(SampleObservation{.estimator = AttitudeSource::Mekf, .said = said});
+  if (said.rejected_by) {
     leave_out({.t = t,
                .kind = kind,
-               .rejected_by = SampleRejection::Innovation,
-               .squared_innovation = squared_innovation},
+               .rejected_by = *said.rejected_by,
+               .squared_innovation = said.nis},
               out);
     if (!is_out(kind)) {
-      innovations.rejected();
+      ledger_.add({&said, 1});
       ++rejected_in_a_row_;
     }
     return false;
   }
   filter_->update(observed);
-  innovations.accepted(squared_innovation, freedom);
-  since_given_.squared += squared_innovation;
-  since_given_.freedom += freedom;
+  ledger_.add({&said, 1});
+  since_given_.squared += said.nis;
+  since_given_.freedom += said.residual.freedom;
   note_accepted(kind, t);
   rejected_in_a_row_ = 0;
   if (checks_ < kEnoughToCheck) {
@@ -489,9 +532,11 @@ Mekf AttitudeEstimator::filter_at(const UncertainAttitude& attitude) const {
 /// What was lost is forgotten where it agrees.
 void AttitudeEstimator::begin(const UncertainAttitude& attitude, Products& out) {
   if (rival_ &&
-      rival_->filter.squared_innovation(ObservedAttitude{
-          .q_icrf_body = attitude.q_ref_body,
-          .sigma_rad = std::sqrt(attitude.covariance_rad2.trace() / 3.0)}) <= innovation_gate(3)) {
+      rival_->filter
+              .innovation(ObservedAttitude{
+                  .q_icrf_body = attitude.q_ref_body,
+                  .sigma_rad = std::sqrt(attitude.covariance_rad2.trace() / 3.0)})
+              .nis <= innovation_gate(3)) {
     rival_.reset();
   }
   filter_ = filter_at(attitude);
@@ -500,7 +545,7 @@ void AttitudeEstimator::begin(const UncertainAttitude& attitude, Products& out) 
 
 void AttitudeEstimator::start(Products& out) {
   carried_.forget();
-  innovations_ = {};
+  ledger_ = Ledger{kSampleRules};
   since_given_ = {};
   rejected_in_a_row_ = 0;
   checked_.setZero();
@@ -569,8 +614,8 @@ void AttitudeEstimator::give(Products& out) {
 
 double AttitudeEstimator::excess_noise() const {
   double most = 1.0;
-  for (const InnovationRecord& innovations : innovations_) {
-    most = std::max(most, innovations.excess_noise());
+  for (std::size_t i = 0; i < kSampleKinds; ++i) {
+    most = std::max(most, record_of(static_cast<SampleKind>(i)).excess_noise());
   }
   return most;
 }
@@ -629,17 +674,17 @@ Assessment AttitudeEstimator::assess() const {
   }
   bool is_checked = checks_ >= kEnoughToCheck;
   for (std::size_t i = 0; i < kSampleKinds; ++i) {
-    const InnovationRecord& innovations = innovations_.at(i);
     const auto kind = static_cast<SampleKind>(i);
+    const SourceRecord& record = record_of(kind);
     const std::string sensor{name_of(kind)};
     if (is_out(kind)) {
       known.push_back({ReasonCode::SensorGated, {{"sensor", sensor}}});
-    } else if (innovations.many_rejected()) {
+    } else if (record.heard() >= kFewestSamples && record.share_left_out() > kMany) {
       reasons.push_back({ReasonCode::SensorGated, {{"sensor", sensor}}});
-    } else if (innovations.all_rejected()) {
+    } else if (record.heard() > 0.0 && record.share_left_out() == 1.0) {
       is_checked = false;
     }
-    if (const double excess = innovations.excess_noise(); excess > 1.0) {
+    if (const double excess = record.excess_noise(); excess > 1.0) {
       reasons.push_back(
           {ReasonCode::SensorNoise, {{"sensor", sensor}, {"factor", std::sqrt(excess)}}});
     }

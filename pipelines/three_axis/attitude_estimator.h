@@ -28,7 +28,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -36,12 +35,12 @@
 #include <vector>
 
 #include "pipelines/core/assessment.h"
+#include "pipelines/observation/ledger.h"
 #include "pipelines/three_axis/carried_directions.h"
 #include "pipelines/three_axis/config.h"
 #include "pipelines/three_axis/frozen_samples.h"
 #include "pipelines/three_axis/gyro_unit.h"
 #include "pipelines/three_axis/gyro_watch.h"
-#include "pipelines/three_axis/innovation_record.h"
 #include "pipelines/three_axis/mekf.h"
 #include "pipelines/three_axis/products.h"
 #include "pipelines/three_axis/rival_attitude.h"
@@ -95,9 +94,10 @@ class AttitudeEstimator {
  private:
   using Sample = std::variant<StarFix, SeenDirection>;
 
-  std::optional<SampleRejection> judge(const GyroSample& sample);
+  std::optional<Rejection> judge(const GyroSample& sample);
   void take_in_gyro(const GyroSample& sample, Products& out);
   void decide_suspect(const GyroSample& next, Products& out);
+  void leave_out_suspect(const GyroDeviation& off, Products& out);
   void leave_out_suspect(Products& out);
   void give_way(TaiTime t, Products& out);
   bool is_frozen(TaiTime t, SampleKind kind, const FrozenSamples::Values& values, double noise,
@@ -138,6 +138,7 @@ class AttitudeEstimator {
   void lose(Products& out);
   void give(Products& out);
   void give_where_due(Products& out);
+  const SourceRecord& record_of(SampleKind kind) const { return ledger_.of(source_of(kind)); }
   double excess_noise() const;
   void forget_gyro();
   bool gyro_is_out() const;
@@ -164,7 +165,8 @@ class AttitudeEstimator {
   /// By kind; that of the gyro is not used.
   std::vector<FrozenSamples> frozen_{kSampleKinds, FrozenSamples::of_references()};
   SensorHealths sensors_;
-  std::array<InnovationRecord, kSampleKinds> innovations_;  ///< Since it began; likewise:
+  // Since it began:
+  Ledger ledger_;
   int rejected_in_a_row_ = 0;
   Eigen::Matrix3d checked_ = Eigen::Matrix3d::Zero();  ///< About which axes, ICRF.
   double checks_ = 0.0;                                ///< About the axis that is checked least.

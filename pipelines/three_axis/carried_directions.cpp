@@ -1,3 +1,4 @@
+#include "pipelines/observation/innovation_gate.h"
 #include "pipelines/three_axis/carried_directions.h"
 
 #include <fmt/format.h>
@@ -8,7 +9,6 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
-#include "pipelines/three_axis/innovation_record.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {

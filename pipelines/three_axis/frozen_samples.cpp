@@ -61,8 +61,10 @@ int FrozenSamples::repeated(const Values& values, double noise) {
     const bool same =
         last_.size() > 0 && values.segment(first, count) == last_.segment(first, count);
     in_a_row_[row] = same ? in_a_row_[row] + 1 : 1;
-    if (same && in_a_row_[row] > longest_by_chance(steps.segment(first, count), noise)) {
-      repeats_ = std::max(repeats_, in_a_row_[row]);
+    const double longest = same ? longest_by_chance(steps.segment(first, count), noise) : 0.0;
+    if (same && in_a_row_[row] > longest && in_a_row_[row] > repeats_) {
+      repeats_ = in_a_row_[row];
+      most_by_chance_ = longest;
     }
   }
   last_ = values;

@@ -39,6 +39,8 @@ class FrozenSamples {
 
   /// Of the last sample.
   int repeats() const { return repeats_; }
+  /// So many in a row are not too many, where it repeats.
+  double most_by_chance() const { return most_by_chance_; }
 
   /// Of the value where it is coarsest; 0: no value ever changed.
   double step() const;
@@ -59,6 +61,7 @@ class FrozenSamples {
   Values last_;
   std::vector<int> in_a_row_;  ///< All values, then each.
   int repeats_ = 0;
+  double most_by_chance_ = 0.0;
 };
 
 }  // namespace spindrift

@@ -18,15 +18,23 @@ namespace spindrift {
 /// samples beside. Not below zero.
 Eigen::Vector3d change_rad_s(const GyroSample& a, const GyroSample& b, TaiTime from, TaiTime t);
 
-/// Whether it lies beyond both neighbours.
-/// @param change_rad_s What the rate may have gone beyond them by.
-bool stands_out(const Eigen::Vector3d& before_rad_s, const Eigen::Vector3d& at_rad_s,
-                const Eigen::Vector3d& behind_rad_s, const Eigen::Vector3d& change_rad_s,
-                double noise_rad_s);
+/// How far a sample is from where its neighbours allow it, about the axis where that is most.
+struct GyroDeviation {
+  double off_rad_s;
+  double limit_rad_s;
 
-/// Whether the first, or the last, sample is off the line through the two next to it, by more than
-/// where their change just began.
-bool end_stands_out(const GyroSample& at, const GyroSample& next, const GyroSample& next_but_one,
-                    double noise_rad_s);
+  bool stands_out() const { return off_rad_s > limit_rad_s; }
+};
+
+/// Beyond both neighbours.
+/// @param change_rad_s What the rate may have gone beyond them by.
+GyroDeviation deviation(const Eigen::Vector3d& before_rad_s, const Eigen::Vector3d& at_rad_s,
+                        const Eigen::Vector3d& behind_rad_s, const Eigen::Vector3d& change_rad_s,
+                        double noise_rad_s);
+
+/// Of the first, or the last, sample off the line through the two next to it, beyond where their
+/// change just began.
+GyroDeviation deviation_at_end(const GyroSample& at, const GyroSample& next,
+                               const GyroSample& next_but_one, double noise_rad_s);
 
 }  // namespace spindrift

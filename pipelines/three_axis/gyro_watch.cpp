@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "pipelines/statistics/significance.h"
-#include "pipelines/three_axis/gyro_outlier.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -24,13 +23,13 @@ bool is_saturated(const GyroSample& sample, const GyroSensor& sensor) {
          sample.rate_body_rad_s.cwiseAbs().maxCoeff() >= kClipped * *sensor.range_rad_s;
 }
 
-std::optional<SampleRejection> GyroWatch::judge(const GyroSample& sample) {
+std::optional<Rejection> GyroWatch::judge(const GyroSample& sample) {
   const bool was_out = out_because_.has_value();
   const bool is_frozen = frozen_.note(sample.rate_body_rad_s, sensor_.noise_rad_s) > 0;
   if (is_saturated(sample, sensor_)) {
-    out_because_ = SampleRejection::Saturated;
+    out_because_ = Rejection::Saturated;
   } else if (is_frozen) {
-    out_because_ = SampleRejection::Frozen;
+    out_because_ = Rejection::Frozen;
   } else {
     out_because_ = std::nullopt;
   }
@@ -40,13 +39,25 @@ std::optional<SampleRejection> GyroWatch::judge(const GyroSample& sample) {
   return out_because_;
 }
 
-bool GyroWatch::is_suspect(const GyroSample& sample) const {
-  return before_last_ && end_stands_out(sample, *last_, *before_last_, scatter_rad_s());
+FailedTest GyroWatch::failed(const GyroSample& sample) const {
+  if (out_because_ == Rejection::Saturated) {
+    return {.value = sample.rate_body_rad_s.cwiseAbs().maxCoeff(),
+            .limit = kClipped * sensor_.range_rad_s.value()};
+  }
+  return {.value = static_cast<double>(frozen_.repeats()),
+          .limit = frozen_.most_by_chance()};
 }
 
-bool GyroWatch::is_outlier(const GyroSample& suspect, const GyroSample& next) const {
-  return stands_out(last_->rate_body_rad_s, suspect.rate_body_rad_s, next.rate_body_rad_s,
-                    change_rad_s(*before_last_, *last_, last_->t, suspect.t), scatter_rad_s());
+std::optional<GyroDeviation> GyroWatch::deviation_from_line(const GyroSample& sample) const {
+  return before_last_
+             ? std::optional{deviation_at_end(sample, *last_, *before_last_, scatter_rad_s())}
+             : std::nullopt;
+}
+
+GyroDeviation GyroWatch::deviation_from_both(const GyroSample& suspect,
+                                             const GyroSample& next) const {
+  return deviation(last_->rate_body_rad_s, suspect.rate_body_rad_s, next.rate_body_rad_s,
+                   change_rad_s(*before_last_, *last_, last_->t, suspect.t), scatter_rad_s());
 }
 
 double GyroWatch::scatter_rad_s() const { return std::max(noise_rad_s_, 0.5 * frozen_.step()); }

@@ -7,6 +7,7 @@
 
 #include "pipelines/three_axis/config.h"
 #include "pipelines/three_axis/frozen_samples.h"
+#include "pipelines/three_axis/gyro_outlier.h"
 #include "pipelines/three_axis/products.h"
 #include "pipelines/three_axis/rate_wander.h"
 #include "pipelines/three_axis/samples.h"
@@ -25,13 +26,16 @@ class GyroWatch {
   /// Once for each sample.
   /// @param sample Later than the one before.
   /// @return Why it is no measurement whatever comes; empty: it may be one.
-  std::optional<SampleRejection> judge(const GyroSample& sample);
+  std::optional<Rejection> judge(const GyroSample& sample);
 
-  /// Whether it is so far off the line through the two before it that the next one must tell what
-  /// it is.
-  bool is_suspect(const GyroSample& sample) const;
-  /// Whether such a one is off from its neighbours (gyro_outlier.h).
-  bool is_outlier(const GyroSample& suspect, const GyroSample& next) const;
+  /// What the last sample that `judge` took for none has failed, and what it was held against.
+  FailedTest failed(const GyroSample& sample) const;
+
+  /// How far it is off the line through the two before it; empty: there are none. One that stands
+  /// out is suspect: the next one must tell what it is.
+  std::optional<GyroDeviation> deviation_from_line(const GyroSample& sample) const;
+  /// How far such a one is off from its neighbours.
+  GyroDeviation deviation_from_both(const GyroSample& suspect, const GyroSample& next) const;
 
   /// It is a measurement.
   void accept(const GyroSample& sample);
@@ -40,7 +44,7 @@ class GyroWatch {
   const std::optional<GyroSample>& last() const { return last_; }
 
   /// Why the samples behind it are none; empty: there are no samples.
-  std::optional<SampleRejection> out_because() const { return out_because_; }
+  std::optional<Rejection> out_because() const { return out_because_; }
   /// The first of those.
   TaiTime out_since() const { return out_since_; }
 
@@ -58,7 +62,7 @@ class GyroWatch {
   FrozenSamples frozen_ = FrozenSamples::of_gyro();
   std::optional<GyroSample> before_last_;
   std::optional<GyroSample> last_;
-  std::optional<SampleRejection> out_because_;
+  std::optional<Rejection> out_because_;
   TaiTime out_since_{};
   double intervals_ = 0.0;
   double usual_interval_s_ = 0.0;

@@ -1,10 +1,12 @@
 #include "pipelines/three_axis/mekf.h"
 
 #include <Eigen/Cholesky>
+#include <optional>
 
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/frames/shortest_turn.h"
 #include "pipelines/statistics/iterated_update.h"
+#include "pipelines/statistics/linear_update.h"
 
 namespace spindrift {
 namespace {
@@ -75,50 +77,53 @@ void Mekf::propagate(const RateSpan& span, const SpanErrors& errors) {
 }
 
 template <int kSize, class Observed>
-double Mekf::nis(const Observed& observed) const {
+Mekf::Innovation Mekf::innovation_of(const Observed& observed) const {
   const Seen<kSize> seen = seen_from(q_icrf_body_, observed);
   const Eigen::Matrix<double, kSize, kSize> expected =
       seen.axes * covariance_.topLeftCorner<3, 3>() * seen.axes.transpose() +
       observed.sigma_rad * observed.sigma_rad * Eigen::Matrix<double, kSize, kSize>::Identity();
-  return seen.turn_rad.dot(expected.llt().solve(seen.turn_rad));
+  Innovation innovation{.residual = {.freedom = kSize},
+                        .nis = seen.turn_rad.dot(expected.llt().solve(seen.turn_rad))};
+  innovation.residual.value.template head<kSize>() = seen.turn_rad;
+  innovation.residual.sigma.template head<kSize>() = expected.diagonal().cwiseSqrt();
+  return innovation;
 }
 
 /// Gauss and Newton's iteration of prior and measurement; each pass is a Kalman update from the
 /// prior, linearised at the end of the one before.
 template <int kSize, class Observed>
 void Mekf::work_in(const Observed& observed) {
-  using Square = Eigen::Matrix<double, kSize, kSize>;
-  const Square noise = observed.sigma_rad * observed.sigma_rad * Square::Identity();
+  using Update = LinearUpdate<6, kSize>;
+  const typename Update::Noise noise =
+      observed.sigma_rad * observed.sigma_rad * Update::Noise::Identity();
+  typename Update::Slope slope = Update::Slope::Zero();
   Eigen::Matrix<double, 6, 1> error = Eigen::Matrix<double, 6, 1>::Zero();
-  Eigen::Matrix<double, 6, kSize> gain;
-  Eigen::Matrix<double, kSize, 3> slope;
+  std::optional<Update> update;
   for (int pass = 0; pass < kMostLinearisations; ++pass) {
     const Vector3d here_rad = error.head<3>();
     const Seen<kSize> seen = seen_from(q_icrf_body_ * quaternion_by(here_rad), observed);
-    slope = seen.axes * right_jacobian(here_rad);
-    const Eigen::Matrix<double, 6, kSize> shared = covariance_.leftCols<3>() * slope.transpose();
-    const Square expected = slope * shared.template topRows<3>() + noise;
-    gain = expected.llt().solve(shared.transpose()).transpose();
-    error = gain * (seen.turn_rad + slope * here_rad);
+    slope.template leftCols<3>() = seen.axes * right_jacobian(here_rad);
+    update.emplace(covariance_, slope, noise);
+    error = update->gain * (seen.turn_rad + slope.template leftCols<3>() * here_rad);
     if ((error.head<3>() - here_rad).norm() < kFarFromLinear_rad) {
       break;
     }
   }
-  Covariance left = Covariance::Identity();
-  left.leftCols<3>() -= gain * slope;
   // Into the quaternion, and to the axes that it has then.
   const Matrix3d moved = right_jacobian(error.head<3>());
-  left.topRows<3>() = moved * left.topRows<3>();
-  gain.template topRows<3>() = moved * gain.template topRows<3>();
-  covariance_ = left * covariance_ * left.transpose() + gain * noise * gain.transpose();
+  covariance_ = update->left_of(covariance_);
+  covariance_.topRows<3>() = moved * covariance_.topRows<3>();
+  covariance_.leftCols<3>() = covariance_.leftCols<3>() * moved.transpose();
   q_icrf_body_ = (q_icrf_body_ * quaternion_by(error.head<3>())).normalized();
   bias_rad_s_ += error.tail<3>();
 }
 
-double Mekf::squared_innovation(const ObservedDirection& direction) const {
-  return nis<2>(direction);
+Mekf::Innovation Mekf::innovation(const ObservedDirection& direction) const {
+  return innovation_of<2>(direction);
 }
-double Mekf::squared_innovation(const ObservedAttitude& attitude) const { return nis<3>(attitude); }
+Mekf::Innovation Mekf::innovation(const ObservedAttitude& attitude) const {
+  return innovation_of<3>(attitude);
+}
 void Mekf::update(const ObservedDirection& direction) { work_in<2>(direction); }
 void Mekf::update(const ObservedAttitude& attitude) { work_in<3>(attitude); }
 

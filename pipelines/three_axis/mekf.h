@@ -16,6 +16,7 @@
 #include <Eigen/Geometry>
 
 #include "pipelines/frames/uncertain_attitude.h"
+#include "pipelines/observation/observation.h"
 #include "pipelines/three_axis/attitude_from_vectors.h"
 
 namespace spindrift {
@@ -49,9 +50,14 @@ class Mekf {
 
   void propagate(const RateSpan& span, const SpanErrors& errors);
 
-  /// Normalised innovation squared: a chi-square of two degrees of freedom, or three.
-  double squared_innovation(const ObservedDirection& direction) const;
-  double squared_innovation(const ObservedAttitude& attitude) const;
+  /// How far a measurement is from where the filter has it, of two degrees of freedom (about two
+  /// axes across the direction) or three (about the body's axes); rad.
+  struct Innovation {
+    Residual residual;
+    double nis;
+  };
+  Innovation innovation(const ObservedDirection& direction) const;
+  Innovation innovation(const ObservedAttitude& attitude) const;
 
   /// Linearised where it ends, so that a large correction counts no knowledge of what the
   /// direction does not measure.
@@ -68,7 +74,7 @@ class Mekf {
 
  private:
   template <int kSize, class Observed>
-  double nis(const Observed& observed) const;
+  Innovation innovation_of(const Observed& observed) const;
   template <int kSize, class Observed>
   void work_in(const Observed& observed);
 

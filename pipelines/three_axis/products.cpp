@@ -10,13 +10,6 @@ std::string_view name_of(SampleKind kind) {
   return kNames.at(index_of(kind));
 }
 
-std::string_view name_of(SampleRejection rejection) {
-  static constexpr std::array<std::string_view, 13> kNames = {
-      "late",    "out_of_time", "contradicted", "no_sensor", "operator", "saturated", "frozen",
-      "outlier", "shadow",      "no_orbit",     "no_field",  "unit",     "innovation"};
-  return kNames.at(static_cast<std::size_t>(rejection));
-}
-
 std::string_view name_of(AttitudeSource source) {
   static constexpr std::array<std::string_view, 3> kNames = {"mekf", "batch", "sequential"};
   return kNames.at(static_cast<std::size_t>(source));

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "pipelines/core/assessment.h"
+#include "pipelines/observation/observation.h"
 #include "pipelines/time/sample_contradiction.h"
 #include "pipelines/time/tai_time.h"
 
@@ -23,31 +24,27 @@ enum class SampleKind { OrbitState, Gyro, Star, Sun, Magnetometer };
 inline constexpr std::size_t kSampleKinds = 5;
 constexpr std::size_t index_of(SampleKind kind) { return static_cast<std::size_t>(kind); }
 std::string_view name_of(SampleKind kind);
+constexpr SampleSource source_of(SampleKind kind) {
+  return static_cast<SampleSource>(index_of(SampleSource::OrbitState) + index_of(kind));
+}
+/// @param source Of a sample of a three-axis spacecraft.
+constexpr SampleKind kind_of(SampleSource source) {
+  return static_cast<SampleKind>(index_of(source) - index_of(SampleSource::OrbitState));
+}
 
-/// Why a sample was left out.
-enum class SampleRejection {
-  Late,          ///< Arrived after its time had been processed.
-  OutOfTime,     ///< Far from all others in time, by a clock that nothing else agrees with.
-  Contradicted,  ///< It came with another value, too, and nobody is preferred.
-  NoSensor,      ///< The mission file has no such sensor.
-  Operator,      ///< An operator has left it out.
-  Saturated,     ///< Of the gyro: beyond its range.
-  Frozen,        ///< The same numbers as too many before it.
-  Outlier,       ///< Of the gyro: off from its neighbours.
-  Shadow,        ///< Of the sun sensor: the Earth is before the Sun.
-  NoOrbit,       ///< Of an orbit state: on no ellipse round the Earth. Of a field: unknown where.
-  NoField,       ///< Of the magnetometer: the model of the field does not reach.
-  Unit,          ///< Of the gyro: its rates are in another unit, by the star fixes.
-  Innovation,    ///< Too far from where the attitude has it; of a field: or from its strength.
+/// What failed a test, and what it was held against: of Saturated and Outlier rad/s, of Frozen how
+/// many samples repeat, of Unit how many times too large the rates are.
+struct FailedTest {
+  double value;
+  double limit;
 };
-std::string_view name_of(SampleRejection rejection);
 
 struct RejectedSample {
   TaiTime t;
   SampleKind kind;
-  SampleRejection rejected_by;
+  Rejection rejected_by;
   std::optional<double> squared_innovation = {};  ///< Normalised; of Innovation.
-  std::optional<double> rate_rad_s = {};          ///< Of the gyro: the largest.
+  std::optional<FailedTest> failed = {};
 };
 
 /// The record of one sensor in a pass.
@@ -81,6 +78,13 @@ struct AttitudeEstimate {
   double sigma_rad() const;  ///< Root of the trace.
 };
 
-using ThreeAxisProduct = std::variant<RejectedSample, AttitudeEstimate, SampleContradiction>;
+/// What a sample said to the filter, or to a reconstruction.
+struct SampleObservation {
+  AttitudeSource estimator;
+  Observation said;
+};
+
+using ThreeAxisProduct =
+    std::variant<RejectedSample, AttitudeEstimate, SampleObservation, SampleContradiction>;
 
 }  // namespace spindrift

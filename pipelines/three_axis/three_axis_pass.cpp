@@ -1,3 +1,4 @@
+#include "pipelines/observation/innovation_gate.h"
 #include "pipelines/three_axis/three_axis_pass.h"
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include "pipelines/ephemeris/shadow.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/geomagnetism/field_at_spacecraft.h"
-#include "pipelines/three_axis/innovation_record.h"
 
 namespace spindrift {
 namespace {
@@ -37,17 +37,17 @@ ThreeAxisPass::ThreeAxisPass(const ThreeAxisConfig& config, std::optional<Orbit>
 ThreeAxisOutput ThreeAxisPass::take(const OrderedSample& sample) {
   ThreeAxisOutput out;
   if (!has_sensor(sample.kind())) {
-    leave_out(sample, SampleRejection::NoSensor, out);
+    leave_out(sample, Rejection::NoSensor, out);
     return out;
   }
   using Verdict = BasicReorderWindow<OrderedSample>::Verdict;
   switch (window_.add(sample)) {
     case Verdict::Late:
-      leave_out(sample, SampleRejection::Late, out);
+      leave_out(sample, Rejection::Late, out);
       say_once(Notice{NoticeCode::LateSamples, {}}, out);
       break;
     case Verdict::OutOfTime:
-      leave_out(sample, SampleRejection::OutOfTime, out);
+      leave_out(sample, Rejection::OutOfTime, out);
       say_once(Notice{NoticeCode::SamplesOutOfTime, {}}, out);
       break;
     case Verdict::Duplicate:
@@ -105,7 +105,7 @@ ThreeAxisOutput ThreeAxisPass::finish() {
   ThreeAxisOutput out;
   const auto rest = window_.release_all();
   for (const OrderedSample& sample : rest.out_of_time) {
-    leave_out(sample, SampleRejection::OutOfTime, out);
+    leave_out(sample, Rejection::OutOfTime, out);
     say_once(Notice{NoticeCode::SamplesOutOfTime, {}}, out);
   }
   compute(rest.in_time, out);
@@ -130,9 +130,9 @@ void ThreeAxisPass::compute(const std::vector<OrderedSample>& in_order, ThreeAxi
   for (const OrderedSample& sample : in_order) {
     const auto used = settled(sample, out);
     if (excluded_.hold(sample.t, sample.kind())) {
-      leave_out(sample, SampleRejection::Operator, out);
+      leave_out(sample, Rejection::Operator, out);
     } else if (!used) {
-      leave_out(sample, SampleRejection::Contradicted, out);
+      leave_out(sample, Rejection::Contradicted, out);
     } else {
       std::visit([&](const auto& is) { compute(is, out); }, used->is);
     }
@@ -143,7 +143,7 @@ void ThreeAxisPass::compute(const std::vector<OrderedSample>& in_order, ThreeAxi
 void ThreeAxisPass::compute(const TimedOrbitState& state, ThreeAxisOutput& out) {
   const auto orbit = KeplerOrbit::through(state.t, state.state);
   if (!orbit) {
-    leave_out({state.t, state}, SampleRejection::NoOrbit, out);
+    leave_out({state.t, state}, Rejection::NoOrbit, out);
   } else if (!orbit_is_of_mission_) {
     orbit_ = Orbit{*orbit};
     estimator_.note_accepted(SampleKind::OrbitState, state.t);
@@ -169,7 +169,7 @@ void ThreeAxisPass::compute(const SunDirection& sun, ThreeAxisOutput& out) {
   };
   const Eigen::Vector3d sun_icrf = sun_.direction_icrf(sun.t, spacecraft.value_or(kAtEarth()));
   if (spacecraft && is_in_shadow(spacecraft->position_icrf_km, sun_icrf)) {
-    leave_out({sun.t, sun}, SampleRejection::Shadow, out);
+    leave_out({sun.t, sun}, Rejection::Shadow, out);
     return;
   }
   estimator_.push(SeenDirection{.t = sun.t,
@@ -183,7 +183,7 @@ void ThreeAxisPass::compute(const SunDirection& sun, ThreeAxisOutput& out) {
 void ThreeAxisPass::compute(const MagneticField& field, ThreeAxisOutput& out) {
   const auto spacecraft = spacecraft_at(field.t);
   if (!spacecraft) {
-    leave_out({field.t, field}, SampleRejection::NoOrbit, out);
+    leave_out({field.t, field}, Rejection::NoOrbit, out);
     say_once({NoticeCode::FieldWithoutOrbit, {{"t_tai_ns", tai_ns(field.t)}}}, out);
     return;
   }
@@ -191,7 +191,7 @@ void ThreeAxisPass::compute(const MagneticField& field, ThreeAxisOutput& out) {
       field_ ? field_icrf_nt(*field_, field.t, spacecraft->position_icrf_km, earth_)
              : Unexpected{{ErrorCode::NoCoverage, {}}};
   if (!known_icrf_nt) {
-    leave_out({field.t, field}, SampleRejection::NoField, out);
+    leave_out({field.t, field}, Rejection::NoField, out);
     say_once({NoticeCode::OutsideFieldModel, {{"t_tai_ns", tai_ns(field.t)}}}, out);
     return;
   }
@@ -208,7 +208,7 @@ void ThreeAxisPass::compute(const MagneticField& field, ThreeAxisOutput& out) {
                   out.products);
 }
 
-void ThreeAxisPass::leave_out(const OrderedSample& sample, SampleRejection rejected_by,
+void ThreeAxisPass::leave_out(const OrderedSample& sample, Rejection rejected_by,
                               ThreeAxisOutput& out) {
   estimator_.leave_out({.t = sample.t, .kind = sample.kind(), .rejected_by = rejected_by},
                        out.products);
@@ -252,7 +252,7 @@ void ThreeAxisPass::doubt_where_orbit_steps(ThreeAxisOutput& out) {
 void ThreeAxisPass::say_what_is_left_out(ThreeAxisOutput& out) {
   for (const ThreeAxisProduct& product : out.products) {
     const auto* const sample = std::get_if<RejectedSample>(&product);
-    if (sample == nullptr || sample->rejected_by == SampleRejection::Operator) {
+    if (sample == nullptr || sample->rejected_by == Rejection::Operator) {
       continue;
     }
     const SensorHealth& sensor = sensors().at(index_of(sample->kind));
@@ -271,9 +271,9 @@ Notice ThreeAxisPass::most_left_out(const RejectedSample& last, double percent) 
                 {{"sensor", std::string{name_of(last.kind)}},
                  {"percent", percent},
                  {"rejected_by", std::string{name_of(last.rejected_by)}}}};
-  if (last.rejected_by == SampleRejection::Saturated) {
-    notice.values.push_back({"rate_deg_s", degrees(last.rate_rad_s.value())});
-    notice.values.push_back({"range_deg_s", degrees(config_.gyro->range_rad_s.value())});
+  if (last.rejected_by == Rejection::Saturated) {
+    notice.values.push_back({"rate_deg_s", degrees(last.failed.value().value)});
+    notice.values.push_back({"range_deg_s", degrees(last.failed.value().limit)});
   }
   if (last.squared_innovation) {
     notice.values.push_back({"sigmas", std::sqrt(*last.squared_innovation)});

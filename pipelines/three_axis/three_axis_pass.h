@@ -109,7 +109,7 @@ class ThreeAxisPass {
   void compute(const SunDirection& sun, ThreeAxisOutput& out);
   void compute(const MagneticField& field, ThreeAxisOutput& out);
   Expected<OrbitState> spacecraft_at(TaiTime t) const;
-  void leave_out(const OrderedSample& sample, SampleRejection rejected_by, ThreeAxisOutput& out);
+  void leave_out(const OrderedSample& sample, Rejection rejected_by, ThreeAxisOutput& out);
   bool has_sensor(SampleKind kind) const;
   void doubt_where_orbit_steps(ThreeAxisOutput& out);
   void say_once(Notice notice, ThreeAxisOutput& out);
@@ -130,8 +130,8 @@ class ThreeAxisPass {
   AttitudeEstimator estimator_;
   Exclusions<SampleKind> excluded_;
   std::set<NoticeCode> said_;
-  std::map<std::pair<SampleKind, SampleRejection>, std::int64_t> left_out_;
-  std::set<std::pair<SampleKind, SampleRejection>> said_left_out_;
+  std::map<std::pair<SampleKind, Rejection>, std::int64_t> left_out_;
+  std::set<std::pair<SampleKind, Rejection>> said_left_out_;
 };
 
 }  // namespace spindrift

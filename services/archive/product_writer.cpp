@@ -47,10 +47,11 @@ std::string insertion() {
   std::string values = kOfSpacecraft<Table> ? "?, ?" : "?";
   std::string changes;
   const auto add = [&](std::string_view column) {
-    names += fmt::format(", {}", column);
+    // "limit" is a word of SQL.
+    names += fmt::format(R"(, "{}")", column);
     values += ", ?";
     if (!is_of_key<Table>(column)) {
-      changes += fmt::format("{}{} = excluded.{}", changes.empty() ? "" : ", ", column, column);
+      changes += fmt::format(R"({}"{}" = excluded."{}")", changes.empty() ? "" : ", ", column, column);
     }
   };
   with_columns<Table>([&](const auto&... column) { (add(column.name), ...); });

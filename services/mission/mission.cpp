@@ -103,6 +103,7 @@ Expected<Mission> parse(const std::filesystem::path& path, std::string text,
       .target = spin_target(values),
       .contact = contact,
       .preferred_source = value_if<std::string>(values, "sources.prefer").value_or(std::string{}),
+      .stores_residuals = value_of<bool>(values, "archive.residuals"),
       .ground_model = ground_model(values, path.parent_path()),
       .path = std::filesystem::absolute(path)};
 }

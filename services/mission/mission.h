@@ -35,6 +35,7 @@ struct Mission {
   std::optional<SpinTarget> target = {};
   std::optional<Contact> contact = {};
   std::string preferred_source = {};                       ///< [sources] prefer; empty: none.
+  bool stores_residuals = true;                            ///< [archive] residuals.
   std::optional<std::filesystem::path> ground_model = {};  ///< The scenario's file.
   std::filesystem::path path = {};  ///< Absolute; an orbit file is relative to it.
 

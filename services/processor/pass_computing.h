@@ -61,10 +61,13 @@ class PassComputing {
   using Output = decltype(std::declval<Pass&>().finish());
   using PassProduct = typename decltype(Output::products)::value_type;
 
-  PassComputing(std::string spacecraft_id, std::string run_id, Pass pass)
+  /// @param keeps_residuals What measurements say to the estimators is stored.
+  PassComputing(std::string spacecraft_id, std::string run_id, Pass pass,
+                bool keeps_residuals = true)
       : spacecraft_id_{std::move(spacecraft_id)},
         run_id_{std::move(run_id)},
-        pass_{std::move(pass)} {}
+        pass_{std::move(pass)},
+        keeps_residuals_{keeps_residuals} {}
 
   /// The runs of `made` are stored, and their samples come again.
   void go_on(AllMadeBefore made) { made_before_ = std::move(made); }
@@ -180,8 +183,24 @@ class PassComputing {
         name_senders(*contradiction);
       }
     }
+    if (!keeps_residuals_) {
+      leave_residuals_out(output.products);
+    }
     say(spacecraft_id_, output.notices);
     note(std::as_const(output));
+  }
+
+  static void leave_residuals_out(std::vector<PassProduct>& products) {
+    std::erase_if(products, []<class... Kind>(std::variant<Kind...>& product) {
+      return std::visit(
+          []<class Made>(Made& made) {
+            if constexpr (std::is_same_v<Made, PulseUse>) {
+              made.said.reset();
+            }
+            return std::is_same_v<Made, SampleObservation>;
+          },
+          product);
+    });
   }
 
   /// Of each kind the first is said.
@@ -232,6 +251,7 @@ class PassComputing {
   std::string spacecraft_id_;
   std::string run_id_;
   Pass pass_;
+  bool keeps_residuals_;
   AllMadeBefore made_before_;
   std::optional<TaiTime> again_from_;  ///< Until the pass is there again: what it makes is stored.
   TaiTime reached_ = {};               ///< The sample that was computed last.

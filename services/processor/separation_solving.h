@@ -19,8 +19,9 @@ struct SolvedSeparation {
 };
 
 /// By one method, or by both.
+/// @param keeps_residuals What the samples said stands in the solutions.
 SolvedSeparation solve_separation(const ReconstructionRequest& request,
                                   const std::optional<LauncherAttitude>& launcher,
-                                  std::optional<ReconstructionMethod> method);
+                                  std::optional<ReconstructionMethod> method, bool keeps_residuals);
 
 }  // namespace spindrift

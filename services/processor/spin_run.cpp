@@ -32,8 +32,12 @@ Expected<BatchSolution> solve_edges(SpinConfig config, const Orbit& orbit, PassE
 }
 
 /// Its estimate, and what else it says.
-Expected<std::vector<Product>> batch_products(const BatchSolution& solution) {
-  return unless_withheld({solution.estimate, std::make_shared<const BatchSolution>(solution)});
+Expected<std::vector<Product>> batch_products(BatchSolution solution, bool keeps_residuals) {
+  if (!keeps_residuals) {
+    solution.said = {};
+  }
+  return unless_withheld(
+      {solution.estimate, std::make_shared<const BatchSolution>(std::move(solution))});
 }
 
 }  // namespace
@@ -41,8 +45,9 @@ Expected<std::vector<Product>> batch_products(const BatchSolution& solution) {
 SpinRun::SpinRun(const Mission& mission, const std::string& run_id, SolvingPlan plan)
     : config_{*mission.spin()},
       orbit_{*mission.orbit},
-      computing_{mission.spacecraft_id, run_id, SpinPass{config_, orbit_}},
-      plan_{plan} {
+      computing_{mission.spacecraft_id, run_id, SpinPass{config_, orbit_}, mission.stores_residuals},
+      plan_{plan},
+      keeps_residuals_{mission.stores_residuals} {
   begin(run_id);
 }
 
@@ -101,7 +106,7 @@ void SpinRun::make_batch_due() {
   if (last && last != last_batch_ && !is_stored(*last)) {
     due_.push_back({.batch = computing_.batch(),
                     .solve = [this, edges = edges_, prior = computing_.pass().told_prior()] {
-                      return solve(edges, prior);
+                      return solve(edges, prior, Solution::OnTheWay);
                     }});
   }
   last_batch_ = last;
@@ -116,11 +121,18 @@ bool SpinRun::is_stored(TaiTime batch) const {
 
 std::vector<BackgroundTask> SpinRun::take_background_tasks() { return std::exchange(due_, {}); }
 
+/// What the edges say is kept of the last solution only: each would replace it.
 Expected<std::vector<Product>> SpinRun::solve(const PassEdges& edges,
-                                              const std::optional<SpinPrior>& prior) const {
+                                              const std::optional<SpinPrior>& prior,
+                                              Solution which) const {
+  const bool keeps_residuals = keeps_residuals_ && which == Solution::Last;
   return solved_or_fault(
-      computing_.spacecraft_id(), "batch solution", edges.last().value_or(TaiTime{}),
-      [&] { return solve_edges(config_, orbit_, edges, prior).and_then(&batch_products); });
+      computing_.spacecraft_id(), "batch solution", edges.last().value_or(TaiTime{}), [&] {
+        return solve_edges(config_, orbit_, edges, prior)
+            .and_then([keeps_residuals](BatchSolution solution) {
+              return batch_products(std::move(solution), keeps_residuals);
+            });
+      });
 }
 
 /// What was still held. Then the last batch solution is due, whatever became due before.
@@ -143,7 +155,8 @@ ArchiveBatch SpinRun::finish() {
   ArchiveBatch last = computing_.batch();
   settle(last.products);
   if (!computing_.failed()) {
-    if (auto products = solve(std::exchange(edges_, {}), computing_.pass().told_prior())) {
+    if (auto products = solve(std::exchange(edges_, {}), computing_.pass().told_prior(),
+                              Solution::Last)) {
       summary_.count_solution(*products);
       std::move(products->begin(), products->end(), std::back_inserter(last.products));
     } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {
@@ -171,7 +184,7 @@ void SpinRun::end_run(std::vector<ArchiveBatch>& batches) {
       .batch = computing_.batch(),
       .solve = [this, failed = computing_.failed(), edges = std::exchange(edges_, {}),
                 prior = computing_.pass().told_prior()] {
-        return failed ? std::vector<Product>{} : solve(edges, prior);
+        return failed ? std::vector<Product>{} : solve(edges, prior, Solution::Last);
       }};
   last.batch.finished_utc = utc_now();
   last.summary = &finished_.emplace_back(std::move(summary_));

@@ -59,8 +59,9 @@ class SpinRun {
   bool is_stored(TaiTime batch) const;
   void settle(std::vector<Product>& products);
   void end_run(std::vector<ArchiveBatch>& batches);
+  enum class Solution { OnTheWay, Last };
   Expected<std::vector<Product>> solve(const PassEdges& edges,
-                                       const std::optional<SpinPrior>& prior) const;
+                                       const std::optional<SpinPrior>& prior, Solution which) const;
 
   SpinConfig config_;
   Orbit orbit_;
@@ -68,6 +69,7 @@ class SpinRun {
   RunSummary summary_;
   PassComputing<SpinPass> computing_;
   SolvingPlan plan_;
+  bool keeps_residuals_;
   PassEdges edges_;
   std::optional<TaiTime> next_batch_;
   std::optional<TaiTime> last_batch_;    ///< The last edge of the solution that was due last.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "pipelines/spin/batch/batch_solution.h"
+#include "pipelines/spin/batch/pass_information.h"
 #include "services/products/product_kind.h"
 #include "services/units/degrees.h"
 #include "services/words/bias_words.h"
@@ -191,11 +193,36 @@ struct SpinConingTable {
       coning_column("azimuth_sigma_deg", [](const Coning& c) { return c.azimuth_sigma_rad; }));
 };
 
+inline std::int64_t whole_ns(double t_s) { return std::llround(t_s * 1e9); }
+
+/// A part of the view edge_residual. In whole nanoseconds, which take half the room of numbers.
+struct BatchResidualTable {
+  static constexpr std::string_view kName = "batch_residual";
+  static constexpr std::array<std::string_view, 3> kKey{"is_last", "t_tai_ns", "channel"};
+
+  static std::int64_t t_tai_ns(const BatchProduct& solution) { return batch_t_tai_ns(solution); }
+  static std::int64_t group(const BatchProduct& /*solution*/) { return 1; }
+  static const std::vector<BatchEdge>& rows(const BatchProduct& solution) { return solution->said; }
+
+  static constexpr auto kColumns = columns(
+      ProductColumn{"is_last", [](const BatchEdge& /*edge*/) { return std::int64_t{1}; }},
+      ProductColumn{"t_tai_ns", [](const BatchEdge& edge) { return tai_ns(edge.pulse.t); }},
+      ProductColumn{"channel", [](const BatchEdge& edge) { return name_of(edge.pulse.channel); }},
+      ProductColumn{"residual_ns",
+                    [](const BatchEdge& edge) {
+                      return edge.residual_s ? std::optional{whole_ns(*edge.residual_s)}
+                                             : std::nullopt;
+                    }},
+      ProductColumn{"sigma_ns", [](const BatchEdge& edge) { return whole_ns(edge.sigma_s); }},
+      ProductColumn{"residual_limit", [](const BatchEdge& /*edge*/) { return kOutlierSigmas; }},
+      ProductColumn{"used", [](const BatchEdge& edge) { return edge.used; }});
+};
+
 template <>
 struct ProductKind<BatchProduct> {
   static constexpr ProductWeight kWeight = ProductWeight::Result;
   using Tables = std::tuple<SpinBatchTable, SpinBatchSingularValueTable, SpinBatchUndeterminedTable,
-                            SpinBiasTable, SpinNutationTable, SpinConingTable>;
+                            SpinBiasTable, SpinNutationTable, SpinConingTable, BatchResidualTable>;
 };
 
 }  // namespace spindrift

@@ -18,6 +18,7 @@
 #include "services/products/revolution.h"
 #include "services/products/run_fault.h"
 #include "services/products/sample_contradiction.h"
+#include "services/products/sample_residual.h"
 #include "services/products/spin_estimate.h"
 #include "services/products/spin_fix.h"
 #include "services/products/spin_measurement.h"
@@ -26,7 +27,7 @@ namespace spindrift {
 
 /// The list.
 using Product = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate,
-                             BatchProduct, RunFault, RejectedSample, AttitudeEstimate,
+                             BatchProduct, RunFault, RejectedSample, AttitudeEstimate, SampleObservation,
                              ReconstructionProduct, ChannelComparison, SampleContradiction, Alert>;
 
 /// Its place in the list.

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <tuple>
@@ -17,6 +19,25 @@ inline std::optional<std::string_view> name_of(const std::optional<Rejection>& r
   return rejected_by ? std::optional{name_of(*rejected_by)} : std::nullopt;
 }
 
+/// Of what an edge said to `sequential`; without a value where it was not asked.
+template <class Get>
+constexpr auto said_column(std::string_view name, Get get) {
+  return ProductColumn{name, [get](const PulseUse& use) {
+                         return use.said ? std::optional{get(*use.said)} : std::nullopt;
+                       }};
+}
+/// Likewise, of one that was expected.
+template <class Get>
+constexpr auto residual_ns_column(std::string_view name, Get get) {
+  return ProductColumn{name, [get](const PulseUse& use) {
+                         return use.said && use.said->residual.freedom > 0 &&
+                                        std::isfinite(get(use.said->residual))
+                                    ? std::optional{std::int64_t{
+                                          std::llround(get(use.said->residual) * 1e9)}}
+                                    : std::nullopt;
+                       }};
+}
+
 struct PulseUseTable {
   static constexpr std::string_view kName = "pulse_use";
   static constexpr bool kOfSpacecraft = true;
@@ -26,7 +47,11 @@ struct PulseUseTable {
       ProductColumn{"channel", [](const PulseUse& use) { return name_of(use.pulse.channel); }},
       ProductColumn{"revolution", [](const PulseUse& use) { return use.revolution; }},
       ProductColumn{"accepted", [](const PulseUse& use) { return !use.rejected_by; }},
-      ProductColumn{"rejected_by", [](const PulseUse& use) { return name_of(use.rejected_by); }});
+      ProductColumn{"rejected_by", [](const PulseUse& use) { return name_of(use.rejected_by); }},
+      residual_ns_column("residual_ns", [](const Residual& residual) { return residual.value[0]; }),
+      residual_ns_column("sigma_ns", [](const Residual& residual) { return residual.sigma[0]; }),
+      said_column("residual_limit", [](const Observation& said) { return std::sqrt(said.limit); }),
+      said_column("used", [](const Observation& said) { return !said.rejected_by; }));
   /// An edge that is late is not said to be so when something else has become of it: it arrived
   /// twice.
   static constexpr std::string_view kReplaces = "excluded.rejected_by IS NOT 'late'";

@@ -18,6 +18,7 @@
 #include "pipelines/three_axis/products.h"
 #include "services/products/named.h"
 #include "services/products/product_kind.h"
+#include "services/products/sample_residual.h"
 #include "services/units/degrees.h"
 #include "services/words/assessment_words.h"
 #include "services/words/reasons_json.h"
@@ -207,11 +208,31 @@ struct ReconstructedAttitudeTable {
               ProductColumn{"status", [](const Row& row) { return row.status; }});
 };
 
+/// Rows of `sample_residual`, beside those of filters (sample_residual.h).
+struct ReconstructionResidualTable {
+  static constexpr std::string_view kName = "sample_residual";
+  static constexpr std::array<std::string_view, 3> kKey{"estimator", "t_tai_ns", "kind"};
+
+  static std::string_view group(const ReconstructionProduct& product) { return method_of(product); }
+  static std::vector<SampleObservation> rows(const ReconstructionProduct& product) {
+    const AttitudeSource estimator = product->solution.method == ReconstructionMethod::Batch
+                                         ? AttitudeSource::Batch
+                                         : AttitudeSource::Sequential;
+    std::vector<SampleObservation> rows;
+    for (const Observation& said : product->solution.said) {
+      rows.push_back({.estimator = estimator, .said = said});
+    }
+    return rows;
+  }
+  static constexpr auto kColumns = SampleResidualTable::kColumns;
+};
+
 template <>
 struct ProductKind<ReconstructionProduct> {
   static constexpr ProductWeight kWeight = ProductWeight::Result;
   using Tables =
-      std::tuple<ReconstructionTable, ReconstructionEventTable, ReconstructedAttitudeTable>;
+      std::tuple<ReconstructionTable, ReconstructionEventTable, ReconstructedAttitudeTable,
+                 ReconstructionResidualTable>;
   static constexpr bool kStays = true;
 
   static constexpr bool is_announced(const ReconstructionProduct& /*product*/) { return true; }
@@ -245,6 +266,7 @@ struct ProductKind<ReconstructionProduct> {
                      .gyro = {},
                      .sun = {},
                      .star = {},
+                     .said = {},
                      .assessment = {.quality = named(row.text("quality"), Quality::Lost),
                                     .reasons = reasons_of(row.text("reasons"))},
                      .iterations = 0},

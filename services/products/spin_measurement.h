@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 #include <tuple>
 
@@ -34,7 +35,16 @@ struct SpinMeasurementTable {
       ProductColumn{"sigma", [](const SpinMeasurement& one) { return one.sigma * to_unit(one); }},
       ProductColumn{"accepted", [](const SpinMeasurement& one) { return !one.rejected_by; }},
       ProductColumn{"rejected_by",
-                    [](const SpinMeasurement& one) { return name_of(one.rejected_by); }});
+                    [](const SpinMeasurement& one) { return name_of(one.rejected_by); }},
+      ProductColumn{"expected",
+                    [](const SpinMeasurement& one) {
+                      return one.test ? std::optional{one.test->expected * to_unit(one)}
+                                      : std::nullopt;
+                    }},
+      ProductColumn{"limit", [](const SpinMeasurement& one) {
+                      return one.test ? std::optional{one.test->limit * to_unit(one)}
+                                      : std::nullopt;
+                    }});
 };
 
 template <>

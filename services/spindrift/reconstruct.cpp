@@ -162,7 +162,8 @@ Expected<SolvedSeparation> solved(const ReconstructOptions& options, const Missi
                                       .orbit_states = std::move(samples.orbit_states),
                                       .disturbance_rad_s2 = mission.separation->disturbance_rad_s2,
                                       .node_at_every_gyro_sample = true};
-  auto solved = solve_separation(request, mission.separation->launcher, options.method);
+  auto solved = solve_separation(request, mission.separation->launcher, options.method,
+                                 mission.stores_residuals);
   if (solved.methods.empty()) {
     return refused(fmt::format("{}: {}", mission.spacecraft_id, fmt::join(solved.failures, "\n")));
   }

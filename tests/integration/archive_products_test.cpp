@@ -85,10 +85,10 @@ TEST_F(ArchiveProducts, ARejectedSampleKeepsItsFirstReasonWhenItComesAgain) {
   ArchiveBatch batch = start_of("run-1");
   RejectedSample fix{.t = tai_from_ns(7),
                      .kind = SampleKind::Star,
-                     .rejected_by = SampleRejection::Innovation,
+                     .rejected_by = Rejection::Innovation,
                      .squared_innovation = 40.5};
   batch.products = {fix};
-  fix.rejected_by = SampleRejection::Late;
+  fix.rejected_by = Rejection::Late;
   fix.squared_innovation.reset();
   batch.products.emplace_back(fix);
   fix.kind = SampleKind::Sun;

@@ -126,8 +126,8 @@ TEST_F(ArchiveTest, TheVocabularyOfRejectionsIsThatOfThePipelines) {
   for (int i = 0; i <= static_cast<int>(Rejection::MixedAzimuth); ++i) {
     names.emplace(name_of(static_cast<Rejection>(i)));
   }
-  for (int i = 0; i <= static_cast<int>(SampleRejection::Innovation); ++i) {
-    names.emplace(name_of(static_cast<SampleRejection>(i)));
+  for (int i = 0; i <= static_cast<int>(Rejection::Innovation); ++i) {
+    names.emplace(name_of(static_cast<Rejection>(i)));
   }
   SQLite::Database database = reader();
   EXPECT_THAT(column(database, "SELECT rejected_by FROM rejection"),

@@ -33,7 +33,8 @@ PeriodCandidate SpinPeriodWindow::add(double period_s, double turns, double expe
       differences_s_.mean({.sigma = screening_.sigma, .stated = candidate_sigma_s_});
   return {.period_s = period_s,
           .sigma_s = candidate_sigma_s_ / turns,
-          .accepted = mean.keeps(difference_s)};
+          .accepted = mean.keeps(difference_s),
+          .test = Rational{.expected = expected_s + mean.mean, .limit = mean.limit}};
 }
 
 }  // namespace spindrift

@@ -112,6 +112,21 @@ ConingEstimate coning_of(const EvaluatedFit& found, double excess_noise) {
   return coning;
 }
 
+std::vector<BatchEdge> said_to(const Solved& solved) {
+  const PassAtState at = solved.model.at(solved.of.best.fit.state);
+  std::vector<BatchEdge> said;
+  said.reserve(solved.edges.size());
+  for (const PassEdge& edge : solved.edges) {
+    const double sigma_s = edge_sigma_s(solved.model.config().noise, edge.pulse.channel);
+    const auto residual = at.residual(edge.pulse);
+    said.push_back({.pulse = edge.pulse,
+                    .residual_s = residual ? std::optional{residual->off * sigma_s} : std::nullopt,
+                    .sigma_s = sigma_s,
+                    .used = residual && std::abs(residual->off) < kOutlierSigmas});
+  }
+  return said;
+}
+
 /// All but its assessment, and what an estimate of all biases would leave open.
 /// @param open_rad2 What the choice among biases does, of the axis: tilts.
 /// @param louder So many times the stated noise is that of the model.
@@ -153,7 +168,8 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
       .iterations = best.fit.iterations,
       .nutation = best.nutation,
       .nutation_t = solved.edges.back().pulse.t,
-      .coning = coning_of(best, excess_noise)};
+      .coning = coning_of(best, excess_noise),
+      .said = said_to(solved)};
   if (best.nutation && best.nutation->found) {
     solution.nutation->found = as_fitted(*best.nutation->found, solved.model, best.fit.state);
     solution.nutation_t = later_by_s(solved.model.middle(), best.nutation->found->t_s);

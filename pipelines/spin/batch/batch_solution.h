@@ -10,6 +10,7 @@
 #include "pipelines/spin/nutation/nutation.h"
 #include "pipelines/spin/sensor_model/coning.h"
 #include "pipelines/spin/types/products.h"
+#include "pipelines/spin/types/pulse.h"
 #include "pipelines/spin/types/sensor_biases.h"
 #include "pipelines/time/tai_time.h"
 
@@ -29,6 +30,15 @@ struct ConingEstimate {
   ConingTest verdict;  ///< Detected only where it was estimated with the axis.
   double tilt_sigma_rad;
   double azimuth_sigma_rad;
+};
+
+/// What an edge said to the solution.
+struct BatchEdge {
+  Pulse pulse;
+  /// Later than expected by so much; empty: the state has no such edge.
+  std::optional<double> residual_s;
+  double sigma_s;  ///< Of its noise, as the solution takes it.
+  bool used;       ///< Within kOutlierSigmas.
 };
 
 struct BatchSolution {
@@ -57,6 +67,7 @@ struct BatchSolution {
   std::optional<NutationSearch> nutation;
   TaiTime nutation_t;  ///< Where FoundNutation says t_s; without one, that of the estimate.
   ConingEstimate coning;
+  std::vector<BatchEdge> said;  ///< By all edges that it was solved with, in order of time.
 };
 
 }  // namespace spindrift

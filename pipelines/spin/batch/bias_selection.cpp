@@ -28,7 +28,7 @@ double cost_of(const EvaluatedFit& with, SensorBias bias) {
 
 /// Gains come from one step, which is some percent wrong: those near the largest are compared by
 /// what their fits leave. So is coning, which has the axis degrees off, where one step is worse.
-std::vector<SensorBias> competing_axes(std::span<const BiasGain> wanted, BiasSet estimated) {
+std::vector<SensorBias> competing_biases(std::span<const BiasGain> wanted, BiasSet estimated) {
   std::vector<SensorBias> rivals;
   for (const auto& [bias, gain] : wanted.first(std::min(wanted.size(), kMostRivals))) {
     if (gain > kOneStep * wanted.front().gain) {
@@ -46,7 +46,7 @@ Expected<std::pair<SensorBias, EvaluatedFit>> likeliest_of(const PassModel& mode
                                                            const EvaluatedFit& now,
                                                            std::span<const BiasGain> wanted) {
   std::optional<std::pair<SensorBias, EvaluatedFit>> best;
-  for (const SensorBias bias : competing_axes(wanted, now.estimated)) {
+  for (const SensorBias bias : competing_biases(wanted, now.estimated)) {
     auto with = explain(model, edges, now.fit.state, now.estimated | unknowns_of(bias));
     if (!with) {
       return Unexpected{with.error()};

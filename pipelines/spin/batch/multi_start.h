@@ -11,8 +11,8 @@
 
 namespace spindrift {
 
-/// Of log likelihood, times two: exp(10) times as likely settles it, as for the filters of
-/// `sequential`.
+/// Twice a difference of log likelihoods: exp(10) times as likely settles it. The filters of
+/// `sequential` ask for exp(20), since they decide again after every revolution.
 inline constexpr double kSettled = 20.0;
 
 /// The likeliest, and another that is nearly so.

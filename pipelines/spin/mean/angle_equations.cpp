@@ -138,7 +138,7 @@ void AngleEquations::add(const SpinConfig& config, const RevolutionMeasurements&
   Eigen::Matrix<double, kMostAngles, kPulseChannels> noise_rad;
   Eigen::Matrix<double, kMostAngles, kChannelOffsets> by_offsets;
   int rows = 0;
-  for (const Residual& residual : residuals(config, measured, sun_earth, axis_icrf)) {
+  for (const AngleResidual& residual : residuals(config, measured, sun_earth, axis_icrf)) {
     const Measured value = *good_value_of(measured, residual.quantity);
     if (const auto slope =
             slopes.of(residual.quantity, value, value.value_rad - residual.value_rad)) {

@@ -99,7 +99,7 @@ void MeanEstimator::settle(Kept& kept, const SpinFix& fix) {
     relinearise();
   }
   if (mean_->covariance_rad2.trace() < kLinear_rad * kLinear_rad) {
-    verdict_ = test_model(mean_->equations, 0.0, offset_prior_s2(noise_));
+    verdict_ = test_model(mean_->equations, offset_prior_s2(noise_));
   }
 }
 

@@ -165,8 +165,7 @@ double excess_noise(const AngleEquations& equations) {
 
 }  // namespace
 
-ModelTest test_model(const AngleEquations& equations, double allowed_rad,
-                     const OffsetPrior& offsets_s2) {
+ModelTest test_model(const AngleEquations& equations, const OffsetPrior& offsets_s2) {
   Normal normal = equations.normal();
   Right right = equations.right();
   equations.offsets().eliminate(offsets_s2, normal, right);
@@ -176,11 +175,10 @@ ModelTest test_model(const AngleEquations& equations, double allowed_rad,
                                   coupling.transpose() * axis.solve(coupling);
   const Errors score =
       right.tail<kModelErrors>() - coupling.transpose() * axis.solve(right.head<2>());
-  return test_model_errors({.information = information, .score = score}, excess_noise(equations),
-                           allowed_rad);
+  return test_model_errors({.information = information, .score = score}, excess_noise(equations));
 }
 
-ModelTest test_model_errors(const ErrorInformation& seen, double excess_noise, double allowed_rad,
+ModelTest test_model_errors(const ErrorInformation& seen, double excess_noise,
                             const OffsetPrior& offsets_s2) {
   ModelTest verdict{.excess_noise = excess_noise};
   ErrorInformation errors = seen;
@@ -190,13 +188,12 @@ ModelTest test_model_errors(const ErrorInformation& seen, double excess_noise, d
     return verdict;
   }
   const double significant = kSignificant.at(spectrum.freedom());
-  const double allowed_rad2 = allowed_rad * allowed_rad;
-  if (!(spectrum.chi_square(allowed_rad2) > significant)) {
+  if (!(spectrum.chi_square(0.0) > significant)) {
     return verdict;
   }
   explain(errors.information, errors.score, verdict);
   verdict.beyond_allowance =
-      spectrum.chi_square(allowed_rad2 + kModelError_rad * kModelError_rad) > significant;
+      spectrum.chi_square(kModelError_rad * kModelError_rad) > significant;
   return verdict;
 }
 

@@ -33,14 +33,13 @@ struct ModelTest {
 };
 
 /// @param excess_noise How many times their variance is what the stated noise makes it.
-/// @param allowed_rad One standard deviation of errors that are known of, and no contradiction.
 /// @param offsets_s2 What the times of the channels may be off by, which is no error of the model.
-ModelTest test_model_errors(const ErrorInformation& errors, double excess_noise, double allowed_rad,
+ModelTest test_model_errors(const ErrorInformation& errors, double excess_noise,
                             const OffsetPrior& offsets_s2 = OffsetPrior::Zero());
 
 /// @param equations Of axes so near the true one that the angles are linear in between.
-/// @param allowed_rad As `test_model_errors`, likewise `offsets_s2`.
-ModelTest test_model(const AngleEquations& equations, double allowed_rad,
+/// @param offsets_s2 As `test_model_errors`.
+ModelTest test_model(const AngleEquations& equations,
                      const OffsetPrior& offsets_s2 = OffsetPrior::Zero());
 
 }  // namespace spindrift

@@ -180,6 +180,13 @@ void reject(RevolutionMeasurements& measured, SpinQuantity quantity, Rejection w
   }
 }
 
+void note_test(RevolutionMeasurements& measured, SpinQuantity quantity, const Rational& test) {
+  std::optional<Measured>* const slot = slot_of(measured, quantity);
+  if (slot != nullptr && *slot) {
+    (*slot)->test = test;
+  }
+}
+
 RevolutionMeasurements measure(const SpinConfig& config, const Revolution& revolution) {
   RevolutionMeasurements measured{.noise = config.noise,
                                   .t_sun1 = revolution.good_edge(Sun1),

@@ -24,6 +24,7 @@ struct Measured {
   EdgeNoise noise_rad;  ///< Two measurements are correlated where both have an entry.
   /// Empty: good. Otherwise it failed a test, or rests on an edge that is not to be used.
   std::optional<Rejection> rejected_by = {};
+  std::optional<Rational> test = {};  ///< Empty: it was not tested.
 };
 
 /// What one infrared sensor gives. Chord and dihedral share both edges.
@@ -68,6 +69,9 @@ std::optional<Measured> good_value_of(const RevolutionMeasurements& measured,
 
 /// Marks a quantity as not to be used, unless it is already.
 void reject(RevolutionMeasurements& measured, SpinQuantity quantity, Rejection why);
+
+/// Notes what a quantity was held against.
+void note_test(RevolutionMeasurements& measured, SpinQuantity quantity, const Rational& test);
 
 /// A measurement that has no meaning (slit lag of a quarter turn or more, chord of a whole turn or
 /// more) is absent; one that rests on a rejected edge is there, rejected for the same reason.

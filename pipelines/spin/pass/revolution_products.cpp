@@ -33,10 +33,12 @@ SpinMeasurement measurement_of(const Revolution& revolution, const RevolutionMea
   if (verdict.quantity == SpinQuantity::Period) {
     product.value = revolution.period_candidate->period_s;
     product.sigma = revolution.period_candidate->sigma_s;
+    product.test = revolution.period_candidate->test;
   } else {
     const Measured value = *value_of(measured, verdict.quantity);
     product.value = value.value_rad;
     product.sigma = value.sigma_rad;
+    product.test = value.test;
   }
   return product;
 }

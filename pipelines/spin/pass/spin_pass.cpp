@@ -51,7 +51,7 @@ SpinPass::SpinPass(const SpinConfig& config, Orbit orbit)
       recent_axes_{static_cast<std::size_t>(config.screening.window)},
       disambiguator_{config},
       mean_{config},
-      consistency_{static_cast<double>(config.screening.window)},
+      inconsistent_share_{static_cast<double>(config.screening.window)},
       sequential_{config} {}
 
 SpinOutput SpinPass::push(const Pulse& pulse) {
@@ -331,7 +331,8 @@ void SpinPass::settle_first(SpinOutput& out) {
   for (Candidate& candidate : first_) {
     screen(candidate);
     if (candidate.sun_earth) {
-      consistency_.count(axis_candidates(config_, candidate.measured, *candidate.sun_earth));
+      count_consistency(axis_candidates(config_, candidate.measured, *candidate.sun_earth),
+                        candidate);
     }
   }
   for (Candidate& candidate : first_) {
@@ -359,15 +360,20 @@ void SpinPass::predict_anew_where_better_known() {
 void SpinPass::predict(Candidate& candidate, const Eigen::Vector3d& axis_icrf) {
   if (candidate.sun_earth) {
     candidate.residuals = residuals(config_, candidate.measured, *candidate.sun_earth, axis_icrf);
-    for (const Residual& residual : candidate.residuals) {
+    for (const AngleResidual& residual : candidate.residuals) {
       screening_.add(residual);
     }
   }
 }
 
 void SpinPass::screen(Candidate& candidate) const {
-  for (const Residual& residual : candidate.residuals) {
-    if (!screening_.keeps(residual)) {
+  for (const AngleResidual& residual : candidate.residuals) {
+    const RobustMean mean = screening_.mean_of(residual.quantity).value();
+    const double value_rad = value_of(candidate.measured, residual.quantity)->value_rad;
+    note_test(
+        candidate.measured, residual.quantity,
+        {.expected = value_rad - (residual.value_rad - mean.mean), .limit = mean.limit});
+    if (!mean.keeps(residual.value_rad)) {
       reject(candidate.measured, residual.quantity, rejection_of(residual.quantity));
     }
   }
@@ -380,17 +386,45 @@ void SpinPass::screen(Candidate& candidate) const {
 
 void SpinPass::settle(Candidate& candidate, SpinOutput& out) {
   screen(candidate);
+  const std::size_t first = out.products.size();
   auto products = revolution_products(config_, candidate.revolution, candidate.measured);
   std::move(products.begin(), products.end(), std::back_inserter(out.products));
   if (candidate.sun_earth) {
     announce_axis(candidate, out);
+    note_observations(std::span{out.products}.subspan(first));
   }
 }
 
-std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate) {
+/// With what became of an edge stands what it said to the filter.
+void SpinPass::note_observations(std::span<SpinProduct> products) const {
+  for (SpinProduct& product : products) {
+    auto* const use = std::get_if<PulseUse>(&product);
+    if (use == nullptr) {
+      continue;
+    }
+    for (const Observation& said : sequential_.observations()) {
+      if (said.t == use->pulse.t && said.source == source_of(use->pulse.channel)) {
+        use->said = said;
+      }
+    }
+  }
+}
+
+/// With a wrong mission file or orbit most revolutions contradict themselves; the few that do not
+/// agree by accident, or have too few measurements to show it.
+void SpinPass::count_consistency(const FoundCandidates& found, Candidate& candidate) {
+  const bool contradicts = is_inconsistent(found);
+  if (!std::exchange(candidate.is_counted, true) && (found || contradicts)) {
+    inconsistent_share_.add(contradicts ? 1.0 : 0.0);
+  }
+}
+
+bool SpinPass::most_are_consistent() const { return inconsistent_share_.mean() < 0.5; }
+
+std::vector<SpinFix> SpinPass::find_fixes(Candidate& candidate) {
   const Revolution& revolution = candidate.revolution;
   const auto found = axis_candidates(config_, candidate.measured, *candidate.sun_earth);
-  consistency_.count(found);
+  count_consistency(found, candidate);
   if (!found) {
     // The measurements stand; this revolution alone gives no axis.
     notices_.without_fix(revolution.number, found.error().why);
@@ -400,7 +434,7 @@ std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate) {
   auto fixes = disambiguator_.settle(revolution.number, revolution.t_start, candidate.measured,
                                      *candidate.sun_earth, *found, established_axis());
   for (SpinFix& fix : fixes) {
-    fix.accepted = fix.accepted && consistency_.most_consistent();
+    fix.accepted = fix.accepted && most_are_consistent();
   }
   if (const auto& steady = disambiguator_.newly_stationary()) {
     notices_.settled_by_dispersion(revolution.t_start, *steady);
@@ -410,7 +444,7 @@ std::vector<SpinFix> SpinPass::find_fixes(const Candidate& candidate) {
 }
 
 void SpinPass::say_why_not_accepted(const SpinFix& fix) {
-  if (!consistency_.most_consistent()) {
+  if (!most_are_consistent()) {
     notices_.most_contradict_themselves();
   } else if (const auto side = disambiguator_.silent_despite_view()) {
     notices_.silent_where_it_must_see(*side);
@@ -419,7 +453,7 @@ void SpinPass::say_why_not_accepted(const SpinFix& fix) {
   }
 }
 
-void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
+void SpinPass::announce_axis(Candidate& candidate, SpinOutput& out) {
   const Revolution& revolution = candidate.revolution;
   const bool had_mean = mean_.count() > 0;
   first_axis_ = first_axis_.value_or(revolution.t_start);
@@ -430,7 +464,7 @@ void SpinPass::announce_axis(const Candidate& candidate, SpinOutput& out) {
   if (const auto sky = sun_earth_.sky(revolution.t_start)) {
     sequential = sequential_.update(
         revolution, *sky,
-        consistency_.most_consistent() ? std::span{fixes} : std::span<const SpinFix>{});
+        most_are_consistent() ? std::span{fixes} : std::span<const SpinFix>{});
     if (sequential_.prior_refuted() && config_.prior) {
       forget_prior(revolution.t_start);
     }

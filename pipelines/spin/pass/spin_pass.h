@@ -21,6 +21,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pipelines/core/notice.h"
@@ -29,7 +30,6 @@
 #include "pipelines/exclusions/exclusions.h"
 #include "pipelines/spin/association/association.h"
 #include "pipelines/spin/disambiguation/disambiguation.h"
-#include "pipelines/spin/disambiguation/revolution_consistency.h"
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "pipelines/spin/mean/mean_axis.h"
 #include "pipelines/spin/mean/mean_estimator.h"
@@ -45,6 +45,7 @@
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/products.h"
 #include "pipelines/spin/types/spin_action.h"
+#include "pipelines/statistics/recent_mean.h"
 #include "pipelines/time/contested.h"
 
 namespace spindrift {
@@ -86,7 +87,8 @@ class SpinPass {
     Revolution revolution;
     RevolutionMeasurements measured;
     std::optional<SunEarthDirections> sun_earth;  ///< Empty where the orbit does not reach.
-    std::vector<Residual> residuals;
+    std::vector<AngleResidual> residuals;
+    bool is_counted = false;  ///< In the share of those that contradict themselves.
   };
 
   void take(const Pulse& pulse, SpinOutput& out);
@@ -104,9 +106,12 @@ class SpinPass {
   void predict_anew_where_better_known();
   void predict(Candidate& candidate, const Eigen::Vector3d& axis_icrf);
   void screen(Candidate& candidate) const;
-  std::vector<SpinFix> find_fixes(const Candidate& candidate);
+  void note_observations(std::span<SpinProduct> products) const;
+  void count_consistency(const FoundCandidates& found, Candidate& candidate);
+  bool most_are_consistent() const;
+  std::vector<SpinFix> find_fixes(Candidate& candidate);
   void say_why_not_accepted(const SpinFix& fix);
-  void announce_axis(const Candidate& candidate, SpinOutput& out);
+  void announce_axis(Candidate& candidate, SpinOutput& out);
   std::optional<KnownAxis> established_axis() const;
   bool recent_fixes_left_the_mean_for(const Eigen::Vector3d& axis_icrf) const;
   void start_again_where_moved(const SpinEstimate& sequential);
@@ -151,7 +156,7 @@ class SpinPass {
   AxisWindow recent_axes_;
   Disambiguator disambiguator_;
   MeanEstimator mean_;
-  RevolutionConsistency consistency_;
+  RecentMean inconsistent_share_;  ///< Of the last revolutions that could have a fix.
   SequentialEstimator sequential_;
   int restarts_handled_ = 0;
 

@@ -41,11 +41,11 @@ class Prediction {
 
 }  // namespace
 
-std::vector<Residual> residuals(const SpinConfig& config, const RevolutionMeasurements& measured,
+std::vector<AngleResidual> residuals(const SpinConfig& config, const RevolutionMeasurements& measured,
                                 const SunEarthDirections& sun_earth,
                                 const Eigen::Vector3d& axis_icrf) {
   const Prediction prediction{config, measured, sun_earth, axis_icrf};
-  std::vector<Residual> found;
+  std::vector<AngleResidual> found;
   for (const SpinQuantity quantity : kMeasuredAngles) {
     const auto value = good_value_of(measured, quantity);
     if (!value) {
@@ -65,15 +65,14 @@ ScreeningWindow::ScreeningWindow(const SpinScreening& screening)
       channels_(kSpinQuantities,
                 {.values_rad = SlidingRobustMean{static_cast<std::size_t>(screening.window)}}) {}
 
-void ScreeningWindow::add(const Residual& residual) {
+void ScreeningWindow::add(const AngleResidual& residual) {
   Channel& channel = channels_.at(static_cast<std::size_t>(residual.quantity));
   channel.values_rad.add(residual.value_rad);
   channel.mean = channel.values_rad.mean({.sigma = sigma_, .stated = residual.sigma_rad});
 }
 
-bool ScreeningWindow::keeps(const Residual& residual) const {
-  const auto& mean = channels_.at(static_cast<std::size_t>(residual.quantity)).mean;
-  return mean && mean->keeps(residual.value_rad);
+const std::optional<RobustMean>& ScreeningWindow::mean_of(SpinQuantity quantity) const {
+  return channels_.at(static_cast<std::size_t>(quantity)).mean;
 }
 
 }  // namespace spindrift

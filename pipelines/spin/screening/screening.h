@@ -15,7 +15,7 @@
 namespace spindrift {
 
 /// Measured minus predicted, of one quantity of one revolution.
-struct Residual {
+struct AngleResidual {
   SpinQuantity quantity;
   double value_rad;
   double sigma_rad;
@@ -24,7 +24,7 @@ struct Residual {
 /// One residual per good measurement. One that the axis says is impossible (a chord of a beam that
 /// misses the Earth, a pulse of a slit that cannot see the Sun) has none: it is left to the other
 /// quantities to decide. Chords and dihedrals are those of the mission's horizon.
-std::vector<Residual> residuals(const SpinConfig& config, const RevolutionMeasurements& measured,
+std::vector<AngleResidual> residuals(const SpinConfig& config, const RevolutionMeasurements& measured,
                                 const SunEarthDirections& sun_earth,
                                 const Eigen::Vector3d& axis_icrf);
 
@@ -36,9 +36,9 @@ class ScreeningWindow {
  public:
   explicit ScreeningWindow(const SpinScreening& screening);
 
-  void add(const Residual& residual);
-  /// Of a residual that was added.
-  bool keeps(const Residual& residual) const;
+  void add(const AngleResidual& residual);
+  /// The window's, after the last residual of the quantity; empty: there was none.
+  const std::optional<RobustMean>& mean_of(SpinQuantity quantity) const;
 
  private:
   struct Channel {

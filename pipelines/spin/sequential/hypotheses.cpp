@@ -129,15 +129,15 @@ bool Hypotheses::work_in(const SpinConfig& config, const Revolution& revolution,
                                      filter.offsets_rad2(offset_prior_s2(config.noise)),
                                  config, revolution, sky)
                    .value_or(filter);
-      hypothesis.tally = {};
+      hypothesis.said = {};
     } else {
-      hypothesis.tally = filter.update(config, sky, edges.span(), noise);
+      hypothesis.said = filter.update(config, sky, edges.span(), noise);
     }
-    const EdgeStatistics& tally = hypothesis.tally;
+    const RevolutionObservations& said = hypothesis.said;
     const bool was_new = hypothesis.edges < kFewestEdgesToFit;
-    hypothesis.edges += static_cast<double>(tally.accepted.count() + tally.gated.count());
-    hypothesis.log_likelihood += tally.log_likelihood;
-    hypothesis.squared_innovations += tally.squared_innovations;
+    hypothesis.edges += static_cast<double>(said.edges().size());
+    hypothesis.log_likelihood += said.log_likelihood;
+    hypothesis.squared_innovations += said.squared_innovations();
     // A filter knows little at first, and its edges are unlikely for that: one that came late is
     // held against the others, which have this behind them, from here on.
     if (hypothesis.late && was_new && hypothesis.edges >= kFewestEdgesToFit) {

@@ -23,7 +23,7 @@ struct Hypothesis {
   double edges = 0.0;
   double log_likelihood = 0.0;       ///< Of them.
   double squared_innovations = 0.0;  ///< Normalised, their sum: as many as edges when all is well.
-  EdgeStatistics tally = {};         ///< Of the last revolution.
+  RevolutionObservations said = {};  ///< By the edges of the last revolution.
   int fixes = 0;                     ///< That have it among their candidates.
   bool eliminated_another = false;   ///< Eliminated another, by the edges.
   bool late = false;                 ///< Came when the one then published had beaten another.

@@ -18,9 +18,19 @@ namespace {
 constexpr std::size_t kMostHypotheses = 8;
 // So many fixes that graze, and none that does not: there will be no better ones.
 constexpr int kFewestNearTangent = 20;
-// Weight of one fix in the share of those that graze.
-constexpr double kRecentFix = 0.02;
+constexpr double kRecentFixes = 50.0;  // In the share of those that graze.
 constexpr double kNearlyAll = 0.8;
+// Of so many edges the mean squared innovation, 1 when all is well, says whether the noise is as
+// stated. From a fifth on those that are gated belong to the noise.
+constexpr RecordRules kEdgeRules{
+    .recent = 60.0, .fewest_freedoms = 15.0, .most_freedoms = 300.0, .noise_from_share = 0.2};
+// Of the edges, that are gated.
+constexpr double kMost = 0.5;
+// Some of those that are used are likely wrong, too.
+constexpr double kMany = 1.0 / 3.0;
+// Noise that is still significant for the fewest edges, and soon no more where the following ones
+// are good.
+constexpr double kMostOfStart = 4.0;
 
 /// The rate is that of the last seconds, as long as its own error takes to make that of the phase.
 /// Where the times are on a grid both ends of these are off by what the grid leaves open.
@@ -32,7 +42,10 @@ double rate_sigma_rad_s(const SpinFilter& filter, const PulseNoise& noise) {
 }  // namespace
 
 SequentialEstimator::SequentialEstimator(SpinConfig config)
-    : config_{std::move(config)}, near_tangent_starts_{kFewestNearTangent} {}
+    : config_{std::move(config)},
+      near_tangent_starts_{kFewestNearTangent},
+      near_tangent_share_{kRecentFixes},
+      ledger_{kEdgeRules} {}
 
 std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolution,
                                                         const Sky& sky,
@@ -92,14 +105,12 @@ bool SequentialEstimator::apply_fix(const SpinFix& fix, const Revolution& revolu
 }
 
 void SequentialEstimator::note_near_tangent(const SpinFix& fix) {
-  ++fixes_;
-  const double weight = std::max(kRecentFix, 1.0 / static_cast<double>(fixes_));
-  near_tangent_share_ += weight * ((fix.near_tangent ? 1.0 : 0.0) - near_tangent_share_);
+  near_tangent_share_.add(fix.near_tangent ? 1.0 : 0.0);
 }
 
 /// Where nearly all graze it is noise that keeps some from it, and their candidates are no better.
 bool SequentialEstimator::counts_as_near_tangent(const SpinFix& fix) const {
-  return fix.near_tangent || (leaves_open(fix) && near_tangent_share_ > kNearlyAll);
+  return fix.near_tangent || (leaves_open(fix) && near_tangent_share_.mean() > kNearlyAll);
 }
 
 /// A branch that only alternates have made is not confirmed by a settled fix that comes near it.
@@ -121,14 +132,14 @@ bool SequentialEstimator::superseded_by(const SpinFix& fix) const {
     return true;
   }
   if (hypotheses_.provisional()) {
-    return !counts_as_near_tangent(fix) || gating_.most_gated();
+    return !counts_as_near_tangent(fix) || most_left_out();
   }
-  return fix.accepted && (gating_.most_gated() || fixes_contradict());
+  return fix.accepted && (most_left_out() || fixes_contradict());
 }
 
 bool SequentialEstimator::fixes_contradict() const {
   return contradiction_.stands(
-      hypotheses_, verdict_.excess_noise > 1.0 || gating_.channel_mostly_gated().has_value());
+      hypotheses_, verdict_.excess_noise > 1.0 || ledger_.mostly_left_out().has_value());
 }
 
 /// At all points: without one of them the true one may be missing. What was counted since the last
@@ -143,7 +154,7 @@ bool SequentialEstimator::begin(const SpinFix& fix, std::span<const StartingPoin
   }
   if (!hypotheses_.empty() && !hypotheses_.provisional()) {
     ++restarts_;
-    restarted_ = gating_.most_gated() ? ReasonCode::RestartedGated : ReasonCode::RestartedByFixes;
+    restarted_ = most_left_out() ? ReasonCode::RestartedGated : ReasonCode::RestartedByFixes;
   }
   hypotheses_ = std::move(started);
   start_confirmation_.begin(points.front());
@@ -151,10 +162,9 @@ bool SequentialEstimator::begin(const SpinFix& fix, std::span<const StartingPoin
     select_hypothesis(fix, points.front());
   }
   noise_at_restart_ = verdict_.excess_noise;
-  watch_.fade();
-  verdict_ = watch_.verdict(offset_prior_s2(config_.noise));
-  gating_ = {};
-  oscillating_ = {};
+  ledger_.restart();
+  evidence_.fade();
+  test_model_and_noise();
   contradiction_ = {};
   settled_starts_.forget();
   open_starts_.forget();
@@ -194,10 +204,11 @@ void SequentialEstimator::join(std::span<const StartingPoint> points, const Revo
 }
 
 ChannelNoise SequentialEstimator::gate_noise() const {
-  ChannelNoise noise = oscillating_.noise();
+  ChannelNoise noise{};
   const double of_all = std::min(verdict_.excess_noise, noise_at_restart_);
-  std::transform(noise.begin(), noise.end(), noise.begin(),
-                 [of_all](double of_channel) { return std::max(of_channel, of_all); });
+  for (std::size_t i = 0; i < kPulseChannels; ++i) {
+    noise.at(i) = std::max(ledger_.oscillation(source_of(static_cast<PulseChannel>(i))), of_all);
+  }
   return noise;
 }
 
@@ -207,21 +218,32 @@ void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) 
     ++restarts_;
   }
   const Hypothesis& published = hypotheses_.published();
-  gating_.note(published.tally);
-  oscillating_.note(published.tally);
-  watch_.note(published.tally);
-  verdict_ = watch_.verdict(offset_prior_s2(config_.noise));
+  const std::span<const Observation> said = published.said.edges();
+  ledger_.add(said);
+  evidence_.add(published.said.errors,
+                static_cast<double>(std::count_if(said.begin(), said.end(), [](const auto& edge) {
+                  return !edge.rejected_by;
+                })));
+  test_model_and_noise();
   // The first edges pull the filter from its start to where they fit.
-  const auto edges =
-      static_cast<double>(published.tally.accepted.count() + published.tally.gated.count());
+  const auto edges = static_cast<double>(said.size());
   if (published.edges - edges < kFewestEdgesToFit && published.edges >= kFewestEdgesToFit) {
-    watch_.discard_transient();
-    oscillating_ = {};
+    ledger_.discard_transient(kMostOfStart);
+    evidence_ = {};
   }
 }
 
+void SequentialEstimator::test_model_and_noise() {
+  verdict_ = evidence_.test(ledger_.all().excess_noise(), offset_prior_s2(config_.noise));
+}
+
+/// The axis is no longer, or never was, the true one.
+bool SequentialEstimator::most_left_out() const {
+  return ledger_.all().recent_share_left_out() > kMost;
+}
+
 Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
-  if (gating_.most_gated()) {
+  if (most_left_out()) {
     return anywhere_covariance_rad2();
   }
   const SpinFilter& filter = hypotheses_.published().filter;
@@ -236,7 +258,7 @@ double SequentialEstimator::model_leverage() const {
 }
 
 std::optional<KnownAxis> SequentialEstimator::settled_by_edges() const {
-  if (!hypotheses_.settled_by_edges() || gating_.most_gated() || model_contradicts()) {
+  if (!hypotheses_.settled_by_edges() || most_left_out() || model_contradicts()) {
     return std::nullopt;
   }
   return KnownAxis{.axis_icrf = hypotheses_.published().filter.axis_icrf(),
@@ -265,7 +287,7 @@ Assessment SequentialEstimator::assess_ambiguous() const {
     if (count == 1) {
       assessment.reasons.push_back({NothingSettled});
     }
-    assessment.reasons.push_back({Revolutions, {{"count", gating_.revolutions()}}});
+    assessment.reasons.push_back({Revolutions, {{"count", ledger_.turns()}}});
   }
   return assessment;
 }
@@ -273,10 +295,10 @@ Assessment SequentialEstimator::assess_ambiguous() const {
 /// Empty where nothing speaks against it. An error of the model that its allowance covers is none.
 std::optional<Reason> SequentialEstimator::doubt() const {
   using enum ReasonCode;
-  if (const auto channel = gating_.channel_mostly_gated()) {
-    return Reason{ChannelGated, {{"channel", std::string{name_of(*channel)}}}};
+  if (const auto channel = ledger_.mostly_left_out()) {
+    return Reason{ChannelGated, {{"channel", std::string{name_of(channel_of(*channel))}}}};
   }
-  if (gating_.many_gated()) {
+  if (ledger_.all().share_left_out() > kMany) {
     return Reason{ManyGated};
   }
   if (verdict_.excess_noise > 1.0) {
@@ -298,21 +320,21 @@ Reason SequentialEstimator::model_off() const {
 
 Assessment SequentialEstimator::assess() const {
   using enum ReasonCode;
-  const Reason gated{EdgesGated, {{"count", gating_.gated()}}};
-  if (gating_.most_gated()) {
+  const Reason gated{EdgesGated, {{"count", ledger_.all().left_out()}}};
+  if (most_left_out()) {
     return {Quality::Lost, {gated, {AwaitingFix}}};
   }
   // What passed before the filters began might have contradicted the prior: until they have seen as
   // much, nothing is said.
   if (!hypotheses_.settled() &&
-      !(hypotheses_.prior_stands() && gating_.revolutions() >= revolutions_before_start_)) {
+      !(hypotheses_.prior_stands() && ledger_.turns() >= revolutions_before_start_)) {
     return assess_ambiguous();
   }
-  const Reason revolutions{Revolutions, {{"count", gating_.revolutions()}}};
+  const Reason revolutions{Revolutions, {{"count", ledger_.turns()}}};
   if (auto doubted = doubt()) {
     return {Quality::Doubtful, {*std::move(doubted), revolutions}};
   }
-  const Quality unopposed = unopposed_quality(static_cast<double>(gating_.revolutions()));
+  const Quality unopposed = unopposed_quality(static_cast<double>(ledger_.turns()));
   if (verdict_.error_rad > 0.0) {
     return {unopposed, {model_off(), revolutions}};
   }

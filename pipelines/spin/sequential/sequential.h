@@ -37,12 +37,11 @@
 #include <optional>
 #include <span>
 
+#include "pipelines/observation/ledger.h"
 #include "pipelines/spin/mean/model_check.h"
 #include "pipelines/spin/sequential/contradiction.h"
-#include "pipelines/spin/sequential/gating_monitor.h"
 #include "pipelines/spin/sequential/hypotheses.h"
-#include "pipelines/spin/sequential/innovation_monitor.h"
-#include "pipelines/spin/sequential/oscillating_channels.h"
+#include "pipelines/spin/sequential/model_evidence.h"
 #include "pipelines/spin/sequential/start_confirmation.h"
 #include "pipelines/spin/sequential/starting_points.h"
 #include "pipelines/spin/types/config.h"
@@ -50,6 +49,7 @@
 #include "pipelines/spin/types/products.h"
 #include "pipelines/spin/types/revolution.h"
 #include "pipelines/spin/types/sky.h"
+#include "pipelines/statistics/recent_mean.h"
 
 namespace spindrift {
 
@@ -80,6 +80,13 @@ class SequentialEstimator {
   /// ten.
   static constexpr double kPoorLeverage = 6.0;
 
+  /// What the edges of the last revolution said to the candidate published; empty where a filter
+  /// began there.
+  std::span<const Observation> observations() const {
+    return hypotheses_.empty() ? std::span<const Observation>{}
+                               : hypotheses_.published().said.edges();
+  }
+
   /// The axis that the edges settled beyond doubt among several.
   std::optional<KnownAxis> settled_by_edges() const;
 
@@ -95,6 +102,8 @@ class SequentialEstimator {
   void join(std::span<const StartingPoint> points, const Revolution& revolution, const Sky& sky);
   bool fixes_contradict() const;
   ChannelNoise gate_noise() const;
+  void test_model_and_noise();
+  bool most_left_out() const;
   void work_in(const Revolution& revolution, const Sky& sky);
   Eigen::Matrix2d covariance_rad2() const;
   bool model_contradicts() const;
@@ -109,16 +118,14 @@ class SequentialEstimator {
   StartingPoints settled_starts_;  ///< Of fixes that are settled.
   StartingPoints open_starts_;     ///< Of those that leave several candidates open.
   StartingPoints near_tangent_starts_;
-  std::int64_t fixes_ = 0;
-  double near_tangent_share_ = 0.0;  ///< Of the recent fixes.
+  RecentMean near_tangent_share_;    ///< Of the recent fixes.
   StartingPoints untracked_;         ///< Candidates that no filter follows, since the start.
   Contradiction contradiction_;      ///< By fixes, since the start.
   StartConfirmation start_confirmation_;
 
-  GatingMonitor gating_;             ///< Since the start.
-  OscillatingChannels oscillating_;  ///< Since the start.
-  InnovationMonitor watch_;          ///< Over the restarts: noise and model stay what they are.
-  ModelTest verdict_;                ///< Of the watch.
+  Ledger ledger_;           ///< Of the published candidate.
+  ModelEvidence evidence_;  ///< Over the restarts: the model stays what it is.
+  ModelTest verdict_;       ///< Of both.
   /// The gate opens for noise that made the filter begin anew before: then it was not the axis.
   double noise_at_restart_ = 1.0;
 

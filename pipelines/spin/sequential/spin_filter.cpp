@@ -9,6 +9,7 @@
 #include "pipelines/spin/sensor_model/edge_prediction.h"
 #include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/statistics/iterated_update.h"
+#include "pipelines/statistics/linear_update.h"
 
 namespace spindrift {
 namespace {
@@ -49,6 +50,14 @@ GoodEdges::GoodEdges(const SpinConfig& config, const Revolution& revolution) {
       edges_.at(count_++) = {.t = *t, .channel = channel};
     }
   }
+}
+
+double RevolutionObservations::squared_innovations() const {
+  double sum = 0.0;
+  for (const Observation& edge : edges()) {
+    sum += edge.bounded_nis();
+  }
+  return sum;
 }
 
 std::optional<SpinFilter> SpinFilter::about(const Eigen::Vector3d& axis_icrf,
@@ -109,51 +118,47 @@ void SpinFilter::predict(TaiTime t) {
   t_ = t;
 }
 
-EdgeStatistics SpinFilter::update(const SpinConfig& config, const Sky& sky,
-                                  std::span<const Pulse> edges, const ChannelNoise& noise) {
+RevolutionObservations SpinFilter::update(const SpinConfig& config, const Sky& sky,
+                                          std::span<const Pulse> edges,
+                                          const ChannelNoise& noise) {
   const SpinFilter prior = *this;
   const RevolutionEdges seen{.config = config,
                              .sky = sky,
                              .edges = edges,
                              .noise = noise,
                              .sensors = {config, SensorBiases::Zero()}};
-  EdgeStatistics tally;
+  RevolutionObservations said;
   // There may be no state near with all these edges: then those that are missing pull no more.
   for (const Missing missing : {Missing::Approached, Missing::LeftOut}) {
     *this = prior;
     for (int pass = 0; pass < kMostLinearisations; ++pass) {
-      const Linearised here = update_linearised_here(prior, seen, missing, tally);
+      const Linearised here = update_linearised_here(prior, seen, missing, said);
       // What two linearisations disagree on would count as knowledge of what no edge measures. The
       // narrower a chord, the steeper its edges and, squared, the more curved.
       if (!here.approached && here.moved_rad * square(here.steepest) < kFarFromLinear_rad) {
-        return tally;
+        return said;
       }
     }
   }
-  return tally;
+  return said;
 }
 
 /// All edges are linearised at the present state: then their order has no weight, and sun edges,
 /// the sharper, come first to the gate.
 SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prior,
                                                           const RevolutionEdges& seen,
-                                                          Missing missing, EdgeStatistics& tally) {
+                                                          Missing missing,
+                                                          RevolutionObservations& said) {
   const auto& [config, sky, edges, noise, sensors] = seen;
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin_.conjugate().toRotationMatrix();
   Linearised here;
-  tally = {};
+  said = {};
   covariance_ = prior.covariance_;
   of_errors_ = prior.of_errors_;
   of_offsets_ = prior.of_offsets_;
   Error error = error_of(prior);
   const auto gate_of = [&noise = noise](PulseChannel channel) {
     return square(kGateSigmas) * noise.at(index_of(channel));
-  };
-  const auto leave_out = [&](const Pulse& edge) {
-    tally.gated.set(index_of(edge.channel));
-    tally.log_likelihood += kLogSpurious;
-    tally.squared_innovations += gate_of(edge.channel);
-    tally.squared_gates += gate_of(edge.channel);
   };
   for (const Pulse& edge : edges) {
     const double dt_s = seconds_between(t_, edge.t);
@@ -165,61 +170,74 @@ SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prio
       predicted = linearise_by_depth(config, sky, R_spin_icrf, edge, phase_rad, sigma_rad);
     }
     if (!predicted) {
-      leave_out(edge);
+      said.add({.t = edge.t,
+                .source = source_of(edge.channel),
+                .limit = gate_of(edge.channel),
+                .rejected_by = Rejection::Innovation});
+      said.log_likelihood += kLogSpurious;
       continue;
     }
     const double by_phase = predicted->phase_per_rotation.z();
     const Measured measured{
-        .channel = edge.channel,
+        .edge = edge,
         .residual_rad = phase_rad - predicted->phase_rad,
         .sigma_rad = sigma_rad,
         .slope = Error{predicted->phase_per_rotation.x(), predicted->phase_per_rotation.y(),
                        by_phase, by_phase * dt_s, by_phase * 0.5 * square(dt_s)},
         .per_error = predicted->phase_per_error,
         .per_offset_rad_s = rate_rad_s_};
-    if (!work_in(measured, gate_of(edge.channel), error, tally)) {
-      leave_out(edge);
+    const Observation observation = work_in(measured, gate_of(edge.channel), error, said);
+    said.add(observation);
+    if (observation.rejected_by) {
+      said.log_likelihood += kLogSpurious;
       continue;
     }
     here.approached = here.approached || !exists;
     here.steepest = std::max(here.steepest, predicted->phase_per_rotation.head<2>().norm());
-    tally.accepted.set(index_of(edge.channel));
   }
   correct(error);
   here.moved_rad = error.head<2>().norm();
   return here;
 }
 
-/// @return Whether it is within the gate; if not nothing is done.
-bool SpinFilter::work_in(const Measured& measured, double gate, Error& error,
-                         EdgeStatistics& tally) {
-  const Error gain_unscaled = covariance_ * measured.slope;
-  const double variance = measured.slope.dot(gain_unscaled) + square(measured.sigma_rad);
+/// Beyond the gate nothing is done.
+Observation SpinFilter::work_in(const Measured& measured, double gate, Error& error,
+                                RevolutionObservations& said) {
+  using Update = LinearUpdate<5, 1>;
+  const Update update{covariance_, measured.slope.transpose(),
+                      Update::Noise{square(measured.sigma_rad)}};
+  const double variance = update.expected(0, 0);
   const double innovation = wrapped_rad(measured.residual_rad - measured.slope.dot(error));
-  const double squared_innovation = square(innovation) / variance;
-  tally.innovations.at(index_of(measured.channel)) = innovation / std::sqrt(variance);
-  if (squared_innovation > gate) {
-    return false;
+  Observation observation{.t = measured.edge.t,
+                          .source = source_of(measured.edge.channel),
+                          .residual = {.freedom = 1},
+                          .nis = square(innovation) / variance,
+                          .limit = gate};
+  observation.residual.value[0] = innovation / rate_rad_s_;
+  observation.residual.sigma[0] = std::sqrt(variance) / rate_rad_s_;
+  if (observation.nis > gate) {
+    observation.rejected_by = Rejection::Innovation;
+    return observation;
   }
   // An edge that is late by an angle looks as if the phase were ahead by it.
   const Eigen::Matrix<double, 1, kModelErrors> innovation_of_errors =
       measured.slope.transpose() * of_errors_ + measured.per_error;
-  of_errors_ -= gain_unscaled * innovation_of_errors / variance;
-  tally.errors.information += innovation_of_errors.transpose() * innovation_of_errors / variance;
-  tally.errors.score += innovation_of_errors.transpose() * (innovation / variance);
+  of_errors_ -= update.gain * innovation_of_errors;
+  ErrorInformation& errors = said.errors;
+  errors.information += innovation_of_errors.transpose() * innovation_of_errors / variance;
+  errors.score += innovation_of_errors.transpose() * (innovation / variance);
   Eigen::Matrix<double, 1, kChannelOffsets> innovation_of_offsets =
       measured.slope.transpose() * of_offsets_;
-  innovation_of_offsets(static_cast<Eigen::Index>(measured.channel)) += measured.per_offset_rad_s;
-  of_offsets_ -= gain_unscaled * innovation_of_offsets / variance;
-  tally.errors.offsets.shared +=
-      innovation_of_errors.transpose() * innovation_of_offsets / variance;
-  tally.errors.offsets.own += innovation_of_offsets.transpose() * innovation_of_offsets / variance;
-  tally.errors.offsets.score += innovation_of_offsets.transpose() * (innovation / variance);
-  error += gain_unscaled * (innovation / variance);
-  covariance_ -= gain_unscaled * gain_unscaled.transpose() / variance;
-  tally.log_likelihood += log_normal_density(squared_innovation, variance);
-  tally.squared_innovations += squared_innovation;
-  return true;
+  innovation_of_offsets(static_cast<Eigen::Index>(measured.edge.channel)) +=
+      measured.per_offset_rad_s;
+  of_offsets_ -= update.gain * innovation_of_offsets;
+  errors.offsets.shared += innovation_of_errors.transpose() * innovation_of_offsets / variance;
+  errors.offsets.own += innovation_of_offsets.transpose() * innovation_of_offsets / variance;
+  errors.offsets.score += innovation_of_offsets.transpose() * (innovation / variance);
+  error += update.gain * innovation;
+  covariance_ = update.left_of(covariance_);
+  said.log_likelihood += log_normal_density(observation.nis, variance);
+  return observation;
 }
 
 /// Of this state, were `truth` true.

@@ -17,12 +17,12 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
-#include <bitset>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <utility>
 
+#include "pipelines/observation/observation.h"
 #include "pipelines/spin/sensor_model/edge_prediction.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/model_allowance.h"
@@ -33,25 +33,31 @@
 
 namespace spindrift {
 
-using ChannelSet = std::bitset<kPulseChannels>;
-
 /// How many times the variance of a channel's edges is what their stated noise makes it.
 using ChannelNoise = std::array<double, kPulseChannels>;
 inline constexpr ChannelNoise kStatedNoise = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 
-/// What became of the edges of one revolution.
-struct EdgeStatistics {
-  ChannelSet accepted;
-  ChannelSet gated;  ///< Too far from where they were predicted, or predicted not to be.
+/// What the edges of one revolution said to a filter.
+class RevolutionObservations {
+ public:
+  /// @param edge At most one of each channel.
+  void add(const Observation& edge) { edges_[count_++] = edge; }
+  /// The residuals in seconds; an edge that is predicted not to be has none.
+  std::span<const Observation> edges() const { return {edges_.data(), count_}; }
+
+  /// Normalised, their sum; those that were left out as at the gate.
+  double squared_innovations() const;
+
   /// Natural logarithm of the edges' probability density, 1/rad each, gated ones as spurious.
   double log_likelihood = 0.0;
-  double squared_innovations = 0.0;  ///< Normalised, their sum; gated ones as at the gate.
-  double squared_gates = 0.0;        ///< The share of gated ones in that.
-  /// Normalised, of each channel that was expected to have an edge, gated or not.
-  std::array<std::optional<double>, kPulseChannels> innovations = {};
-  /// What the innovations of the accepted edges say of the model. The filter has eliminated axis,
-  /// phase and rate from them, and made them independent (Friedland's separate-bias estimation).
+  /// What the innovations of the edges that were used say of the model. The filter has eliminated
+  /// axis, phase and rate from them, and made them independent (Friedland's separate-bias
+  /// estimation).
   ErrorInformation errors = {};
+
+ private:
+  std::array<Observation, kPulseChannels> edges_ = {};
+  std::size_t count_ = 0;
 };
 
 class SpinFilter {
@@ -73,8 +79,9 @@ class SpinFilter {
 
   /// Works in the edges of about one revolution near the reference time.
   /// @param noise The gate opens by so much, the weights stay.
-  EdgeStatistics update(const SpinConfig& config, const Sky& sky, std::span<const Pulse> edges,
-                        const ChannelNoise& noise = kStatedNoise);
+  RevolutionObservations update(const SpinConfig& config, const Sky& sky,
+                                std::span<const Pulse> edges,
+                                const ChannelNoise& noise = kStatedNoise);
 
   TaiTime t() const { return t_; }
   Eigen::Vector3d axis_icrf() const { return q_icrf_spin_ * Eigen::Vector3d::UnitZ(); }
@@ -114,7 +121,7 @@ class SpinFilter {
   };
   /// An edge as the present state predicts it.
   struct Measured {
-    PulseChannel channel;
+    Pulse edge;
     double residual_rad;  ///< Of the phase; by any number of turns more.
     double sigma_rad;
     Error slope;
@@ -122,8 +129,9 @@ class SpinFilter {
     double per_offset_rad_s;  ///< Change of the phase for a second that the channel is late.
   };
   Linearised update_linearised_here(const SpinFilter& prior, const RevolutionEdges& seen,
-                                    Missing missing, EdgeStatistics& tally);
-  bool work_in(const Measured& measured, double gate, Error& error, EdgeStatistics& tally);
+                                    Missing missing, RevolutionObservations& said);
+  Observation work_in(const Measured& measured, double gate, Error& error,
+                      RevolutionObservations& said);
   Error error_of(const SpinFilter& truth) const;
   void correct(const Error& error);
 

@@ -11,15 +11,6 @@ std::string_view name_of(SpinQuantity quantity) {
   return kNames.at(static_cast<std::size_t>(quantity));
 }
 
-std::string_view name_of(Rejection rejection) {
-  static constexpr std::array<std::string_view, 18> kNames = {
-      "unassociated",   "late",           "out_of_time",  "contradicted", "copy",
-      "interference",   "operator",       "phase",        "geometry",     "no_sensor",
-      "no_orbit",       "period",         "sun_angle",    "north_chord",  "south_chord",
-      "north_dihedral", "south_dihedral", "mixed_azimuth"};
-  return kNames.at(static_cast<std::size_t>(rejection));
-}
-
 Rejection rejection_of(SpinQuantity quantity) {
   return static_cast<Rejection>(static_cast<int>(Rejection::Period) + static_cast<int>(quantity));
 }

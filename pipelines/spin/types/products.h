@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "pipelines/core/assessment.h"
+#include "pipelines/core/rational.h"
+#include "pipelines/observation/observation.h"
 #include "pipelines/spin/types/pulse.h"
 #include "pipelines/time/sample_contradiction.h"
 #include "pipelines/time/tai_time.h"
@@ -29,28 +31,7 @@ enum class SpinQuantity {
 inline constexpr std::size_t kSpinQuantities = 7;
 std::string_view name_of(SpinQuantity quantity);
 
-/// Why an edge or a measurement was left out.
-enum class Rejection {
-  Unassociated,  ///< No revolution had a place for the edge.
-  Late,          ///< Arrived after its time had been processed.
-  OutOfTime,     ///< Far from all others in time, by a clock that nothing else agrees with.
-  Contradicted,  ///< Of a coded frame that came with other values, too, and nobody is preferred.
-  Copy,          ///< Its channel's edges come several times: another counts, or it came alone.
-  Interference,  ///< An edge of another channel is so near that both are spoilt.
-  Operator,      ///< An operator has left it out.
-  Phase,     ///< Not where the edges of its channel lie; of a measurement: rests on such an edge.
-  Geometry,  ///< The measurement has no meaning (chord of a whole turn, slit lag out of range).
-  NoSensor,  ///< The mission file has no such sensor.
-  NoOrbit,   ///< The orbit does not cover it: not testable.
-  Period,    ///< Failed the spin-period test.
-  SunAngle,  ///< Failed the 3-sigma test of that quantity; likewise the following.
-  NorthChord,
-  SouthChord,
-  NorthDihedral,
-  SouthDihedral,
-  MixedAzimuth,
-};
-std::string_view name_of(Rejection rejection);
+/// Of the test of a quantity.
 Rejection rejection_of(SpinQuantity quantity);
 
 /// What became of one edge.
@@ -58,6 +39,8 @@ struct PulseUse {
   Pulse pulse;
   std::optional<std::int64_t> revolution;
   std::optional<Rejection> rejected_by;  ///< Empty: accepted.
+  /// What it said to `sequential`, as that decided live; empty where no filter was asked.
+  std::optional<Observation> said = {};
 };
 
 /// One turn of the body, from one sun1 edge to the next.
@@ -73,6 +56,7 @@ struct SpinMeasurement {
   double value;  ///< s for the period, rad otherwise.
   double sigma;  ///< One standard deviation from the stated pulse noise; same unit.
   std::optional<Rejection> rejected_by;
+  std::optional<Rational> test = {};  ///< Empty: it was not tested.
 };
 
 enum class Resolution { Geometry, Constraint, Prior, Dispersion, Ambiguous };

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "pipelines/observation/observation.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -26,6 +27,13 @@ constexpr bool sees_the_sun(PulseChannel channel) {
 }
 constexpr std::string_view name_of(PulseChannel channel) {
   return kPulseChannelNames.at(index_of(channel));
+}
+constexpr SampleSource source_of(PulseChannel channel) {
+  return static_cast<SampleSource>(index_of(channel));
+}
+/// @param source Of an edge.
+constexpr PulseChannel channel_of(SampleSource source) {
+  return static_cast<PulseChannel>(index_of(source));
 }
 std::optional<PulseChannel> pulse_channel_from(std::string_view name);
 

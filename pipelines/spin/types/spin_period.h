@@ -3,6 +3,10 @@
 
 #pragma once
 
+#include <optional>
+
+#include "pipelines/core/rational.h"
+
 namespace spindrift {
 
 /// One interval between edges `turns` revolutions apart, divided by them.
@@ -10,6 +14,9 @@ struct PeriodCandidate {
   double period_s;
   double sigma_s;  ///< From the stated pulse noise.
   bool accepted;
+  /// What the test expected, and how far from that it may be; empty: it ends at an edge that is
+  /// known to be wrong.
+  std::optional<Rational> test = {};
 };
 
 /// At an instant.

@@ -69,7 +69,7 @@ TEST_F(ArchiveView, HasInnovationsAsNormalDeviates) {
        attitude(3 * kSecond_ns, {.squared = 19.8223, .freedom = 5}),
        RejectedSample{.t = tai_from_ns(4 * kSecond_ns),
                       .kind = SampleKind::Sun,
-                      .rejected_by = SampleRejection::Innovation,
+                      .rejected_by = Rejection::Innovation,
                       .squared_innovation = 100.0}});
   ASSERT_EQ(found.size(), 3U);
   EXPECT_NEAR(found[0].value, 0.0, 0.02);

@@ -28,7 +28,7 @@ class FakePass {
     ThreeAxisOutput output{
         .products = {RejectedSample{.t = sample.t,
                                     .kind = SampleKind::Gyro,
-                                    .rejected_by = SampleRejection::Innovation,
+                                    .rejected_by = Rejection::Innovation,
                                     .squared_innovation = sample.rate_body_rad_s.x()}},
         .notices = {}};
     if (sample.rate_body_rad_s.z() != 0.0) {
@@ -40,11 +40,11 @@ class FakePass {
     }
     return output;
   }
-  ThreeAxisOutput fall_silent() { return again(SampleRejection::Frozen); }
-  ThreeAxisOutput finish() { return again(SampleRejection::Saturated); }
+  ThreeAxisOutput fall_silent() { return again(Rejection::Frozen); }
+  ThreeAxisOutput finish() { return again(Rejection::Saturated); }
 
  private:
-  ThreeAxisOutput again(SampleRejection why) const {
+  ThreeAxisOutput again(Rejection why) const {
     return {.products = {RejectedSample{.t = t_, .kind = SampleKind::Gyro, .rejected_by = why}},
             .notices = {}};
   }

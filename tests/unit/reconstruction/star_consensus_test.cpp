@@ -35,7 +35,7 @@ TEST(StarConsensus, LeavesOutTheFixThatIsFarOffWhereverItIs) {
     std::vector<StarObservation> stars = fixes(10);
     stars[wrong].q_icrf_body = stars[wrong].q_icrf_body * quaternion_by({0.0, 0.05, 0.0});
     const StarConsensus found = consensus_of(kRates, stars, kNoise);
-    EXPECT_EQ(found.gated, 1);
+    EXPECT_EQ(found.gated.size(), 1U);
     EXPECT_FALSE(found.contradict);
     for (const StarObservation& star : found.accepted) {
       EXPECT_NE(star.t_s, stars[wrong].t_s);
@@ -50,7 +50,7 @@ TEST(StarConsensus, LeavesOutFourFalseOnesBeforeFiveTrueOnes) {
     stars[i].q_icrf_body = stars[i].q_icrf_body * quaternion_by({0.0, 0.05, 0.0});
   }
   const StarConsensus found = consensus_of(kRates, stars, kNoise);
-  EXPECT_EQ(found.gated, 4);
+  EXPECT_EQ(found.gated.size(), 4U);
   EXPECT_EQ(found.accepted.front().t_s, 4.0);
 }
 

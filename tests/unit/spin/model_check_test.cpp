@@ -68,8 +68,8 @@ void expect_silence(const ModelTest& verdict) {
 }
 
 TEST(ModelCheck, SaysNothingWithoutRevolutionsAndOfModelsThatAreRight) {
-  expect_silence(test_model(AngleEquations{kAxis}, 0.0));
-  expect_silence(test_model(equations_of(testing::usual_config()), 0.0));
+  expect_silence(test_model(AngleEquations{kAxis}));
+  expect_silence(test_model(equations_of(testing::usual_config())));
 }
 
 TEST(ModelCheck, DoesNotMindAnAxisBesideTheTrueOne) {
@@ -86,7 +86,7 @@ TEST(ModelCheck, DoesNotMindAnAxisBesideTheTrueOne) {
     for (int i = 0; i < 40000; ++i) {
       equations.add(config, measured, kSightlines, beside);
     }
-    expect_silence(test_model(equations, 0.0));
+    expect_silence(test_model(equations));
   }
 }
 
@@ -95,7 +95,7 @@ TEST(ModelCheck, SeesAnAzimuthThatIsWrong) {
     SpinConfig config = testing::usual_config();
     auto& sensor = error == NorthAzimuth ? config.north : config.south;
     sensor->azimuth_rad -= 1.0 * kRadPerDeg;
-    const ModelTest verdict = test_model(equations_of(config), 0.0);
+    const ModelTest verdict = test_model(equations_of(config));
     EXPECT_TRUE(verdict.beyond_allowance);
     EXPECT_GT(verdict.error_rad, 0.3 * kRadPerDeg);
     EXPECT_LT(verdict.error_rad, 3.0 * kRadPerDeg);
@@ -110,23 +110,22 @@ TEST(ModelCheck, SeesASunAngleAndALimbThatAreWrong) {
   SpinConfig slit = testing::usual_config();
   // Across Sun and Earth both, as this axis nearly is, a sun angle hardly touches the others.
   slit.sun_sensor.slit_separation_rad += 10.0 * kRadPerDeg;
-  EXPECT_TRUE(test_model(equations_of(slit), 0.0).beyond_allowance);
+  EXPECT_TRUE(test_model(equations_of(slit)).beyond_allowance);
   SpinConfig beam = testing::usual_config();
   beam.north->mount_angle_rad += 4.0 * kRadPerDeg;
-  EXPECT_TRUE(test_model(equations_of(beam), 0.0).beyond_allowance);
+  EXPECT_TRUE(test_model(equations_of(beam)).beyond_allowance);
 }
 
 TEST(ModelCheck, ShowsWhatTheAllowanceExcusesWithoutDoubt) {
   SpinConfig config = testing::usual_config();
   config.north->azimuth_rad += 0.15 * kRadPerDeg;
   const AngleEquations equations = equations_of(config);
-  EXPECT_GT(test_model(equations, 0.0).error_rad, 0.0);
-  EXPECT_FALSE(test_model(equations, 0.0).beyond_allowance);
-  expect_silence(test_model(equations, 0.15 * kRadPerDeg));
+  EXPECT_GT(test_model(equations).error_rad, 0.0);
+  EXPECT_FALSE(test_model(equations).beyond_allowance);
 }
 
 TEST(ModelCheck, MeasuresNoiseThatIsMoreThanStated) {
-  const ModelTest verdict = test_model(equations_of(testing::usual_config(), 3.0), 0.0);
+  const ModelTest verdict = test_model(equations_of(testing::usual_config(), 3.0));
   // 2000 angles: the scatter of their mean square is 3 %.
   EXPECT_NEAR(verdict.excess_noise, 9.0, 1.2);
   EXPECT_EQ(verdict.error_rad, 0.0);

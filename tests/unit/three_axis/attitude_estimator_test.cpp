@@ -94,7 +94,7 @@ class AttitudeEstimatorTest : public ::testing::Test {
     const double t_s = std::round(seconds_of(estimate) * 1e3) * 1e-3;
     return degrees(error_rad(estimate.q_icrf_body, body_.q_icrf_body(t_s)).norm());
   }
-  std::int64_t rejected(SampleKind kind, SampleRejection rejected_by) const {
+  std::int64_t rejected(SampleKind kind, Rejection rejected_by) const {
     return std::count_if(products_.begin(), products_.end(), [&](const ThreeAxisProduct& product) {
       const auto* const sample = std::get_if<RejectedSample>(&product);
       return sample != nullptr && sample->kind == kind && sample->rejected_by == rejected_by;
@@ -230,7 +230,7 @@ TEST_F(AttitudeEstimatorTest, AWrongFixIsRejectedWithItsInnovation) {
   ASSERT_EQ(products_.size(), 1U);
   const auto& rejected = std::get<RejectedSample>(products_.front());
   EXPECT_EQ(rejected.kind, SampleKind::Star);
-  EXPECT_EQ(rejected.rejected_by, SampleRejection::Innovation);
+  EXPECT_EQ(rejected.rejected_by, Rejection::Innovation);
   EXPECT_GT(*rejected.squared_innovation, innovation_gate(3));
   EXPECT_EQ(health(SampleKind::Star).rejected, 1);
   EXPECT_EQ(health(SampleKind::Star).rejected_in_a_row, 1);
@@ -273,7 +273,7 @@ TEST_F(AttitudeEstimatorTest, AStuckTrackerOverrulesNothing) {
   EXPECT_EQ(quality(), Quality::Ok);
   EXPECT_TRUE(has(last().assessment, ReasonCode::SensorGated));
   EXPECT_FALSE(has(last().assessment, ReasonCode::Since));
-  EXPECT_EQ(rejected(SampleKind::Star, SampleRejection::Frozen), 19);
+  EXPECT_EQ(rejected(SampleKind::Star, Rejection::Frozen), 19);
 }
 
 /// A body at 0.005 deg/s, beside which the noise of one fix is large.
@@ -299,7 +299,7 @@ TEST_F(AttitudeEstimatorTest, AStuckTrackerDoesNotStopASlowBody) {
     const double off_rad = error_rad(row.q_icrf_body, slow.q_icrf_body(seconds_of(row))).norm();
     EXPECT_LT(off_rad, 5.0 * row.sigma_rad()) << seconds_of(row);
   }
-  EXPECT_EQ(rejected(SampleKind::Star, SampleRejection::Frozen), 70);
+  EXPECT_EQ(rejected(SampleKind::Star, Rejection::Frozen), 70);
   EXPECT_TRUE(has(last().assessment, ReasonCode::SensorGated));
 }
 
@@ -328,7 +328,7 @@ TEST_F(AttitudeEstimatorTest, ATurnedTrackerDoesNotOverruleWhatSunAndFieldConfir
   EXPECT_EQ(quality(), Quality::Ok);
   EXPECT_EQ(last().assessment.reasons,
             (std::vector{Reason{ReasonCode::SensorGated, {{"sensor", std::string{"star"}}}}}));
-  EXPECT_EQ(rejected(SampleKind::Star, SampleRejection::Innovation), 50);
+  EXPECT_EQ(rejected(SampleKind::Star, Rejection::Innovation), 50);
 }
 
 /// Whether the tracker was wrong before or is now, the gyro alone cannot tell.
@@ -454,7 +454,7 @@ TEST_F(AttitudeEstimatorTest, AStuckFieldIsNamedAndTheOthersHoldTheAttitude) {
   EXPECT_EQ(
       last().assessment.reasons,
       (std::vector{Reason{ReasonCode::SensorGated, {{"sensor", std::string{"magnetometer"}}}}}));
-  EXPECT_EQ(rejected(SampleKind::Magnetometer, SampleRejection::Frozen), 39);
+  EXPECT_EQ(rejected(SampleKind::Magnetometer, Rejection::Frozen), 39);
   EXPECT_LT(error_deg(last()), 0.03);
 }
 

@@ -235,7 +235,7 @@ TEST_F(Contradictions, APreferredSenderThatContradictsItselfIsNotUsed) {
   arrivals.push_back({.t_s = 0.2, .sample = turned(one)});
   const Made made = run(arrivals);
   ASSERT_THAT(made.rejected, ::testing::SizeIs(::testing::Ge(1U)));
-  EXPECT_EQ(made.rejected.front().rejected_by, SampleRejection::Contradicted);
+  EXPECT_EQ(made.rejected.front().rejected_by, Rejection::Contradicted);
   EXPECT_THAT(made.contradictions, ElementsAre(fmt::format("star {} 0-1-", tai_ns(one.t))));
 }
 

@@ -35,7 +35,7 @@ TEST(StandsOut, NothingBetweenItsNeighboursDoes) {
     const Vector3d before = any_vector(rng);
     const Vector3d behind = any_vector(rng);
     const double share = std::uniform_real_distribution{0.0, 1.0}(rng);
-    EXPECT_FALSE(stands_out(before, before + share * (behind - before), behind, kNone, 0.0));
+    EXPECT_FALSE(deviation(before, before + share * (behind - before), behind, kNone, 0.0).stands_out());
   }
 }
 
@@ -49,12 +49,12 @@ TEST(StandsOut, WhatIsBeyondBothByMoreThanTheRateChangesDoesOnAnyAxis) {
           sign > 0.0 ? std::max(before[axis], behind[axis]) : std::min(before[axis], behind[axis]);
       Vector3d at = 0.5 * (before + behind);
       at[axis] = farther + sign * 0.999 * change[axis];
-      EXPECT_FALSE(stands_out(before, at, behind, change, 0.0));
+      EXPECT_FALSE(deviation(before, at, behind, change, 0.0).stands_out());
       at[axis] = farther + sign * 1.001 * change[axis];
-      EXPECT_TRUE(stands_out(before, at, behind, change, 0.0));
+      EXPECT_TRUE(deviation(before, at, behind, change, 0.0).stands_out());
       // Time and rates turned round: the same.
-      EXPECT_TRUE(stands_out(behind, at, before, change, 0.0));
-      EXPECT_TRUE(stands_out(-before, -at, -behind, change, 0.0));
+      EXPECT_TRUE(deviation(behind, at, before, change, 0.0).stands_out());
+      EXPECT_TRUE(deviation(-before, -at, -behind, change, 0.0).stands_out());
     }
   }
 }
@@ -62,13 +62,13 @@ TEST(StandsOut, WhatIsBeyondBothByMoreThanTheRateChangesDoesOnAnyAxis) {
 /// The difference of two samples has the root of two times the noise of one.
 TEST(StandsOut, NoiseOfTwoSamplesIsNotEnough) {
   const double limit = 5.0 * std::numbers::sqrt2 * kNoise_rad_s;
-  EXPECT_FALSE(stands_out(kNone, 0.999 * limit * Vector3d::UnitY(), kNone, kNone, kNoise_rad_s));
-  EXPECT_TRUE(stands_out(kNone, 1.001 * limit * Vector3d::UnitY(), kNone, kNone, kNoise_rad_s));
+  EXPECT_FALSE(deviation(kNone, 0.999 * limit * Vector3d::UnitY(), kNone, kNone, kNoise_rad_s).stands_out());
+  EXPECT_TRUE(deviation(kNone, 1.001 * limit * Vector3d::UnitY(), kNone, kNone, kNoise_rad_s).stands_out());
   std::mt19937_64 rng{2};
   for (int i = 0; i < 20'000; ++i) {
     const Vector3d before = normal_vector(rng, kNoise_rad_s);
     const Vector3d at = normal_vector(rng, kNoise_rad_s);
-    ASSERT_FALSE(stands_out(before, at, normal_vector(rng, kNoise_rad_s), kNone, kNoise_rad_s));
+    ASSERT_FALSE(deviation(before, at, normal_vector(rng, kNoise_rad_s), kNone, kNoise_rad_s).stands_out());
   }
 }
 
@@ -85,7 +85,7 @@ struct Ends {
   bool stands_out_by(const Vector3d& off, double noise_rad_s) const {
     GyroSample moved = at;
     moved.rate_body_rad_s += off;
-    return end_stands_out(moved, next, next_but_one, noise_rad_s);
+    return deviation_at_end(moved, next, next_but_one, noise_rad_s).stands_out();
   }
 };
 
@@ -102,10 +102,11 @@ TEST(EndStandsOut, NorDoesOneBeforeThrustersBegin) {
   const GyroSample at{at_s(0.0), rate};
   const GyroSample next{at_s(0.1), rate};
   const GyroSample next_but_one{at_s(0.2), rate + Vector3d{0.01, -0.02, 0.0}};
-  EXPECT_FALSE(end_stands_out(at, next, next_but_one, 1e-12));
+  EXPECT_FALSE(deviation_at_end(at, next, next_but_one, 1e-12).stands_out());
   // It went the other way than they do: a spike.
   EXPECT_TRUE(
-      end_stands_out({at_s(0.0), rate + Vector3d{0.001, 0.0, 0.0}}, next, next_but_one, 1e-12));
+      deviation_at_end({at_s(0.0), rate + Vector3d{0.001, 0.0, 0.0}}, next, next_but_one, 1e-12)
+          .stands_out());
 }
 
 /// Of what three samples with independent noise leave of a line.

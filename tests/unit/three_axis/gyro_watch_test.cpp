@@ -17,7 +17,7 @@ using testing::normal_vector;
 constexpr GyroSensor kGyro{.noise_rad_s = 3e-5, .bias_sigma_rad_s = 2e-4, .range_rad_s = 0.2};
 
 /// Taken for a measurement where nothing speaks against it.
-std::optional<SampleRejection> judge(GyroWatch& watch, const GyroSample& sample) {
+std::optional<Rejection> judge(GyroWatch& watch, const GyroSample& sample) {
   const auto rejection = watch.judge(sample);
   if (!rejection) {
     watch.accept(sample);
@@ -28,8 +28,8 @@ std::optional<SampleRejection> judge(GyroWatch& watch, const GyroSample& sample)
 TEST(GyroWatch, ASaturatedSampleIsNoMeasurement) {
   GyroWatch watch{kGyro};
   EXPECT_EQ(judge(watch, {at_s(0.0), {0.1, 0.1, -0.199}}), std::nullopt);
-  EXPECT_EQ(judge(watch, {at_s(0.1), {0.1, 0.1, -0.2}}), SampleRejection::Saturated);
-  EXPECT_EQ(watch.out_because(), SampleRejection::Saturated);
+  EXPECT_EQ(judge(watch, {at_s(0.1), {0.1, 0.1, -0.2}}), Rejection::Saturated);
+  EXPECT_EQ(watch.out_because(), Rejection::Saturated);
   EXPECT_EQ(watch.last()->t, at_s(0.0));
   EXPECT_EQ(judge(watch, {at_s(0.2), {0.1, 0.1, -0.1}}), std::nullopt);
   EXPECT_EQ(watch.out_because(), std::nullopt);
@@ -42,7 +42,7 @@ TEST(GyroWatch, ARateThatIsClippedARoundingBelowItsRangeIsSaturated) {
     GyroWatch watch{kGyro};
     for (int i = 0; i < 20; ++i) {
       EXPECT_EQ(judge(watch, {at_s(0.1 * i), {0.1, -range_rad_s * (1.0 - below), 0.1}}),
-                SampleRejection::Saturated)
+                Rejection::Saturated)
           << below;
     }
   }
@@ -60,7 +60,7 @@ TEST(GyroWatch, TenEqualSamplesInARowAreFrozenUntilOneDiffers) {
     EXPECT_EQ(judge(watch, {at_s(0.1 * i), rate_rad_s}), std::nullopt) << i;
   }
   for (int i = 9; i < 15; ++i) {
-    EXPECT_EQ(judge(watch, {at_s(0.1 * i), rate_rad_s}), SampleRejection::Frozen) << i;
+    EXPECT_EQ(judge(watch, {at_s(0.1 * i), rate_rad_s}), Rejection::Frozen) << i;
   }
   EXPECT_EQ(judge(watch, {at_s(1.5), {0.01 + 1e-5, 1e-5, 1e-5}}), std::nullopt);
 }
@@ -132,7 +132,7 @@ TEST(GyroWatch, OneDeadAxisIsFrozen) {
       if (!from_the_start && i < 100) {
         EXPECT_EQ(rejection, std::nullopt) << i;
       } else if (i > 120 || (from_the_start && i > 30)) {
-        EXPECT_EQ(rejection, SampleRejection::Frozen) << i;
+        EXPECT_EQ(rejection, Rejection::Frozen) << i;
       }
     }
   }

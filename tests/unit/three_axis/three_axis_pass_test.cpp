@@ -58,8 +58,8 @@ class ThreeAxisPassTest : public ::testing::Test {
     }
     return out;
   }
-  std::vector<SampleRejection> reasons() const {
-    std::vector<SampleRejection> out;
+  std::vector<Rejection> reasons() const {
+    std::vector<Rejection> out;
     for (const RejectedSample& sample : rejected()) {
       out.push_back(sample.rejected_by);
     }
@@ -105,7 +105,7 @@ TEST_F(ThreeAxisPassTest, LateSamplesAreLeftOutAndSaidOnce) {
   gyro(0.0, 10.0);
   add(pass_.push(sensors_.star(5.0)));
   add(pass_.push(sensors_.star(6.0)));
-  EXPECT_THAT(reasons(), ::testing::ElementsAre(SampleRejection::Late, SampleRejection::Late));
+  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::Late, Rejection::Late));
   EXPECT_EQ(rejected().front().kind, SampleKind::Star);
   EXPECT_THAT(notices_, ::testing::ElementsAre(Notice{NoticeCode::LateSamples, {}}));
   EXPECT_EQ(pass_.sensors().at(index_of(SampleKind::Star)).rejected, 2);
@@ -121,7 +121,7 @@ TEST_F(ThreeAxisPassTest, LeavesOutTheSensorThatAnOperatorExcludes) {
   }
   add(pass_.finish());
   for (const RejectedSample& sample : rejected()) {
-    EXPECT_EQ(sample.rejected_by, SampleRejection::Operator);
+    EXPECT_EQ(sample.rejected_by, Rejection::Operator);
     EXPECT_TRUE(sample.t < at_s(7.0) || sample.kind == SampleKind::Star);
   }
   EXPECT_THAT(rejected(), SizeIs(2 + 2 + 10));
@@ -164,7 +164,7 @@ TEST_F(ThreeAxisPassTest, ASampleOfABadClockIsOutOfTime) {
   add(pass_.push(sensors_.star(10.0)));
   gyro(10.0, 12.0);
   add(pass_.finish());
-  EXPECT_THAT(reasons(), ::testing::ElementsAre(SampleRejection::OutOfTime));
+  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::OutOfTime));
   EXPECT_GT(estimates(), 5U);
 }
 
@@ -173,7 +173,7 @@ TEST_F(ThreeAxisPassTest, ASensorThatTheMissionLacksIsLeftOut) {
   blind.star_tracker.reset();
   ThreeAxisPass pass{blind, std::nullopt};
   add(pass.push(sensors_.star(0.0)));
-  EXPECT_THAT(reasons(), ::testing::ElementsAre(SampleRejection::NoSensor));
+  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::NoSensor));
 }
 
 TEST_F(ThreeAxisPassTest, InTheEarthsShadowASunVectorIsLeftOut) {
@@ -183,7 +183,7 @@ TEST_F(ThreeAxisPassTest, InTheEarthsShadowASunVectorIsLeftOut) {
   add(pass_.push(sun(1.0)));
   gyro(2.0, 6.0);
   add(pass_.finish());
-  EXPECT_THAT(reasons(), ::testing::ElementsAre(SampleRejection::Shadow));
+  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::Shadow));
   EXPECT_EQ(pass_.sensors().at(index_of(SampleKind::OrbitState)).accepted, 1);
 }
 
@@ -204,7 +204,7 @@ TEST_F(ThreeAxisPassTest, AStateOnNoOrbitIsLeftOut) {
   state.state.velocity_icrf_km_s *= 2.0;
   add(pass_.push(state));
   gyro(-9.0, 0.0);
-  EXPECT_THAT(reasons(), ::testing::ElementsAre(SampleRejection::NoOrbit));
+  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::NoOrbit));
 }
 
 TEST_F(ThreeAxisPassTest, ASilentStreamIsComputedToItsEnd) {
@@ -217,7 +217,7 @@ TEST_F(ThreeAxisPassTest, ASilentStreamIsComputedToItsEnd) {
   add(pass_.push(sensors_.gyro(4.5)));
   EXPECT_THAT(rejected(), IsEmpty());  // Known already.
   add(pass_.push(sensors_.star(4.6)));
-  EXPECT_THAT(reasons(), ::testing::ElementsAre(SampleRejection::Late));
+  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::Late));
 }
 
 TEST_F(ThreeAxisPassTest, APassWithoutAFixSaysWhatItTakes) {
@@ -317,7 +317,7 @@ TEST_F(MagnetometerPassTest, AFieldOfAnotherStrengthIsLeftOutBeforeThereIsAnAtti
   }
   add(pass_.finish());
   EXPECT_THAT(reasons(), ::testing::ElementsAreArray(
-                             std::vector<SampleRejection>(4, SampleRejection::Innovation)));
+                             std::vector<Rejection>(4, Rejection::Innovation)));
   for (const RejectedSample& sample : rejected()) {
     EXPECT_EQ(sample.kind, SampleKind::Magnetometer);
     // 5 % of 20,000 to 60,000 nT over 100 nT.
@@ -334,7 +334,7 @@ TEST_F(MagnetometerPassTest, WithoutAnOrbitAFieldIsLeftOutUntilAStateComes) {
   add(pass_.push(field(2.0)));
   add(pass_.finish());
   EXPECT_THAT(reasons(),
-              ::testing::ElementsAre(SampleRejection::NoOrbit, SampleRejection::NoOrbit));
+              ::testing::ElementsAre(Rejection::NoOrbit, Rejection::NoOrbit));
   ASSERT_THAT(notices_, SizeIs(2));
   EXPECT_EQ(notices_[0].code, NoticeCode::FieldWithoutOrbit);
   EXPECT_EQ(notices_[1].code, NoticeCode::AttitudeNeverBegan);
@@ -352,7 +352,7 @@ TEST_F(MagnetometerPassTest, BehindTheYearsOfTheModelAFieldIsLeftOut) {
   add(pass_.finish());
   EXPECT_THAT(notices_, ::testing::Contains(Notice{NoticeCode::OutsideFieldModel,
                                                    {{"t_tai_ns", tai_ns(behind.t)}}}));
-  EXPECT_THAT(reasons(), ::testing::Contains(SampleRejection::NoField).Times(1));
+  EXPECT_THAT(reasons(), ::testing::Contains(Rejection::NoField).Times(1));
 }
 
 TEST_F(MagnetometerPassTest, AFieldThatTheMissionLacksTheSensorOfIsLeftOut) {
@@ -360,7 +360,7 @@ TEST_F(MagnetometerPassTest, AFieldThatTheMissionLacksTheSensorOfIsLeftOut) {
   config_.magnetometer.reset();
   pass_ = {config_, orbit_, model_};
   add(pass_.push(sample));
-  EXPECT_THAT(reasons(), ::testing::ElementsAre(SampleRejection::NoSensor));
+  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::NoSensor));
 }
 
 }  // namespace spindrift::three_axis_pass_test

@@ -1,4 +1,4 @@
-#include "pipelines/spin/sequential/oscillating_channels.h"
+#include "pipelines/observation/oscillation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +11,11 @@ namespace {
 
 constexpr std::size_t kWindow = 64;
 constexpr std::size_t kFewest = 10;
-// Of a full window's edges, so many more hardly change it.
+// So many more hardly change a full window.
 constexpr int kStale = 4;
 // A step or a ramp crosses the middle once.
 constexpr int kFewestCrossings = 3;
-// Half the distance of so many has itself a sigma of 1.2 over the root of their number.
+// Half the distance of the quartiles has itself a sigma of 1.2 over the root of their number.
 constexpr double kSignificant = 4.0 * 1.2;
 
 double noise_of(const std::deque<double>& recent) {
@@ -40,20 +40,15 @@ double noise_of(const std::deque<double>& recent) {
 
 }  // namespace
 
-void OscillatingChannels::note(const EdgeStatistics& tally) {
-  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
-    if (const auto& innovation = tally.innovations.at(channel)) {
-      std::deque<double>& recent = recent_.at(channel);
-      recent.push_back(*innovation);
-      const bool full = recent.size() > kWindow;
-      if (full) {
-        recent.pop_front();
-      }
-      if (int& stale = stale_.at(channel); !full || ++stale == kStale) {
-        stale = 0;
-        noise_.at(channel) = noise_of(recent);
-      }
-    }
+void Oscillation::add(double whitened) {
+  recent_.push_back(whitened);
+  const bool is_full = recent_.size() > kWindow;
+  if (is_full) {
+    recent_.pop_front();
+  }
+  if (!is_full || ++stale_ == kStale) {
+    stale_ = 0;
+    noise_ = noise_of(recent_);
   }
 }
 

@@ -1,0 +1,72 @@
+/// @file
+/// What a sample of a three-axis spacecraft said to the filter, as a kind of product.
+
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <tuple>
+
+#include "pipelines/three_axis/products.h"
+#include "services/products/product_kind.h"
+#include "services/products/pulse_use.h"
+#include "services/units/degrees.h"
+
+namespace spindrift {
+
+/// Angles are stored in degrees, fields in nT.
+inline double unit_of_residual(SampleSource source) {
+  return source == SampleSource::Magnetometer ? 1.0 : kDegPerRad;
+}
+inline std::string_view name_of_unit(SampleSource source) {
+  return source == SampleSource::Magnetometer ? "nT" : "deg";
+}
+
+/// Of a component; without a value beyond the freedom.
+template <int kComponent>
+std::optional<double> residual_of(const Observation& said) {
+  return kComponent < said.residual.freedom
+             ? std::optional{said.residual.value[kComponent] * unit_of_residual(said.source)}
+             : std::nullopt;
+}
+template <int kComponent>
+std::optional<double> sigma_of(const Observation& said) {
+  return kComponent < said.residual.freedom
+             ? std::optional{said.residual.sigma[kComponent] * unit_of_residual(said.source)}
+             : std::nullopt;
+}
+
+struct SampleResidualTable {
+  static constexpr std::string_view kName = "sample_residual";
+  static constexpr std::array<std::string_view, 3> kKey{"estimator", "t_tai_ns", "kind"};
+  static constexpr std::string_view kCondition =
+      "kind <> 'gyro' AND estimator NOT IN ('batch', 'sequential')";
+
+  using One = SampleObservation;
+  static constexpr auto kColumns = columns(
+      ProductColumn{"estimator", [](const One& one) { return name_of(one.estimator); }},
+      ProductColumn{"t_tai_ns", [](const One& one) { return tai_ns(one.said.t); }},
+      ProductColumn{"kind", [](const One& one) { return name_of(kind_of(one.said.source)); }},
+      ProductColumn{"dof",
+                    [](const One& one) { return std::int64_t{one.said.residual.freedom}; }},
+      ProductColumn{"unit", [](const One& one) { return name_of_unit(one.said.source); }},
+      ProductColumn{"residual_1", [](const One& one) { return residual_of<0>(one.said); }},
+      ProductColumn{"residual_2", [](const One& one) { return residual_of<1>(one.said); }},
+      ProductColumn{"residual_3", [](const One& one) { return residual_of<2>(one.said); }},
+      ProductColumn{"sigma_1", [](const One& one) { return sigma_of<0>(one.said); }},
+      ProductColumn{"sigma_2", [](const One& one) { return sigma_of<1>(one.said); }},
+      ProductColumn{"sigma_3", [](const One& one) { return sigma_of<2>(one.said); }},
+      ProductColumn{"nis", [](const One& one) { return std::optional{one.said.nis}; }},
+      ProductColumn{"limit", [](const One& one) { return one.said.limit; }},
+      ProductColumn{"used", [](const One& one) { return !one.said.rejected_by; }},
+      ProductColumn{"rejected_by", [](const One& one) { return name_of(one.said.rejected_by); }});
+};
+
+template <>
+struct ProductKind<SampleObservation> {
+  static constexpr ProductWeight kWeight = ProductWeight::Detail;
+  using Tables = std::tuple<SampleResidualTable>;
+};
+
+}  // namespace spindrift
