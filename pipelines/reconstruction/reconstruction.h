@@ -15,6 +15,7 @@
 
 #include "pipelines/core/assessment.h"
 #include "pipelines/observation/observation.h"
+#include "pipelines/three_axis/products.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -51,11 +52,6 @@ struct ReconstructedEvent {
   /// Of `batch`. Cramer-Rao bound of the error about all three axes together, with the noise as
   /// stated and the priors.
   std::optional<double> bound_rad = std::nullopt;
-};
-
-struct GyroBias {
-  Eigen::Vector3d rad_s;
-  Eigen::Matrix3d covariance_rad2_s2;
 };
 
 struct SunMisalignment {

@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -86,6 +87,7 @@ class BatchWriter {
   void insert(const std::string& run_id, const OperatorAction& action);
   void insert(const std::string& run_id, const RejectedInput& rejected);
   void insert(const std::string& run_id, const SourceCount& count);
+  bool is_live(const std::string& run_id);
   void insert_latest_counts(std::span<const ArchiveBatch> batches);
 
   SQLite::Database& database_;
@@ -94,7 +96,8 @@ class BatchWriter {
   SQLite::Statement run_telemetry_;
   SQLite::Statement run_finished_;
   SQLite::Statement run_unfinished_;
-  SQLite::Statement run_earliest_;
+  SQLite::Statement run_reach_;
+  SQLite::Statement run_mode_;
   std::vector<SQLite::Statement> samples_;  ///< In the order of the list of kinds.
   SQLite::Statement operator_action_;
   SQLite::Statement stream_silence_;
@@ -102,6 +105,7 @@ class BatchWriter {
   SQLite::Statement source_count_;
   ContradictionWriter contradictions_;
   ProductWriter products_;
+  std::unordered_map<std::string, bool> is_live_;  ///< Of runs that were looked up, by run_id.
 };
 
 }  // namespace spindrift

@@ -1,6 +1,7 @@
 #include "pipelines/spin/telemetry_order/time_grid.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -33,20 +34,21 @@ void TimeGrid::note(const Pulse& edge) {
 }
 
 void TimeGrid::add(std::int64_t difference_ns, Run& run) {
-  if (run.differences == 0) {
-    run.first_ns = difference_ns;
-  }
-  run.are_equal = run.are_equal && difference_ns == run.first_ns;
   run.divisor_ns = std::gcd(run.divisor_ns, difference_ns);
+  run.smallest_ns = std::min(run.smallest_ns, std::abs(difference_ns));
   if (++run.differences == kRun) {
     end(std::exchange(run, {}));
   }
 }
 
-/// Equal differences show no grid, since they have no noise that would have to lie on it.
+/// Differences that are multiples of the smallest of them show no grid: turns of one length have
+/// such ones.
 void TimeGrid::end(const Run& run) {
-  if (!run.are_equal && static_cast<double>(run.divisor_ns) > least_ns_ &&
-      ++runs_[run.divisor_ns] >= kFewestRuns) {
+  const bool is_of_turns = run.divisor_ns == run.smallest_ns;
+  if (is_of_turns || static_cast<double>(run.divisor_ns) <= least_ns_) {
+    return;
+  }
+  if (++runs_[run.divisor_ns] >= kFewestRuns) {
     width_s_ = std::max(width_s_, 1e-9 * static_cast<double>(run.divisor_ns));
   }
 }

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -35,8 +36,7 @@ class TimeGrid {
  private:
   struct Run {
     std::int64_t divisor_ns = 0;
-    std::int64_t first_ns = 0;
-    bool are_equal = true;  ///< All of its differences.
+    std::int64_t smallest_ns = std::numeric_limits<std::int64_t>::max();
     int differences = 0;
   };
   void add(std::int64_t difference_ns, Run& run);
