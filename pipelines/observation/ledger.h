@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "pipelines/observation/observation.h"
+#include "pipelines/observation/observation_record.h"
 #include "pipelines/observation/oscillation.h"
-#include "pipelines/observation/source_record.h"
 #include "pipelines/statistics/recent_mean.h"
 
 namespace spindrift {
@@ -19,20 +19,20 @@ namespace spindrift {
 class Ledger {
  public:
   explicit Ledger(const RecordRules& rules)
-      : all_{rules}, of_(kSampleSources, Source{.record = SourceRecord{rules}}) {}
+      : all_{rules}, of_(kSampleSources, Source{.record = ObservationRecord{rules}}) {}
 
   /// @param together Of one instant, or of one turn of the body: in that each source speaks once.
   void add(std::span<const Observation> together);
 
-  const SourceRecord& all() const { return all_; }
-  const SourceRecord& of(SampleSource source) const { return at(source).record; }
+  const ObservationRecord& all() const { return all_; }
+  const ObservationRecord& of(SampleSource source) const { return at(source).record; }
   double oscillation(SampleSource source) const { return at(source).oscillation.noise(); }
 
   /// The source that is left out in the most of the recent turns, where that is more than half.
   std::optional<SampleSource> mostly_left_out() const;
   std::int64_t turns() const { return turns_; }
 
-  /// The estimator begins anew: as SourceRecord.
+  /// The estimator begins anew: as ObservationRecord.
   void restart();
   void discard_transient(double most);
 
@@ -40,13 +40,13 @@ class Ledger {
   static constexpr double kRecentTurns = 10.0;
 
   struct Source {
-    SourceRecord record;
+    ObservationRecord record;
     Oscillation oscillation = {};
     RecentMean turns_left_out{kRecentTurns};
   };
   const Source& at(SampleSource source) const { return of_[index_of(source)]; }
 
-  SourceRecord all_;
+  ObservationRecord all_;
   std::vector<Source> of_;  ///< By SampleSource.
   std::int64_t turns_ = 0;
 };

@@ -5,17 +5,20 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "pipelines/observation/rejection.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
 
-/// The pulse channels in the order of PulseChannel, then the kinds of samples in that of SampleKind.
+/// The pulse channels in the order of PulseChannel, then the kinds of samples in that of
+/// SampleKind.
 enum class SampleSource : std::uint8_t {
   Sun1,
   Sun2,
@@ -31,6 +34,13 @@ enum class SampleSource : std::uint8_t {
 };
 inline constexpr std::size_t kSampleSources = 11;
 constexpr std::size_t index_of(SampleSource source) { return static_cast<std::size_t>(source); }
+/// As in the archive: that of its channel, or of its kind.
+constexpr std::string_view name_of(SampleSource source) {
+  constexpr std::array<std::string_view, kSampleSources> kNames = {
+      "sun1",        "sun2", "north_in", "north_out", "south_in",    "south_out",
+      "orbit_state", "gyro", "star",     "sun",       "magnetometer"};
+  return kNames.at(index_of(source));
+}
 
 /// Measured minus expected. Edges: s. Star tracker, sun sensor: rad. Magnetometer: nT.
 struct Residual {

@@ -2,8 +2,8 @@
 /// Whether the residuals of a source oscillate about a middle: more noise than stated, or a motion
 /// that the estimator does not know, as nutation, under which the axis that slits and beams see
 /// circles the angular momentum. A gate of fixed width would keep one side of the oscillation and
-/// bias the estimate. Residuals that stay on one side do not oscillate: the estimate, or the sensor,
-/// is elsewhere.
+/// bias the estimate. Residuals that stay on one side do not oscillate: the estimate, or the
+/// sensor, is elsewhere.
 
 #pragma once
 

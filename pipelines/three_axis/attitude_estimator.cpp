@@ -682,7 +682,7 @@ Assessment AttitudeEstimator::assess() const {
   bool is_checked = checks_ >= kEnoughToCheck;
   for (std::size_t i = 0; i < kSampleKinds; ++i) {
     const auto kind = static_cast<SampleKind>(i);
-    const SourceRecord& record = record_of(kind);
+    const ObservationRecord& record = record_of(kind);
     const std::string sensor{name_of(kind)};
     if (is_out(kind)) {
       known.push_back({ReasonCode::SensorGated, {{"sensor", sensor}}});

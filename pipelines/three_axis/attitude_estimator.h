@@ -138,7 +138,7 @@ class AttitudeEstimator {
   void lose(Products& out);
   void give(Products& out);
   void give_where_due(Products& out);
-  const SourceRecord& record_of(SampleKind kind) const { return ledger_.of(source_of(kind)); }
+  const ObservationRecord& record_of(SampleKind kind) const { return ledger_.of(source_of(kind)); }
   double excess_noise() const;
   void forget_gyro();
   bool gyro_is_out() const;

@@ -27,6 +27,12 @@ Expected<std::vector<SeriesPoint>> values_of(SQLite::Database& archive, const st
     if (const SQLite::Column by = rows.getColumn(3); !by.isNull()) {
       point.rejected_by = by.getString();
     }
+    constexpr int kHeld = 4;
+    if (rows.getColumnCount() > kHeld && !rows.getColumn(kHeld).isNull()) {
+      point.held = HeldAgainst{.off = rows.getColumn(kHeld).getDouble(),
+                               .limit = rows.getColumn(kHeld + 1).getDouble(),
+                               .unit = rows.getColumn(kHeld + 2).getString()};
+    }
     points.push_back(std::move(point));
   }
   std::reverse(points.begin(), points.end());

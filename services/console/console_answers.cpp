@@ -61,6 +61,11 @@ nlohmann::json json_of(const SeriesPoint& point) {
   if (!point.rejected_by.empty()) {
     json["rejected_by"] = point.rejected_by;
   }
+  if (point.held) {
+    json["off"] = point.held->off;
+    json["limit"] = point.held->limit;
+    json["off_unit"] = point.held->unit;
+  }
   return json;
 }
 

@@ -12,11 +12,21 @@
 
 namespace spindrift {
 
+/// How far off something was, and what that was held against.
+struct HeldAgainst {
+  double off;
+  double limit;
+  std::string unit;
+
+  bool operator==(const HeldAgainst&) const = default;
+};
+
 struct SeriesPoint {
   std::int64_t t_tai_ns;
   double value;
   std::optional<bool> accepted = {};  ///< Empty: nothing of the kind is rejected.
   std::string rejected_by = {};
+  std::optional<HeldAgainst> held = {};  ///< Empty: no test has a number.
 
   bool operator==(const SeriesPoint&) const = default;
 };

@@ -24,25 +24,43 @@ Quantity quantity(std::string_view name, std::string_view unit, std::string_view
 Quantity measurement(SpinQuantity of) {
   return {.name = std::string{name_of(of)},
           .unit = of == SpinQuantity::Period ? "s" : "deg",
-          .sql = fmt::format("SELECT t_tai_ns, value, accepted, rejected_by FROM revolution CROSS "
-                             "JOIN spin_measurement USING (run_id, revolution) WHERE run_id = ?1 "
-                             "AND quantity = '{}' AND t_tai_ns <= ?2 ORDER BY revolution DESC",
-                             name_of(of))};
+          .sql = fmt::format(
+              "SELECT t_tai_ns, value, accepted, rejected_by, value - expected, \"limit\", unit "
+              "FROM revolution CROSS JOIN spin_measurement USING (run_id, revolution) WHERE "
+              "run_id = ?1 AND quantity = '{}' AND t_tai_ns <= ?2 ORDER BY revolution DESC",
+              name_of(of))};
 }
 
-/// Of an edge that no revolution had a place for by the turn of the edge before it.
+/// Of an edge that no revolution had a place for by the turn of the edge before it. Held against the
+/// limit of the test that left it out, or of the filter.
 Quantity phase(std::string_view channel) {
   return {.name = fmt::format("phase_{}", channel),
           .unit = "deg",
           .sql = fmt::format(
-              "SELECT t_tai_ns, 360 * (turns - floor(turns)), accepted, rejected_by FROM (SELECT "
-              "edge.t_tai_ns, (edge.t_tai_ns - turn.t_tai_ns) / (1e9 * period_s) AS turns, "
-              "accepted, rejected_by FROM pulse_use AS edge CROSS JOIN revolution AS turn ON "
-              "turn.run_id = edge.run_id AND turn.revolution = coalesce(edge.revolution, (SELECT "
+              "SELECT t_tai_ns, 360 * (turns - floor(turns)), accepted, rejected_by, off, \"limit\", "
+              "unit FROM (SELECT edge.t_tai_ns, (edge.t_tai_ns - turn.t_tai_ns) / (1e9 * period_s) "
+              "AS turns, edge.accepted, edge.rejected_by, coalesce(value - expected, residual_ns * "
+              "1.0 / sigma_ns) AS off, coalesce(\"limit\", residual_limit) AS \"limit\", "
+              "coalesce(unit, 'sigma') AS unit FROM pulse_use AS edge CROSS JOIN revolution AS turn "
+              "ON turn.run_id = edge.run_id AND turn.revolution = coalesce(edge.revolution, (SELECT "
               "revolution FROM pulse_use AS before WHERE before.run_id = edge.run_id AND "
               "before.t_tai_ns < edge.t_tai_ns AND before.revolution IS NOT NULL ORDER BY "
-              "before.t_tai_ns DESC LIMIT 1)) WHERE edge.run_id = ?1 AND channel = '{}' AND "
-              "edge.t_tai_ns <= ?2) ORDER BY t_tai_ns DESC",
+              "before.t_tai_ns DESC LIMIT 1)) LEFT JOIN spin_measurement AS test ON test.run_id = "
+              "edge.run_id AND test.revolution = edge.revolution AND test.quantity = "
+              "edge.rejected_by WHERE edge.run_id = ?1 AND channel = '{}' AND edge.t_tai_ns <= ?2) "
+              "ORDER BY t_tai_ns DESC",
+              channel)};
+}
+
+/// What the edges of a channel said to `sequential`.
+Quantity edge_residual(std::string_view channel) {
+  return {.name = fmt::format("residual_{}", channel),
+          .unit = "sigma",
+          .sql = fmt::format(
+              "SELECT t_tai_ns, residual_ns * 1.0 / sigma_ns, used, CASE used WHEN 0 THEN "
+              "'innovation' END, residual_ns * 1.0 / sigma_ns, residual_limit, 'sigma' FROM "
+              "pulse_use WHERE run_id = ?1 AND channel = '{}' AND residual_ns IS NOT NULL AND "
+              "t_tai_ns <= ?2 ORDER BY t_tai_ns DESC",
               channel)};
 }
 
@@ -51,6 +69,17 @@ Quantity phase(std::string_view channel) {
 std::string deviate(std::string_view square, std::string_view freedom) {
   return fmt::format("(pow({0} / {1}, 1.0 / 3) - 1 + 2.0 / (9 * {1})) * sqrt(9 * {1} / 2.0)",
                      square, freedom);
+}
+
+/// What the samples of a kind said to the filter.
+Quantity sample_residual(std::string_view kind) {
+  return {.name = fmt::format("residual_{}", kind),
+          .unit = "sigma",
+          .sql = fmt::format(
+              "SELECT t_tai_ns, {}, used, rejected_by, nis, \"limit\", 'chi-square' FROM "
+              "sample_residual WHERE run_id = ?1 AND kind = '{}' AND dof > 0 AND estimator NOT IN "
+              "('batch', 'sequential') AND t_tai_ns <= ?2 ORDER BY t_tai_ns DESC",
+              deviate("nis", "dof"), kind)};
 }
 
 Quantity innovation() {
@@ -94,6 +123,9 @@ std::vector<Quantity> of_spin() {
                              fmt::format("estimator = '{}'", name_of(estimator))));
     }
   }
+  for (const std::string_view channel : kPulseChannelNames) {
+    all.push_back(edge_residual(channel));
+  }
   all.push_back(quantity("bound_deg", "deg", "spin_batch", "bound_deg", "TRUE"));
   for (const std::string_view column : {"sigma_deg", "ra_deg", "dec_deg"}) {
     all.push_back(fix(column));
@@ -114,6 +146,9 @@ std::vector<Quantity> of_three_axis() {
     all.push_back(quantity(column, "1", "attitude", column, kFiltered));
   }
   all.push_back(innovation());
+  for (const std::string_view kind : {"star", "sun", "magnetometer"}) {
+    all.push_back(sample_residual(kind));
+  }
   return all;
 }
 

@@ -23,6 +23,10 @@ constexpr std::size_t kMostEdgesAtOnce = 1000;
 // More than those edges are of.
 constexpr std::size_t kTurnsKept = 256;
 constexpr std::size_t kActionsKept = 5;
+constexpr std::size_t kFailedKept = 1000;
+// What is shown of the residuals is of the last few hundred of each source.
+constexpr RecordRules kShownRules{
+    .recent = 300.0, .fewest_freedoms = 15.0, .most_freedoms = 300.0, .noise_from_share = 1.0};
 
 std::string_view name_of(LinkState link) {
   constexpr std::array<std::string_view, 3> kNames = {"waiting", "live", "stale"};
@@ -102,7 +106,8 @@ void keep_last(std::size_t most, std::deque<Value>& values) {
 ShownSpacecraft::ShownSpacecraft(const Mission& mission)
     : mission_{mission},
       target_{mission.target},
-      health_{.spacecraft = mission.spacecraft_id, .link = LinkState::Waiting} {}
+      health_{.spacecraft = mission.spacecraft_id, .link = LinkState::Waiting},
+      ledger_{kShownRules} {}
 
 void ShownSpacecraft::show(const std::string& run_id) {
   if (run_id != run_id_) {
@@ -111,6 +116,8 @@ void ShownSpacecraft::show(const std::string& run_id) {
     verdict_.reset();
     periods_s_.clear();
     edges_.clear();
+    failed_.clear();
+    ledger_ = Ledger{kShownRules};
     actions_.clear();
     priors_.clear();
     bound_deg_.reset();
@@ -170,6 +177,13 @@ void ShownSpacecraft::take_details(const ArchiveBatch& stored) {
   for (const Product& product : stored.products) {
     if (const auto* const use = std::get_if<PulseUse>(&product)) {
       edges_.push_back(*use);
+      if (use->said) {
+        ledger_.add({&*use->said, 1});
+      }
+    } else if (const auto* const sample = std::get_if<SampleObservation>(&product)) {
+      ledger_.add({&sample->said, 1});
+    } else if (const auto* const measured = std::get_if<SpinMeasurement>(&product)) {
+      note(*measured);
     } else if (const auto* const turn = std::get_if<RevolutionProduct>(&product)) {
       periods_s_.insert_or_assign(turn->t_sun1, turn->period_s);
     } else if (const auto* const batch = std::get_if<BatchProduct>(&product)) {
@@ -184,6 +198,50 @@ void ShownSpacecraft::take_details(const ArchiveBatch& stored) {
   while (periods_s_.size() > kTurnsKept) {
     periods_s_.erase(periods_s_.begin());
   }
+}
+
+void ShownSpacecraft::note(const SpinMeasurement& measurement) {
+  if (measurement.rejected_by && measurement.test) {
+    failed_.insert_or_assign({measurement.revolution, measurement.quantity}, measurement);
+    if (failed_.size() > kFailedKept) {
+      failed_.erase(failed_.begin());
+    }
+  }
+}
+
+/// As the series of the phase have it: by the test that left the edge out, or by the filter.
+nlohmann::json ShownSpacecraft::held_against(const PulseUse& edge) const {
+  const auto failed =
+      std::find_if(failed_.begin(), failed_.end(), [&edge](const auto& one) {
+        return one.first.first == edge.revolution && edge.rejected_by &&
+               *edge.rejected_by == rejection_of(one.first.second);
+      });
+  if (failed != failed_.end()) {
+    const SpinMeasurement& measured = failed->second;
+    const double unit = SpinMeasurementTable::to_unit(measured);
+    return {{"off", (measured.value - measured.test->expected) * unit},
+            {"limit", measured.test->limit * unit},
+            {"off_unit", SpinMeasurementTable::is_time(measured) ? "s" : "deg"}};
+  }
+  if (edge.said && edge.said->residual.freedom > 0) {
+    return {{"off", edge.said->whitened()},
+            {"limit", std::sqrt(edge.said->limit)},
+            {"off_unit", "sigma"}};
+  }
+  return nlohmann::json::object();
+}
+
+/// By the name of the source.
+nlohmann::json ShownSpacecraft::residuals() const {
+  nlohmann::json all = nlohmann::json::object();
+  for (std::size_t i = 0; i < kSampleSources; ++i) {
+    const auto source = static_cast<SampleSource>(i);
+    if (const ObservationRecord& record = ledger_.of(source); record.heard() > 0.0) {
+      all[std::string{name_of(source)}] = {{"used", 1.0 - record.share_left_out()},
+                                           {"noise", record.noise()}};
+    }
+  }
+  return all;
 }
 
 void ShownSpacecraft::take(const OperatorAction& action) {
@@ -232,6 +290,7 @@ nlohmann::json ShownSpacecraft::state() {
   if (verdict_) {
     state.update(verdict_json(*verdict_));
   }
+  state["residuals"] = residuals();
   state["actions"] = nlohmann::json::array();
   for (const OperatorAction& action : actions_) {
     state["actions"].push_back(action_json(action));
@@ -279,6 +338,7 @@ nlohmann::json ShownSpacecraft::take_pulses() {
     nlohmann::json pulse = json_of(edge);
     const auto phase = phase_deg(edge.pulse.t);
     pulse["phase_deg"] = phase ? nlohmann::json(*phase) : nlohmann::json{};
+    pulse.update(held_against(edge));
     pulses.push_back(std::move(pulse));
   }
   edges_.clear();

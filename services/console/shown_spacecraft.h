@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "pipelines/ephemeris/sun.h"
+#include "pipelines/observation/ledger.h"
 #include "services/archive/records.h"
 #include "services/console/go_no_go.h"
 #include "services/mission/mission.h"
@@ -53,6 +54,9 @@ class ShownSpacecraft {
 
  private:
   void take(const OperatorAction& action);
+  void note(const SpinMeasurement& measurement);
+  nlohmann::json held_against(const PulseUse& edge) const;
+  nlohmann::json residuals() const;
   nlohmann::json prior() const;
   void add_sky(nlohmann::json& state);
   std::optional<double> to_target_deg() const;
@@ -66,6 +70,9 @@ class ShownSpacecraft {
   std::optional<PassVerdict> verdict_;
   std::map<TaiTime, double> periods_s_;                  ///< Of the last turns, by their sun1.
   std::deque<PulseUse> edges_;                           ///< That viewers were not told yet.
+  /// The last measurements that failed their test.
+  std::map<std::pair<std::int64_t, SpinQuantity>, SpinMeasurement> failed_;
+  Ledger ledger_;  ///< Of what edges said to `sequential`, or samples to the filter.
   std::deque<OperatorAction> actions_;                   ///< The last ones.
   std::map<TaiTime, SpinPrior> priors_;                  ///< Set by actions: each from then on.
   std::optional<std::pair<TaiTime, double>> bound_deg_;  ///< Of the last batch solution.

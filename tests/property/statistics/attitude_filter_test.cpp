@@ -67,7 +67,7 @@ void run_pass(const Equipment& equipment, std::mt19937_64& rng, Tally& tally) {
   AttitudeEstimator::Products products;
   const auto take = [&](const auto& sample, const auto& observed, double freedom) {
     if (estimator.filter()) {
-      tally.squared_innovations += estimator.filter()->squared_innovation(observed);
+      tally.squared_innovations += estimator.filter()->innovation(observed).nis;
       tally.innovations += freedom;
     }
     estimator.push(sample, products);

@@ -26,8 +26,8 @@ Eigen::Matrix2d round_covariance(double sigma_rad) {
   return sigma_rad * sigma_rad * Eigen::Matrix2d::Identity();
 }
 
-EdgeStatistics work_in(SpinFilter& filter, const SpinConfig& config,
-                       const ObservedRevolution& seen) {
+RevolutionObservations work_in(SpinFilter& filter, const SpinConfig& config,
+                               const ObservedRevolution& seen) {
   const GoodEdges edges{config, seen.revolution};
   filter.predict(edges.span().front().t);
   return filter.update(config, seen.sky, edges.span());
@@ -155,10 +155,17 @@ TEST(SpinFilter, ASpuriousEdgeIsGatedAndLeavesNoTrace) {
   north_in = shifted(*north_in, 0.01);  // 20 sigmas.
 
   SpinFilter unharmed = filter;
-  EXPECT_TRUE(work_in(unharmed, pass.config, without).gated.none());
-  const EdgeStatistics tally = work_in(filter, pass.config, spurious);
-  EXPECT_EQ(tally.gated, ChannelSet{}.set(index_of(PulseChannel::NorthIn)));
-  EXPECT_EQ(tally.accepted, ~tally.gated);
+  for (const Observation& edge : work_in(unharmed, pass.config, without).edges()) {
+    EXPECT_FALSE(edge.rejected_by);
+    EXPECT_LE(edge.nis, edge.limit);
+  }
+  const RevolutionObservations said = work_in(filter, pass.config, spurious);
+  for (const Observation& edge : said.edges()) {
+    const bool is_spurious = edge.source == SampleSource::NorthIn;
+    EXPECT_EQ(edge.rejected_by.has_value(), is_spurious);
+    EXPECT_NEAR(edge.residual.value[0], is_spurious ? 0.01 : 0.0, 0.002);
+    EXPECT_EQ(edge.nis > edge.limit, is_spurious);
+  }
   EXPECT_EQ(filter.axis_icrf(), unharmed.axis_icrf());
   EXPECT_EQ(filter.axis_covariance_rad2(), unharmed.axis_covariance_rad2());
   EXPECT_EQ(filter.rate_rad_s(), unharmed.rate_rad_s());
@@ -216,7 +223,9 @@ TEST_P(SpinFilterAt, AxisAndCovarianceAreAsGoodAsElsewhere) {
                                           seen[0].revolution, seen[0].sky)
                             .value();
     for (std::size_t i = 1; i < seen.size(); ++i) {
-      EXPECT_TRUE(work_in(filter, body.config, seen[i]).gated.none());
+      for (const Observation& edge : work_in(filter, body.config, seen[i]).edges()) {
+        EXPECT_FALSE(edge.rejected_by);
+      }
     }
     EXPECT_LT(squared_error(filter, body.axis_icrf), kOneInTenThousand) << "trial " << trial;
     EXPECT_LT(sigma_deg(filter), 0.15);

@@ -10,6 +10,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/observation/innovation_gate.h"
 #include "tests/support/turning_body.h"
 
 namespace spindrift::attitude_estimator_test {

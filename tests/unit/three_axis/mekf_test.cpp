@@ -80,7 +80,7 @@ TEST(Mekf, AFixIsWeighedAgainstWhatWasKnown) {
   Mekf filter{known_to(truth, 0.003), 0.001};
   const Vector3d off_rad{0.004, 0.0, -0.001};
   const ObservedAttitude fix{truth * quaternion_by(off_rad), 0.001};
-  EXPECT_NEAR(filter.squared_innovation(fix), off_rad.squaredNorm() / 1e-5, 1e-9);
+  EXPECT_NEAR(filter.innovation(fix).nis, off_rad.squaredNorm() / 1e-5, 1e-9);
   filter.update(fix);
   EXPECT_NEAR((error_rad(truth, filter.q_icrf_body()) - 0.9 * off_rad).norm(), 0.0, 1e-8);
   EXPECT_NEAR((filter.attitude_covariance_rad2() - 9e-7 * Matrix3d::Identity()).norm(), 0.0, 1e-11);
@@ -96,7 +96,7 @@ TEST(Mekf, EitherSignOfTheQuaternionIsTheSameFix) {
     Mekf other = one;
     const ObservedAttitude fix{measured, 0.01};
     const ObservedAttitude flipped{Eigen::Quaterniond{-measured.coeffs()}, 0.01};
-    ASSERT_EQ(one.squared_innovation(fix), other.squared_innovation(flipped));
+    ASSERT_EQ(one.innovation(fix).nis, other.innovation(flipped).nis);
     one.update(fix);
     other.update(flipped);
     ASSERT_EQ(one.q_icrf_body().coeffs(), other.q_icrf_body().coeffs());

@@ -1,4 +1,4 @@
-#include "pipelines/observation/source_record.h"
+#include "pipelines/observation/observation_record.h"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@
 
 namespace spindrift {
 
-void SourceRecord::add(std::span<const Observation> together) {
+void ObservationRecord::add(std::span<const Observation> together) {
   for (const Observation& observation : together) {
     const bool is_left_out = observation.rejected_by.has_value();
     for (RecentMean* share : {&recent_share_, &share_from_the_start_, &share_for_noise_}) {
@@ -22,22 +22,22 @@ void SourceRecord::add(std::span<const Observation> together) {
   }
 }
 
-double SourceRecord::excess_noise() const {
+double ObservationRecord::excess_noise() const {
   return mean_square_.count() >= rules_.fewest_freedoms
              ? variance_factor(mean_square_.mean(), mean_square_.count())
              : 1.0;
 }
 
-void SourceRecord::restart() {
-  const SourceRecord before = *this;
-  *this = SourceRecord{rules_};
+void ObservationRecord::restart() {
+  const ObservationRecord before = *this;
+  *this = ObservationRecord{rules_};
   share_for_noise_ = before.share_for_noise_;
   mean_square_ = before.mean_square_;
   share_for_noise_.fade(rules_.fewest_freedoms);
   mean_square_.fade(rules_.fewest_freedoms);
 }
 
-void SourceRecord::discard_transient(double most) {
+void ObservationRecord::discard_transient(double most) {
   share_for_noise_.fade(rules_.fewest_freedoms);
   mean_square_.fade(rules_.fewest_freedoms);
   mean_square_.limit(most);

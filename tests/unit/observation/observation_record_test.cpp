@@ -1,4 +1,4 @@
-#include "pipelines/observation/source_record.h"
+#include "pipelines/observation/observation_record.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "pipelines/observation/innovation_gate.h"
 
-namespace spindrift::source_record_test {
+namespace spindrift::observation_record_test {
 
 // Of a normal variable beyond five standard deviations, either way.
 const double kChance = std::erfc(5.0 / std::numbers::sqrt2);
@@ -51,24 +51,26 @@ Observation left_out(double limit, int freedom) {
           .rejected_by = Rejection::Innovation};
 }
 
-void add(SourceRecord& record, const Observation& observation) { record.add({&observation, 1}); }
+void add(ObservationRecord& record, const Observation& observation) {
+  record.add({&observation, 1});
+}
 
-void reject(SourceRecord& record, int samples) {
+void reject(ObservationRecord& record, int samples) {
   for (int i = 0; i < samples; ++i) {
     add(record, left_out(innovation_gate(3), 3));
   }
 }
 
-void accept(SourceRecord& record, int samples, double square = 3.0, int freedom = 3) {
+void accept(ObservationRecord& record, int samples, double square = 3.0, int freedom = 3) {
   for (int i = 0; i < samples; ++i) {
     add(record, used(square, freedom));
   }
 }
 
-bool many_left_out(const SourceRecord& record) { return record.share_left_out() > 0.4; }
+bool many_left_out(const ObservationRecord& record) { return record.share_left_out() > 0.4; }
 
 /// So many turns of six edges, some of which are left out.
-void add_turns(SourceRecord& record, int turns, double square, std::size_t gated = 0) {
+void add_turns(ObservationRecord& record, int turns, double square, std::size_t gated = 0) {
   std::vector<Observation> turn(gated, left_out(kGate, 1));
   turn.resize(6, used(square, 1));
   for (int i = 0; i < turns; ++i) {
@@ -76,14 +78,14 @@ void add_turns(SourceRecord& record, int turns, double square, std::size_t gated
   }
 }
 
-TEST(SourceRecord, OfNothingSaysNothing) {
-  const SourceRecord record{kRules};
+TEST(ObservationRecord, OfNothingSaysNothing) {
+  const ObservationRecord record{kRules};
   EXPECT_FALSE(many_left_out(record));
   EXPECT_EQ(record.excess_noise(), 1.0);
 }
 
-TEST(SourceRecord, OfWhichNoneFitsIsRejectedAltogether) {
-  SourceRecord record{kRules};
+TEST(ObservationRecord, OfWhichNoneFitsIsRejectedAltogether) {
+  ObservationRecord record{kRules};
   reject(record, 1);
   EXPECT_EQ(record.share_left_out(), 1.0);
   reject(record, 50);
@@ -94,17 +96,17 @@ TEST(SourceRecord, OfWhichNoneFitsIsRejectedAltogether) {
 }
 
 /// Of the first twenty the plain share.
-TEST(SourceRecord, TwoFifthsOfTheFirstSamplesAreNotYetMany) {
+TEST(ObservationRecord, TwoFifthsOfTheFirstSamplesAreNotYetMany) {
   for (const int rejected : {8, 9}) {
-    SourceRecord record{kRules};
+    ObservationRecord record{kRules};
     reject(record, rejected);
     accept(record, 20 - rejected);
     EXPECT_EQ(many_left_out(record), rejected > 8);
   }
 }
 
-TEST(SourceRecord, ASensorThatIsRejectedAltogetherIsSoAtTheTenthSample) {
-  SourceRecord record{kRules};
+TEST(ObservationRecord, ASensorThatIsRejectedAltogetherIsSoAtTheTenthSample) {
+  ObservationRecord record{kRules};
   accept(record, 1000);
   reject(record, 9);
   EXPECT_FALSE(many_left_out(record));
@@ -114,10 +116,10 @@ TEST(SourceRecord, ASensorThatIsRejectedAltogetherIsSoAtTheTenthSample) {
   EXPECT_FALSE(many_left_out(record));
 }
 
-TEST(SourceRecord, ASensorOfWhichEveryTenthSampleIsBadIsNot) {
+TEST(ObservationRecord, ASensorOfWhichEveryTenthSampleIsBadIsNot) {
   std::mt19937_64 rng{1};
   std::bernoulli_distribution is_bad{0.1};
-  SourceRecord record{kRules};
+  ObservationRecord record{kRules};
   accept(record, 5);
   for (int i = 0; i < 20'000; ++i) {
     if (is_bad(rng)) {
@@ -130,13 +132,13 @@ TEST(SourceRecord, ASensorOfWhichEveryTenthSampleIsBadIsNot) {
 }
 
 double excess_of(double square_per_freedom, int freedom, int samples) {
-  SourceRecord record{kRules};
+  ObservationRecord record{kRules};
   accept(record, samples, square_per_freedom * freedom, freedom);
   return record.excess_noise();
 }
 
 /// The mean of n squares of unit variance has the standard deviation sqrt(2 / n).
-TEST(SourceRecord, ExcessIsWhatLiesFiveSigmasOut) {
+TEST(ObservationRecord, ExcessIsWhatLiesFiveSigmasOut) {
   for (const int freedom : {1, 2, 3}) {
     const double limit = 1.0 + 5.0 * std::sqrt(2.0 / (60.0 * freedom));
     EXPECT_EQ(excess_of(0.99 * limit, freedom, 60), 1.0);
@@ -144,23 +146,23 @@ TEST(SourceRecord, ExcessIsWhatLiesFiveSigmasOut) {
   }
 }
 
-TEST(SourceRecord, ThirtyDegreesOfFreedomAreTheFewestThatSpeakOfNoise) {
+TEST(ObservationRecord, ThirtyDegreesOfFreedomAreTheFewestThatSpeakOfNoise) {
   EXPECT_EQ(excess_of(100.0, 3, 9), 1.0);
   EXPECT_NEAR(excess_of(100.0, 3, 10), 100.0, 1e-9);
   EXPECT_EQ(excess_of(100.0, 1, 29), 1.0);
   EXPECT_NEAR(excess_of(100.0, 1, 30), 100.0, 1e-9);
 }
 
-TEST(SourceRecord, MeasuresHowManyTimesTheVarianceIsWhatItShouldBe) {
+TEST(ObservationRecord, MeasuresHowManyTimesTheVarianceIsWhatItShouldBe) {
   std::mt19937_64 rng{2};
   for (const double times : {1.0, 2.0, 9.0}) {
     double mean = 0.0;
     for (int run = 0; run < 50; ++run) {
-      SourceRecord record{kRules};
+      ObservationRecord record{kRules};
       for (int i = 0; i < 150; ++i) {
         const int freedom = 1 + i % 3;
-        accept(record, 1,
-               times * std::chi_squared_distribution{static_cast<double>(freedom)}(rng), freedom);
+        accept(record, 1, times * std::chi_squared_distribution{static_cast<double>(freedom)}(rng),
+               freedom);
       }
       mean += record.excess_noise() / 50.0;
     }
@@ -168,15 +170,15 @@ TEST(SourceRecord, MeasuresHowManyTimesTheVarianceIsWhatItShouldBe) {
   }
 }
 
-TEST(SourceRecord, RejectedSamplesSayNothingOfTheNoise) {
-  SourceRecord record{kRules};
+TEST(ObservationRecord, RejectedSamplesSayNothingOfTheNoise) {
+  ObservationRecord record{kRules};
   accept(record, 100, 2.0 * 3.0);
   reject(record, 100);
   EXPECT_NEAR(record.excess_noise(), 2.0, 1e-9);
 }
 
-TEST(SourceRecord, ForgetsNoiseThatIsOver) {
-  SourceRecord record{kRules};
+TEST(ObservationRecord, ForgetsNoiseThatIsOver) {
+  ObservationRecord record{kRules};
   accept(record, 1000, 4.0 * 3.0);
   accept(record, 300, 3.0);
   // Nine hundred degrees of freedom on, an e-th of it.
@@ -185,9 +187,9 @@ TEST(SourceRecord, ForgetsNoiseThatIsOver) {
   EXPECT_EQ(record.excess_noise(), 1.0);
 }
 
-TEST(SourceRecord, AFewOfTheEdgesLeftOutAreSpuriousAndManyAreNoise) {
+TEST(ObservationRecord, AFewOfTheEdgesLeftOutAreSpuriousAndManyAreNoise) {
   const auto excess_with = [](std::size_t gated, double square) {
-    SourceRecord record{kOfEdges};
+    ObservationRecord record{kOfEdges};
     add_turns(record, 300, square, gated);
     return record.excess_noise();
   };
@@ -197,8 +199,8 @@ TEST(SourceRecord, AFewOfTheEdgesLeftOutAreSpuriousAndManyAreNoise) {
   EXPECT_GT(excess_with(4, 1.0), excess_with(2, 1.0));
 }
 
-TEST(SourceRecord, BegunAnewThePastSpeaksLikeTheFewest) {
-  SourceRecord record{kOfEdges};
+TEST(ObservationRecord, BegunAnewThePastSpeaksLikeTheFewest) {
+  ObservationRecord record{kOfEdges};
   add_turns(record, 100, 2.0, 1);
   record.restart();
   EXPECT_EQ(record.left_out(), 0);
@@ -211,17 +213,17 @@ TEST(SourceRecord, BegunAnewThePastSpeaksLikeTheFewest) {
   EXPECT_NEAR(record.excess_noise(), (45.0 * 2.0 + 60.0 * 4.0) / 105.0, 1e-9);
 }
 
-TEST(SourceRecord, OfATransientLittleIsLeftThatGoodEdgesSoonOverrule) {
-  SourceRecord record{kOfEdges};
+TEST(ObservationRecord, OfATransientLittleIsLeftThatGoodEdgesSoonOverrule) {
+  ObservationRecord record{kOfEdges};
   add_turns(record, 100, 50.0);
   record.discard_transient(4.0);
   EXPECT_NEAR(record.excess_noise(), 4.0, 1e-9);
   add_turns(record, 5, 1.0);
   EXPECT_EQ(record.excess_noise(), 1.0);
-  SourceRecord less{kOfEdges};
+  ObservationRecord less{kOfEdges};
   add_turns(less, 100, 3.0);
   less.discard_transient(4.0);
   EXPECT_NEAR(less.excess_noise(), 3.0, 1e-9);
 }
 
-}  // namespace spindrift::source_record_test
+}  // namespace spindrift::observation_record_test

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -20,9 +21,9 @@ struct RecordRules {
   double noise_from_share;
 };
 
-class SourceRecord {
+class ObservationRecord {
  public:
-  explicit SourceRecord(const RecordRules& rules)
+  explicit ObservationRecord(const RecordRules& rules)
       : rules_{rules},
         recent_share_{rules.recent, rules.recent},
         share_from_the_start_{rules.recent},
@@ -40,6 +41,8 @@ class SourceRecord {
   double heard() const { return share_from_the_start_.count(); }
   std::int64_t left_out() const { return left_out_; }
 
+  /// Root of the mean square of a residual in its sigmas, of what was used: 1 when all is well.
+  double noise() const { return std::sqrt(mean_square_.mean()); }
   /// How many times the variance of a residual is what its sigma makes it, where that is
   /// significantly more than 1 (variance_factor.h); else 1.
   double excess_noise() const;
