@@ -27,17 +27,21 @@ CREATE TABLE run (
   config_sha256    TEXT NOT NULL,
   config_path      TEXT NOT NULL,     -- where it was read, absolute; an orbit file that it names is relative to it
   orbit_sha256     TEXT,              -- of the orbit file; NULL: the mission names none
+  telemetry_sha256 TEXT,              -- of all bytes of its files, in their order; NULL: it did not come from files
+  label            TEXT,              -- that somebody gave it; NULL: none
   started_utc      TEXT NOT NULL,
   finished_utc     TEXT,              -- NULL: running, interrupted or killed
   first_arrival    INTEGER NOT NULL,  -- no sample of the run has an earlier one; rises from run to run
-  first_tai_ns     INTEGER            -- the earliest of the run's samples; NULL: none yet
+  first_tai_ns     INTEGER,           -- the earliest of the run's samples; NULL: none yet
+  last_tai_ns      INTEGER,           -- the latest, as of the last minute of telemetry; of a run that ended exactly
+  contact_share    REAL               -- of the ten-second spans of [contact], those in which samples came; NULL: none is planned
 ) STRICT;
 
 -- Where its telemetry came from, in the order of the command line.
 CREATE TABLE run_telemetry (
   run_id    TEXT NOT NULL REFERENCES run,
   position  INTEGER NOT NULL CHECK (position >= 1),
-  telemetry TEXT NOT NULL,  -- the path of a file or folder, or 'DDS domain N, partition P'
+  telemetry TEXT NOT NULL,  -- the absolute path of a file or folder, or 'DDS domain N, partition P'
   PRIMARY KEY (run_id, position)
 ) STRICT, WITHOUT ROWID;
 
@@ -373,6 +377,7 @@ CREATE TABLE spin_estimate (
     OR quality = 'LOST'),
   reasons              TEXT NOT NULL,  -- JSON: array of objects with `code` and values
   status               TEXT NOT NULL,  -- a sentence for people made of the two
+  announced_utc        TEXT,           -- of a live run, when it was stored, at once before it was announced; else NULL
   PRIMARY KEY (run_id, estimator, t_tai_ns)  -- the last of each is looked for once a second
 ) STRICT, WITHOUT ROWID;
 
@@ -382,9 +387,9 @@ CREATE TABLE spin_bias (
   run_id     TEXT NOT NULL REFERENCES run,
   estimator  TEXT NOT NULL CHECK (estimator IN ('mean', 'sequential', 'batch')),
   name       TEXT NOT NULL,
-  value      REAL NOT NULL,  -- measured minus true
+  value      REAL CHECK ((value IS NULL) = (observable = 0)),  -- measured minus true
   unit       TEXT NOT NULL,
-  sigma      REAL NOT NULL CHECK (sigma >= 0),
+  sigma      REAL NOT NULL CHECK (sigma >= 0),  -- of the prior where it is not observable
   observable INTEGER NOT NULL CHECK (observable IN (0, 1)),
   -- 1: estimated with the axis; 0: held at zero, and the row is what the edges would say of all biases
   -- together, a hint where to look.
@@ -474,6 +479,16 @@ CREATE TABLE run_fault (
   PRIMARY KEY (run_id, t_tai_ns)
 ) STRICT, WITHOUT ROWID;
 
+-- What a person should know of a run beside its numbers: what `--json` gives as `warnings`.
+CREATE TABLE notice (
+  run_id    TEXT NOT NULL REFERENCES run,
+  t_tai_ns  INTEGER,           -- NULL: it is of the whole run
+  code      TEXT NOT NULL,
+  arguments TEXT NOT NULL,     -- JSON: an object
+  says      TEXT NOT NULL,     -- a sentence
+  PRIMARY KEY (run_id, code, arguments)
+) STRICT, WITHOUT ROWID;
+
 -- Flight against the ground model, of a run of `compare`. Flight minus model in the unit of the channel, all samples; outside: of
 -- those, not within the band; normalised_rms: over the noise that the model gives the channel; NULL: no samples, as of
 -- a channel that only has to come, unit ''. departed_...: the first instant from which on flight stays away, the
@@ -512,16 +527,38 @@ CREATE TABLE attitude (
   rate_y_rad_s REAL,
   rate_z_rad_s REAL,
   sigma_deg    REAL NOT NULL CHECK (sigma_deg >= 0),
+  cov_xx_deg2  REAL NOT NULL,  -- of a small turn about the axes of the body; sigma_deg is the root of its trace
+  cov_xy_deg2  REAL NOT NULL,
+  cov_xz_deg2  REAL NOT NULL,
+  cov_yy_deg2  REAL NOT NULL,
+  cov_yz_deg2  REAL NOT NULL,
+  cov_zz_deg2  REAL NOT NULL,
   quality      TEXT NOT NULL CHECK (
     quality = 'OK' OR quality = 'CONVERGING' OR quality = 'AMBIGUOUS' OR quality = 'DOUBTFUL'
     OR quality = 'LOST'),
   reasons      TEXT NOT NULL,  -- as in spin_estimate
   status       TEXT NOT NULL,
+  announced_utc TEXT,          -- as in spin_estimate
   -- Of the samples that the filter accepted since its estimate before: the sum of their normalised squared
   -- innovations, a chi-square of innovation_freedom degrees of freedom when all is well. NULL: of no filter
   squared_innovations REAL,
   innovation_freedom  INTEGER,
   PRIMARY KEY (run_id, t_tai_ns, source)
+) STRICT, WITHOUT ROWID;
+
+-- Of the gyro as a filter has it, body axes, at most once a second of telemetry time: what the gyro says more
+-- than the body turns.
+CREATE TABLE gyro_bias (
+  run_id         TEXT NOT NULL REFERENCES run,
+  t_tai_ns       INTEGER NOT NULL,
+  estimator      TEXT NOT NULL,
+  bx_deg_s       REAL NOT NULL,
+  by_deg_s       REAL NOT NULL,
+  bz_deg_s       REAL NOT NULL,
+  sigma_bx_deg_s REAL NOT NULL CHECK (sigma_bx_deg_s >= 0),
+  sigma_by_deg_s REAL NOT NULL CHECK (sigma_by_deg_s >= 0),
+  sigma_bz_deg_s REAL NOT NULL CHECK (sigma_bz_deg_s >= 0),
+  PRIMARY KEY (run_id, t_tai_ns, estimator)
 ) STRICT, WITHOUT ROWID;
 
 -- The attitude from separation to the star fixes, reconstructed: its events and its history stand in the two
@@ -576,6 +613,12 @@ CREATE TABLE reconstruction_event (
   euler312_orbit_deg_2 REAL,
   euler312_orbit_deg_3 REAL,
   sigma_deg            REAL NOT NULL CHECK (sigma_deg >= 0),
+  cov_xx_deg2          REAL NOT NULL,  -- as in attitude
+  cov_xy_deg2          REAL NOT NULL,
+  cov_xz_deg2          REAL NOT NULL,
+  cov_yy_deg2          REAL NOT NULL,
+  cov_yz_deg2          REAL NOT NULL,
+  cov_zz_deg2          REAL NOT NULL,
   bound_deg            REAL,
   PRIMARY KEY (run_id, method, event)
 ) STRICT, WITHOUT ROWID;

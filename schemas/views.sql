@@ -85,16 +85,50 @@ SELECT
   *
 FROM rejected_sample JOIN rejection USING (rejected_by);
 
-CREATE VIEW spin_measurement_utc AS
-SELECT revolution_utc.utc, spin_measurement.*
-FROM spin_measurement LEFT JOIN revolution_utc USING (run_id, revolution);
+-- Of what, when, and in words.
+CREATE VIEW notice_utc AS
+SELECT
+  (SELECT strftime('%Y-%m-%dT%H:%M:', t_tai_ns / 1000000000 - tai_minus_utc_s, 'unixepoch')
+     || format('%02d.%03dZ',
+               (t_tai_ns / 1000000000 - tai_minus_utc_s) % 60 + (start_tai_ns > t_tai_ns),
+               t_tai_ns / 1000000 % 1000)
+   FROM leap_second WHERE start_tai_ns <= t_tai_ns + 1000000000
+   ORDER BY start_tai_ns DESC LIMIT 1) AS utc,
+  *
+FROM notice;
 
--- Every edge that a run left out, the test that did, and in words.
+-- The time of a revolution is that of its sun1, or of its first edge where it has none.
+CREATE VIEW spin_measurement_utc AS
+SELECT
+  (SELECT strftime('%Y-%m-%dT%H:%M:', t_tai_ns / 1000000000 - tai_minus_utc_s, 'unixepoch')
+     || format('%02d.%03dZ',
+               (t_tai_ns / 1000000000 - tai_minus_utc_s) % 60 + (start_tai_ns > t_tai_ns),
+               t_tai_ns / 1000000 % 1000)
+   FROM leap_second WHERE start_tai_ns <= t_tai_ns + 1000000000
+   ORDER BY start_tai_ns DESC LIMIT 1) AS utc,
+  *
+FROM (
+  SELECT ifnull(
+      (SELECT t_tai_ns FROM revolution
+       WHERE revolution.run_id = spin_measurement.run_id AND revolution.revolution = spin_measurement.revolution),
+      (SELECT min(t_tai_ns) FROM pulse_use
+       WHERE pulse_use.run_id = spin_measurement.run_id AND pulse_use.revolution = spin_measurement.revolution)
+    ) AS t_tai_ns, spin_measurement.*
+  FROM spin_measurement
+);
+
+-- Every edge that a run left out, the test that did, and in words. Edges of coded telemetry have no source here.
 CREATE VIEW rejected_pulse AS
-SELECT run_id, utc, spacecraft_id, t_tai_ns, channel, revolution, rejected_by, says,
-  source, session, seq
+SELECT run_id,
+  (SELECT strftime('%Y-%m-%dT%H:%M:', t_tai_ns / 1000000000 - tai_minus_utc_s, 'unixepoch')
+     || format('%02d.%03dZ',
+               (t_tai_ns / 1000000000 - tai_minus_utc_s) % 60 + (start_tai_ns > t_tai_ns),
+               t_tai_ns / 1000000 % 1000)
+   FROM leap_second WHERE start_tai_ns <= t_tai_ns + 1000000000
+   ORDER BY start_tai_ns DESC LIMIT 1) AS utc,
+  spacecraft_id, t_tai_ns, channel, revolution, rejected_by, says, source, session, seq
 FROM pulse_use JOIN rejection USING (rejected_by)
-  LEFT JOIN pulse_utc USING (spacecraft_id, t_tai_ns, channel)
+  LEFT JOIN pulse USING (spacecraft_id, t_tai_ns, channel)
 WHERE accepted = 0;
 
 -- How many edges, measurements, other samples and input rows were left out, by reason.
@@ -169,6 +203,24 @@ FROM run CROSS JOIN attitude_utc ON attitude_utc.run_id = run.run_id
     (SELECT t_tai_ns, source FROM attitude WHERE attitude.run_id = run.run_id
      AND source NOT IN ('batch', 'sequential') ORDER BY t_tai_ns DESC, source LIMIT 1);
 
+-- When its telemetry begins and ends.
+CREATE VIEW run_utc AS
+SELECT
+  (SELECT strftime('%Y-%m-%dT%H:%M:', first_tai_ns / 1000000000 - tai_minus_utc_s, 'unixepoch')
+     || format('%02d.%03dZ',
+               (first_tai_ns / 1000000000 - tai_minus_utc_s) % 60 + (start_tai_ns > first_tai_ns),
+               first_tai_ns / 1000000 % 1000)
+   FROM leap_second WHERE start_tai_ns <= first_tai_ns + 1000000000
+   ORDER BY start_tai_ns DESC LIMIT 1) AS start_utc,
+  (SELECT strftime('%Y-%m-%dT%H:%M:', last_tai_ns / 1000000000 - tai_minus_utc_s, 'unixepoch')
+     || format('%02d.%03dZ',
+               (last_tai_ns / 1000000000 - tai_minus_utc_s) % 60 + (start_tai_ns > last_tai_ns),
+               last_tai_ns / 1000000 % 1000)
+   FROM leap_second WHERE start_tai_ns <= last_tai_ns + 1000000000
+   ORDER BY start_tai_ns DESC LIMIT 1) AS end_utc,
+  *
+FROM run;
+
 -- One row a run: the answer to report, that of `batch`, where there is none of `sequential`, else of `mean`, or
 -- the last attitude, or of a run that only reconstructed a separation the attitude at T1; and whether to act on it:
 -- one of a run that failed to compute (run_fault) is DOUBTFUL, unless it is LOST. One that claims its axis is no
@@ -177,9 +229,14 @@ FROM run CROSS JOIN attitude_utc ON attitude_utc.run_id = run.run_id
 -- to qw NULL, an attitude ra_deg, dec_deg and the rates. `why` is first what speaks against the answer, then its own status;
 -- `against` what speaks against it alone, with its own status unless that is OK: empty where nothing does.
 -- Answers are joined by the key of their table: SQLite would find those of all runs to join one of a view.
+-- consider_sigma_deg: what the sigma would be were no sensor's error known better than beforehand; NULL: the
+-- estimator does not say. cov_*: of a spin axis east and north in the tangent plane, of an attitude about the axes of
+-- the body; the others NULL. start_utc, end_utc: of the telemetry. contact_share: as in run.
 CREATE VIEW pass_verdict AS
 SELECT run_id, spacecraft_id, started_utc, finished, estimator, quality, ra_deg, dec_deg, qx, qy, qz, qw, sigma_deg,
-  spin_rate_rpm, sigma_rpm, others || status AS why,
+  consider_sigma_deg, cov_east_east_deg2, cov_east_north_deg2, cov_north_north_deg2, cov_xx_deg2, cov_xy_deg2,
+  cov_xz_deg2, cov_yy_deg2, cov_yz_deg2, cov_zz_deg2, spin_rate_rpm, sigma_rpm, start_utc, end_utc, contact_share,
+  others || status AS why,
   CASE own_quality WHEN 'OK' THEN rtrim(others, '; ') ELSE others || status END AS against
 FROM (
   SELECT run.run_id, run.spacecraft_id, run.started_utc, run.finished_utc IS NOT NULL AS finished,
@@ -194,6 +251,14 @@ FROM (
     ra_deg, dec_deg, ifnull(attitude.qx, event.qx) AS qx, ifnull(attitude.qy, event.qy) AS qy,
     ifnull(attitude.qz, event.qz) AS qz, ifnull(attitude.qw, event.qw) AS qw,
     coalesce(axis.sigma_deg, attitude.sigma_deg, event.sigma_deg) AS sigma_deg, spin_rate_rpm, sigma_rpm,
+    (SELECT consider_sigma_deg FROM spin_batch WHERE axis.estimator = 'batch'
+     AND spin_batch.run_id = axis.run_id AND spin_batch.t_tai_ns = axis.t_tai_ns) AS consider_sigma_deg,
+    cov_east_east_deg2, cov_east_north_deg2, cov_north_north_deg2,
+    ifnull(attitude.cov_xx_deg2, event.cov_xx_deg2) AS cov_xx_deg2, ifnull(attitude.cov_xy_deg2, event.cov_xy_deg2) AS cov_xy_deg2,
+    ifnull(attitude.cov_xz_deg2, event.cov_xz_deg2) AS cov_xz_deg2, ifnull(attitude.cov_yy_deg2, event.cov_yy_deg2) AS cov_yy_deg2,
+    ifnull(attitude.cov_yz_deg2, event.cov_yz_deg2) AS cov_yz_deg2, ifnull(attitude.cov_zz_deg2, event.cov_zz_deg2) AS cov_zz_deg2,
+    (SELECT start_utc FROM run_utc WHERE run_utc.run_id = run.run_id) AS start_utc,
+    (SELECT end_utc FROM run_utc WHERE run_utc.run_id = run.run_id) AS end_utc, run.contact_share,
     ifnull('computing failed' || ifnull(' at ' || fault.utc, '') || ': ' || fault.what || '; ', '')
       || ifnull((SELECT group_concat(
         CASE WHEN disagree THEN format('%s and %s disagree by %.3f deg, %.1f sigma; ', one, other, apart_deg, apart_sigmas)
@@ -212,3 +277,12 @@ FROM (
   LEFT JOIN run_fault_utc AS fault ON fault.run_id = run.run_id AND fault.t_tai_ns =
     (SELECT min(t_tai_ns) FROM run_fault WHERE run_fault.run_id = run.run_id)
 );
+
+-- The attitude at separation, one row a run with a reconstruction: by `batch`, where there is none by `sequential`.
+CREATE VIEW separation_verdict AS
+SELECT run_id, method, quality, reconstruction_event.t_tai_ns AS t1_tai_ns, qx, qy, qz, qw, sigma_deg,
+  cov_xx_deg2, cov_xy_deg2, cov_xz_deg2, cov_yy_deg2, cov_yz_deg2, cov_zz_deg2, launcher_angle_deg, launcher_chance,
+  status AS why
+FROM reconstruction JOIN reconstruction_event USING (run_id, method)
+WHERE event = 'T1'
+  AND method = (SELECT min(method) FROM reconstruction AS one WHERE one.run_id = reconstruction.run_id);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "pipelines/core/assessment.h"
+#include "pipelines/three_axis/products.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -50,11 +51,6 @@ struct ReconstructedEvent {
   /// Of `batch`. Cramer-Rao bound of the error about all three axes together, with the noise as
   /// stated and the priors.
   std::optional<double> bound_rad = std::nullopt;
-};
-
-struct GyroBias {
-  Eigen::Vector3d rad_s;
-  Eigen::Matrix3d covariance_rad2_s2;
 };
 
 struct SunMisalignment {

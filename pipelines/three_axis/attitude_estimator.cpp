@@ -30,6 +30,8 @@ constexpr double kAtOnce_s = 1.0;
 constexpr int kFrozenForLong = 5;
 // At most ten estimates a second of telemetry time, however the times of samples jitter.
 constexpr double kShortest_s = 0.095;
+// A bias wanders in hours.
+constexpr double kBetweenBiases_s = 1.0;
 
 /// Its trace is the mean square of the angle between two attitudes of which nothing is known.
 Matrix3d any_attitude_rad2() {
@@ -563,6 +565,11 @@ void AttitudeEstimator::give(Products& out) {
                             .innovations = std::exchange(since_given_, {})};
   if (rate_rad_s_ && !gyro_is_out()) {
     estimate.rate_body_rad_s = *rate_rad_s_ - filter_->bias_rad_s();
+  }
+  if (gyro_.last() && (!bias_given_ || elapsed_s(*bias_given_, *t_) >= kBetweenBiases_s)) {
+    bias_given_ = t_;
+    estimate.gyro_bias = {.rad_s = filter_->bias_rad_s(),
+                          .covariance_rad2_s2 = filter_->covariance().bottomRightCorner<3, 3>()};
   }
   out.emplace_back(std::move(estimate));
 }

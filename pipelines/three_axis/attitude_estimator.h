@@ -173,8 +173,9 @@ class AttitudeEstimator {
   double longest_gap_s_ = 0.0;  ///< Of those.
   std::optional<TaiTime> since_;
   bool began_anew_ = false;
-  std::optional<TaiTime> given_;  ///< The last estimate.
-  Innovations since_given_;       ///< Since that.
+  std::optional<TaiTime> given_;       ///< The last estimate.
+  std::optional<TaiTime> bias_given_;  ///< The last estimate with the bias of the gyro.
+  Innovations since_given_;            ///< Since that.
 };
 
 }  // namespace spindrift

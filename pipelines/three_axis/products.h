@@ -69,6 +69,12 @@ struct Innovations {
   std::int64_t freedom = 0;  ///< Of so many degrees of freedom.
 };
 
+/// What the gyro says more than the body turns, body axes.
+struct GyroBias {
+  Eigen::Vector3d rad_s;
+  Eigen::Matrix3d covariance_rad2_s2;
+};
+
 struct AttitudeEstimate {
   TaiTime t;
   Eigen::Quaterniond q_icrf_body;
@@ -76,7 +82,8 @@ struct AttitudeEstimate {
   Eigen::Matrix3d covariance_rad2;                 ///< Of a small turn, body axes.
   Assessment assessment;
   AttitudeSource source = AttitudeSource::Mekf;
-  Innovations innovations = {};  ///< Since the estimate before.
+  Innovations innovations = {};            ///< Since the estimate before.
+  std::optional<GyroBias> gyro_bias = {};  ///< At most once a second.
 
   double sigma_rad() const;  ///< Root of the trace.
 };

@@ -13,6 +13,7 @@
 
 #include "services/archive/bind.h"
 #include "services/archive/connection.h"
+#include "services/clock/wall_clock.h"
 
 namespace spindrift {
 namespace {
@@ -61,15 +62,17 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                   " ON CONFLICT DO UPDATE SET kind = excluded.kind"},
       run_{database,
            "INSERT INTO run (run_id, spacecraft_id, mode, software_version, config_toml,"
-           " config_sha256, config_path, orbit_sha256, started_utc, first_arrival)"
-           " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
+           " config_sha256, config_path, orbit_sha256, telemetry_sha256, label, started_utc,"
+           " first_arrival) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"},
       run_telemetry_{database,
                      "INSERT INTO run_telemetry (run_id, position, telemetry) VALUES (?, ?, ?)"},
       run_finished_{database, "UPDATE run SET finished_utc = ? WHERE run_id = ?"},
       run_unfinished_{database, "UPDATE run SET finished_utc = NULL WHERE run_id = ?"},
-      run_earliest_{database,
-                    "UPDATE run SET first_tai_ns = min(ifnull(first_tai_ns, ?1), ?1)"
-                    " WHERE run_id = ?2"},
+      run_reach_{database,
+                 "UPDATE run SET first_tai_ns = min(ifnull(first_tai_ns, ?1), ?1),"
+                 " last_tai_ns = max(ifnull(last_tai_ns, ?2), ?2), contact_share = ?3"
+                 " WHERE run_id = ?4"},
+      run_mode_{database, "SELECT mode FROM run WHERE run_id = ?"},
       samples_{insert_statements(database)},
       operator_action_{database,
                        "INSERT INTO operator_action (action_id, spacecraft_id, run_id, arrival,"
@@ -93,8 +96,10 @@ Expected<void> BatchWriter::write(std::span<const ArchiveBatch> batches) {
     }
     insert_latest_counts(batches);
     transaction.commit();
+    contradictions_.end_write(true);
     return {};
   } catch (const SQLite::Exception& exception) {
+    contradictions_.end_write(false);
     return Unexpected{archive_error(database_.getFilename(), exception)};
   }
 }
@@ -107,8 +112,9 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
     execute(run_unfinished_, batch.run_id);
     products_.withdraw(batch.run_id, batch.continuation->t);
   }
-  if (batch.earliest) {
-    execute(run_earliest_, tai_ns(*batch.earliest), batch.run_id);
+  if (batch.reach) {
+    execute(run_reach_, tai_ns(batch.reach->first), tai_ns(batch.reach->last),
+            batch.reach->contact_share, batch.run_id);
   }
   batch.samples.for_each([&](const auto& of_kind) {
     for (const auto& sample : of_kind) {
@@ -124,6 +130,9 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
           Came::Before);
     }
   });
+  for (const RunNotice& notice : contradictions_.take_notices()) {
+    products_.insert(batch.run_id, batch.spacecraft_id, std::nullopt, notice);
+  }
   for (const OperatorAction& action : batch.actions) {
     insert(batch.run_id, action);
   }
@@ -133,16 +142,33 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
   for (const RejectedInput& rejected : batch.rejected) {
     insert(batch.run_id, rejected);
   }
-  for (const Product& product : batch.products) {
-    if (const auto* const contradiction = std::get_if<SampleContradiction>(&product)) {
-      contradictions_.settle(batch.run_id, *contradiction);
-    } else {
-      products_.insert(batch.run_id, batch.spacecraft_id, product);
+  if (!batch.products.empty()) {
+    const std::optional<std::string> announced_utc =
+        is_live(batch.run_id) ? std::optional{utc_now()} : std::nullopt;
+    for (const Product& product : batch.products) {
+      if (const auto* const contradiction = std::get_if<SampleContradiction>(&product)) {
+        contradictions_.settle(batch.run_id, *contradiction);
+      } else {
+        products_.insert(batch.run_id, batch.spacecraft_id, announced_utc, product);
+      }
     }
   }
   if (batch.finished_utc) {
     execute(run_finished_, *batch.finished_utc, batch.run_id);
   }
+}
+
+bool BatchWriter::is_live(const std::string& run_id) {
+  const auto known = is_live_.find(run_id);
+  if (known != is_live_.end()) {
+    return known->second;
+  }
+  run_mode_.tryReset();
+  run_mode_.bind(1, run_id);
+  const bool live =
+      run_mode_.executeStep() && run_mode_.getColumn(0).getString() == name_of(RunMode::Live);
+  run_mode_.reset();
+  return is_live_.emplace(run_id, live).first->second;
 }
 
 // Each batch has the counts as they have come to be: of many only the last are seen.
@@ -162,7 +188,7 @@ void BatchWriter::insert(const ArchiveBatch& batch, const RunStart& start) {
   execute(spacecraft_, batch.spacecraft_id, name_of(start.spacecraft_kind));
   execute(run_, batch.run_id, batch.spacecraft_id, name_of(start.mode), start.software_version,
           start.config_toml, start.config_sha256, start.config_path, start.orbit_sha256,
-          start.started_utc, start.first_arrival);
+          start.telemetry_sha256, start.label, start.started_utc, start.first_arrival);
   std::int64_t position = 0;
   for (const std::string& telemetry : start.telemetry) {
     execute(run_telemetry_, batch.run_id, ++position, telemetry);

@@ -7,11 +7,12 @@
 #include <SQLiteCpp/Statement.h>
 
 #include <cstdint>
+#include <map>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,12 @@ class ContradictionWriter {
   /// @return whether that is all: in the table of its kind nothing is to be changed.
   template <class Value>
   bool see(const ArchiveBatch& batch, const TelemetrySample<Value>& sample);
+
+  /// What has been told of the samples seen since it was taken last.
+  std::vector<RunNotice> take_notices() { return std::exchange(notices_, {}); }
+  /// A transaction has ended. What it has not stored is told again with its samples, but for the
+  /// warning.
+  void end_write(bool is_stored);
 
   /// Which of the values count.
   void settle(const std::string& run_id, const SampleContradiction& contradiction);
@@ -62,7 +69,9 @@ class ContradictionWriter {
   SQLite::Statement add_;
   SQLite::Statement use_none_;
   SQLite::Statement use_;
-  std::set<std::string> said_;  ///< What has been warned of, by kind and run.
+  std::map<std::string, bool> said_;  ///< What has been warned of, by kind and run; kept or not.
+  std::vector<std::string> said_in_write_;  ///< Of those, what may yet be lost.
+  std::vector<RunNotice> notices_;
 };
 
 /// The prepared statements of one connection. `database` must outlive it.
@@ -86,6 +95,7 @@ class BatchWriter {
   void insert(const std::string& run_id, const OperatorAction& action);
   void insert(const std::string& run_id, const RejectedInput& rejected);
   void insert(const std::string& run_id, const SourceCount& count);
+  bool is_live(const std::string& run_id);
   void insert_latest_counts(std::span<const ArchiveBatch> batches);
 
   SQLite::Database& database_;
@@ -94,7 +104,8 @@ class BatchWriter {
   SQLite::Statement run_telemetry_;
   SQLite::Statement run_finished_;
   SQLite::Statement run_unfinished_;
-  SQLite::Statement run_earliest_;
+  SQLite::Statement run_reach_;
+  SQLite::Statement run_mode_;
   std::vector<SQLite::Statement> samples_;  ///< In the order of the list of kinds.
   SQLite::Statement operator_action_;
   SQLite::Statement stream_silence_;
@@ -102,6 +113,7 @@ class BatchWriter {
   SQLite::Statement source_count_;
   ContradictionWriter contradictions_;
   ProductWriter products_;
+  std::unordered_map<std::string, bool> is_live_;  ///< Of runs that were looked up, by run_id.
 };
 
 }  // namespace spindrift

@@ -22,6 +22,10 @@ constexpr bool kOfSpacecraft = requires {
   Table::kOfSpacecraft;
 };
 template <class Table>
+constexpr bool kSaysWhenAnnounced = requires {
+  Table::kSaysWhenAnnounced;
+};
+template <class Table>
 constexpr bool kOfLatest = requires {
   &Table::t_tai_ns;
 };
@@ -53,6 +57,10 @@ std::string insertion() {
       changes += fmt::format("{}{} = excluded.{}", changes.empty() ? "" : ", ", column, column);
     }
   };
+  if constexpr (kSaysWhenAnnounced<Table>) {
+    names += ", announced_utc";  // One that takes the place of another was announced with that.
+    values += ", ?";
+  }
   with_columns<Table>([&](const auto&... column) { (add(column.name), ...); });
   std::string sql = fmt::format("INSERT INTO {} ({}) VALUES ({}) ON CONFLICT DO UPDATE SET {}",
                                 Table::kName, names, values, changes);
@@ -77,7 +85,8 @@ class TableWriter {
     }
   }
 
-  void write(const std::string& run_id, const std::string& spacecraft_id, const Kind& product) {
+  void write(const std::string& run_id, const std::string& spacecraft_id,
+             const std::optional<std::string>& announced_utc, const Kind& product) {
     if (is_outdated(run_id, product)) {
       return;
     }
@@ -88,6 +97,8 @@ class TableWriter {
       with_columns<Table>([&](const auto&... column) {
         if constexpr (kOfSpacecraft<Table>) {
           execute(insert_, run_id, spacecraft_id, column.get(row)...);
+        } else if constexpr (kSaysWhenAnnounced<Table>) {
+          execute(insert_, run_id, announced_utc, column.get(row)...);
         } else {
           execute(insert_, run_id, column.get(row)...);
         }
@@ -122,9 +133,11 @@ class KindWriter<Kind, std::tuple<Table...>> {
   explicit KindWriter(SQLite::Database& database)
       : tables_{TableWriter<Kind, Table>{database}...} {}
 
-  void write(const std::string& run_id, const std::string& spacecraft_id, const Kind& product) {
-    std::apply([&](auto&... table) { (table.write(run_id, spacecraft_id, product), ...); },
-               tables_);
+  void write(const std::string& run_id, const std::string& spacecraft_id,
+             const std::optional<std::string>& announced_utc, const Kind& product) {
+    std::apply(
+        [&](auto&... table) { (table.write(run_id, spacecraft_id, announced_utc, product), ...); },
+        tables_);
   }
 
  private:
@@ -189,10 +202,11 @@ ProductWriter::ProductWriter(SQLite::Database& database)
 ProductWriter::~ProductWriter() = default;
 
 void ProductWriter::insert(const std::string& run_id, const std::string& spacecraft_id,
+                           const std::optional<std::string>& announced_utc,
                            const Product& product) {
   std::visit(
       [&]<class Kind>(const Kind& value) {
-        std::get<KindWriter<Kind>>(kinds_->all).write(run_id, spacecraft_id, value);
+        std::get<KindWriter<Kind>>(kinds_->all).write(run_id, spacecraft_id, announced_utc, value);
       },
       product);
 }

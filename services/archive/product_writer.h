@@ -6,6 +6,7 @@
 #include <SQLiteCpp/Database.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "pipelines/time/tai_time.h"
@@ -25,7 +26,9 @@ class ProductWriter {
   ProductWriter& operator=(ProductWriter&&) = delete;
 
   /// In place of one with its key.
-  void insert(const std::string& run_id, const std::string& spacecraft_id, const Product& product);
+  /// @param announced_utc Of products that are announced, when; empty: they are not for now.
+  void insert(const std::string& run_id, const std::string& spacecraft_id,
+              const std::optional<std::string>& announced_utc, const Product& product);
 
   /// Those of a run from a time on, but those that stay (kStays). A product without a time has that
   /// of its revolution, which those tables tell that have both.

@@ -38,9 +38,20 @@ struct RunStart {
   std::string config_sha256;
   std::string config_path = {};             ///< Absolute. An orbit file is relative to it.
   std::optional<std::string> orbit_sha256;  ///< Of the mission's orbit file, if it names one.
-  std::vector<std::string> telemetry;       ///< File paths, or DDS domain and partition.
-  std::string started_utc;                  ///< ISO 8601, ending in Z.
-  std::int64_t first_arrival = 0;           ///< Later than that of any sample of an earlier run.
+  std::optional<std::string> telemetry_sha256 = {};  ///< Of all bytes of its files.
+  std::optional<std::string> label = {};             ///< That somebody gave it.
+  std::vector<std::string> telemetry;                ///< File paths, or DDS domain and partition.
+  std::string started_utc;                           ///< ISO 8601, ending in Z.
+  std::int64_t first_arrival = 0;  ///< Later than that of any sample of an earlier run.
+};
+
+/// How far the samples of a run reach.
+struct RunReach {
+  TaiTime first;
+  TaiTime last;
+  /// Of the ten-second spans of the planned contact, those in which samples came; empty: none is
+  /// planned.
+  std::optional<double> contact_share = {};
 };
 
 /// A run that goes on. What it has stored from `t` on is withdrawn, to be made again.
@@ -68,7 +79,7 @@ struct ArchiveBatch {
   std::string spacecraft_id;
   std::optional<RunStart> start = {};
   std::optional<Continuation> continuation = {};
-  std::optional<TaiTime> earliest = {};  ///< A sample of it is earlier than the run's earliest.
+  std::optional<RunReach> reach = {};  ///< Where it is news.
   /// With their order of arrival in the run; negative: the run leaves the sample out.
   TelemetrySamples samples = {};
   std::vector<OperatorAction> actions = {};  ///< Of this run, or still in force; likewise.

@@ -13,7 +13,7 @@ namespace spindrift {
 inline constexpr std::int32_t kArchiveApplicationId = 0x73706472;
 
 /// PRAGMA user_version of the archives of this program. Whoever changes a table or view raises it.
-inline constexpr int kArchiveSchemaVersion = 29;
+inline constexpr int kArchiveSchemaVersion = 30;
 
 /// Makes `database` an archive, all of it or nothing, unless it is one already.
 /// @throws SQLite::Exception

@@ -9,18 +9,29 @@
 
 namespace spindrift {
 
-std::string utc_now() {
+using std::chrono::system_clock;
+
+namespace {
+
+std::string utc_of(system_clock::time_point instant) {
   using namespace std::chrono;
-  const auto now = floor<milliseconds>(system_clock::now());
-  const auto seconds = floor<std::chrono::seconds>(now);
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(system_clock::to_time_t(seconds)),
-                     (now - seconds).count());
+  const auto whole_ms = floor<milliseconds>(instant);
+  const auto whole_s = floor<seconds>(whole_ms);
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(system_clock::to_time_t(whole_s)),
+                     (whole_ms - whole_s).count());
 }
 
+}  // namespace
+
+std::string utc_now() { return utc_of(system_clock::now()); }
+
 TaiTime tai_now() {
-  const std::string now_utc = utc_now();
+  const auto now = system_clock::now();
+  const auto below_ms = now - std::chrono::floor<std::chrono::milliseconds>(now);
   // A clock set before 1972 has no UTC; its own count is then all there is.
-  return parse_utc(now_utc).value_or(TaiTime{std::chrono::system_clock::now().time_since_epoch()});
+  return parse_utc(utc_of(now))
+      .map([&](TaiTime whole_ms) { return whole_ms + below_ms; })
+      .value_or(TaiTime{now.time_since_epoch()});
 }
 
 }  // namespace spindrift

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -74,6 +75,32 @@ Expected<std::string> sha256_hex(InputFile& file) {
     return file.read(buffer).map([&buffer](std::size_t count) {
       return std::string_view{buffer.data(), count};
     });
+  });
+}
+
+Expected<std::string> sha256_hex(std::span<const std::filesystem::path> files) {
+  std::vector<char> buffer(kReadAtOnce);
+  std::optional<InputFile> open;
+  return digest_of([&]() -> Expected<std::string_view> {
+    while (open || !files.empty()) {
+      if (!open) {
+        auto opened = InputFile::open(files.front());
+        if (!opened) {
+          return Unexpected{opened.error()};
+        }
+        open = *std::move(opened);
+        files = files.subspan(1);
+      }
+      const auto count = open->read(buffer);
+      if (!count) {
+        return Unexpected{count.error()};
+      }
+      if (*count > 0) {
+        return std::string_view{buffer.data(), *count};
+      }
+      open.reset();
+    }
+    return std::string_view{};
   });
 }
 

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -16,5 +18,8 @@ Expected<std::string> sha256_hex(std::string_view bytes);
 
 /// Of what there is of `file` from where it is. @return Unavailable when reading fails, too.
 Expected<std::string> sha256_hex(InputFile& file);
+
+/// Of all bytes of the files, one behind the other. @return the errors of InputFile, too.
+Expected<std::string> sha256_hex(std::span<const std::filesystem::path> files);
 
 }  // namespace spindrift

@@ -8,10 +8,23 @@
 #include <tuple>
 
 #include "pipelines/time/utc.h"
-#include "services/standard_error/warning.h"
+#include "services/processor/told.h"
 #include "services/words/notice_words.h"
 
 namespace spindrift {
+namespace {
+
+std::optional<TaiTime> time_of(const Notice& notice) {
+  for (const NamedValue& value : notice.values) {
+    if (const auto* const t_tai_ns = std::get_if<std::int64_t>(&value.value);
+        t_tai_ns != nullptr && (value.name == "t_tai_ns" || value.name == "first_tai_ns")) {
+      return tai_from_ns(*t_tai_ns);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 RunFault fault_of(const std::string& spacecraft_id, const std::string& run_id, TaiTime t,
                   std::string what) {
@@ -22,13 +35,15 @@ RunFault fault_of(const std::string& spacecraft_id, const std::string& run_id, T
   return {.t = t, .what = std::move(what)};
 }
 
-void say(const std::string& spacecraft_id, const std::vector<Notice>& notices) {
+std::vector<RunNotice> told(const std::string& spacecraft_id, const std::vector<Notice>& notices) {
+  std::vector<RunNotice> all;
   for (const Notice& notice : notices) {
     nlohmann::json values = values_of(notice);
     values["spacecraft"] = spacecraft_id;
-    warn(name_of(notice.code), std::move(values),
-         fmt::format("{}: {}", spacecraft_id, sentence_of(notice)));
+    all.push_back(told(name_of(notice.code), values,
+                       fmt::format("{}: {}", spacecraft_id, sentence_of(notice)), time_of(notice)));
   }
+  return all;
 }
 
 void fill_in_names(SampleContradiction& contradiction, const std::vector<std::string>& names) {
@@ -42,7 +57,7 @@ void fill_in_names(SampleContradiction& contradiction, const std::vector<std::st
             });
 }
 
-void say(const std::string& spacecraft_id, const SampleContradiction& contradiction) {
+RunNotice told(const std::string& spacecraft_id, const SampleContradiction& contradiction) {
   std::vector<std::string> sources;
   std::string used;
   for (const SampleContradiction::By& by : contradiction.by) {
@@ -55,15 +70,16 @@ void say(const std::string& spacecraft_id, const SampleContradiction& contradict
       used.empty()
           ? "none of them is used; [sources] prefer in the mission file may name one that is"
           : fmt::format("that of {} is used", used);
-  warn("contradiction",
-       {{"spacecraft", spacecraft_id},
-        {"kind", contradiction.kind},
-        {"t_tai_ns", tai_ns(contradiction.t)},
-        {"sources", sources}},
-       fmt::format("{}: {} samples of one time have different values, first at {} from {}: {}. "
-                   "All are in the table contradiction",
-                   spacecraft_id, contradiction.kind, format_utc(contradiction.t),
-                   fmt::join(sources, " and "), decision));
+  return told("contradiction",
+              {{"spacecraft", spacecraft_id},
+               {"kind", contradiction.kind},
+               {"t_tai_ns", tai_ns(contradiction.t)},
+               {"sources", sources}},
+              fmt::format("{}: {} samples of one time have different values, first at {} from {}: "
+                          "{}. All are in the table contradiction",
+                          spacecraft_id, contradiction.kind, format_utc(contradiction.t),
+                          fmt::join(sources, " and "), decision),
+              contradiction.t);
 }
 
 }  // namespace spindrift

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <chrono>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -39,8 +40,9 @@ using AllMadeBefore = std::map<std::string, MadeBefore>;
 /// Says it in the log.
 RunFault fault_of(const std::string& spacecraft_id, const std::string& run_id, TaiTime t,
                   std::string what);
-void say(const std::string& spacecraft_id, const std::vector<Notice>& notices);
-void say(const std::string& spacecraft_id, const SampleContradiction& contradiction);
+/// The notices of a pass, as told.h tells them.
+std::vector<RunNotice> told(const std::string& spacecraft_id, const std::vector<Notice>& notices);
+RunNotice told(const std::string& spacecraft_id, const SampleContradiction& contradiction);
 
 /// Of its senders; by name from now on, for the numbers hang on who was heard first.
 void fill_in_names(SampleContradiction& contradiction, const std::vector<std::string>& names);
@@ -122,8 +124,9 @@ class PassComputing {
   void finish(std::vector<Product>& products, const Note& note) {
     compute_or_fail(products, note, [&] {
       Output output = pass_.finish();
-      see(output, note);
+      std::vector<RunNotice> notices = see(output, note);
       append(std::move(output), products);
+      std::move(notices.begin(), notices.end(), std::back_inserter(products));
     });
   }
 
@@ -138,8 +141,8 @@ class PassComputing {
         [&](const auto& arrived) { take(arrived, note, computed); },
         [&](std::int64_t /*place*/) {
           Output output = pass_.fall_silent();
-          see(output, note);
-          keep(std::move(output), std::nullopt, computed);
+          std::vector<RunNotice> notices = see(output, note);
+          keep(std::move(output), std::move(notices), std::nullopt, computed);
           if constexpr (requires { note(FellSilent{}); }) {
             note(FellSilent{});
           }
@@ -152,8 +155,8 @@ class PassComputing {
     if constexpr (requires { pass_.push(arrived.value); }) {
       reached_ = arrived.value.t;
       Output output = pass_.push(arrived.value);
-      see(output, note);
-      keep(std::move(output), arrived.value.t, computed);
+      std::vector<RunNotice> notices = see(output, note);
+      keep(std::move(output), std::move(notices), arrived.value.t, computed);
     }
   }
 
@@ -173,27 +176,31 @@ class PassComputing {
   }
 
   template <class Note>
-  void see(Output& output, const Note& note) {
+  std::vector<RunNotice> see(Output& output, const Note& note) {
     withheld_.take_from(output, answers_);
+    std::vector<RunNotice> notices;
     for (PassProduct& product : output.products) {
       if (auto* const contradiction = std::get_if<SampleContradiction>(&product)) {
-        name_senders(*contradiction);
+        name_senders(*contradiction, notices);
       }
     }
-    say(spacecraft_id_, output.notices);
+    std::vector<RunNotice> of_pass = told(spacecraft_id_, output.notices);
+    std::move(of_pass.begin(), of_pass.end(), std::back_inserter(notices));
     note(std::as_const(output));
+    return notices;
   }
 
   /// Of each kind the first is said.
-  void name_senders(SampleContradiction& contradiction) {
+  void name_senders(SampleContradiction& contradiction, std::vector<RunNotice>& notices) {
     fill_in_names(contradiction, senders_ ? *senders_ : std::vector<std::string>{});
     if (told_kinds_.insert(contradiction.kind).second) {
-      say(spacecraft_id_, contradiction);
+      notices.push_back(told(spacecraft_id_, contradiction));
     }
   }
 
   /// @param t Of the sample that made it; none: a silence did.
-  void keep(Output output, std::optional<TaiTime> t, Computed& computed) {
+  void keep(Output output, std::vector<RunNotice> notices, std::optional<TaiTime> t,
+            Computed& computed) {
     if (again_from_ && t && *t >= *again_from_) {
       computed.front().continuation = Continuation{.t = *std::exchange(again_from_, {})};
     }
@@ -205,6 +212,7 @@ class PassComputing {
       const std::size_t place = is_detail(product) ? 1 + product.index() : 0;
       computed.at(place).products.push_back(std::move(product));
     }
+    std::move(notices.begin(), notices.end(), std::back_inserter(computed.front().products));
   }
 
   static void append(Output output, std::vector<Product>& products) {

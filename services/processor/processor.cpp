@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "services/archive/last_run.h"
-#include "services/standard_error/warning.h"
+#include "services/processor/told.h"
 
 namespace spindrift {
 namespace {
@@ -127,15 +127,16 @@ Expected<GoneOn> Processor::go_on(const std::filesystem::path& archive, const Mo
       if (!last) {
         return Unexpected{last.error()};
       }
+      SpacecraftRun::Taken begun = runs_[i].begin();
       if (*last) {
         const std::string why = why_not_continued(**last, runs_[i].start());
-        warn(
+        begun.batches.front().products.emplace_back(told(
             "new_run",
             {{"spacecraft", runs_[i].spacecraft_id()}, {"run_id", runs_[i].run_id()}, {"why", why}},
             fmt::format("{}: a new run begins: {}: {}", runs_[i].spacecraft_id(), runs_[i].run_id(),
-                        why));
+                        why)));
       }
-      add(runs_[i].begin(), gone_on.routed);
+      add(std::move(begun), gone_on.routed);
     } else {
       go_on(i, *stored, moment, gone_on);
     }
@@ -190,6 +191,13 @@ Routed Processor::route(SampleBatch samples, const Moment& moment) {
   Routed routed;
   for (auto& [run, of_run] : by_run) {
     add(runs_.at(run).take(std::move(of_run), moment), routed);
+  }
+  if (!told_of_others_.empty()) {
+    // Like bad input it stands with the first run.
+    ArchiveBatch& told = routed.samples.emplace_back();
+    told.run_id = runs_.front().run_id();
+    told.spacecraft_id = runs_.front().spacecraft_id();
+    told.products = std::exchange(told_of_others_, {});
   }
   return routed;
 }
@@ -285,10 +293,11 @@ std::vector<ArchiveBatch> Processor::finish(std::size_t spacecraft) {
 void Processor::count_other(const std::string& spacecraft, std::int64_t samples) {
   auto& [name, count] = entry_of(other_spacecraft_, spacecraft);
   if (count == 0) {
-    warn("other_spacecraft", {{"spacecraft", name}},
-         fmt::format("samples of {}, which has no mission file here, are left to others",
-                     name == kStillMoreSpacecraft ? "still more spacecraft"
-                                                  : fmt::format("spacecraft '{}'", name)));
+    told_of_others_.emplace_back(
+        told("other_spacecraft", {{"spacecraft", name}},
+             fmt::format("samples of {}, which has no mission file here, are left to others",
+                         name == kStillMoreSpacecraft ? "still more spacecraft"
+                                                      : fmt::format("spacecraft '{}'", name))));
   }
   count += samples;
 }

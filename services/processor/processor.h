@@ -108,6 +108,7 @@ class Processor {
   std::vector<SpacecraftRun> runs_;
   std::vector<std::variant<SpinRun, ThreeAxisRun>> passes_;  ///< By kind of spacecraft.
   OtherSpacecraft other_spacecraft_;
+  std::vector<Product> told_of_others_;  ///< Not with a run yet.
 };
 
 }  // namespace spindrift

@@ -9,7 +9,8 @@
 
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
-#include "services/standard_error/warning.h"
+#include "services/processor/told.h"
+#include "services/words/counted.h"
 
 namespace spindrift {
 namespace {
@@ -36,20 +37,22 @@ RunNotices::RunNotices(const Mission& mission)
       spacecraft_kind_{mission.kind()},
       tables_{mission.tables} {}
 
-void RunNotices::tell_sources(SourceWatch& sources, const Moment& moment) {
+void RunNotices::tell_sources(SourceWatch& sources, const Moment& moment,
+                              std::vector<Product>& products) {
   for (const SourceWatch::News& news : sources.take_news()) {
     if (news.healed) {
-      warn("source_agrees", {{"spacecraft", spacecraft_id_}, {"source", news.source.name}},
-           fmt::format("{}: source {} agrees with the others again", spacecraft_id_,
-                       named(news.source)));
+      products.emplace_back(told("source_agrees",
+                                 {{"spacecraft", spacecraft_id_}, {"source", news.source.name}},
+                                 fmt::format("{}: source {} agrees with the others again",
+                                             spacecraft_id_, named(news.source))));
     } else {
-      warn("source_apart",
-           {{"spacecraft", spacecraft_id_},
-            {"source", news.source.name},
-            {"t_tai_ns", tai_ns(news.t)},
-            {"others_tai_ns", tai_ns(news.pass)}},
-           fmt::format("{}; until it agrees with them, or they are silent",
-                       problem_text(spacecraft_id_, news)));
+      products.emplace_back(told("source_apart",
+                                 {{"spacecraft", spacecraft_id_},
+                                  {"source", news.source.name},
+                                  {"t_tai_ns", tai_ns(news.t)},
+                                  {"others_tai_ns", tai_ns(news.pass)}},
+                                 fmt::format("{}; until it agrees with them, or they are silent",
+                                             problem_text(spacecraft_id_, news))));
     }
   }
   const auto pass = sources.pass_time();
@@ -57,14 +60,15 @@ void RunNotices::tell_sources(SourceWatch& sources, const Moment& moment) {
   if (moment.host && pass && carrier && told_host_.size() < SourceWatch::kMostSources &&
       are_apart(*pass, *moment.host, SourceWatch::kHostApart) &&
       told_host_.insert(carrier->name).second) {
-    warn("source_apart_from_host",
-         {{"spacecraft", spacecraft_id_},
-          {"source", carrier->name},
-          {"t_tai_ns", tai_ns(*pass)},
-          {"host_tai_ns", tai_ns(*moment.host)}},
-         fmt::format("{}: source {} says {}, and the clock of this host {}: one of them is wrong, "
-                     "or what it sends is recorded",
-                     spacecraft_id_, named(*carrier), format_utc(*pass), format_utc(*moment.host)));
+    products.emplace_back(told(
+        "source_apart_from_host",
+        {{"spacecraft", spacecraft_id_},
+         {"source", carrier->name},
+         {"t_tai_ns", tai_ns(*pass)},
+         {"host_tai_ns", tai_ns(*moment.host)}},
+        fmt::format("{}: source {} says {}, and the clock of this host {}: one of them is wrong, "
+                    "or what it sends is recorded",
+                    spacecraft_id_, named(*carrier), format_utc(*pass), format_utc(*moment.host))));
   }
 }
 
@@ -85,38 +89,58 @@ std::vector<SourceProblem> RunNotices::problems(const SourceWatch& sources) cons
   return problems;
 }
 
-void RunNotices::tell_both() {
+void RunNotices::tell_both(std::vector<Product>& products) {
   if (spacecraft_kind_ == SpacecraftKind::Spin && !std::exchange(told_both_, true)) {
-    warn("pulses_and_coded_frames", {{"spacecraft", spacecraft_id_}},
-         fmt::format("{}: both pulses and coded frames arrive: an edge that both give is used as "
-                     "the one that comes first",
-                     spacecraft_id_));
+    products.emplace_back(told(
+        "pulses_and_coded_frames", {{"spacecraft", spacecraft_id_}},
+        fmt::format("{}: both pulses and coded frames arrive: an edge that both give is used as "
+                    "the one that comes first",
+                    spacecraft_id_)));
   }
 }
 
+void RunNotices::tell_silences(const ReachWatch::Silences& silences,
+                               std::vector<Product>& products) const {
+  if (silences.count == 0) {
+    return;
+  }
+  const auto [count, from, to] = silences;
+  products.emplace_back(
+      told("silences",
+           {{"spacecraft", spacecraft_id_},
+            {"silences", count},
+            {"longest_from_tai_ns", tai_ns(from)},
+            {"longest_to_tai_ns", tai_ns(to)}},
+           fmt::format("{}: the telemetry has {} of more than {} minutes without a sample{}, from "
+                       "{} to {}: it is computed as one pass all the same",
+                       spacecraft_id_, counted(count, "spans"), ReachWatch::kSilence.count(),
+                       count == 1 ? "" : ", the longest", format_utc(from), format_utc(to))));
+}
+
 /// Of each kind once.
-void RunNotices::tell_undescribed(const TelemetrySamples& samples) {
+void RunNotices::tell_undescribed(const TelemetrySamples& samples, std::vector<Product>& products) {
   TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
     constexpr std::string_view kSensor = Telemetry<Value>::kSensor;
-    bool& told = told_undescribed_[kTelemetryKind<Value>];
-    if (told || samples.of<Value>().empty()) {
+    bool& is_told = told_undescribed_[kTelemetryKind<Value>];
+    if (is_told || samples.of<Value>().empty()) {
       return;
     }
     if (kSensor.empty()) {
       if (spacecraft_kind_ == SpacecraftKind::Spin) {
-        told = true;
+        is_told = true;
         spdlog::info("{}: {} arrive: they are stored; the orbit is the mission file's",
                      spacecraft_id_, Telemetry<Value>::kPlural);
       }
     } else if (!tables_.contains(std::string{kSensor})) {
-      told = true;
-      warn("no_sensor",
-           {{"spacecraft", spacecraft_id_},
-            {"samples", Telemetry<Value>::kPlural},
-            {"table", kSensor}},
-           fmt::format("{}: {} arrive, and the mission file has no [{}]: they are stored, and "
-                       "nothing is computed from them",
-                       spacecraft_id_, Telemetry<Value>::kPlural, kSensor));
+      is_told = true;
+      products.emplace_back(
+          told("no_sensor",
+               {{"spacecraft", spacecraft_id_},
+                {"samples", Telemetry<Value>::kPlural},
+                {"table", kSensor}},
+               fmt::format("{}: {} arrive, and the mission file has no [{}]: they are stored, and "
+                           "nothing is computed from them",
+                           spacecraft_id_, Telemetry<Value>::kPlural, kSensor)));
     }
   });
 }

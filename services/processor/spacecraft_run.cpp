@@ -15,8 +15,9 @@
 #include "pipelines/time/utc.h"
 #include "services/clock/unique_id.h"
 #include "services/clock/wall_clock.h"
+#include "services/processor/told.h"
 #include "services/processor/version.h"
-#include "services/standard_error/warning.h"
+#include "services/products/notice_of.h"
 
 namespace spindrift {
 namespace {
@@ -38,10 +39,6 @@ std::size_t total(const Received& received) {
       std::accumulate(received.samples.begin(), received.samples.end(), std::int64_t{0}));
 }
 
-void lower(std::optional<TaiTime>& earliest, TaiTime t) {
-  earliest = std::min(earliest.value_or(t), t);
-}
-
 }  // namespace
 
 SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& source,
@@ -55,14 +52,19 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
              .config_sha256 = mission.sha256,
              .config_path = mission.path.string(),
              .orbit_sha256 = mission.orbit_sha256,
+             .telemetry_sha256 = source.sha256,
+             .label = source.label,
              .telemetry = source.telemetry,
              .started_utc = utc_now(),
              // Sets runs of different archives apart, should they be merged. Order does not rest on
              // the clock: arrive_after.
              .first_arrival = tai_ns(tai_now())},
+      orbit_doubts_{mission.orbit_doubts},
       run_id_{unique_id()},
       next_arrival_{start_.first_arrival},
       silent_before_{next_arrival_},
+      contact_{mission.contact},
+      reach_{contact_},
       senders_{mission.preferred_source},
       notices_{mission},
       judges_sources_{source.mode != RunMode::Process},
@@ -85,6 +87,12 @@ ArchiveBatch SpacecraftRun::batch() const {
 SpacecraftRun::Taken SpacecraftRun::begin() {
   Taken first = nothing_taken();
   first.batches.front().start = start_;
+  // Whoever loads the mission warns of it before there is a run.
+  for (const std::string& doubt : orbit_doubts_) {
+    first.batches.front().products.emplace_back(notice_of(
+        "orbit_doubt",
+        {{"spacecraft", spacecraft_id_}, {"file", start_.config_path}, {"why", doubt}}, doubt));
+  }
   repeat_actions_before(start_.first_arrival, first);
   return first;
 }
@@ -132,11 +140,12 @@ void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken&
   if (!out.inputs.empty()) {
     received_before_.emplace(run_id_, received_);
     release_held(out.inputs);
+    end_reach(out.batches.back());
   }
   run_id_ = stored.run_id;
   received_ = {.rejected_inputs = stored.rejected_inputs};
   next_arrival_ = stored.first_arrival;
-  earliest_ = stored_earliest_ = stored.earliest;
+  reach_ = ReachWatch{contact_};
   counts_before_.clear();
   for (const SourceCount& count : stored.source_counts) {
     counts_before_.emplace(count.source, counts_of(count));
@@ -164,6 +173,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken&
           hand_on(arrived, out.inputs);
         } else {
           received_.count(arrived.value);
+          reach_.note(arrived.value.t);
           sources_.restore(arrived.value.t, moment);
           place(arrived, out);
         }
@@ -172,21 +182,21 @@ void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken&
 }
 
 SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples, const Moment& moment) {
-  notices_.tell_undescribed(samples.samples);
   Taken out = nothing_taken();
+  notices_.tell_undescribed(samples.samples, out.batches.back().products);
   in_order_of_arrival(samples.samples, [&](auto& sample) { sort(std::move(sample), moment, out); });
   for (OperatorAction& action : samples.actions) {
     accept(std::move(action), out);
   }
   decide(moment, out);
   if (received_.of<Pulse>() > 0 && received_.of<CodedFrame>() > 0) {
-    notices_.tell_both();
+    notices_.tell_both(out.batches.back().products);
   }
   for (const RejectedInput& rejected : samples.rejected) {
     received_.rejected_inputs += rejected.samples;
   }
   ArchiveBatch& last = out.batches.back();
-  note_earliest(last);
+  note_reach(last);
   last.rejected = std::move(samples.rejected);
   last.source_counts = source_counts(samples.counts);
   return out;
@@ -195,7 +205,7 @@ SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples, const Moment& mome
 SpacecraftRun::Taken SpacecraftRun::decide(const Moment& moment) {
   Taken out = nothing_taken();
   decide(moment, out);
-  note_earliest(out.batches.back());
+  note_reach(out.batches.back());
   return out;
 }
 
@@ -203,7 +213,7 @@ void SpacecraftRun::decide(const Moment& moment, Taken& out) {
   if (const auto successor = sources_.successor(moment)) {
     follow(*successor, out);
   }
-  notices_.tell_sources(sources_, moment);
+  notices_.tell_sources(sources_, moment, out.batches.back().products);
 }
 
 void SpacecraftRun::follow(const SourceId& successor, Taken& out) {
@@ -265,27 +275,38 @@ void SpacecraftRun::repeat_actions_before(std::int64_t first_arrival, Taken& out
   }
 }
 
-void SpacecraftRun::note_earliest(ArchiveBatch& batch) {
-  if (earliest_ != stored_earliest_) {
-    batch.earliest = stored_earliest_ = earliest_;
-  }
-}
-
 SpacecraftRun::Taken SpacecraftRun::finish() {
   Taken rest = nothing_taken();
   if (const auto successor = sources_.successor_at_end(total(received_))) {
     follow(*successor, rest);
   }
   if (sources_.held() > 0) {
-    warn("samples_of_source_apart", {{"spacecraft", spacecraft_id_}, {"samples", sources_.held()}},
-         fmt::format("{}: {} samples are stored and left out, since their source's time disagrees",
-                     spacecraft_id_, sources_.held()));
+    rest.batches.back().products.emplace_back(told(
+        "samples_of_source_apart", {{"spacecraft", spacecraft_id_}, {"samples", sources_.held()}},
+        fmt::format("{}: {} samples are stored and left out, since their source's time disagrees",
+                    spacecraft_id_, sources_.held())));
   }
   if (watch_.ends_in_new_pass()) {
     begin_new_pass_of_held(rest);
   }
   release_held(rest.inputs);
+  end_reach(rest.batches.back());
   return rest;
+}
+
+/// What is news of it; a run that has begun in the batch may have told some already.
+void SpacecraftRun::note_reach(ArchiveBatch& batch) {
+  if (const auto news = reach_.take_news()) {
+    batch.reach = news;
+  }
+}
+
+/// Live an alert says when telemetry falls silent. Of files nobody does.
+void SpacecraftRun::end_reach(ArchiveBatch& batch) {
+  batch.reach = reach_.take_last();
+  if (start_.mode == RunMode::Process) {
+    notices_.tell_silences(reach_.silences(), batch.products);
+  }
 }
 
 template <class Value>
@@ -324,7 +345,7 @@ void SpacecraftRun::accept(const TelemetryValues& held, Taken& out) {
   in_order_of_arrival(held, [&]<class Value>(const Arrived<Value>& left_out) {
     const Arrived<Value> arrived{.arrival = next_arrival_++, .value = left_out.value};
     received_.count(arrived.value);
-    lower(earliest_, arrived.value.t);
+    reach_.note(arrived.value.t);
     out.batches.back().moved.of<Value>().push_back(arrived);
     place(arrived, out);
   });
@@ -334,7 +355,7 @@ template <class Value>
 void SpacecraftRun::accept(TelemetrySample<Value>&& sample, Taken& out) {
   sample.arrival = next_arrival_++;
   received_.count(sample.value);
-  lower(earliest_, sample.value.t);
+  reach_.note(sample.value.t);
   if (!is_known(sample.value)) {
     place(Arrived<Value>{.arrival = sample.arrival, .value = sample.value}, out);
   }
@@ -367,6 +388,7 @@ void SpacecraftRun::place(const Arrived<Value>& arrived, Taken& out) {
   if (verdict == PassWatch::Verdict::Within) {
     hand_on(arrived.value, out.inputs);
   } else if (verdict == PassWatch::Verdict::Onward) {
+    reach_.carry_on(arrived.value.t);
     stored_.reset();
     release_held(out.inputs);
     hand_on(arrived.value, out.inputs);
@@ -404,7 +426,7 @@ void SpacecraftRun::release_held(std::vector<PassInput>& inputs) {
 
 void SpacecraftRun::begin_new_pass(const TelemetryValues& its_first, Taken& out) {
   received_before_.emplace(run_id_, received_);
-  note_earliest(out.batches.back());
+  end_reach(out.batches.back());
 
   start_.started_utc = utc_now();
   start_.first_arrival = next_arrival_;
@@ -413,14 +435,13 @@ void SpacecraftRun::begin_new_pass(const TelemetryValues& its_first, Taken& out)
   std::move(first.batches.begin(), first.batches.end(), std::back_inserter(out.batches));
   std::move(first.inputs.begin(), first.inputs.end(), std::back_inserter(out.inputs));
   received_ = {};
-  earliest_.reset();
-  stored_earliest_.reset();
+  reach_ = ReachWatch{contact_};
   counts_before_.clear();
   counts_of_earlier_runs_ = latest_counts_;
   stored_.reset();
   watch_ = {};
   accept(its_first, out);
-  note_earliest(out.batches.back());
+  note_reach(out.batches.back());
   spdlog::info("{}: run {}", spacecraft_id_, run_id_);
 }
 

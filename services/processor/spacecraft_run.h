@@ -19,6 +19,7 @@
 #include "services/mission/mission.h"
 #include "services/processor/pass_watch.h"
 #include "services/processor/problems.h"
+#include "services/processor/reach_watch.h"
 #include "services/processor/run_notices.h"
 #include "services/processor/source_watch.h"
 #include "services/processor/spin_run.h"
@@ -31,7 +32,9 @@ namespace spindrift {
 /// Where the samples of a run come from, kept with it.
 struct TelemetrySource {
   RunMode mode;
-  std::vector<std::string> telemetry;  ///< File paths, or DDS domain and partition.
+  std::vector<std::string> telemetry;      ///< Absolute paths, or DDS domain and partition.
+  std::optional<std::string> sha256 = {};  ///< Of all bytes of the files.
+  std::optional<std::string> label = {};   ///< That somebody gives the run.
 };
 
 /// What arrived of a run.
@@ -123,7 +126,6 @@ class SpacecraftRun {
   void restore_sources(const StoredPass& stored, const Moment& moment);
   void decide(const Moment& moment, Taken& out);
   void follow(const SourceId& successor, Taken& out);
-  void note_earliest(ArchiveBatch& batch);
   template <class Value>
   bool is_known(const Value& value);
   template <class Value>
@@ -135,6 +137,8 @@ class SpacecraftRun {
   void accept(OperatorAction&& action, Taken& out);
   void repeat_actions_before(std::int64_t first_arrival, Taken& out);
   void release_held(std::vector<PassInput>& inputs);
+  void note_reach(ArchiveBatch& batch);
+  void end_reach(ArchiveBatch& batch);
   void begin_new_pass(const TelemetryValues& its_first, Taken& out);
   void begin_new_pass_of_held(Taken& out);
   std::vector<SourceCount> source_counts(const std::map<std::string, SequenceCounts>& by_source);
@@ -143,13 +147,14 @@ class SpacecraftRun {
   std::string spacecraft_id_;
   std::size_t index_;
   RunStart start_;
+  std::vector<std::string> orbit_doubts_;
   std::string run_id_;
   std::int64_t next_arrival_;
   std::int64_t silent_before_;  ///< The arrival before which it was silent last.
   Received received_;
   std::map<std::string, Received> received_before_;  ///< Of the earlier runs, by run_id.
-  std::optional<TaiTime> earliest_;
-  std::optional<TaiTime> stored_earliest_;
+  std::optional<Contact> contact_;
+  ReachWatch reach_;
   std::map<std::string, SequenceCounts> latest_counts_;  ///< Since the service started.
   std::map<std::string, SequenceCounts> counts_before_;  ///< The run's, before a restart.
   std::map<std::string, SequenceCounts> counts_of_earlier_runs_;

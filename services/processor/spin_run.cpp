@@ -11,7 +11,7 @@
 
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "services/clock/wall_clock.h"
-#include "services/standard_error/warning.h"
+#include "services/processor/told.h"
 
 namespace spindrift {
 namespace {
@@ -132,10 +132,11 @@ void SpinRun::settle(std::vector<Product>& products) {
     edges_.keep_last(kLastRevolutions);
   }
   if (edges_.forgot_some()) {
-    warn("batch_edges_forgotten",
-         {{"spacecraft", computing_.spacecraft_id()}, {"edges", PassEdges::kMost}},
-         fmt::format("{}: more edges than the batch solution can hold: it rests on the last {}",
-                     computing_.spacecraft_id(), PassEdges::kMost));
+    products.emplace_back(
+        told("batch_edges_forgotten",
+             {{"spacecraft", computing_.spacecraft_id()}, {"edges", PassEdges::kMost}},
+             fmt::format("{}: more edges than the batch solution can hold: it rests on the last {}",
+                         computing_.spacecraft_id(), PassEdges::kMost)));
   }
 }
 
@@ -147,10 +148,11 @@ ArchiveBatch SpinRun::finish() {
       summary_.count_solution(*products);
       std::move(products->begin(), products->end(), std::back_inserter(last.products));
     } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {
-      warn("no_batch_solution",
-           {{"spacecraft", computing_.spacecraft_id()}, {"why", products.error().message}},
-           fmt::format("{}: no batch solution: {}", computing_.spacecraft_id(),
-                       products.error().message));
+      last.products.emplace_back(
+          told("no_batch_solution",
+               {{"spacecraft", computing_.spacecraft_id()}, {"why", products.error().message}},
+               fmt::format("{}: no batch solution: {}", computing_.spacecraft_id(),
+                           products.error().message)));
     }
   }
   last.finished_utc = utc_now();

@@ -14,7 +14,7 @@
 #include "services/clock/wall_clock.h"
 #include "services/geomagnetism/igrf.h"
 #include "services/processor/separation_solving.h"
-#include "services/standard_error/warning.h"
+#include "services/processor/told.h"
 
 namespace spindrift {
 namespace {
@@ -28,11 +28,13 @@ Expected<std::vector<Product>> products_of(const std::string& spacecraft_id,
   if (solved.methods.empty()) {
     return Unexpected{{ErrorCode::Unobservable, why}};
   }
+  std::vector<Product> products{solved.methods.begin(), solved.methods.end()};
   if (!why.empty()) {
-    warn("one_reconstruction_only", {{"spacecraft", spacecraft_id}, {"why", why}},
-         fmt::format("{}: no second {}: {}", spacecraft_id, kReconstruction, why));
+    products.emplace_back(
+        told("one_reconstruction_only", {{"spacecraft", spacecraft_id}, {"why", why}},
+             fmt::format("{}: no second {}: {}", spacecraft_id, kReconstruction, why)));
   }
-  return std::vector<Product>{solved.methods.begin(), solved.methods.end()};
+  return products;
 }
 
 }  // namespace
@@ -183,10 +185,11 @@ ArchiveBatch ThreeAxisRun::finish() {
       summary_.count_solution(*products);
       std::move(products->begin(), products->end(), std::back_inserter(last.products));
     } else {
-      warn("no_reconstruction",
-           {{"spacecraft", computing_.spacecraft_id()}, {"why", products.error().message}},
-           fmt::format("{}: no {}: {}", computing_.spacecraft_id(), kReconstruction,
-                       products.error().message));
+      last.products.emplace_back(
+          told("no_reconstruction",
+               {{"spacecraft", computing_.spacecraft_id()}, {"why", products.error().message}},
+               fmt::format("{}: no {}: {}", computing_.spacecraft_id(), kReconstruction,
+                           products.error().message)));
     }
   } else if (record_) {
     spdlog::info("{}: no {}: no sample to use within {} after T1, {}", computing_.spacecraft_id(),

@@ -10,12 +10,14 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 #include <tuple>
 
 #include "pipelines/three_axis/products.h"
+#include "services/products/attitude_covariance.h"
 #include "services/products/named.h"
 #include "services/products/product_kind.h"
 #include "services/units/degrees.h"
@@ -27,9 +29,14 @@ namespace spindrift {
 struct AttitudeTable {
   static constexpr std::string_view kName = "attitude";
   static constexpr std::array<std::string_view, 2> kKey{"t_tai_ns", "source"};
+  static constexpr bool kSaysWhenAnnounced = true;
   /// What was reconstructed afterwards stands there, too (reconstruction.h).
   static constexpr std::string_view kCondition = "source NOT IN ('batch', 'sequential')";
 
+  template <int kRow, int kColumn>
+  static double covariance_deg2(const AttitudeEstimate& estimate) {
+    return estimate.covariance_rad2(kRow, kColumn) * (kDegPerRad * kDegPerRad);
+  }
   template <int kAxis>
   static std::optional<double> rate_rad_s(const AttitudeEstimate& estimate) {
     const auto& rate_rad_s = estimate.rate_body_rad_s;
@@ -46,6 +53,12 @@ struct AttitudeTable {
       ProductColumn{"rate_z_rad_s", &rate_rad_s<2>},
       ProductColumn{"sigma_deg",
                     [](const AttitudeEstimate& one) { return one.sigma_rad() * kDegPerRad; }},
+      ProductColumn{"cov_xx_deg2", &covariance_deg2<0, 0>},
+      ProductColumn{"cov_xy_deg2", &covariance_deg2<0, 1>},
+      ProductColumn{"cov_xz_deg2", &covariance_deg2<0, 2>},
+      ProductColumn{"cov_yy_deg2", &covariance_deg2<1, 1>},
+      ProductColumn{"cov_yz_deg2", &covariance_deg2<1, 2>},
+      ProductColumn{"cov_zz_deg2", &covariance_deg2<2, 2>},
       ProductColumn{"quality",
                     [](const AttitudeEstimate& one) { return name_of(one.assessment.quality); }},
       ProductColumn{
@@ -59,10 +72,33 @@ struct AttitudeTable {
                     [](const AttitudeEstimate& one) { return one.innovations.freedom; }});
 };
 
+/// The bias of the gyro, of those estimates that bring it.
+struct GyroBiasTable {
+  static constexpr std::string_view kName = "gyro_bias";
+  static constexpr std::array<std::string_view, 2> kKey{"t_tai_ns", "estimator"};
+
+  static bool has_row(const AttitudeEstimate& estimate) { return estimate.gyro_bias.has_value(); }
+  template <int kAxis>
+  static double bias_deg_s(const AttitudeEstimate& estimate) {
+    return estimate.gyro_bias->rad_s[kAxis] * kDegPerRad;
+  }
+  template <int kAxis>
+  static double sigma_deg_s(const AttitudeEstimate& estimate) {
+    return std::sqrt(estimate.gyro_bias->covariance_rad2_s2(kAxis, kAxis)) * kDegPerRad;
+  }
+  static constexpr auto kColumns = columns(
+      ProductColumn{"t_tai_ns", [](const AttitudeEstimate& one) { return tai_ns(one.t); }},
+      ProductColumn{"estimator", [](const AttitudeEstimate& one) { return name_of(one.source); }},
+      ProductColumn{"bx_deg_s", &bias_deg_s<0>}, ProductColumn{"by_deg_s", &bias_deg_s<1>},
+      ProductColumn{"bz_deg_s", &bias_deg_s<2>}, ProductColumn{"sigma_bx_deg_s", &sigma_deg_s<0>},
+      ProductColumn{"sigma_by_deg_s", &sigma_deg_s<1>},
+      ProductColumn{"sigma_bz_deg_s", &sigma_deg_s<2>});
+};
+
 template <>
 struct ProductKind<AttitudeEstimate> {
   static constexpr ProductWeight kWeight = ProductWeight::Result;
-  using Tables = std::tuple<AttitudeTable>;
+  using Tables = std::tuple<AttitudeTable, GyroBiasTable>;
 
   static constexpr const char* kTopic = "spindrift/attitude";
   static constexpr bool is_announced(const AttitudeEstimate& /*estimate*/) { return true; }
@@ -72,15 +108,13 @@ struct ProductKind<AttitudeEstimate> {
   static std::int64_t number(const AttitudeEstimate& estimate) { return tai_ns(estimate.t); }
   static constexpr bool is_settled(const AttitudeEstimate& /*estimate*/) { return true; }
 
-  /// With a covariance that is the same about all axes.
   template <class Row>
   static AttitudeEstimate from_row(const Row& row) {
-    const double sigma_rad = row.real("sigma_deg") * kRadPerDeg;
     AttitudeEstimate estimate{
         .t = tai_from_ns(row.integer("t_tai_ns")),
         .q_icrf_body = {row.real("qw"), row.real("qx"), row.real("qy"), row.real("qz")},
         .rate_body_rad_s = std::nullopt,
-        .covariance_rad2 = sigma_rad * sigma_rad / 3.0 * Eigen::Matrix3d::Identity(),
+        .covariance_rad2 = attitude_covariance_rad2_of(row),
         .assessment = {.quality = named(row.text("quality"), Quality::Lost),
                        .reasons = reasons_of(row.text("reasons"))},
         .source = named(row.text("source"), AttitudeSource::Sequential),

@@ -111,7 +111,11 @@ struct SpinBiasTable {
       ProductColumn{"estimator",
                     [](const BiasEstimate& /*bias*/) { return name_of(SpinEstimator::Batch); }},
       ProductColumn{"name", [](const BiasEstimate& bias) { return prior_of(bias.bias).name; }},
-      ProductColumn{"value", [](const BiasEstimate& bias) { return bias.value * to_unit(bias); }},
+      ProductColumn{"value",
+                    [](const BiasEstimate& bias) {
+                      return bias.observable ? std::optional{bias.value * to_unit(bias)}
+                                             : std::nullopt;
+                    }},
       ProductColumn{"unit",
                     [](const BiasEstimate& bias) {
                       return std::string_view{prior_of(bias.bias).is_angle ? "deg" : "km"};

@@ -52,6 +52,7 @@ constexpr auto columns(ProductColumn<Get>... column) {
 ///   kColumns       its columns, from columns(ProductColumn...)
 /// and where it needs them
 ///   kOfSpacecraft  true: the spacecraft's column stands behind the run's
+///   kSaysWhenAnnounced  true: the column announced_utc stands behind the run's, of live runs
 ///   kCondition     an SQL condition that tells its rows from those of other kinds there
 ///   kReplaces      an SQL condition on which a row takes the place of one with the same key
 ///   rows(product)  a range of rows to which the columns apply: the product has none or many. Then

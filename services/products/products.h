@@ -17,6 +17,7 @@
 #include "services/products/rejected_sample.h"
 #include "services/products/revolution.h"
 #include "services/products/run_fault.h"
+#include "services/products/run_notice.h"
 #include "services/products/sample_contradiction.h"
 #include "services/products/spin_estimate.h"
 #include "services/products/spin_fix.h"
@@ -25,9 +26,10 @@
 namespace spindrift {
 
 /// The list.
-using Product = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate,
-                             BatchProduct, RunFault, RejectedSample, AttitudeEstimate,
-                             ReconstructionProduct, ChannelComparison, SampleContradiction, Alert>;
+using Product =
+    std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate, BatchProduct,
+                 RunFault, RejectedSample, AttitudeEstimate, ReconstructionProduct,
+                 ChannelComparison, SampleContradiction, Alert, RunNotice>;
 
 /// Its place in the list.
 template <class Kind>

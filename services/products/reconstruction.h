@@ -16,6 +16,7 @@
 
 #include "pipelines/reconstruction/separation.h"
 #include "pipelines/three_axis/products.h"
+#include "services/products/attitude_covariance.h"
 #include "services/products/named.h"
 #include "services/products/product_kind.h"
 #include "services/units/degrees.h"
@@ -126,6 +127,10 @@ struct ReconstructionEventTable {
   static double rate_rad_s(const Row& row) {
     return row.event.attitude.rate_body_rad_s[kAxis];
   }
+  template <int kRow, int kColumn>
+  static double covariance_deg2(const Row& row) {
+    return row.event.attitude.covariance_rad2(kRow, kColumn) * (kDegPerRad * kDegPerRad);
+  }
   template <double Euler312::*kAngle>
   static double icrf_deg(const Row& row) {
     return row.in_icrf.*kAngle * kDegPerRad;
@@ -154,6 +159,12 @@ struct ReconstructionEventTable {
       ProductColumn{"euler312_orbit_deg_3", &orbit_deg<&Euler312::psi_rad>},
       ProductColumn{"sigma_deg",
                     [](const Row& row) { return row.event.attitude.sigma_rad() * kDegPerRad; }},
+      ProductColumn{"cov_xx_deg2", &covariance_deg2<0, 0>},
+      ProductColumn{"cov_xy_deg2", &covariance_deg2<0, 1>},
+      ProductColumn{"cov_xz_deg2", &covariance_deg2<0, 2>},
+      ProductColumn{"cov_yy_deg2", &covariance_deg2<1, 1>},
+      ProductColumn{"cov_yz_deg2", &covariance_deg2<1, 2>},
+      ProductColumn{"cov_zz_deg2", &covariance_deg2<2, 2>},
       ProductColumn{"bound_deg", [](const Row& row) {
                       const auto& bound_rad = row.event.bound_rad;
                       return bound_rad ? std::optional{*bound_rad * kDegPerRad} : std::nullopt;
@@ -187,6 +198,10 @@ struct ReconstructedAttitudeTable {
     }
     return rows;
   }
+  template <int kRow, int kColumn>
+  static double covariance_deg2(const Row& row) {
+    return row.attitude.covariance_rad2(kRow, kColumn) * (kDegPerRad * kDegPerRad);
+  }
   static constexpr auto kColumns =
       columns(ProductColumn{"source", [](const Row& row) { return row.source; }},
               ProductColumn{"t_tai_ns", [](const Row& row) { return tai_ns(row.attitude.t); }},
@@ -202,6 +217,12 @@ struct ReconstructedAttitudeTable {
                             [](const Row& row) { return row.attitude.rate_body_rad_s.z(); }},
               ProductColumn{"sigma_deg",
                             [](const Row& row) { return row.attitude.sigma_rad() * kDegPerRad; }},
+              ProductColumn{"cov_xx_deg2", &covariance_deg2<0, 0>},
+              ProductColumn{"cov_xy_deg2", &covariance_deg2<0, 1>},
+              ProductColumn{"cov_xz_deg2", &covariance_deg2<0, 2>},
+              ProductColumn{"cov_yy_deg2", &covariance_deg2<1, 1>},
+              ProductColumn{"cov_yz_deg2", &covariance_deg2<1, 2>},
+              ProductColumn{"cov_zz_deg2", &covariance_deg2<2, 2>},
               ProductColumn{"quality", [](const Row& row) { return row.quality; }},
               ProductColumn{"reasons", [](const Row& row) { return row.reasons; }},
               ProductColumn{"status", [](const Row& row) { return row.status; }});
@@ -231,7 +252,7 @@ struct ProductKind<ReconstructionProduct> {
     return events;
   }
 
-  /// With what is announced of it only, and covariances that are the same about all axes.
+  /// With what is announced of it only.
   using Parts = ReconstructionEventTable;
   template <class Row, class EventRows>
   static ReconstructionProduct from_row(const Row& row, const EventRows& for_each_event) {
@@ -259,7 +280,6 @@ struct ProductKind<ReconstructionProduct> {
  private:
   template <class Row>
   static ReconstructedEvent event_of(const Row& row) {
-    const double sigma_rad = row.real("sigma_deg") * kRadPerDeg;
     return {.event = named(row.text("event"), SeparationEvent::FirstStarFix),
             .found = row.integer("found") != 0,
             .attitude = {
@@ -267,7 +287,7 @@ struct ProductKind<ReconstructionProduct> {
                 .q_icrf_body = {row.real("qw"), row.real("qx"), row.real("qy"), row.real("qz")},
                 .rate_body_rad_s = {row.real("rate_x_rad_s"), row.real("rate_y_rad_s"),
                                     row.real("rate_z_rad_s")},
-                .covariance_rad2 = sigma_rad * sigma_rad / 3.0 * Eigen::Matrix3d::Identity(),
+                .covariance_rad2 = attitude_covariance_rad2_of(row),
                 .rate_covariance_rad2_s2 = Eigen::Matrix3d::Zero()}};
   }
 };

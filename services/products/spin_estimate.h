@@ -20,6 +20,7 @@ namespace spindrift {
 struct SpinEstimateTable {
   static constexpr std::string_view kName = "spin_estimate";
   static constexpr std::array<std::string_view, 2> kKey{"t_tai_ns", "estimator"};
+  static constexpr bool kSaysWhenAnnounced = true;
 
   using Axis = AxisColumns<SpinEstimate>;
   static constexpr auto kColumns = columns(

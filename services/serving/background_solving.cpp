@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "services/processor/told.h"
 #include "services/standard_error/warning.h"
 
 namespace spindrift {
@@ -103,8 +104,9 @@ std::size_t solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& ar
     } else {
       std::string& reason = said[spacecraft];
       if (std::exchange(reason, products->error().message) != products->error().message) {
-        warn("no_solution", {{"spacecraft", spacecraft}, {"what", task->what}, {"why", reason}},
-             fmt::format("{}: no {}: {}", spacecraft, task->what, reason));
+        task->batch.products.emplace_back(
+            told("no_solution", {{"spacecraft", spacecraft}, {"what", task->what}, {"why", reason}},
+                 fmt::format("{}: no {}: {}", spacecraft, task->what, reason)));
       }
     }
     if (row_count(task->batch) > 0 && !archive.submit(std::move(task->batch))) {

@@ -97,7 +97,9 @@ void route_and_compute(std::vector<PassInput> again, BoundedQueue<PassInput>& ba
                      computing.samples_left()));
     return;
   }
-  failures.note(contained("finishing", [&] { return finish(processor, archive, patience); }));
+  failures.note(contained("finishing", [&] {
+    return finish(processor, archive, patience).and_then(parts.on_finished);
+  }));
 }
 
 /// A service that is told to stop waits a while for the mathematics, and while writing fails not at

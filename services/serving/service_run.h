@@ -49,6 +49,7 @@ struct ServiceParts {
   std::function<void(const ArchiveBatch&)> announce;  ///< Alerts of the service. Must not wait.
   std::function<void(const Health&)> on_health;       ///< Must not wait.
   VerdictWatch::OnVerdict on_verdict;                 ///< Must not wait.
+  std::function<Expected<void>()> on_finished;        ///< The archive has the last batch of a run.
 };
 
 /// Until a signal, or a failure, and everything taken is with the archive.

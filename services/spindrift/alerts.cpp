@@ -35,9 +35,11 @@ constexpr std::chrono::milliseconds kPoll{100};
 /// A service neither shows nor changes those of a run of another mode than its own.
 std::string to_text(const StoredAlert& stored) {
   const Alert& alert = stored.alert;
-  return fmt::format("{} {} {} {} {} since {}, {} run: {}\n", alert.alert_id, stored.spacecraft,
+  const std::string until =
+      alert.cleared ? fmt::format(" until {}", format_utc(*alert.cleared)) : std::string{};
+  return fmt::format("{} {} {} {} {} since {}{}, {} run: {}\n", alert.alert_id, stored.spacecraft,
                      name_of(alert.severity), name_of(alert.state), alert.key,
-                     format_utc(alert.raised), name_of(stored.mode), alert.message);
+                     format_utc(alert.raised), until, name_of(stored.mode), alert.message);
 }
 
 nlohmann::json json_of(const StoredAlert& stored) {
@@ -120,7 +122,7 @@ Expected<void> list_alerts(const AlertsOptions& options) {
     for (const StoredAlert& stored : alerts) {
       if (options.json) {
         all.push_back(json_of(stored));
-      } else if (stored.alert.state != AlertState::Cleared) {
+      } else {
         fmt::print("{}", to_text(stored));
       }
     }

@@ -130,11 +130,12 @@ nlohmann::json to_json(const BatchSolution& solution) {
   nlohmann::json biases = nlohmann::json::object();
   for (const BiasEstimate& bias : solution.biases) {
     const ReadableBias shown = readable(bias);
-    biases[std::string{prior_of(bias.bias).name}] = {{"value", shown.value},
-                                                     {"sigma", shown.sigma},
-                                                     {"unit", shown.unit},
-                                                     {"observable", bias.observable},
-                                                     {"estimated", bias.estimated}};
+    biases[std::string{prior_of(bias.bias).name}] = {
+        {"value", bias.observable ? nlohmann::json(shown.value) : nlohmann::json{}},
+        {"sigma", shown.sigma},
+        {"unit", shown.unit},
+        {"observable", bias.observable},
+        {"estimated", bias.estimated}};
   }
   nlohmann::json undetermined = nlohmann::json::array();
   for (const BiasSet& direction : solution.undetermined) {

@@ -89,6 +89,7 @@ void add_process(CLI::App& app, Request& request) {
   CLI::App& command = *app.add_subcommand("process", "Process recorded telemetry into an archive");
   add_recording_options(command, options.mission, options.telemetry);
   add_archive_option(command, options.db);
+  command.add_option("--label", options.label, "Name of the run in the archive");
   command.add_flag("--strict", options.strict, "A bad row of telemetry is an error");
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback(
@@ -311,8 +312,7 @@ void add_alerts(CLI::App& app, Request& request) {
   AlertsOptions& options = request.alerts;
   CLI::App& command = *app.add_subcommand("alerts", "List the alerts of an archive");
   command.add_option("--db", options.db, "Archive")->check(check_path);
-  command.add_flag("--json", options.json,
-                   "Print all alerts, those that are over too, as one JSON object");
+  command.add_flag("--json", options.json, "Print one JSON object");
   command.add_flag("--follow", options.follow,
                    "Go on and print each change, with --json as one JSON object a line");
   command.require_subcommand(0, 1);

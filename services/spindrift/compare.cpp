@@ -81,9 +81,7 @@ Expected<void> see_files(const CompareOptions& options, const std::string& space
       }
     });
   }
-  if (input->bad_rows().count > 0) {
-    warn("bad_rows", {{"rows", input->bad_rows().count}}, input->bad_rows().text());
-  }
+  static_cast<void>(told_bad_rows(input->bad_rows()));  // Nothing is stored of files.
   return {};
 }
 
@@ -114,8 +112,8 @@ Expected<void> take_up_departures(const std::filesystem::path& db, const std::st
 Expected<std::string> store(const CompareOptions& options, const Mission& mission,
                             const Telling& telling) {
   auto processor = Processor::make(
-      {mission},
-      {.mode = RunMode::Process, .telemetry = {options.db.string(), options.model.string()}});
+      {mission}, {.mode = RunMode::Process,
+                  .telemetry = absolute_texts(std::vector{options.db, options.model})});
   if (!processor) {
     return Unexpected{processor.error()};
   }

@@ -4,7 +4,7 @@
 
 #include <csignal>
 #include <cstdint>
-#include <span>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -15,21 +15,17 @@
 #include "services/comparison/ground_model.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
+#include "services/processor/told.h"
 #include "services/progress/progress_bar.h"
 #include "services/spindrift/comparison_notice.h"
 #include "services/spindrift/orbit_notice.h"
 #include "services/spindrift/outcome.h"
 #include "services/spindrift/summary_text.h"
 #include "services/spindrift/telemetry_input.h"
-#include "services/standard_error/warning.h"
 #include "services/words/counted.h"
 
 namespace spindrift {
 namespace {
-
-std::vector<std::string> texts_of(const std::vector<std::filesystem::path>& paths) {
-  return {paths.begin(), paths.end()};
-}
 
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a signal handler has no other
 volatile std::sig_atomic_t interrupted = 0;
@@ -65,23 +61,55 @@ Expected<bool> run(Processor& processor, TelemetryInput& telemetry, Archive& arc
   return false;
 }
 
-/// Whoever has edges is told by the pass why they give no axis.
-void warn_where_no_edge_came(const Processor& processor, std::uint64_t bad_rows) {
+/// Of a spinner without edges (who has some is told by the pass why they give no axis), and of
+/// estimators that disagree.
+/// @param of_files Of all files. Where passes follow each other in one recording nobody knows whose
+///                 the bad rows are: they stand with the first.
+std::vector<ArchiveBatch> told_at_the_end(const Processor& processor,
+                                          std::vector<RunNotice> of_files, const BadRows& bad_rows,
+                                          const std::filesystem::path& db) {
   std::int64_t others = 0;
   for (const auto& [spacecraft, samples] : processor.other_spacecraft()) {
     others += samples;
   }
+  std::vector<ArchiveBatch> batches;
   for (const RunSummary& summary : processor.summaries()) {
+    ArchiveBatch batch;
+    batch.run_id = summary.run_id;
+    batch.spacecraft_id = summary.spacecraft_id;
+    std::move(of_files.begin(), of_files.end(), std::back_inserter(batch.products));
+    of_files.clear();
     if (summary.kind == SpacecraftKind::Spin && summary.edges_received == 0) {
-      warn("no_edge",
-           {{"spacecraft", summary.spacecraft_id},
-            {"bad_rows", bad_rows},
-            {"samples_of_others", others}},
-           fmt::format(
-               "{}: no edge of it in the telemetry, and no axis: {}, {} of other spacecraft",
-               summary.spacecraft_id, counted(bad_rows, "bad rows"), counted(others, "samples")));
+      batch.products.emplace_back(told(
+          "no_edge",
+          {{"spacecraft", summary.spacecraft_id},
+           {"bad_rows", bad_rows.count},
+           {"samples_of_others", others}},
+          fmt::format("{}: no edge of it in the telemetry, and no axis: {}, {} of other spacecraft",
+                      summary.spacecraft_id, counted(bad_rows.count, "bad rows"),
+                      counted(others, "samples"))));
+    }
+    for (RunNotice& notice : told_disagreements(db, summary.spacecraft_id, summary.run_id)) {
+      batch.products.emplace_back(std::move(notice));
+    }
+    if (!batch.products.empty()) {
+      batches.push_back(std::move(batch));
     }
   }
+  return batches;
+}
+
+/// What `run` has computed is stored, and what is known of it only then is told and stored.
+Expected<void> tell_at_the_end(Archive& archive, const Processor& processor,
+                               const TelemetryInput& telemetry, std::vector<RunNotice> of_files,
+                               const std::filesystem::path& db) {
+  if (auto bad_rows = told_bad_rows(telemetry.bad_rows())) {
+    of_files.push_back(*std::move(bad_rows));
+  }
+  return archive.flush().and_then([&] {
+    return submit_all(archive,
+                      told_at_the_end(processor, std::move(of_files), telemetry.bad_rows(), db));
+  });
 }
 
 Expected<bool> computed_without_fault(const Processor& processor, const std::filesystem::path& db) {
@@ -106,9 +134,18 @@ Expected<bool> process(const ProcessOptions& options) {
   if (!telemetry) {
     return Unexpected{telemetry.error()};
   }
-  telemetry->find_preferred(*mission);
-  auto processor = Processor::make(
-      {*mission}, {.mode = RunMode::Process, .telemetry = texts_of(options.telemetry)});
+  std::vector<RunNotice> of_files;
+  if (auto notice = telemetry->find_preferred(*mission)) {
+    of_files.push_back(*std::move(notice));
+  }
+  auto sha256 = telemetry->sha256();
+  if (!sha256) {
+    return Unexpected{sha256.error()};
+  }
+  auto processor = Processor::make({*mission}, {.mode = RunMode::Process,
+                                                .telemetry = absolute_texts(options.telemetry),
+                                                .sha256 = *std::move(sha256),
+                                                .label = options.label});
   if (!processor) {
     return Unexpected{processor.error()};
   }
@@ -118,26 +155,22 @@ Expected<bool> process(const ProcessOptions& options) {
   }
   AlertDesk desk{{*mission}, RunMode::Process, *models};
   auto archive =
-      Archive::open(options.db, {.on_submit = [&](ArchiveBatch& batch) { desk.see(batch); },
-                                 .on_committed =
-                                     [&](std::span<const ArchiveBatch> stored) {
-                                       warn_of_disagreements(options.db, stored);
-                                     }});
+      Archive::open(options.db, {.on_submit = [&](ArchiveBatch& batch) { desk.see(batch); }});
   if (!archive) {
     return Unexpected{archive.error()};
   }
   stop_at_first_signal();
-  const auto done = processor->arrive_after(options.db).and_then([&] {
-    return run(*processor, *telemetry, **archive);
-  });
+  const auto done = processor->arrive_after(options.db)
+                        .and_then([&] { return run(*processor, *telemetry, **archive); })
+                        .and_then([&](bool all) {
+                          return tell_at_the_end(**archive, *processor, *telemetry,
+                                                 std::move(of_files), options.db)
+                              .map([&] { return all; });
+                        });
   // Whatever stopped the run: what was accepted is stored before the archive is let go.
   if (auto outcome = outcome_of(done.map([](bool) {}), (*archive)->close()); !outcome) {
     return Unexpected{outcome.error()};
   }
-  if (telemetry->bad_rows().count > 0) {
-    warn("bad_rows", {{"rows", telemetry->bad_rows().count}}, telemetry->bad_rows().text());
-  }
-  warn_where_no_edge_came(*processor, telemetry->bad_rows().count);
   return report(*processor, options.db, options.json).and_then([&](const std::string& text) {
     fmt::print("{}", text);
     return computed_without_fault(*processor, options.db).map([&](bool sound) {

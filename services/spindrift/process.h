@@ -4,6 +4,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "pipelines/core/expected.h"
@@ -14,7 +16,8 @@ struct ProcessOptions {
   std::filesystem::path mission;
   std::vector<std::filesystem::path> telemetry;
   std::filesystem::path db;
-  bool strict = false;  ///< A bad row is an error.
+  std::optional<std::string> label;  ///< That the run gets in the archive.
+  bool strict = false;               ///< A bad row is an error.
   bool json = false;
 };
 

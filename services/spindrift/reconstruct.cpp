@@ -69,12 +69,17 @@ Expected<Mission> mission_for(const ReconstructOptions& options) {
   return mission;
 }
 
+/// What a run stores.
+struct ToStore {
+  std::vector<SampleBatch> samples;   ///< Empty: the archive has them.
+  std::vector<Product> products;      ///< Contradictions and notices, then what was made of all.
+  std::optional<std::string> sha256;  ///< Of all bytes of the files; empty: there are none.
+};
+
 /// What is reconstructed from, and what of it is not in the archive yet.
 struct Recorded {
   SeparationSamples samples;
-  std::vector<SampleBatch> to_store;
-  std::vector<Product> contradictions;
-  BadRows bad_rows;
+  ToStore to_store;
 };
 
 template <class Value>
@@ -89,20 +94,21 @@ void append(const SampleBatch& batch, const std::string& spacecraft_id, SenderNa
 }
 
 /// Leaves those that count, and says what was contested.
+/// @param products Receive it.
 template <class Value>
 void settle(const std::string& spacecraft_id, const std::vector<std::string>& senders,
-            std::vector<Value>& values, std::vector<Product>& contradictions) {
-  const std::size_t before = contradictions.size();
+            std::vector<Value>& values, std::vector<Product>& products) {
+  bool is_told = false;
   const auto in_time = [](const Value& a, const Value& b) { return a.t < b.t; };
   std::stable_sort(values.begin(), values.end(), in_time);
   values = those_that_count(values, [&](const auto& said, const auto& used) {
     SampleContradiction contradiction{
         .t = said.front().t, .kind = name_of(kind_of(said.front())), .by = senders_of(said, used)};
     fill_in_names(contradiction, senders);
-    if (contradictions.size() == before) {
-      say(spacecraft_id, contradiction);
+    if (!std::exchange(is_told, true)) {
+      products.emplace_back(told(spacecraft_id, contradiction));
     }
-    contradictions.emplace_back(std::move(contradiction));
+    products.emplace_back(std::move(contradiction));
   });
 }
 
@@ -113,28 +119,38 @@ Expected<Recorded> recorded_in_files(const std::vector<std::filesystem::path>& p
   if (!input) {
     return Unexpected{std::move(input.error())};
   }
-  input->find_preferred(mission);
-  SenderNames senders{mission.preferred_source};
+  auto sha256 = input->sha256();
+  if (!sha256) {
+    return Unexpected{std::move(sha256.error())};
+  }
   Recorded recorded;
   SeparationSamples& samples = recorded.samples;
+  ToStore& to_store = recorded.to_store;
+  to_store.sha256 = *std::move(sha256);
+  if (auto notice = input->find_preferred(mission)) {
+    to_store.products.emplace_back(*std::move(notice));
+  }
+  SenderNames senders{mission.preferred_source};
   while (true) {
     auto batch = input->next();
     if (!batch) {
       return Unexpected{std::move(batch.error())};
     }
     if (is_empty(*batch)) {
-      recorded.bad_rows = input->bad_rows();
       const auto settle_all = [&](auto&... values) {
-        (settle(spacecraft_id, *senders.names(), values, recorded.contradictions), ...);
+        (settle(spacecraft_id, *senders.names(), values, to_store.products), ...);
       };
       settle_all(samples.gyro, samples.sun, samples.stars, samples.orbit_states);
+      if (auto bad_rows = told_bad_rows(input->bad_rows())) {
+        to_store.products.emplace_back(*std::move(bad_rows));
+      }
       return recorded;
     }
     append(*batch, spacecraft_id, senders, samples.gyro);
     append(*batch, spacecraft_id, senders, samples.sun);
     append(*batch, spacecraft_id, senders, samples.stars);
     append(*batch, spacecraft_id, senders, samples.orbit_states);
-    recorded.to_store.push_back(std::move(*batch));
+    to_store.samples.push_back(std::move(*batch));
   }
 }
 
@@ -145,8 +161,7 @@ Expected<Recorded> recorded(const ReconstructOptions& options, Mission& mission)
   return find_separation_samples(options.db, mission.spacecraft_id, mission.preferred_source,
                                  mission.separation->times.separation)
       .map([](SeparationSamples&& samples) {
-        return Recorded{
-            .samples = std::move(samples), .to_store = {}, .contradictions = {}, .bad_rows = {}};
+        return Recorded{.samples = std::move(samples), .to_store = {}};
       });
 }
 
@@ -172,13 +187,12 @@ Expected<SolvedSeparation> solved(const ReconstructOptions& options, const Missi
 /// A run with the samples, by the path on which `process` stores them, and what was made of them.
 /// @return its id.
 Expected<std::string> store(const ReconstructOptions& options, const Mission& mission,
-                            std::vector<SampleBatch> samples, std::vector<Product> products,
-                            Archive& archive) {
-  std::vector<std::string> telemetry{options.telemetry.begin(), options.telemetry.end()};
-  if (telemetry.empty()) {
-    telemetry.push_back(options.db.string());
-  }
-  auto processor = Processor::make({mission}, {.mode = RunMode::Process, .telemetry = telemetry});
+                            ToStore to_store, Archive& archive) {
+  auto processor = Processor::make(
+      {mission}, {.mode = RunMode::Process,
+                  .telemetry = absolute_texts(options.telemetry.empty() ? std::vector{options.db}
+                                                                        : options.telemetry),
+                  .sha256 = std::move(to_store.sha256)});
   if (!processor) {
     return Unexpected{processor.error()};
   }
@@ -189,12 +203,12 @@ Expected<std::string> store(const ReconstructOptions& options, const Mission& mi
   };
   Expected<void> stored =
       processor->arrive_after(options.db).and_then([&] { return submit(processor->begin()); });
-  for (SampleBatch& batch : samples) {
+  for (SampleBatch& batch : to_store.samples) {
     stored = stored.and_then([&] { return submit(processor->route(std::move(batch)).samples); });
   }
   return stored
       .and_then([&] {
-        last.products = std::move(products);
+        last.products = std::move(to_store.products);
         last.finished_utc = utc_now();
         return archive.submit(last);
       })
@@ -210,7 +224,7 @@ struct Shown {
   std::vector<std::string> failures;
 };
 
-/// @param store_in Is given samples and products, and returns the run's id.
+/// @param store_in Is given what to store, and returns the run's id.
 template <class StoreIn>
 Expected<Shown> made(const ReconstructOptions& options, const StoreIn& store_in) {
   auto mission = mission_for(options);
@@ -222,16 +236,13 @@ Expected<Shown> made(const ReconstructOptions& options, const StoreIn& store_in)
   if (!from) {
     return Unexpected{std::move(from.error())};
   }
-  if (from->bad_rows.count > 0) {
-    warn("bad_rows", {{"rows", from->bad_rows.count}}, from->bad_rows.text());
-  }
   const auto answer = solved(options, *mission, std::move(from->samples));
   if (!answer) {
     return Unexpected{answer.error()};
   }
-  std::vector<Product> products = std::move(from->contradictions);
+  std::vector<Product>& products = from->to_store.products;
   products.insert(products.end(), answer->methods.begin(), answer->methods.end());
-  const auto run_id = store_in(*mission, std::move(from->to_store), std::move(products));
+  const auto run_id = store_in(*mission, std::move(from->to_store));
   if (!run_id) {
     return Unexpected{run_id.error()};
   }
@@ -250,10 +261,9 @@ Expected<Shown> made(const ReconstructOptions& options, const StoreIn& store_in)
 
 /// Here, with the archive opened for it.
 Expected<Shown> made_here(const ReconstructOptions& options) {
-  return made(options, [&](const Mission& mission, std::vector<SampleBatch> samples,
-                           std::vector<Product> products) {
+  return made(options, [&](const Mission& mission, ToStore to_store) {
     return Archive::open(options.db, {}).and_then([&](std::unique_ptr<Archive>&& archive) {
-      auto run_id = store(options, mission, std::move(samples), std::move(products), *archive);
+      auto run_id = store(options, mission, std::move(to_store), *archive);
       return outcome_of(run_id.map([](const std::string&) {}), archive->close()).map([&] {
         return *run_id;
       });
@@ -328,9 +338,8 @@ nlohmann::json answer_reconstruct(const nlohmann::json& request, const std::file
   if (const auto method = request.find("method"); method != request.end() && method->is_string()) {
     options.method = named(method->get_ref<const std::string&>(), ReconstructionMethod::Sequential);
   }
-  const auto shown = made(options, [&](const Mission& mission, std::vector<SampleBatch> samples,
-                                       std::vector<Product> products) {
-    return store(options, mission, std::move(samples), std::move(products), archive);
+  const auto shown = made(options, [&](const Mission& mission, ToStore to_store) {
+    return store(options, mission, std::move(to_store), archive);
   });
   if (!shown) {
     return {{"error", shown.error().message},

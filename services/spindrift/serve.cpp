@@ -196,6 +196,7 @@ void note_faults(std::span<const ArchiveBatch> stored, Problems& problems) {
 
 Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db, AlertDesk& desk,
                                                 Announcer& announcer, Problems& problems,
+                                                DisagreementNotices& disagreements,
                                                 ThreadFailures& failures) {
   return Archive::open(db, {.on_write_failure = OnWriteFailure::Retry,
                             .on_submit = [&](ArchiveBatch& batch) { desk.see(batch); },
@@ -205,7 +206,7 @@ Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db,
                                   desk.note_stored(stored);
                                   failures.note(contained("announcing", [&] {
                                     announcer.committed(stored);
-                                    warn_of_disagreements(db, stored);
+                                    disagreements.tell(stored);
                                     note_faults(stored, problems);
                                   }));
                                 },
@@ -343,7 +344,8 @@ Expected<void> serve(const ServeOptions& options) {
   if (!webhook) {
     return Unexpected{webhook.error()};
   }
-  const auto opened = open_archive(options.db, desk, announcer, problems, failures);
+  DisagreementNotices disagreements{options.db};
+  const auto opened = open_archive(options.db, desk, announcer, problems, disagreements, failures);
   if (!opened) {
     return Unexpected{opened.error()};
   }
@@ -373,7 +375,8 @@ Expected<void> serve(const ServeOptions& options) {
             if (feed != nullptr) {
               show_verdict(*feed, spacecraft, run_id, verdict, desk);
             }
-          }};
+          },
+      .on_finished = [&] { return disagreements.store(archive); }};
   const auto done = go_on(parts, feed.get(), announcer).and_then([&](GoneOn stored) {
     return take_and_answer(options, parts, feed.get(), terminal, std::move(stored));
   });

@@ -273,15 +273,15 @@ std::string to_text(const RunSummary& summary) {
   if (!summary.verdict.finished) {
     text += "  interrupted  what follows rests on a part of the telemetry\n";
   }
-  text += to_text(summary.verdict);
+  // What the mission wants to know of a separation is the attitude then, not the one now.
+  text += reconstructions_text(summary) + to_text(summary.verdict);
   if (summary.kind == SpacecraftKind::ThreeAxis) {
     text += "  received     ";
     for (const auto& [plural, count] : summary.samples_received) {
       text += counted(count, plural) + ", ";
     }
     text += rejected_text(summary) + "\n" + contradictions_text(summary);
-    return text + sensors_text(summary) + attitude_text(summary) + reconstructions_text(summary) +
-           faults_text(summary);
+    return text + sensors_text(summary) + attitude_text(summary) + faults_text(summary);
   }
   text += fmt::format("  received     {} edges, {} of them stored, {} coded frames, {}\n",
                       summary.edges_received, summary.edges_stored, summary.coded_frames_received,

@@ -9,7 +9,8 @@
 #include <variant>
 
 #include "pipelines/core/shown.h"
-#include "services/standard_error/warning.h"
+#include "services/input_file/sha256.h"
+#include "services/processor/told.h"
 #include "services/telemetry_files/telemetry_rows.h"
 #include "services/words/counted.h"
 
@@ -69,6 +70,19 @@ std::string BadRows::text() const {
     text += fmt::format("\n  {}:{}: {}", row.source, row.line, row.reason);
   }
   return count > first.size() ? text + "\n  ..." : text;
+}
+
+std::optional<RunNotice> told_bad_rows(const BadRows& bad) {
+  return bad.count == 0 ? std::nullopt
+                        : std::optional{told("bad_rows", {{"rows", bad.count}}, bad.text())};
+}
+
+std::vector<std::string> absolute_texts(std::span<const std::filesystem::path> paths) {
+  std::vector<std::string> texts;
+  for (const std::filesystem::path& path : paths) {
+    texts.push_back(std::filesystem::absolute(path).lexically_normal().string());
+  }
+  return texts;
 }
 
 Expected<BadRows> find_bad_rows(std::span<const TelemetryFile> files) {
@@ -133,23 +147,34 @@ Expected<SampleBatch> TelemetryInput::next() {
   return batch;
 }
 
-void TelemetryInput::find_preferred(Mission& mission) const {
+std::optional<RunNotice> TelemetryInput::find_preferred(Mission& mission) const {
   std::string& preferred = mission.preferred_source;
   if (preferred.empty()) {
-    return;
+    return std::nullopt;
   }
+  std::optional<RunNotice> notice;
   std::string source = find_source(files_, preferred);
   if (source.empty()) {
     std::vector<std::string> sources;
     for (const TelemetryFile& file : files_) {
       sources.push_back(file.source);
     }
-    warn("no_preferred_source", {{"spacecraft", mission.spacecraft_id}, {"prefer", preferred}},
-         fmt::format("{}: sources.prefer = \"{}\" is not one of the files, which are {}: where "
-                     "samples contradict each other none is used",
-                     mission.spacecraft_id, preferred, fmt::join(sources, ", ")));
+    notice =
+        told("no_preferred_source", {{"spacecraft", mission.spacecraft_id}, {"prefer", preferred}},
+             fmt::format("{}: sources.prefer = \"{}\" is not one of the files, which are {}: "
+                         "where samples contradict each other none is used",
+                         mission.spacecraft_id, preferred, fmt::join(sources, ", ")));
   }
   preferred = std::move(source);
+  return notice;
+}
+
+Expected<std::string> TelemetryInput::sha256() const {
+  std::vector<std::filesystem::path> paths;
+  for (const TelemetryFile& file : files_) {
+    paths.push_back(file.path);
+  }
+  return sha256_hex(paths);
 }
 
 std::vector<TelemetryKind> TelemetryInput::kinds() const {

@@ -5,12 +5,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "pipelines/core/expected.h"
 #include "services/mission/mission.h"
+#include "services/products/run_notice.h"
 #include "services/telemetry_files/telemetry_files.h"
 #include "services/telemetry_files/telemetry_stream.h"
 
@@ -24,6 +26,12 @@ struct BadRows {
   void add(const RejectedInput& row);
   std::string text() const;
 };
+
+/// The warning of them. @return it; empty: there are none.
+std::optional<RunNotice> told_bad_rows(const BadRows& bad);
+
+/// As an archive keeps them, which may be read from another folder.
+std::vector<std::string> absolute_texts(std::span<const std::filesystem::path> paths);
 
 /// A pass over all files, in constant memory.
 /// @return as TelemetryStream.
@@ -44,11 +52,13 @@ class TelemetryInput {
   Expected<SampleBatch> next();
 
   /// The preferred source of `mission` by the name that its samples have here. That it is none of
-  /// the files is said.
-  void find_preferred(Mission& mission) const;
+  /// the files is said, and returned.
+  std::optional<RunNotice> find_preferred(Mission& mission) const;
 
   /// That there are files of, each once.
   std::vector<TelemetryKind> kinds() const;
+  /// Of all bytes of the files. @return the errors of InputFile.
+  Expected<std::string> sha256() const;
   const BadRows& bad_rows() const { return bad_rows_; }  ///< Of the batches given.
   std::uint64_t bytes_given() const { return stream_.bytes_given(); }
   std::uint64_t bytes_total() const { return stream_.bytes_total(); }

@@ -47,6 +47,20 @@ TEST_F(ArchiveAnswers, VerdictOfAPassIsThatOfBatchElseOfSequentialElseOfMean) {
                           "mean 30 OK: ", "sequential 30 OK: ", "batch 30 OK: "));
 }
 
+TEST_F(ArchiveAnswers, VerdictHasTheEllipseAndHowFarTheTelemetryReaches) {
+  constexpr std::int64_t kNewYear2017_ns = 1'483'228'837'000'000'000;
+  ArchiveBatch batch = start_of("run-1");
+  batch.reach = {.first = tai_from_ns(kNewYear2017_ns),
+                 .last = tai_from_ns(kNewYear2017_ns + 1'500'000'000),
+                 .contact_share = 0.75};
+  batch.products = {estimate_at(1, SpinEstimator::Mean, 20.0)};
+  store(batch);
+  EXPECT_EQ(text("SELECT format('%d %d %d %s %s %g', cov_east_east_deg2 > 0,"
+                 " cov_north_north_deg2 > cov_east_east_deg2, cov_xx_deg2 IS NULL, start_utc,"
+                 " end_utc, contact_share) FROM pass_verdict"),
+            "1 1 1 2017-01-01T00:00:00.000Z 2017-01-01T00:00:01.500Z 0.75");
+}
+
 /// What SQLite's machine does for the verdict of run-1.
 int steps_to_verdict(const SQLite::Database& database) {
   sqlite3_stmt* query = nullptr;

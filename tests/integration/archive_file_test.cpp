@@ -134,7 +134,8 @@ TEST_F(ArchiveFile, TablesOfEveryEdgeTakeNoOtherNamesThanThoseOfTheContract) {
   SQLite::Database raw{path().string(), SQLite::OPEN_READWRITE};
   raw.exec("INSERT INTO spacecraft VALUES ('A', 'A', 'spin')");
   const std::string run =
-      "INSERT INTO run VALUES ('r', 'A', 'live', '', '', '', '', NULL, '', NULL, 0, 0)";
+      "INSERT INTO run VALUES ('r', 'A', 'live', '', '', '', '', NULL, NULL, NULL, '', NULL, 0, 0, "
+      "0, NULL)";
   raw.exec(run);
   const auto takes = [&raw](const std::string& values) {
     return raw.tryExec("INSERT INTO " + values) == SQLite::OK;
@@ -151,12 +152,12 @@ TEST_F(ArchiveFile, TablesOfEveryEdgeTakeNoOtherNamesThanThoseOfTheContract) {
   EXPECT_TRUE(
       takes("spin_fix VALUES ('r', 1, 1, 1, 1, 1, 1, 1, 0, 1, NULL, NULL, 'AMBIGUOUS', 1, 1)"));
   EXPECT_FALSE(takes("spin_fix VALUES ('r', 2, 1, 1, 1, 1, 1, 1, 0, 1, NULL, NULL, 'NONE', 1, 1)"));
-  EXPECT_TRUE(
-      takes("spin_estimate VALUES ('r', 1, 'batch', 1, 1, 1, 1, 0, 1, 1, 1, 'OK', '[]', 'OK')"));
-  EXPECT_FALSE(
-      takes("spin_estimate VALUES ('r', 2, 'batch', 1, 1, 1, 1, 0, 1, 1, 1, 'GOOD', '[]', '')"));
-  EXPECT_FALSE(
-      takes("spin_estimate VALUES ('r', 1, 'mode', 1, 1, 1, 1, 0, 1, 1, 1, 'OK', '[]', 'OK')"));
+  EXPECT_TRUE(takes(
+      "spin_estimate VALUES ('r', 1, 'batch', 1, 1, 1, 1, 0, 1, 1, 1, 'OK', '[]', 'OK', NULL)"));
+  EXPECT_FALSE(takes(
+      "spin_estimate VALUES ('r', 2, 'batch', 1, 1, 1, 1, 0, 1, 1, 1, 'GOOD', '[]', '', NULL)"));
+  EXPECT_FALSE(takes(
+      "spin_estimate VALUES ('r', 1, 'mode', 1, 1, 1, 1, 0, 1, 1, 1, 'OK', '[]', 'OK', NULL)"));
 }
 
 TEST_F(ArchiveFile, NameThatSqliteTakesForSomethingElseIsRefused) {

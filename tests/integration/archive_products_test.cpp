@@ -256,6 +256,80 @@ TEST_F(ArchiveProducts, EveryViewOfAPersonHasItsUtc) {
   }
 }
 
+TEST_F(ArchiveProducts, WhatHasNoSun1OrCameInACodedFrameHasItsUtcAllTheSame) {
+  const Pulse edge{.t = tai_from_ns(1'483'228'837'000'000'000), .channel = PulseChannel::Sun2};
+  ArchiveBatch batch = start_of("run-1");
+  batch.products = {
+      PulseUse{.pulse = edge, .revolution = 12, .rejected_by = Rejection::Unassociated},
+      SpinMeasurement{.revolution = 12,
+                      .quantity = SpinQuantity::Period,
+                      .value = 0.6,
+                      .sigma = 1e-4,
+                      .rejected_by = std::nullopt}};
+  store(batch);
+
+  EXPECT_EQ(number("SELECT count(*) FROM revolution"), 0);
+  EXPECT_EQ(number("SELECT count(*) FROM pulse"), 0);
+  for (const std::string view : {"spin_measurement_utc", "rejected_pulse"}) {
+    EXPECT_EQ(text("SELECT utc FROM " + view), "2017-01-01T00:00:00.000Z") << view;
+  }
+}
+
+TEST_F(ArchiveProducts, EstimatesOfALiveRunSayWhenTheyWereStoredAndNoOthers) {
+  for (const auto& [run_id, mode] :
+       {std::pair{"live", RunMode::Live}, std::pair{"replay", RunMode::Replay}}) {
+    ArchiveBatch batch = start_of(run_id);
+    batch.start->mode = mode;
+    store(batch);
+    batch = testing::batch_of(run_id);
+    batch.products = {estimate_at(1, SpinEstimator::Mean, 1.0),
+                      testing::attitude_at(1, Quality::Ok)};
+    store(batch);
+  }
+  for (const std::string table : {"spin_estimate", "attitude"}) {
+    EXPECT_EQ(text("SELECT announced_utc LIKE '20__-__-__T__:__:__.___Z' FROM " + table +
+                   " WHERE run_id = 'live'"),
+              "1");
+    EXPECT_EQ(number("SELECT announced_utc IS NULL FROM " + table + " WHERE run_id = 'replay'"), 1);
+  }
+}
+
+TEST_F(ArchiveProducts, NoticeIsStoredOnceHoweverOftenItIsTold) {
+  ArchiveBatch batch = start_of("run-1");
+  const RunNotice of_then{.t = tai_from_ns(1'483'228'837'000'000'000),
+                          .code = "late_edges",
+                          .arguments = R"({"edges":3})",
+                          .says = "3 edges are late"};
+  batch.products = {of_then, RunNotice{.code = "bad_rows", .arguments = "{}", .says = "bad"},
+                    of_then};
+  store(batch);
+
+  EXPECT_EQ(text("SELECT group_concat(format('%s %s %s: %s', ifnull(utc, '-'), code, arguments,"
+                 " says), '; ') FROM notice_utc"),
+            "- bad_rows {}: bad; "
+            R"(2017-01-01T00:00:00.000Z late_edges {"edges":3}: 3 edges are late)");
+}
+
+TEST_F(ArchiveProducts, CovarianceOfAnAttitudeAndTheBiasOfItsGyroAreInDegrees) {
+  AttitudeEstimate estimate = testing::attitude_at(1, Quality::Ok);
+  estimate.covariance_rad2(0, 1) = estimate.covariance_rad2(1, 0) = -kRadPerDeg * kRadPerDeg;
+  ArchiveBatch batch = start_of("run-1");
+  batch.products = {estimate};
+  estimate.t = tai_from_ns(2);
+  estimate.gyro_bias = {
+      .rad_s = Eigen::Vector3d{1.0, -2.0, 3.0} * kRadPerDeg,
+      .covariance_rad2_s2 = 0.25 * kRadPerDeg * kRadPerDeg * Eigen::Matrix3d::Identity()};
+  batch.products.emplace_back(estimate);
+  store(batch);
+
+  EXPECT_EQ(text("SELECT format('%g %g %g %g %g %g', cov_xx_deg2, cov_xy_deg2, cov_xz_deg2,"
+                 " cov_yy_deg2, cov_yz_deg2, cov_zz_deg2) FROM attitude WHERE t_tai_ns = 1"),
+            "4 -1 0 16 0 16");
+  EXPECT_EQ(text("SELECT group_concat(format('%d %s %g %g %g %g', t_tai_ns, estimator, bx_deg_s,"
+                 " by_deg_s, bz_deg_s, sigma_bz_deg_s)) FROM gyro_bias"),
+            "2 mekf 1 -2 3 0.5");
+}
+
 TEST_F(ArchiveProducts, TwoArchivesMergeByNaturalKey) {
   const std::filesystem::path other = directory() / "other.db";
   for (const auto& [name, run_id, first_ns] :
@@ -324,6 +398,12 @@ TEST_F(ArchiveProducts, BiasesAreThoseOfTheLastSolutionAndSayWhetherTheyAreInThe
   EXPECT_EQ(after(again), "dihedral 0");
   again.continuation = Continuation{.t = tai_from_ns(200)};
   EXPECT_EQ(after(again), "");
+}
+
+TEST_F(ArchiveProducts, BiasThatIsNotObservableHasNoValue) {
+  store(start_of("run-1"));
+  store(solution_with(100, {{NorthChordBias, 0.0, 0.001, false, true}}));
+  EXPECT_EQ(text("SELECT ifnull(value, 'none') FROM spin_bias"), "none");
 }
 
 }  // namespace spindrift::archive_products_test

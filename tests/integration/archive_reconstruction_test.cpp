@@ -109,6 +109,9 @@ TEST_F(ArchiveReconstruction, ReconstructedAttitudesDoNotPoseAsThatOfThePass) {
   store_products({filtered_at(4), early_solution()});
   EXPECT_EQ(text("SELECT source || (t_tai_ns / 1000000000) FROM attitude_answer"), "mekf4");
   EXPECT_EQ(text("SELECT estimator FROM pass_verdict"), "mekf");
+  EXPECT_EQ(text("SELECT format('%s %s %d %g %.3f %.3f', method, quality, t1_tai_ns / 1000000000,"
+                 " qw, sigma_deg, cov_zz_deg2) FROM separation_verdict"),
+            "batch OK 1 0.5 2.000 1.333");
 
   const auto stored = find_stored_results(path(), "run-1").value();
   std::vector<TaiTime> attitudes;

@@ -43,12 +43,12 @@ class ArchiveRestart : public testing::ArchiveFixture {
       sample.arrival = arrival++;
     }
     batch.samples.of<Pulse>() = std::move(pulses);
-    batch.earliest =
-        std::min_element(batch.samples.of<Pulse>().begin(), batch.samples.of<Pulse>().end(),
-                         [](const TelemetrySample<Pulse>& a, const TelemetrySample<Pulse>& b) {
-                           return a.value < b.value;
-                         })
-            ->value.t;
+    const auto [first, last] =
+        std::minmax_element(batch.samples.of<Pulse>().begin(), batch.samples.of<Pulse>().end(),
+                            [](const TelemetrySample<Pulse>& a, const TelemetrySample<Pulse>& b) {
+                              return a.value < b.value;
+                            });
+    batch.reach = {.first = first->value.t, .last = last->value.t};
     return batch;
   }
 
@@ -192,7 +192,7 @@ TEST_F(ArchiveRestart, WhatARunLeftOutComesBackApartUntilARunTakesIt) {
   EXPECT_EQ(pulses[1].value.t, tai_from_ns(10));
 
   ArchiveBatch taken = begun("run-2", 200);
-  taken.earliest = tai_from_ns(10);
+  taken.reach = {.first = tai_from_ns(10), .last = tai_from_ns(20)};
   taken.moved.of<Pulse>() = {{.arrival = 200, .value = pulses[0].value},
                              {.arrival = 201, .value = pulses[1].value}};
   ASSERT_TRUE(archive->submit(taken));

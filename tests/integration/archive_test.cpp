@@ -40,7 +40,7 @@ TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
       {"spacecraft", {"spacecraft_id", "name", "kind"}},
       {"run",
        {"run_id", "spacecraft_id", "mode", "software_version", "config_toml", "config_sha256",
-        "orbit_sha256", "started_utc", "finished_utc"}},
+        "orbit_sha256", "started_utc", "finished_utc", "label", "last_tai_ns", "telemetry_sha256"}},
       {"pulse", {"spacecraft_id", "t_tai_ns", "channel"}},
       {"coded_frame",
        {"spacecraft_id", "t_tai_ns", "period_s", "sun2_s", "north_in_s", "north_out_s",
@@ -62,16 +62,38 @@ TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
         "alternate_ra_deg", "alternate_dec_deg", "resolution", "accepted"}},
       {"spin_estimate",
        {"run_id", "t_tai_ns", "estimator", "ra_deg", "dec_deg", "sigma_deg", "spin_rate_rpm",
-        "sigma_rpm", "quality", "reasons", "status"}},
+        "sigma_rpm", "quality", "reasons", "status", "announced_utc"}},
       {"spin_bias",
        {"run_id", "estimator", "name", "value", "unit", "sigma", "observable", "estimated"}},
       {"attitude",
-       {"run_id", "t_tai_ns", "source", "qx", "qy", "qz", "qw", "rate_x_rad_s", "rate_y_rad_s",
-        "rate_z_rad_s", "sigma_deg", "quality", "reasons", "status"}},
+       {"run_id",      "t_tai_ns",     "source",       "qx",           "qy",          "qz",
+        "qw",          "rate_x_rad_s", "rate_y_rad_s", "rate_z_rad_s", "sigma_deg",   "quality",
+        "reasons",     "status",       "cov_xx_deg2",  "cov_xy_deg2",  "cov_xz_deg2", "cov_yy_deg2",
+        "cov_yz_deg2", "cov_zz_deg2",  "announced_utc"}},
+      {"gyro_bias", {"run_id", "t_tai_ns", "estimator", "bx_deg_s", "by_deg_s", "bz_deg_s"}},
+      {"notice", {"run_id", "t_tai_ns", "code", "arguments", "says"}},
       {"reconstruction_event",
-       {"run_id", "method", "event", "t_tai_ns", "qx", "qy", "qz", "qw", "euler312_icrf_deg_1",
-        "euler312_icrf_deg_2", "euler312_icrf_deg_3", "euler312_orbit_deg_1",
-        "euler312_orbit_deg_2", "euler312_orbit_deg_3", "sigma_deg"}},
+       {"run_id",
+        "method",
+        "event",
+        "t_tai_ns",
+        "qx",
+        "qy",
+        "qz",
+        "qw",
+        "euler312_icrf_deg_1",
+        "euler312_icrf_deg_2",
+        "euler312_icrf_deg_3",
+        "euler312_orbit_deg_1",
+        "euler312_orbit_deg_2",
+        "euler312_orbit_deg_3",
+        "sigma_deg",
+        "cov_xx_deg2",
+        "cov_xy_deg2",
+        "cov_xz_deg2",
+        "cov_yy_deg2",
+        "cov_yz_deg2",
+        "cov_zz_deg2"}},
       {"alert",
        {"alert_id", "spacecraft_id", "key", "severity", "state", "raised_tai_ns", "updated_tai_ns",
         "cleared_tai_ns", "count", "message", "evidence"}},
@@ -80,7 +102,11 @@ TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
        {"action_id", "spacecraft_id", "t_tai_ns", "made_utc", "by", "action", "arguments"}},
       {"pass_verdict",
        {"run_id", "spacecraft_id", "started_utc", "finished", "estimator", "quality", "ra_deg",
-        "dec_deg", "qx", "qy", "qz", "qw", "sigma_deg", "why", "against"}}};
+        "dec_deg", "qx", "qy", "qz", "qw", "sigma_deg", "consider_sigma_deg", "start_utc",
+        "end_utc", "contact_share", "why", "against"}},
+      {"separation_verdict",
+       {"run_id", "method", "quality", "t1_tai_ns", "qx", "qy", "qz", "qw", "sigma_deg",
+        "launcher_angle_deg", "why"}}};
   const auto archive = open();
 
   SQLite::Database database = reader();
@@ -154,6 +180,21 @@ TEST_F(ArchiveTest, RunIsKeptWithItsProvenance) {
   SQLite::Database database = reader();
   EXPECT_EQ(column(database, "SELECT telemetry FROM run_telemetry ORDER BY position"),
             testing::kRunStart.telemetry);
+}
+
+TEST_F(ArchiveTest, RunHasItsLabelTheDigestOfItsTelemetryAndHowFarItReaches) {
+  ArchiveBatch batch = start_of("run-1");
+  batch.start->label = "second try";
+  batch.start->telemetry_sha256 = "f00f";
+  batch.reach = {.first = tai_from_ns(5), .last = tai_from_ns(7), .contact_share = 0.25};
+  store(batch);
+  batch = batch_of("run-1");
+  batch.reach = {.first = tai_from_ns(6), .last = tai_from_ns(9), .contact_share = 0.5};
+  store(batch);
+
+  EXPECT_EQ(text("SELECT format('%s %s %d %d %g', label, telemetry_sha256, first_tai_ns,"
+                 " last_tai_ns, contact_share) FROM run"),
+            "second try f00f 5 9 0.5");
 }
 
 TEST_F(ArchiveTest, RunWithoutAnOrbitFileHasNoDigestOfOne) {

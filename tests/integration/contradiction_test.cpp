@@ -44,7 +44,7 @@ class ContradictionTest : public testing::ArchiveFixture {
       batch = start_of(run_id);
       batch.start->first_arrival = samples.front().arrival;
     }
-    batch.earliest = tai_from_ns(0);
+    batch.reach = {.first = tai_from_ns(0), .last = tai_from_ns(0)};
     batch.preferred_source = preferred_;
     batch.samples.of<GyroSample>() = std::move(samples);
     store(batch);

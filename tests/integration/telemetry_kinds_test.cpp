@@ -105,7 +105,7 @@ class StoredKinds : public testing::ArchiveFixture {};
 TEST_F(StoredKinds, EachComesBackFromTheArchiveInTheOrderOfArrival) {
   ArchiveBatch batch = testing::start_of("run-1");
   batch.start->first_arrival = 100;
-  batch.earliest = kStart;
+  batch.reach = {.first = kStart, .last = kStart};
   std::int64_t arrival = 100;
   TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
     for (const int later_ns : {1, 0, 0}) {

@@ -78,7 +78,7 @@ inline std::vector<std::string> all_rows(const std::filesystem::path& db) {
       database,
       "SELECT name, (SELECT group_concat(name) FROM pragma_table_info(stored.name)"
       " WHERE name NOT IN ('run_id', 'session', 'started_utc', 'finished_utc', 'first_arrival',"
-      "  'arrival', 'received'))"
+      "  'arrival', 'received', 'announced_utc'))"
       " FROM sqlite_schema AS stored WHERE type = 'table' AND name NOT LIKE 'sqlite_%'"
       " AND name NOT IN ('run_telemetry', 'stream_silence', 'alert', 'alert_transition')"};
   std::vector<std::string> rows;

@@ -1,5 +1,6 @@
 // What `spindrift process` and `spindrift alerts` say of passes that are not nominal.
 
+#include <SQLiteCpp/Database.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -138,6 +139,17 @@ TEST(Alerts, AreListedAndAcknowledgedByTheirId) {
                     "SELECT from_state, to_state, by, note FROM alert_transition"
                     " ORDER BY t_tai_ns DESC LIMIT 1"),
             std::vector<std::string>{"active|acknowledged|shift|seen|"});
+}
+
+TEST(Alerts, OfAPassThatIsOverAreListedToo) {
+  const OffTarget pass;
+  process(pass);
+  SQLite::Database{pass.db.string(), SQLite::OPEN_READWRITE, kBusy_ms}.exec(
+      "UPDATE alert SET state = 'cleared', cleared_tai_ns = updated_tai_ns");
+  Program list{{"alerts", "--db", pass.db.string()}};
+  EXPECT_EQ(list.exit_status(), 0) << list.log();
+  EXPECT_THAT(list.out(),
+              AllOf(HasSubstr("warning cleared spin.off_target"), HasSubstr(" until ")));
 }
 
 TEST(Alerts, AreChangedInJsonWhereverTheFlagStands) {

@@ -147,6 +147,51 @@ TEST(Process, KeepsWhereTheTelemetryCameFrom) {
   EXPECT_EQ(number_of(db, "SELECT length(orbit_sha256) FROM run"), 64);
 }
 
+TEST(Process, KeepsTheNameThatTheRunIsGivenAndWhatItsTelemetryWas) {
+  const TemporaryFolder folder;
+  const auto db = folder.path() / "out.db";
+  auto labelled = arguments("nominal", db);
+  labelled.insert(labelled.end(), {"--label", "second try"});
+  Program program{labelled};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  EXPECT_EQ(rows_of(db,
+                    "SELECT label, length(telemetry_sha256), last_tai_ns ="
+                    " (SELECT max(t_tai_ns) FROM pulse), contact_share IS NULL FROM run"),
+            std::vector<std::string>{"second try|64|1|1|"});
+}
+
+/// What a person is told of the run, and of what its archive keeps.
+TEST(Process, KeepsItsWarnings) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("more.csv",
+                    "t_tai_ns,channel,spacecraft\nsoon,sun1,SPINNER\n"
+                    "1795143637568806257,sun1,OTHER\n");
+  // Seven minutes of silence within the pass.
+  std::istringstream rows{text_of(pass.folder.path() / "pulses.csv")};
+  std::string header;
+  std::getline(rows, header);
+  std::string apart = header + "\n";
+  int count = 0;
+  for (std::string row; std::getline(rows, row); ++count) {
+    const auto comma = row.find(',');
+    const std::int64_t later_ns = count < 1800 ? 0 : 420'000'000'000;
+    apart += std::to_string(std::stoll(row.substr(0, comma)) + later_ns) + row.substr(comma) + "\n";
+  }
+  pass.folder.write("pulses.csv", apart);
+  Program program{pass.arguments_here()};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+
+  const auto answer = nlohmann::json::parse(program.out());
+  std::vector<std::string> told;
+  for (const auto& warning : answer["warnings"]) {
+    told.push_back(warning["code"].get<std::string>() + "|" + warning["values"].dump() + "|");
+  }
+  EXPECT_THAT(rows_of(pass.db, "SELECT code, arguments FROM notice"),
+              ::testing::UnorderedElementsAreArray(told));
+  EXPECT_THAT(rows_of(pass.db, "SELECT code FROM notice"),
+              ::testing::IsSupersetOf({"bad_rows|", "other_spacecraft|", "silences|"}));
+}
+
 TEST(Process, AddsARunWithoutStoringAnEdgeTwice) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "out.db";

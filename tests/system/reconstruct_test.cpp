@@ -67,8 +67,12 @@ TEST(Reconstruct, OfARecordedSeparationIsRightAndStored) {
   }
   EXPECT_EQ(batch["quality"], "OK");
   EXPECT_LT(off_deg(answer.object["sequential"], pass, 0), 5.0);
-  EXPECT_EQ(rows_of(db, "SELECT mode, finished_utc IS NOT NULL FROM run"),
-            std::vector<std::string>{"process|1|"});
+  EXPECT_EQ(rows_of(db,
+                    "SELECT mode, finished_utc IS NOT NULL, length(telemetry_sha256),"
+                    " telemetry FROM run JOIN run_telemetry USING (run_id)"),
+            std::vector<std::string>{"process|1|64|" + pass.string() + "|"});
+  EXPECT_EQ(rows_of(db, "SELECT method FROM separation_verdict"),
+            std::vector<std::string>{"batch|"});
   EXPECT_EQ(
       rows_of(db,
               "SELECT method, event, found, euler312_orbit_deg_1 IS NOT NULL,"

@@ -35,6 +35,16 @@ TEST(InputFile, IsReadWholeThroughALinkToo) {
   EXPECT_EQ(read_text_file(folder.write("empty.txt", "")).value(), "");
 }
 
+TEST(InputFile, DigestOfSeveralIsThatOfAllTheirBytes) {
+  const TemporaryFolder folder;
+  const std::string text(300'000, 'x');
+  const std::array paths{folder.write("a.txt", text), folder.write("empty.txt", ""),
+                         folder.write("b.txt", "b")};
+  EXPECT_EQ(sha256_hex(paths).value(), sha256_hex(text + "b").value());
+  EXPECT_EQ(sha256_hex(std::span{paths}.subspan(1, 1)).value(), sha256_hex("").value());
+  EXPECT_FALSE(sha256_hex(std::array{paths[2], folder.path() / "none"}));
+}
+
 TEST(InputFile, ThatIsNoRegularFileIsRefusedAtOnce) {
   const TemporaryFolder folder;
   const auto pipe = folder.path() / "pipe";

@@ -132,7 +132,11 @@ TEST(PassComputing, WithholdsAProductThatIsNotFinite) {
     notices.insert(notices.end(), output.notices.begin(), output.notices.end());
   });
   ASSERT_THAT(batches, SizeIs(1));
-  EXPECT_THAT(times_of(batches[0].products), ElementsAre(2));
+  ASSERT_THAT(batches[0].products, SizeIs(2));
+  const auto& notice = std::get<RunNotice>(batches[0].products[0]);
+  EXPECT_EQ(notice.code, "not_finite");
+  EXPECT_FALSE(notice.t);
+  EXPECT_EQ(std::get<RejectedSample>(batches[0].products[1]).t, tai_from_ns(2));
   ASSERT_THAT(notices, SizeIs(1));
   EXPECT_EQ(notices[0].code, NoticeCode::NotFinite);
 }

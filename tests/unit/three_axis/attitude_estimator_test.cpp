@@ -114,6 +114,22 @@ class AttitudeEstimatorTest : public ::testing::Test {
   AttitudeEstimator::Products products_;
 };
 
+TEST_F(AttitudeEstimatorTest, GivesTheBiasOfItsGyroOnceASecond) {
+  run(0.0, 20.0, [&](double t_s) { star(t_s); });
+  std::vector<AttitudeEstimate> with_bias = estimates();
+  const std::size_t all = with_bias.size();
+  std::erase_if(with_bias, [](const AttitudeEstimate& one) { return !one.gyro_bias; });
+  ASSERT_GT(with_bias.size(), 15U);
+  EXPECT_GT(all, 5 * with_bias.size());
+  for (std::size_t i = 1; i < with_bias.size(); ++i) {
+    EXPECT_GE(with_bias[i].t - with_bias[i - 1].t, std::chrono::seconds{1});
+  }
+  const auto variances = [&](std::size_t i) {
+    return with_bias[i].gyro_bias->covariance_rad2_s2.trace();
+  };
+  EXPECT_LT(variances(with_bias.size() - 1), variances(0));
+}
+
 TEST_F(AttitudeEstimatorTest, TwoDirectionsThatContradictEachOtherBeginNothing) {
   gyro(0.0);
   sun(0.0);

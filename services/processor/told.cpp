@@ -1,0 +1,14 @@
+#include "services/processor/told.h"
+
+#include "services/products/notice_of.h"
+#include "services/standard_error/warning.h"
+
+namespace spindrift {
+
+RunNotice told(std::string_view code, const nlohmann::json& values, const std::string& text,
+               std::optional<TaiTime> t) {
+  warn(code, values, text);
+  return notice_of(code, values, text, t);
+}
+
+}  // namespace spindrift

@@ -1,0 +1,44 @@
+/// @file
+/// What a person should know of a run beside its numbers, as a kind of product.
+
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "pipelines/time/tai_time.h"
+#include "services/products/product_kind.h"
+
+namespace spindrift {
+
+/// A warning as `--json` gives it.
+struct RunNotice {
+  std::optional<TaiTime> t = {};  ///< When it became true; empty: it is true of the whole run.
+  std::string code = {};          ///< In words with underscores: "late_edges".
+  std::string arguments = {};     ///< A JSON object.
+  std::string says = {};          ///< A sentence.
+};
+
+struct NoticeTable {
+  static constexpr std::string_view kName = "notice";
+  static constexpr std::array<std::string_view, 2> kKey{"code", "arguments"};
+  static constexpr auto kColumns =
+      columns(ProductColumn{"t_tai_ns",
+                            [](const RunNotice& notice) {
+                              return notice.t ? std::optional{tai_ns(*notice.t)} : std::nullopt;
+                            }},
+              ProductColumn{"code", [](const RunNotice& notice) { return notice.code; }},
+              ProductColumn{"arguments", [](const RunNotice& notice) { return notice.arguments; }},
+              ProductColumn{"says", [](const RunNotice& notice) { return notice.says; }});
+};
+
+template <>
+struct ProductKind<RunNotice> {
+  static constexpr ProductWeight kWeight = ProductWeight::Result;
+  using Tables = std::tuple<NoticeTable>;
+};
+
+}  // namespace spindrift
