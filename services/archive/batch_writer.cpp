@@ -96,8 +96,10 @@ Expected<void> BatchWriter::write(std::span<const ArchiveBatch> batches) {
     }
     insert_latest_counts(batches);
     transaction.commit();
+    contradictions_.end_write(true);
     return {};
   } catch (const SQLite::Exception& exception) {
+    contradictions_.end_write(false);
     return Unexpected{archive_error(database_.getFilename(), exception)};
   }
 }
@@ -128,6 +130,9 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
           Came::Before);
     }
   });
+  for (const RunNotice& notice : contradictions_.take_notices()) {
+    products_.insert(batch.run_id, batch.spacecraft_id, std::nullopt, notice);
+  }
   for (const OperatorAction& action : batch.actions) {
     insert(batch.run_id, action);
   }

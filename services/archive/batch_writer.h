@@ -7,8 +7,8 @@
 #include <SQLiteCpp/Statement.h>
 
 #include <cstdint>
+#include <map>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,6 +34,12 @@ class ContradictionWriter {
   /// @return whether that is all: in the table of its kind nothing is to be changed.
   template <class Value>
   bool see(const ArchiveBatch& batch, const TelemetrySample<Value>& sample);
+
+  /// What has been told of the samples seen since it was taken last.
+  std::vector<RunNotice> take_notices() { return std::exchange(notices_, {}); }
+  /// A transaction has ended. What it has not stored is told again with its samples, but for the
+  /// warning.
+  void end_write(bool is_stored);
 
   /// Which of the values count.
   void settle(const std::string& run_id, const SampleContradiction& contradiction);
@@ -63,7 +69,9 @@ class ContradictionWriter {
   SQLite::Statement add_;
   SQLite::Statement use_none_;
   SQLite::Statement use_;
-  std::set<std::string> said_;  ///< What has been warned of, by kind and run.
+  std::map<std::string, bool> said_;  ///< What has been warned of, by kind and run; kept or not.
+  std::vector<std::string> said_in_write_;  ///< Of those, what may yet be lost.
+  std::vector<RunNotice> notices_;
 };
 
 /// The prepared statements of one connection. `database` must outlive it.

@@ -4,6 +4,7 @@
 #include "services/archive/batch_writer.h"
 #include "services/archive/bind.h"
 #include "services/archive/stored_rows.h"
+#include "services/products/notice_of.h"
 #include "services/standard_error/warning.h"
 #include "services/telemetry/by_kind.h"
 #include "services/telemetry/sample_json.h"
@@ -179,17 +180,30 @@ void ContradictionWriter::say_rounded(const ArchiveBatch& batch, const Entry& th
 /// @param what With {0} and {1} for the two sources.
 void ContradictionWriter::say_once(const ArchiveBatch& batch, std::string_view code,
                                    const Entry& there, const Entry& came, const char* what) {
-  if (!said_.emplace(fmt::format("{} {} {}", code, came.kind, batch.run_id)).second) {
+  const auto [said, is_first] =
+      said_.try_emplace(fmt::format("{} {} {}", code, came.kind, batch.run_id), false);
+  if (std::exchange(said->second, true)) {
     return;
   }
-  warn(code,
-       {{"spacecraft", batch.spacecraft_id},
-        {"kind", came.kind},
-        {"t_tai_ns", tai_ns(came.t)},
-        {"sources", {there.origin.source, came.origin.source}}},
-       fmt::format("{}: {} {}; first at {}", batch.spacecraft_id, came.kind,
-                   fmt::format(fmt::runtime(what), there.origin.source, came.origin.source),
-                   format_utc(came.t)));
+  said_in_write_.push_back(said->first);
+  const nlohmann::json values{{"spacecraft", batch.spacecraft_id},
+                              {"kind", came.kind},
+                              {"t_tai_ns", tai_ns(came.t)},
+                              {"sources", {there.origin.source, came.origin.source}}};
+  const std::string text = fmt::format(
+      "{}: {} {}; first at {}", batch.spacecraft_id, came.kind,
+      fmt::format(fmt::runtime(what), there.origin.source, came.origin.source), format_utc(came.t));
+  if (is_first) {
+    warn(code, values, text);
+  }
+  notices_.push_back(notice_of(code, values, text, came.t));
+}
+
+void ContradictionWriter::end_write(bool is_stored) {
+  for (const std::string& said : std::exchange(said_in_write_, {})) {
+    said_[said] = is_stored;
+  }
+  notices_.clear();
 }
 
 void ContradictionWriter::add(const ArchiveBatch& batch, const Entry& entry,

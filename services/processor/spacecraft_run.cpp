@@ -17,6 +17,7 @@
 #include "services/clock/wall_clock.h"
 #include "services/processor/told.h"
 #include "services/processor/version.h"
+#include "services/products/notice_of.h"
 
 namespace spindrift {
 namespace {

@@ -13,13 +13,7 @@
 
 namespace spindrift {
 
-/// What the archive keeps of a warning.
-RunNotice notice_of(std::string_view code, const nlohmann::json& values, const std::string& text,
-                    std::optional<TaiTime> t = std::nullopt);
-
-/// Warns (standard_error/warning.h).
-/// @param t As RunNotice.
-/// @return as `notice_of`.
+/// Warns (standard_error/warning.h). @param t As RunNotice. @return as notice_of.
 RunNotice told(std::string_view code, const nlohmann::json& values, const std::string& text,
                std::optional<TaiTime> t = std::nullopt);
 

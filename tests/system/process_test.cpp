@@ -181,8 +181,9 @@ TEST(Process, KeepsItsWarnings) {
   Program program{pass.arguments_here()};
   ASSERT_EQ(program.exit_status(), 0) << program.log();
 
+  const auto answer = nlohmann::json::parse(program.out());
   std::vector<std::string> told;
-  for (const auto& warning : nlohmann::json::parse(program.out())["warnings"]) {
+  for (const auto& warning : answer["warnings"]) {
     told.push_back(warning["code"].get<std::string>() + "|" + warning["values"].dump() + "|");
   }
   EXPECT_THAT(rows_of(pass.db, "SELECT code, arguments FROM notice"),

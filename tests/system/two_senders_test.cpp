@@ -130,6 +130,8 @@ TEST_F(TwoSenders, TheValuesOfALaterRunAreItsOwnAndThatIsSaid) {
   const Processed other = process("archive", {kPass / "second"});
   EXPECT_THAT(other.log, HasSubstr("star samples have other values than an earlier run has"));
   EXPECT_GT(number_of(db_, "SELECT count(*) FROM contradiction WHERE used = 1"), 0);
+  EXPECT_GT(number_of(db_, "SELECT count(*) FROM notice WHERE code = 'contradicts_earlier_run'"),
+            0);
 }
 
 /// Four decimals of what has twelve.
