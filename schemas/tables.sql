@@ -385,18 +385,38 @@ CREATE TABLE spin_fix (
     OR resolution = 'DISPERSION' OR resolution = 'AMBIGUOUS'),
   norm                 REAL NOT NULL,  -- |P| before normalising: 1 for measurements that agree
   accepted             INTEGER NOT NULL CHECK (accepted IN (0, 1)),
+  -- Chi-square of what the measurements have too much about the axis, by the edges' noise alone.
+  misfit               REAL NOT NULL CHECK (misfit >= 0),
+  alternate_misfit     REAL CHECK (alternate_misfit >= 0),
   PRIMARY KEY (run_id, revolution),
   CHECK ((alternate_ra_deg IS NULL) = (alternate_dec_deg IS NULL))
 ) STRICT, WITHOUT ROWID;
 
--- All other axes of a fix that has more than one; the first of them stands in spin_fix too.
-CREATE TABLE spin_fix_candidate (
+-- The other axes of a fix that has more than one, from the second on; the first of them stands in spin_fix (view
+-- spin_fix_candidate).
+CREATE TABLE spin_fix_other (
   run_id     TEXT NOT NULL REFERENCES run,
   revolution INTEGER NOT NULL,
-  candidate  INTEGER NOT NULL CHECK (candidate >= 1),  -- in the order of the pipeline
+  candidate  INTEGER NOT NULL CHECK (candidate >= 2),  -- in the order of the pipeline
   ra_deg     REAL NOT NULL CHECK (ra_deg >= 0 AND ra_deg < 360),
   dec_deg    REAL NOT NULL CHECK (dec_deg BETWEEN -90 AND 90),
+  misfit     REAL NOT NULL CHECK (misfit >= 0),
   PRIMARY KEY (run_id, revolution, candidate)
+) STRICT, WITHOUT ROWID;
+
+-- Of a run that has ended: the axis that it took, the best other axis, by how much the edges or the fixes fit that
+-- worse, and what settled it. NULL: no other axis was ever possible.
+CREATE TABLE axis_choice (
+  run_id           TEXT PRIMARY KEY NOT NULL REFERENCES run,
+  ra_deg           REAL NOT NULL CHECK (ra_deg >= 0 AND ra_deg < 360),
+  dec_deg          REAL NOT NULL CHECK (dec_deg BETWEEN -90 AND 90),
+  other_ra_deg     REAL CHECK (other_ra_deg >= 0 AND other_ra_deg < 360),
+  other_dec_deg    REAL CHECK (other_dec_deg BETWEEN -90 AND 90),
+  delta_chi_square REAL,
+  settled_by       TEXT NOT NULL CHECK (
+    settled_by IN ('edges', 'geometry', 'constraint', 'prior', 'dispersion', 'nothing')),
+  CHECK ((other_ra_deg IS NULL) = (other_dec_deg IS NULL)),
+  CHECK ((other_ra_deg IS NULL) = (delta_chi_square IS NULL))
 ) STRICT, WITHOUT ROWID;
 
 -- cov_* as in spin_fix.

@@ -131,6 +131,16 @@ FROM pulse_use JOIN rejection USING (rejected_by)
   LEFT JOIN pulse USING (spacecraft_id, t_tai_ns, channel)
 WHERE accepted = 0;
 
+-- All axes that a revolution allows: 0 is the one of its fix, the others in the order of the pipeline. misfit: chi-square of
+-- what the measurements have too much about it.
+CREATE VIEW spin_fix_candidate AS
+SELECT run_id, revolution, 0 AS candidate, ra_deg, dec_deg, misfit FROM spin_fix
+UNION ALL
+SELECT run_id, revolution, 1, alternate_ra_deg, alternate_dec_deg, alternate_misfit FROM spin_fix
+WHERE alternate_ra_deg IS NOT NULL
+UNION ALL
+SELECT run_id, revolution, candidate, ra_deg, dec_deg, misfit FROM spin_fix_other;
+
 -- What each edge said to an estimator: measured minus expected time, its sigma by what the estimator knew before, and the
 -- limit of the one over the other.
 CREATE VIEW edge_residual AS

@@ -7,7 +7,8 @@
 
 namespace spindrift {
 
-/// schemas/tables.sql says each in words (table `rejection`).
+/// schemas/tables.sql says each in words (table `rejection`). From Period on they are the tests of
+/// the angles and the period of a revolution.
 enum class Rejection {
   Unassociated,  ///< No revolution had a place for the edge.
   Late,          ///< It arrived after its time had been processed.

@@ -75,7 +75,8 @@ std::ptrdiff_t off_at_end(Iterator first, Iterator last, double noise_rad_s) {
   if (std::distance(next, last) < 2) {
     return 0;
   }
-  const bool is_off = deviation_at_end(*std::prev(next), *next, *std::next(next), noise_rad_s).stands_out();
+  const bool is_off =
+      deviation_at_end(*std::prev(next), *next, *std::next(next), noise_rad_s).stands_out();
   return is_off ? std::distance(first, next) : 0;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -199,8 +198,7 @@ Observation sun_observation(const Observations& all, const SunObservation& sun,
                    .residual = {.freedom = 2},
                    .nis = off.dot(covariance.llt().solve(off))};
   said.residual.value.head<2>() = across * off;
-  said.residual.sigma.head<2>() =
-      (across * covariance * across.transpose()).diagonal().cwiseSqrt();
+  said.residual.sigma.head<2>() = (across * covariance * across.transpose()).diagonal().cwiseSqrt();
   return said;
 }
 

@@ -86,7 +86,7 @@ struct Reconstruction {
   SensorResiduals sun;
   SensorResiduals star;
   /// What sun vectors and star fixes said, used or not, in rad; each sensor in order of time.
-  std::vector<Observation> said;
+  std::vector<Observation> said = {};
   Assessment assessment;
   int iterations;  ///< Of Ceres.
 };

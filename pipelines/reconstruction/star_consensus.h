@@ -33,8 +33,7 @@ struct ConsensusNoise {
 };
 
 /// What those said that were gated: how far off they are nobody has found.
-void add_gated(const Observations& all, const StarConsensus& stars,
-               std::vector<Observation>& said);
+void add_gated(const Observations& all, const StarConsensus& stars, std::vector<Observation>& said);
 
 /// A fix is accepted that agrees with at least half of the four before and the four behind it that
 /// are accepted.

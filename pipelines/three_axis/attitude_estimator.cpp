@@ -97,12 +97,13 @@ AttitudeEstimator::AttitudeEstimator(const ThreeAxisConfig& config)
 
 void AttitudeEstimator::push(const GyroSample& sample, Products& out) {
   if (const auto rejection = judge(sample)) {
-    leave_out({.t = sample.t,
-               .kind = SampleKind::Gyro,
-               .rejected_by = *rejection,
-               .failed = gyro_unit_.factor() ? FailedTest{.value = *gyro_unit_.factor(), .limit = 1.0}
-                                             : gyro_.failed(sample)},
-              out);
+    leave_out(
+        {.t = sample.t,
+         .kind = SampleKind::Gyro,
+         .rejected_by = *rejection,
+         .failed = gyro_unit_.factor() ? FailedTest{.value = *gyro_unit_.factor(), .limit = 1.0}
+                                       : gyro_.failed(sample)},
+        out);
     if (!waits_for_gyro(sample.t)) {
       give_way(sample.t, out);
       give_where_due(out);
@@ -427,11 +428,9 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
   said.residual.sigma *= length;
   out.emplace_back(SampleObservation{.estimator = AttitudeSource::Mekf, .said = said});
   if (said.rejected_by) {
-    leave_out({.t = t,
-               .kind = kind,
-               .rejected_by = *said.rejected_by,
-               .squared_innovation = said.nis},
-              out);
+    leave_out(
+        {.t = t, .kind = kind, .rejected_by = *said.rejected_by, .squared_innovation = said.nis},
+        out);
     if (!is_out(kind)) {
       ledger_.add({&said, 1});
       ++rejected_in_a_row_;
@@ -533,12 +532,11 @@ Mekf AttitudeEstimator::filter_at(const UncertainAttitude& attitude) const {
 
 /// What was lost is forgotten where it agrees.
 void AttitudeEstimator::begin(const UncertainAttitude& attitude, Products& out) {
-  if (rival_ &&
-      rival_->filter
-              .innovation(ObservedAttitude{
-                  .q_icrf_body = attitude.q_ref_body,
-                  .sigma_rad = std::sqrt(attitude.covariance_rad2.trace() / 3.0)})
-              .nis <= innovation_gate(3)) {
+  if (rival_ && rival_->filter
+                        .innovation(ObservedAttitude{
+                            .q_icrf_body = attitude.q_ref_body,
+                            .sigma_rad = std::sqrt(attitude.covariance_rad2.trace() / 3.0)})
+                        .nis <= innovation_gate(3)) {
     rival_.reset();
   }
   filter_ = filter_at(attitude);

@@ -1,4 +1,3 @@
-#include "pipelines/observation/innovation_gate.h"
 #include "pipelines/three_axis/carried_directions.h"
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/observation/innovation_gate.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {

@@ -44,8 +44,7 @@ FailedTest GyroWatch::failed(const GyroSample& sample) const {
     return {.value = sample.rate_body_rad_s.cwiseAbs().maxCoeff(),
             .limit = kClipped * sensor_.range_rad_s.value()};
   }
-  return {.value = static_cast<double>(frozen_.repeats()),
-          .limit = frozen_.most_by_chance()};
+  return {.value = static_cast<double>(frozen_.repeats()), .limit = frozen_.most_by_chance()};
 }
 
 std::optional<GyroDeviation> GyroWatch::deviation_from_line(const GyroSample& sample) const {

@@ -1,4 +1,3 @@
-#include "pipelines/observation/innovation_gate.h"
 #include "pipelines/three_axis/three_axis_pass.h"
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include "pipelines/ephemeris/shadow.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/geomagnetism/field_at_spacecraft.h"
+#include "pipelines/observation/innovation_gate.h"
 
 namespace spindrift {
 namespace {

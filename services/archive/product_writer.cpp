@@ -55,7 +55,8 @@ std::string insertion() {
     names += fmt::format(R"(, "{}")", column);
     values += ", ?";
     if (!is_of_key<Table>(column)) {
-      changes += fmt::format(R"({}"{}" = excluded."{}")", changes.empty() ? "" : ", ", column, column);
+      changes +=
+          fmt::format(R"({}"{}" = excluded."{}")", changes.empty() ? "" : ", ", column, column);
     }
   };
   if constexpr (kSaysWhenAnnounced<Table>) {

@@ -31,25 +31,26 @@ Quantity measurement(SpinQuantity of) {
               name_of(of))};
 }
 
-/// Of an edge that no revolution had a place for by the turn of the edge before it. Held against the
-/// limit of the test that left it out, or of the filter.
+/// Of an edge that no revolution had a place for by the turn of the edge before it. Held against
+/// the limit of the test that left it out, or of the filter.
 Quantity phase(std::string_view channel) {
-  return {.name = fmt::format("phase_{}", channel),
-          .unit = "deg",
-          .sql = fmt::format(
-              "SELECT t_tai_ns, 360 * (turns - floor(turns)), accepted, rejected_by, off, \"limit\", "
-              "unit FROM (SELECT edge.t_tai_ns, (edge.t_tai_ns - turn.t_tai_ns) / (1e9 * period_s) "
-              "AS turns, edge.accepted, edge.rejected_by, coalesce(value - expected, residual_ns * "
-              "1.0 / sigma_ns) AS off, coalesce(\"limit\", residual_limit) AS \"limit\", "
-              "coalesce(unit, 'sigma') AS unit FROM pulse_use AS edge CROSS JOIN revolution AS turn "
-              "ON turn.run_id = edge.run_id AND turn.revolution = coalesce(edge.revolution, (SELECT "
-              "revolution FROM pulse_use AS before WHERE before.run_id = edge.run_id AND "
-              "before.t_tai_ns < edge.t_tai_ns AND before.revolution IS NOT NULL ORDER BY "
-              "before.t_tai_ns DESC LIMIT 1)) LEFT JOIN spin_measurement AS test ON test.run_id = "
-              "edge.run_id AND test.revolution = edge.revolution AND test.quantity = "
-              "edge.rejected_by WHERE edge.run_id = ?1 AND channel = '{}' AND edge.t_tai_ns <= ?2) "
-              "ORDER BY t_tai_ns DESC",
-              channel)};
+  return {
+      .name = fmt::format("phase_{}", channel),
+      .unit = "deg",
+      .sql = fmt::format(
+          "SELECT t_tai_ns, 360 * (turns - floor(turns)), accepted, rejected_by, off, \"limit\", "
+          "unit FROM (SELECT edge.t_tai_ns, (edge.t_tai_ns - turn.t_tai_ns) / (1e9 * period_s) "
+          "AS turns, edge.accepted, edge.rejected_by, coalesce(value - expected, residual_ns * "
+          "1.0 / sigma_ns) AS off, coalesce(\"limit\", residual_limit) AS \"limit\", "
+          "coalesce(unit, 'sigma') AS unit FROM pulse_use AS edge CROSS JOIN revolution AS turn "
+          "ON turn.run_id = edge.run_id AND turn.revolution = coalesce(edge.revolution, (SELECT "
+          "revolution FROM pulse_use AS before WHERE before.run_id = edge.run_id AND "
+          "before.t_tai_ns < edge.t_tai_ns AND before.revolution IS NOT NULL ORDER BY "
+          "before.t_tai_ns DESC LIMIT 1)) LEFT JOIN spin_measurement AS test ON test.run_id = "
+          "edge.run_id AND test.revolution = edge.revolution AND test.quantity = "
+          "edge.rejected_by WHERE edge.run_id = ?1 AND channel = '{}' AND edge.t_tai_ns <= ?2) "
+          "ORDER BY t_tai_ns DESC",
+          channel)};
 }
 
 /// What the edges of a channel said to `sequential`.

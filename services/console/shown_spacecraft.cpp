@@ -211,11 +211,10 @@ void ShownSpacecraft::note(const SpinMeasurement& measurement) {
 
 /// As the series of the phase have it: by the test that left the edge out, or by the filter.
 nlohmann::json ShownSpacecraft::held_against(const PulseUse& edge) const {
-  const auto failed =
-      std::find_if(failed_.begin(), failed_.end(), [&edge](const auto& one) {
-        return one.first.first == edge.revolution && edge.rejected_by &&
-               *edge.rejected_by == rejection_of(one.first.second);
-      });
+  const auto failed = std::find_if(failed_.begin(), failed_.end(), [&edge](const auto& one) {
+    return one.first.first == edge.revolution && edge.rejected_by &&
+           *edge.rejected_by == rejection_of(one.first.second);
+  });
   if (failed != failed_.end()) {
     const SpinMeasurement& measured = failed->second;
     const double unit = SpinMeasurementTable::to_unit(measured);

@@ -68,8 +68,8 @@ class ShownSpacecraft {
   SpacecraftHealth health_;
   nlohmann::json answers_ = nlohmann::json::object();
   std::optional<PassVerdict> verdict_;
-  std::map<TaiTime, double> periods_s_;                  ///< Of the last turns, by their sun1.
-  std::deque<PulseUse> edges_;                           ///< That viewers were not told yet.
+  std::map<TaiTime, double> periods_s_;  ///< Of the last turns, by their sun1.
+  std::deque<PulseUse> edges_;           ///< That viewers were not told yet.
   /// The last measurements that failed their test.
   std::map<std::pair<std::int64_t, SpinQuantity>, SpinMeasurement> failed_;
   Ledger ledger_;  ///< Of what edges said to `sequential`, or samples to the filter.

@@ -18,6 +18,7 @@ struct Count {
   void operator()(const RevolutionProduct& /*revolution*/) const { ++summary.revolutions; }
   void operator()(const SpinMeasurement& /*measurement*/) const {}
   void operator()(const SampleContradiction& /*contradiction*/) const {}
+  void operator()(const AxisChoice& /*choice*/) const {}
   void operator()(const SpinFix& fix) const {
     forget_ambiguous(fix.revolution);
     if (fix.resolution == Resolution::Ambiguous) {

@@ -45,7 +45,8 @@ Expected<std::vector<Product>> batch_products(BatchSolution solution, bool keeps
 SpinRun::SpinRun(const Mission& mission, const std::string& run_id, SolvingPlan plan)
     : config_{*mission.spin()},
       orbit_{*mission.orbit},
-      computing_{mission.spacecraft_id, run_id, SpinPass{config_, orbit_}, mission.stores_residuals},
+      computing_{mission.spacecraft_id, run_id, SpinPass{config_, orbit_},
+                 mission.stores_residuals},
       plan_{plan},
       keeps_residuals_{mission.stores_residuals} {
   begin(run_id);
@@ -126,13 +127,13 @@ Expected<std::vector<Product>> SpinRun::solve(const PassEdges& edges,
                                               const std::optional<SpinPrior>& prior,
                                               Solution which) const {
   const bool keeps_residuals = keeps_residuals_ && which == Solution::Last;
-  return solved_or_fault(
-      computing_.spacecraft_id(), "batch solution", edges.last().value_or(TaiTime{}), [&] {
-        return solve_edges(config_, orbit_, edges, prior)
-            .and_then([keeps_residuals](BatchSolution solution) {
-              return batch_products(std::move(solution), keeps_residuals);
-            });
-      });
+  return solved_or_fault(computing_.spacecraft_id(), "batch solution",
+                         edges.last().value_or(TaiTime{}), [&] {
+                           return solve_edges(config_, orbit_, edges, prior)
+                               .and_then([keeps_residuals](BatchSolution solution) {
+                                 return batch_products(std::move(solution), keeps_residuals);
+                               });
+                         });
 }
 
 /// What was still held. Then the last batch solution is due, whatever became due before.
@@ -156,8 +157,8 @@ ArchiveBatch SpinRun::finish() {
   ArchiveBatch last = computing_.batch();
   settle(last.products);
   if (!computing_.failed()) {
-    if (auto products = solve(std::exchange(edges_, {}), computing_.pass().told_prior(),
-                              Solution::Last)) {
+    if (auto products =
+            solve(std::exchange(edges_, {}), computing_.pass().told_prior(), Solution::Last)) {
       summary_.count_solution(*products);
       std::move(products->begin(), products->end(), std::back_inserter(last.products));
     } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {

@@ -158,8 +158,8 @@ BackgroundTask ThreeAxisRun::solving(std::shared_ptr<const ReconstructionRequest
               [=, launcher = separation_->launcher, spacecraft_id = computing_.spacecraft_id(),
                keeps_residuals = keeps_residuals_] {
                 return solved_or_fault(spacecraft_id, kReconstruction, separation, [&] {
-                  return products_of(spacecraft_id, solve_separation(*request, launcher, method,
-                                                                     keeps_residuals));
+                  return products_of(spacecraft_id,
+                                     solve_separation(*request, launcher, method, keeps_residuals));
                 });
               },
           .what = kReconstruction,

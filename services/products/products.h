@@ -9,6 +9,7 @@
 
 #include "services/products/alert.h"
 #include "services/products/attitude.h"
+#include "services/products/axis_choice.h"
 #include "services/products/batch_solution.h"
 #include "services/products/model_comparison.h"
 #include "services/products/product_kind.h"
@@ -30,7 +31,7 @@ namespace spindrift {
 using Product = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate,
                              BatchProduct, RunFault, RejectedSample, AttitudeEstimate,
                              SampleObservation, ReconstructionProduct, ChannelComparison,
-                             SampleContradiction, Alert, RunNotice>;
+                             SampleContradiction, Alert, RunNotice, AxisChoice>;
 
 /// Its place in the list.
 template <class Kind>

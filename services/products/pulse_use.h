@@ -29,13 +29,12 @@ constexpr auto said_column(std::string_view name, Get get) {
 /// Likewise, of one that was expected.
 template <class Get>
 constexpr auto residual_ns_column(std::string_view name, Get get) {
-  return ProductColumn{name, [get](const PulseUse& use) {
-                         return use.said && use.said->residual.freedom > 0 &&
-                                        std::isfinite(get(use.said->residual))
-                                    ? std::optional{std::int64_t{
-                                          std::llround(get(use.said->residual) * 1e9)}}
-                                    : std::nullopt;
-                       }};
+  return ProductColumn{
+      name, [get](const PulseUse& use) {
+        return use.said && use.said->residual.freedom > 0 && std::isfinite(get(use.said->residual))
+                   ? std::optional{std::int64_t{std::llround(get(use.said->residual) * 1e9)}}
+                   : std::nullopt;
+      }};
 }
 
 struct PulseUseTable {

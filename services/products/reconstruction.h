@@ -251,9 +251,8 @@ struct ReconstructionResidualTable {
 template <>
 struct ProductKind<ReconstructionProduct> {
   static constexpr ProductWeight kWeight = ProductWeight::Result;
-  using Tables =
-      std::tuple<ReconstructionTable, ReconstructionEventTable, ReconstructedAttitudeTable,
-                 ReconstructionResidualTable>;
+  using Tables = std::tuple<ReconstructionTable, ReconstructionEventTable,
+                            ReconstructedAttitudeTable, ReconstructionResidualTable>;
   static constexpr bool kStays = true;
 
   static constexpr bool is_announced(const ReconstructionProduct& /*product*/) { return true; }

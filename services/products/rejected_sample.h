@@ -70,20 +70,14 @@ struct GyroResidualTable {
     }
   }
   static constexpr auto kColumns = columns(
-      ProductColumn{"estimator",
-                    [](const One& /*one*/) { return name_of(AttitudeSource::Mekf); }},
+      ProductColumn{"estimator", [](const One& /*one*/) { return name_of(AttitudeSource::Mekf); }},
       ProductColumn{"t_tai_ns", [](const One& one) { return tai_ns(one.t); }},
       ProductColumn{"kind", [](const One& one) { return name_of(one.kind); }},
       ProductColumn{"dof", [](const One& /*one*/) { return std::int64_t{1}; }},
       ProductColumn{"unit", &unit},
       ProductColumn{"residual_1",
-                    [](const One& one) {
-                      return one.failed->value * unit_of_test(one);
-                    }},
-      ProductColumn{"limit",
-                    [](const One& one) {
-                      return one.failed->limit * unit_of_test(one);
-                    }},
+                    [](const One& one) { return one.failed->value * unit_of_test(one); }},
+      ProductColumn{"limit", [](const One& one) { return one.failed->limit * unit_of_test(one); }},
       ProductColumn{"used", [](const One& /*one*/) { return false; }},
       ProductColumn{"rejected_by", [](const One& one) { return name_of(one.rejected_by); }});
 };

@@ -46,36 +46,42 @@ struct SpinFixTable {
                       const auto place = alternate(fix);
                       return place ? std::optional{place->dec_deg} : std::nullopt;
                     }},
-      ProductColumn{"resolution", [](const SpinFix& fix) { return name_of(fix.resolution); }},
+      ProductColumn{"resolution", [](const SpinFix& fix) { return name_of(said_resolution(fix)); }},
       ProductColumn{"norm", [](const SpinFix& fix) { return fix.norm; }},
-      ProductColumn{"accepted", [](const SpinFix& fix) { return fix.accepted; }});
+      ProductColumn{"accepted", [](const SpinFix& fix) { return fix.accepted; }},
+      ProductColumn{"misfit", [](const SpinFix& fix) { return fix.misfit; }},
+      ProductColumn{"alternate_misfit", [](const SpinFix& fix) {
+                      return fix.alternates.empty() ? std::nullopt
+                                                    : std::optional{fix.alternates.front().misfit};
+                    }});
 };
 
-/// All other axes of a fix that has more than the one of its own row.
-struct SpinFixCandidateTable {
-  static constexpr std::string_view kName = "spin_fix_candidate";
+/// All other axes of a fix that has more than the one of its own row (view spin_fix_candidate).
+struct SpinFixOtherTable {
+  static constexpr std::string_view kName = "spin_fix_other";
   static constexpr std::array<std::string_view, 2> kKey{"revolution", "candidate"};
 
   struct Row {
     std::int64_t revolution;
     std::int64_t candidate;
     PlaceDeg place;
+    double misfit;
   };
   static constexpr auto kColumns =
       columns(ProductColumn{"revolution", [](const Row& row) { return row.revolution; }},
               ProductColumn{"candidate", [](const Row& row) { return row.candidate; }},
               ProductColumn{"ra_deg", [](const Row& row) { return row.place.ra_deg; }},
-              ProductColumn{"dec_deg", [](const Row& row) { return row.place.dec_deg; }});
+              ProductColumn{"dec_deg", [](const Row& row) { return row.place.dec_deg; }},
+              ProductColumn{"misfit", [](const Row& row) { return row.misfit; }});
 
   static std::int64_t group(const SpinFix& fix) { return fix.revolution; }
   static std::vector<Row> rows(const SpinFix& fix) {
     std::vector<Row> rows;
-    if (fix.alternates.size() > 1) {
-      for (const SpinAlternate& alternate : fix.alternates) {
-        rows.push_back({.revolution = fix.revolution,
-                        .candidate = static_cast<std::int64_t>(rows.size()) + 1,
-                        .place = place_deg(alternate.axis_icrf)});
-      }
+    for (std::size_t i = 1; i < fix.alternates.size(); ++i) {
+      rows.push_back({.revolution = fix.revolution,
+                      .candidate = static_cast<std::int64_t>(i) + 1,
+                      .place = place_deg(fix.alternates[i].axis_icrf),
+                      .misfit = fix.alternates[i].misfit});
     }
     return rows;
   }
@@ -84,7 +90,7 @@ struct SpinFixCandidateTable {
 template <>
 struct ProductKind<SpinFix> {
   static constexpr ProductWeight kWeight = ProductWeight::Result;
-  using Tables = std::tuple<SpinFixTable, SpinFixCandidateTable>;
+  using Tables = std::tuple<SpinFixTable, SpinFixOtherTable>;
 
   static constexpr const char* kTopic = "spindrift/spin_fix";
   /// A fix from measurements that contradict each other could not be told from a good one.

@@ -87,7 +87,7 @@ Expected<spindrift_SpinFix> to_idl(const ResultOrigin& origin, const SpinFix& fi
                         .sigma_deg = sigma_deg(fix.covariance_rad2),
                         .alternate_ra_deg = kNotAvailable,
                         .alternate_dec_deg = kNotAvailable,
-                        .resolution = static_cast<spindrift_Resolution>(fix.resolution),
+                        .resolution = static_cast<spindrift_Resolution>(said_resolution(fix)),
                         .run_id = {},
                         .service = {}};
   if (!fix.alternates.empty()) {

@@ -430,7 +430,7 @@ TEST_F(ArchiveRestart, ResultsThatWereGivenBeforeAreKnownButNotAFixThatIsDecided
 TEST_F(ArchiveRestart, AllAxesOfAnAmbiguousFixAreStoredUntilItIsGivenAgainOrWithdrawn) {
   const std::string stored_axes =
       "SELECT group_concat(format('%d %d %.0f', revolution, candidate, ra_deg), '; ')"
-      " FROM spin_fix_candidate";
+      " FROM spin_fix_candidate WHERE candidate > 0";
   const auto archive = open();
   ArchiveBatch batch = start_of("run-1");
   batch.products = {fix_with_alternates(3)};
@@ -442,7 +442,7 @@ TEST_F(ArchiveRestart, AllAxesOfAnAmbiguousFixAreStoredUntilItIsGivenAgainOrWith
   decided.products = {fix_with_alternates(1)};
   ASSERT_TRUE(archive->submit(decided));
   ASSERT_TRUE(archive->flush());
-  EXPECT_EQ(number("SELECT count(*) FROM spin_fix_candidate"), 0);
+  EXPECT_EQ(text(stored_axes), "7 1 90");
   EXPECT_EQ(real("SELECT alternate_ra_deg FROM spin_fix"), 90.0);
 
   ArchiveBatch again = batch_of("run-1");

@@ -218,8 +218,8 @@ class ThreeAxisTexts {
   void keep(const ThreeAxisOutput& output) {
     for (const ThreeAxisProduct& product : output.products) {
       if (const auto* const sample = std::get_if<RejectedSample>(&product)) {
-        const bool is_stray = sample->rejected_by == Rejection::OutOfTime ||
-                              sample->rejected_by == Rejection::Late;
+        const bool is_stray =
+            sample->rejected_by == Rejection::OutOfTime || sample->rejected_by == Rejection::Late;
         left_out += is_stray ? 1 : 0;
         if (!is_stray) {
           texts.push_back(fmt::format("{} {}", tai_ns(sample->t), name_of(sample->rejected_by)));

@@ -67,7 +67,7 @@ struct BatchSolution {
   std::optional<NutationSearch> nutation;
   TaiTime nutation_t;  ///< Where FoundNutation says t_s; without one, that of the estimate.
   ConingEstimate coning;
-  std::vector<BatchEdge> said;  ///< By all edges that it was solved with, in order of time.
+  std::vector<BatchEdge> said = {};  ///< By all edges that it was solved with, in order of time.
 };
 
 }  // namespace spindrift

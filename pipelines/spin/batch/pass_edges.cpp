@@ -18,30 +18,7 @@ constexpr double kSameStart_rad = 0.1 * kRadPerDeg;
 /// Not where it should be, or with nothing to compare it with; else it is one of several edges of
 /// an angle that failed its test.
 bool is_bad(Rejection rejection) {
-  using enum Rejection;
-  switch (rejection) {
-    case Unassociated:
-    case Late:
-    case OutOfTime:
-    case Contradicted:
-    case Copy:
-    case Interference:
-    case Operator:
-    case Phase:
-    case NoSensor:
-    case NoOrbit:
-      return true;
-    case Geometry:
-    case Period:
-    case SunAngle:
-    case NorthChord:
-    case SouthChord:
-    case NorthDihedral:
-    case SouthDihedral:
-    case MixedAzimuth:
-      return false;
-  }
-  return true;
+  return rejection != Rejection::Geometry && rejection < Rejection::Period;
 }
 
 }  // namespace

@@ -110,11 +110,13 @@ SpinFix fix_of(std::int64_t revolution, TaiTime t, const AxisCandidates& found, 
               .resolution = resolution,
               .norm = candidate.norm,
               .accepted = candidate.consistent && resolution != Resolution::Ambiguous,
-              .near_tangent = found.near_tangent};
+              .near_tangent = found.near_tangent,
+              .misfit = candidate.misfit};
   for (std::size_t i = 0; i < found.candidates.size(); ++i) {
     if (i != chosen) {
       fix.alternates.push_back({.axis_icrf = found.candidates[i].axis_icrf,
-                                .covariance_rad2 = found.candidates[i].covariance_rad2});
+                                .covariance_rad2 = found.candidates[i].covariance_rad2,
+                                .misfit = found.candidates[i].misfit});
     }
   }
   return fix;
@@ -149,7 +151,9 @@ std::vector<SpinFix> Disambiguator::settle(std::int64_t revolution, TaiTime t,
   const auto nearest = nearest_to_known(established, candidates, possible);
   // What the pass itself has established needs no further test.
   if (nearest && (established || candidates.near_tangent)) {
-    return {fix_of(revolution, t, candidates, *nearest, Resolution::Prior)};
+    SpinFix fix = fix_of(revolution, t, candidates, *nearest, Resolution::Prior);
+    fix.chosen_by_pass = established.has_value();
+    return {std::move(fix)};
   }
   if (candidates.near_tangent) {
     dispersion_.note_unlike();

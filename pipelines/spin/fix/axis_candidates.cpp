@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "pipelines/frames/angle.h"
@@ -22,19 +23,28 @@ tl::unexpected<NoCandidates> unobservable(WhyNoFix why) {
   return tl::unexpected{NoCandidates{.why = std::move(why)}};
 }
 
-bool agrees(double contradiction, double noise) {
-  return std::abs(contradiction) <= kContradictionSigmas * noise + kModelLimit_rad;
-}
+/// Something that should be zero.
+struct Contradiction {
+  double value;
+  double noise;
 
-/// Both chords show the disc that the orbit gives.
-bool disc_agrees(const FixInput& input, const AxisAngles& place) {
+  bool agrees() const { return std::abs(value) <= kContradictionSigmas * noise + kModelLimit_rad; }
+  /// None where rounding is all that there is.
+  double chi_square() const {
+    constexpr double kRounding = 1e-12;
+    return noise > kRounding ? value * value / (noise * noise) : 0.0;
+  }
+};
+
+/// The disc that both chords show, less what the orbit gives; empty: they show none.
+std::optional<Contradiction> disc_contradiction(const FixInput& input, const AxisAngles& place) {
   const Uncertain cosine = cos_disc_seen(*input.north(), place.earth_angle_rad);
   if (!(std::abs(cosine.value()) < 1.0)) {
-    return false;
+    return std::nullopt;
   }
   const Uncertain disc_rad = acos(cosine);
-  return agrees(disc_rad.value() - place.beams.at(index_of(Side::North)).disc_rad,
-                noise_of(disc_rad));
+  return Contradiction{.value = disc_rad.value() - place.beams.at(index_of(Side::North)).disc_rad,
+                       .noise = noise_of(disc_rad)};
 }
 
 using Tangent = Eigen::Matrix<double, 2, kEdges + kModelErrors>;
@@ -76,12 +86,14 @@ AxisCandidate candidate_at(const FixInput& input, const AxisAngles& place) {
                 .solve(tangent)
                 .eval();
   const auto noise = tangent.leftCols<kEdges>();
-  const double norm_noise = (unit.transpose() * shifts.leftCols<kEdges>()).norm();
+  const Contradiction length{.value = norm - 1.0,
+                             .noise = (unit.transpose() * shifts.leftCols<kEdges>()).norm()};
+  const auto disc = input.both_chords() ? disc_contradiction(input, place) : std::nullopt;
   return {.axis_icrf = unit,
           .covariance_rad2 = noise * noise.transpose(),
           .norm = norm,
-          .consistent =
-              agrees(norm - 1.0, norm_noise) && (!input.both_chords() || disc_agrees(input, place)),
+          .consistent = length.agrees() && (!input.both_chords() || (disc && disc->agrees())),
+          .misfit = length.chi_square() + (disc ? disc->chi_square() : 0.0),
           .model_shift_icrf = basis * tangent.rightCols<kModelErrors>()};
 }
 

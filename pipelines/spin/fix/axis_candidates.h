@@ -28,6 +28,9 @@ struct AxisCandidate {
   /// show minus rho are within five of their sigmas and half a degree, which is more than the
   /// Earth's shape and the height of its CO2 account for.
   bool consistent;
+  /// Chi-square of what the measurements have too much: of norm - 1, and of the disc that both
+  /// chords show, by the edges' noise alone.
+  double misfit = 0.0;
   /// What each error of the model moves the axis by, for every radian of it; in ICRF.
   Eigen::Matrix<double, 3, kModelErrors> model_shift_icrf;
 };

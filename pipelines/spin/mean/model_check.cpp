@@ -192,8 +192,7 @@ ModelTest test_model_errors(const ErrorInformation& seen, double excess_noise,
     return verdict;
   }
   explain(errors.information, errors.score, verdict);
-  verdict.beyond_allowance =
-      spectrum.chi_square(kModelError_rad * kModelError_rad) > significant;
+  verdict.beyond_allowance = spectrum.chi_square(kModelError_rad * kModelError_rad) > significant;
   return verdict;
 }
 

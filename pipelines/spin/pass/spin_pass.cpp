@@ -1,6 +1,7 @@
 #include "pipelines/spin/pass/spin_pass.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -133,6 +134,9 @@ SpinOutput SpinPass::finish() {
   }
   for (const Pulse& pulse : rest.out_of_time) {
     leave_out_of_time(pulse, out);
+  }
+  if (auto choice = axis_choice()) {
+    out.products.emplace_back(*std::move(choice));
   }
   notices_.used(out.products);
   notices_.pass_ended(associator_.interfering(), sequential_);
@@ -370,9 +374,8 @@ void SpinPass::screen(Candidate& candidate) const {
   for (const AngleResidual& residual : candidate.residuals) {
     const RobustMean mean = screening_.mean_of(residual.quantity).value();
     const double value_rad = value_of(candidate.measured, residual.quantity)->value_rad;
-    note_test(
-        candidate.measured, residual.quantity,
-        {.expected = value_rad - (residual.value_rad - mean.mean), .limit = mean.limit});
+    note_test(candidate.measured, residual.quantity,
+              {.expected = value_rad - (residual.value_rad - mean.mean), .limit = mean.limit});
     if (!mean.keeps(residual.value_rad)) {
       reject(candidate.measured, residual.quantity, rejection_of(residual.quantity));
     }
@@ -463,8 +466,7 @@ void SpinPass::announce_axis(Candidate& candidate, SpinOutput& out) {
   std::optional<SpinEstimate> sequential;
   if (const auto sky = sun_earth_.sky(revolution.t_start)) {
     sequential = sequential_.update(
-        revolution, *sky,
-        most_are_consistent() ? std::span{fixes} : std::span<const SpinFix>{});
+        revolution, *sky, most_are_consistent() ? std::span{fixes} : std::span<const SpinFix>{});
     if (sequential_.prior_refuted() && config_.prior) {
       forget_prior(revolution.t_start);
     }
@@ -478,6 +480,7 @@ void SpinPass::announce_axis(Candidate& candidate, SpinOutput& out) {
   bool mean_moved = false;
   mean_.keep(revolution.number, candidate.measured, *candidate.sun_earth);
   for (const SpinFix& fix : fixes) {
+    note_choice(fix);
     say_why_not_accepted(fix);
     if (mean_.take(fix)) {
       recent_axes_.add(fix);
@@ -502,6 +505,42 @@ void SpinPass::announce_axis(Candidate& candidate, SpinOutput& out) {
     notices_.estimated(*sequential);
     out.products.emplace_back(std::move(*sequential));
   }
+}
+
+void SpinPass::note_choice(const SpinFix& fix) {
+  if (fix.accepted) {
+    last_accepted_ = fix;
+  }
+  if (!fix.alternates.empty()) {
+    const auto best = std::min_element(
+        fix.alternates.begin(), fix.alternates.end(),
+        [](const SpinAlternate& a, const SpinAlternate& b) { return a.misfit < b.misfit; });
+    alternate_icrf_ = best->axis_icrf;
+    alternates_misfit_ += best->misfit - fix.misfit;
+  }
+}
+
+/// The edges say most of another axis, where a filter has followed it; else the fixes do.
+std::optional<AxisChoice> SpinPass::axis_choice() const {
+  if (!sequential_.has_begun() && mean_.count() == 0) {
+    return std::nullopt;
+  }
+  static constexpr std::array<std::string_view, 5> kSettledBy = {"geometry", "constraint", "prior",
+                                                                 "dispersion", "nothing"};
+  AxisChoice choice{
+      .axis_icrf = sequential_.has_begun() ? sequential_.axis_icrf() : mean_.axis_icrf(),
+      .other_icrf = alternate_icrf_,
+      .delta_chi_square = alternates_misfit_,
+      .settled_by = kSettledBy.at(static_cast<std::size_t>(
+          last_accepted_ ? said_resolution(*last_accepted_) : Resolution::Ambiguous))};
+  if (const auto rival = sequential_.rival()) {
+    choice.other_icrf = rival->axis_icrf;
+    choice.delta_chi_square = 2.0 * rival->less;
+  }
+  if (sequential_.settled_by_edges()) {
+    choice.settled_by = "edges";
+  }
+  return choice;
 }
 
 void SpinPass::doubt_where_orbit_steps(SpinEstimate& estimate) {
@@ -581,6 +620,9 @@ void SpinPass::forget_prior(TaiTime t) {
 }
 
 void SpinPass::begin_anew(TaiTime t) {
+  last_accepted_.reset();
+  alternate_icrf_.reset();
+  alternates_misfit_ = 0.0;
   mean_.begin_anew(t);
   recent_axes_ = AxisWindow{static_cast<std::size_t>(config_.screening.window)};
   screening_ = ScreeningWindow{config_.screening};

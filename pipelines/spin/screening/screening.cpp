@@ -41,9 +41,10 @@ class Prediction {
 
 }  // namespace
 
-std::vector<AngleResidual> residuals(const SpinConfig& config, const RevolutionMeasurements& measured,
-                                const SunEarthDirections& sun_earth,
-                                const Eigen::Vector3d& axis_icrf) {
+std::vector<AngleResidual> residuals(const SpinConfig& config,
+                                     const RevolutionMeasurements& measured,
+                                     const SunEarthDirections& sun_earth,
+                                     const Eigen::Vector3d& axis_icrf) {
   const Prediction prediction{config, measured, sun_earth, axis_icrf};
   std::vector<AngleResidual> found;
   for (const SpinQuantity quantity : kMeasuredAngles) {

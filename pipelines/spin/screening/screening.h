@@ -24,9 +24,10 @@ struct AngleResidual {
 /// One residual per good measurement. One that the axis says is impossible (a chord of a beam that
 /// misses the Earth, a pulse of a slit that cannot see the Sun) has none: it is left to the other
 /// quantities to decide. Chords and dihedrals are those of the mission's horizon.
-std::vector<AngleResidual> residuals(const SpinConfig& config, const RevolutionMeasurements& measured,
-                                const SunEarthDirections& sun_earth,
-                                const Eigen::Vector3d& axis_icrf);
+std::vector<AngleResidual> residuals(const SpinConfig& config,
+                                     const RevolutionMeasurements& measured,
+                                     const SunEarthDirections& sun_earth,
+                                     const Eigen::Vector3d& axis_icrf);
 
 /// A sliding window of residuals for every quantity. Deviations count from the window's mean, not
 /// from zero: an error that all share (a misplaced sensor, the Earth's oblateness) is not an

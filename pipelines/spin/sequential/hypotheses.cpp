@@ -41,6 +41,13 @@ bool fits(const Hypothesis& hypothesis) {
 
 }  // namespace
 
+std::optional<Hypotheses::Rival> Hypotheses::rival() const {
+  return all_.size() > 1
+             ? std::optional{Rival{.axis_icrf = all_[1].filter.axis_icrf(),
+                                   .less = all_[0].log_likelihood - all_[1].log_likelihood}}
+             : eliminated_;
+}
+
 bool Hypotheses::contradicted_by(const StartingPoint& point) const {
   return std::all_of(all_.begin(), all_.end(), [&](const Hypothesis& hypothesis) {
     return contradict(point, place_of(hypothesis));
@@ -161,6 +168,10 @@ bool Hypotheses::drop_eliminated() {
     const bool out = best_fits && best.log_likelihood - other.log_likelihood > enough;
     best.preferred_by_prior = best.preferred_by_prior || (same && other.preferred_by_prior);
     prior_beaten = prior_beaten || (!same && out && other.preferred_by_prior);
+    if (!same && out) {
+      eliminated_ = Rival{.axis_icrf = other.filter.axis_icrf(),
+                          .less = best.log_likelihood - other.log_likelihood};
+    }
     return same || out;
   };
   const auto left = std::remove_if(all_.begin() + 1, all_.end(), beaten);

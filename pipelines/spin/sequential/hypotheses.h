@@ -6,7 +6,9 @@
 
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "pipelines/spin/sequential/spin_filter.h"
@@ -54,6 +56,14 @@ class Hypotheses {
   const std::vector<Hypothesis>& all() const { return all_; }
   const Hypothesis& published() const { return all_.front(); }
 
+  /// The best other axis, and by how much the edges' log likelihood is less about it.
+  struct Rival {
+    Eigen::Vector3d axis_icrf;
+    double less;
+  };
+  /// That which competes; where none does, the last one that was eliminated; empty: none was.
+  std::optional<Rival> rival() const;
+
   /// No filter may have this axis.
   bool contradicted_by(const StartingPoint& point) const;
 
@@ -86,6 +96,7 @@ class Hypotheses {
   std::vector<Hypothesis> all_;
   bool provisional_;
   bool settled_ = false;
+  std::optional<Rival> eliminated_;
 };
 
 }  // namespace spindrift

@@ -1,8 +1,8 @@
 /// @file
 /// What the innovations of a filter say of errors of its model (a slit or a beam that is not where
 /// the mission file says, the limb). They should have the mean 0: the part of such an error that
-/// looks like another axis moves the axis unseen, the rest stays in the innovations. It is tested as
-/// that of the angles is (model_check.h).
+/// looks like another axis moves the axis unseen, the rest stays in the innovations. It is tested
+/// as that of the angles is (model_check.h).
 
 #pragma once
 

@@ -221,9 +221,8 @@ void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) 
   const std::span<const Observation> said = published.said.edges();
   ledger_.add(said);
   evidence_.add(published.said.errors,
-                static_cast<double>(std::count_if(said.begin(), said.end(), [](const auto& edge) {
-                  return !edge.rejected_by;
-                })));
+                static_cast<double>(std::count_if(
+                    said.begin(), said.end(), [](const auto& edge) { return !edge.rejected_by; })));
   test_model_and_noise();
   // The first edges pull the filter from its start to where they fit.
   const auto edges = static_cast<double>(said.size());

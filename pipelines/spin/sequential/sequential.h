@@ -87,6 +87,11 @@ class SequentialEstimator {
                                : hypotheses_.published().said.edges();
   }
 
+  /// Of the candidate published; there must be one.
+  Eigen::Vector3d axis_icrf() const { return hypotheses_.published().filter.axis_icrf(); }
+  bool has_begun() const { return !hypotheses_.empty(); }
+  std::optional<Hypotheses::Rival> rival() const { return hypotheses_.rival(); }
+
   /// The axis that the edges settled beyond doubt among several.
   std::optional<KnownAxis> settled_by_edges() const;
 
@@ -118,9 +123,9 @@ class SequentialEstimator {
   StartingPoints settled_starts_;  ///< Of fixes that are settled.
   StartingPoints open_starts_;     ///< Of those that leave several candidates open.
   StartingPoints near_tangent_starts_;
-  RecentMean near_tangent_share_;    ///< Of the recent fixes.
-  StartingPoints untracked_;         ///< Candidates that no filter follows, since the start.
-  Contradiction contradiction_;      ///< By fixes, since the start.
+  RecentMean near_tangent_share_;  ///< Of the recent fixes.
+  StartingPoints untracked_;       ///< Candidates that no filter follows, since the start.
+  Contradiction contradiction_;    ///< By fixes, since the start.
   StartConfirmation start_confirmation_;
 
   Ledger ledger_;           ///< Of the published candidate.

@@ -119,8 +119,7 @@ void SpinFilter::predict(TaiTime t) {
 }
 
 RevolutionObservations SpinFilter::update(const SpinConfig& config, const Sky& sky,
-                                          std::span<const Pulse> edges,
-                                          const ChannelNoise& noise) {
+                                          std::span<const Pulse> edges, const ChannelNoise& noise) {
   const SpinFilter prior = *this;
   const RevolutionEdges seen{.config = config,
                              .sky = sky,

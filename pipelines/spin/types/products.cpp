@@ -21,6 +21,10 @@ std::string_view name_of(Resolution resolution) {
   return kNames.at(static_cast<std::size_t>(resolution));
 }
 
+Resolution said_resolution(const SpinFix& fix) {
+  return fix.chosen_by_pass ? Resolution::Dispersion : fix.resolution;
+}
+
 std::string_view name_of(SpinEstimator estimator) {
   static constexpr std::array<std::string_view, 3> kNames = {"mean", "sequential", "batch"};
   return kNames.at(static_cast<std::size_t>(estimator));

@@ -67,6 +67,7 @@ struct SpinAlternate {
   Eigen::Vector3d axis_icrf;  ///< Unit.
   /// Tangent plane at this axis: east, north. Zero where it was not kept.
   Eigen::Matrix2d covariance_rad2 = Eigen::Matrix2d::Zero();
+  double misfit = 0.0;  ///< Chi-square of the measurements about it, by the edges' noise.
 };
 
 /// Spin axis from one revolution alone.
@@ -85,6 +86,19 @@ struct SpinFix {
   /// The candidates lie where they come together and vanish, within the noise: the covariance is
   /// too small, and the true one may be missing.
   bool near_tangent = false;
+  double misfit = 0.0;          ///< As of an alternate.
+  bool chosen_by_pass = false;  ///< PRIOR, but by the axis that the pass itself has established.
+};
+/// As it is said: what the pass itself has established is no prior that anybody gave.
+Resolution said_resolution(const SpinFix& fix);
+
+/// Which axis a pass has taken, and what else there was.
+struct AxisChoice {
+  Eigen::Vector3d axis_icrf;
+  std::optional<Eigen::Vector3d> other_icrf;  ///< The best other axis; empty: there never was one.
+  double delta_chi_square;                    ///< By so much that fits worse.
+  /// "edges", "geometry", "constraint", "prior", "dispersion", or "nothing".
+  std::string_view settled_by;
 };
 
 enum class SpinEstimator { Mean, Sequential, Batch };
@@ -101,6 +115,6 @@ struct SpinEstimate {
 };
 
 using SpinProduct = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix,
-                                 SpinEstimate, SampleContradiction>;
+                                 SpinEstimate, SampleContradiction, AxisChoice>;
 
 }  // namespace spindrift

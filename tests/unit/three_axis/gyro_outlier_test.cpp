@@ -35,7 +35,8 @@ TEST(StandsOut, NothingBetweenItsNeighboursDoes) {
     const Vector3d before = any_vector(rng);
     const Vector3d behind = any_vector(rng);
     const double share = std::uniform_real_distribution{0.0, 1.0}(rng);
-    EXPECT_FALSE(deviation(before, before + share * (behind - before), behind, kNone, 0.0).stands_out());
+    EXPECT_FALSE(
+        deviation(before, before + share * (behind - before), behind, kNone, 0.0).stands_out());
   }
 }
 
@@ -62,13 +63,16 @@ TEST(StandsOut, WhatIsBeyondBothByMoreThanTheRateChangesDoesOnAnyAxis) {
 /// The difference of two samples has the root of two times the noise of one.
 TEST(StandsOut, NoiseOfTwoSamplesIsNotEnough) {
   const double limit = 5.0 * std::numbers::sqrt2 * kNoise_rad_s;
-  EXPECT_FALSE(deviation(kNone, 0.999 * limit * Vector3d::UnitY(), kNone, kNone, kNoise_rad_s).stands_out());
-  EXPECT_TRUE(deviation(kNone, 1.001 * limit * Vector3d::UnitY(), kNone, kNone, kNoise_rad_s).stands_out());
+  EXPECT_FALSE(
+      deviation(kNone, 0.999 * limit * Vector3d::UnitY(), kNone, kNone, kNoise_rad_s).stands_out());
+  EXPECT_TRUE(
+      deviation(kNone, 1.001 * limit * Vector3d::UnitY(), kNone, kNone, kNoise_rad_s).stands_out());
   std::mt19937_64 rng{2};
   for (int i = 0; i < 20'000; ++i) {
     const Vector3d before = normal_vector(rng, kNoise_rad_s);
     const Vector3d at = normal_vector(rng, kNoise_rad_s);
-    ASSERT_FALSE(deviation(before, at, normal_vector(rng, kNoise_rad_s), kNone, kNoise_rad_s).stands_out());
+    ASSERT_FALSE(
+        deviation(before, at, normal_vector(rng, kNoise_rad_s), kNone, kNoise_rad_s).stands_out());
   }
 }
 

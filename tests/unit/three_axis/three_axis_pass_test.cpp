@@ -316,8 +316,8 @@ TEST_F(MagnetometerPassTest, AFieldOfAnotherStrengthIsLeftOutBeforeThereIsAnAtti
     gyro(second, second + 1.0);
   }
   add(pass_.finish());
-  EXPECT_THAT(reasons(), ::testing::ElementsAreArray(
-                             std::vector<Rejection>(4, Rejection::Innovation)));
+  EXPECT_THAT(reasons(),
+              ::testing::ElementsAreArray(std::vector<Rejection>(4, Rejection::Innovation)));
   for (const RejectedSample& sample : rejected()) {
     EXPECT_EQ(sample.kind, SampleKind::Magnetometer);
     // 5 % of 20,000 to 60,000 nT over 100 nT.
@@ -333,8 +333,7 @@ TEST_F(MagnetometerPassTest, WithoutAnOrbitAFieldIsLeftOutUntilAStateComes) {
   add(pass_.push(TimedOrbitState{.t = at_s(1.5), .state = orbit_.at(at_s(1.5)).value()}));
   add(pass_.push(field(2.0)));
   add(pass_.finish());
-  EXPECT_THAT(reasons(),
-              ::testing::ElementsAre(Rejection::NoOrbit, Rejection::NoOrbit));
+  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::NoOrbit, Rejection::NoOrbit));
   ASSERT_THAT(notices_, SizeIs(2));
   EXPECT_EQ(notices_[0].code, NoticeCode::FieldWithoutOrbit);
   EXPECT_EQ(notices_[1].code, NoticeCode::AttitudeNeverBegan);

@@ -6,10 +6,10 @@ import { Convergence } from './convergence.js';
 import { drawHeader } from './header.js';
 import { drawHealth } from './health.js';
 import { Raster } from './raster.js';
+import { Residuals } from './residuals.js';
 import { Series } from './series.js';
 import { drawSky, onRoot } from './sky.js';
 import { byId, duration, element } from './text.js';
-import { Trace } from './trace.js';
 
 const stale_after_ms = 3000;
 const redraw_ms = 100;
@@ -20,7 +20,7 @@ const reopen_ms = 2000;
 const raster = new Raster();
 const series = new Series(trace => trace.refresh(craft().t_tai_ns, utcOf));
 let convergence = null;
-let innovations = null;
+let residuals = null;
 let state = null;
 let shown = '';       // the spacecraft on the page
 let heard_ms = null;  // when the service was last heard
@@ -59,10 +59,9 @@ async function show(id) {
   raster.clear();
   convergence?.destroy();
   convergence = new Convergence(craft().kind === 'three_axis' ? ['attitude'] : ['mean', 'sequential', 'batch', 'bound']);
-  innovations?.destroy();
-  innovations = craft().kind === 'three_axis'
-    ? new Trace(byId('innovations'), byId('innovations-note'), id, { name: 'innovation', unit: 'sigma' }, [-3, 3]) : null;
-  innovations?.refresh(craft().t_tai_ns, utcOf);
+  residuals?.destroy();
+  residuals = new Residuals(byId('residuals'), byId('residuals-note'), id, craft().kind ?? 'spin');
+  residuals.refresh(craft().t_tai_ns, utcOf);
   await series.open(id);
   if (id === shown) backfill();
 }
@@ -126,7 +125,7 @@ function open() {
 // Of the boxes, whose sizes changed.
 function fit() {
   dirty = raster.changed = true;
-  for (const one of [series.trace, convergence, innovations]) one?.chart.fit();
+  for (const one of [series.trace, convergence, residuals]) one?.chart.fit();
 }
 
 function drawStale() {
@@ -155,6 +154,7 @@ function draw() {
   drawAlerts(state.alerts ?? [], known, utcOf);
   drawHealth(state.service, stale);
   drawActions(craft(), utcOf);
+  residuals?.summarise(craft().residuals);
   if (spin) drawSky(craft());
   else drawAttitude(craft(), utcOf);
 }
@@ -170,7 +170,7 @@ setInterval(draw, redraw_ms);
 setInterval(() => { if (!document.hidden) convergence?.draw(utcOf); }, convergence_ms);
 setInterval(() => {
   if (document.hidden || !shown) return;
-  innovations?.refresh(craft().t_tai_ns, utcOf);
+  residuals?.refresh(craft().t_tai_ns, utcOf);
   if (series.trace) series.refresh();
   else series.open(shown);
 }, series_ms);

@@ -3,6 +3,7 @@
 import { Ring } from './ring.js';
 import { begin, colours, cross } from './canvas.js';
 import { byId, clock, number } from './text.js';
+import { heldAgainst } from './held.js';
 import { seriesOf } from './trace.js';
 
 const shown_s = 300;
@@ -124,7 +125,7 @@ export class Raster {
     this.told = one?.edge;
     byId('raster-said').textContent = one
       ? `${one.edge.channel} ${clock(one.at)} ${number(one.edge.phase_deg, 1, '°')} ${
-        one.edge.accepted ? 'accepted' : `rejected: ${one.edge.rejected_by}`}`
+        one.edge.accepted ? 'accepted' : `rejected: ${one.edge.rejected_by}`}${heldAgainst(one.edge)}`
       : '';
   }
 }

@@ -1,6 +1,7 @@
 // One quantity of the archive against time. Measurements have no event of their own: the newest span is asked for
 // again and again, decimated by the service.
-import { Chart, crosses, dots, line } from './chart.js';
+import { Chart, crosses, dots } from './chart.js';
+import { heldAgainst } from './held.js';
 
 const span_ns = 1800e9;
 const points = 800;
@@ -18,11 +19,9 @@ export function seriesOf(spacecraft, quantity, from, to, most = points) {
 }
 
 export class Trace {
-  // `bounds`: values between which it should be.
-  constructor(box, note, spacecraft, { name, unit }, bounds = []) {
-    Object.assign(this, { note, spacecraft, quantity: name, bounds, rows: [] });
-    this.chart = new Chart(box, [dots('accepted', '#7cb9f2'), crosses('rejected', '#ff8a75'),
-      ...bounds.map(bound => line(`${bound}`, '#a4b0b9', [6, 4]))], { unit });
+  constructor(box, note, spacecraft, { name, unit }) {
+    Object.assign(this, { note, spacecraft, quantity: name, rows: [] });
+    this.chart = new Chart(box, [dots('accepted', '#7cb9f2'), crosses('rejected', '#ff8a75')], { unit });
     box.addEventListener('pointermove', this.hovered = () => this.say());
   }
 
@@ -45,7 +44,6 @@ export class Trace {
         this.rows.map(row => utcOf(row.t_tai_ns)),
         this.rows.map(row => row.accepted === false ? null : row.value),
         this.rows.map(row => row.accepted === false ? row.value : null),
-        ...this.bounds.map(bound => this.rows.map(() => bound)),
       ]);
       const rejected = this.rows.filter(row => row.accepted === false).length;
       this.summary = this.rows.length ? `last 30 min, ${this.rows.length} points, ${rejected} rejected` : 'no points yet';
@@ -59,6 +57,6 @@ export class Trace {
 
   say() {
     const row = this.rows[this.chart.plot.cursor.idx];
-    this.note.textContent = row?.accepted === false ? `rejected: ${row.rejected_by ?? 'no reason given'}` : this.summary ?? '';
+    this.note.textContent = row?.accepted === false ? `rejected: ${row.rejected_by ?? 'no reason given'}${heldAgainst(row)}` : this.summary ?? '';
   }
 }
