@@ -255,7 +255,7 @@ Answer ConsoleAnswers::act(const HttpRequest& request) const {
     return refusal(http::status::bad_request,
                    "the body must be a JSON object with spacecraft, by, action and its arguments");
   }
-  return StoringAnswer{[this, action = std::move(action)] {
+  return ActingAnswer{[this, action = std::move(action)] {
     const auto taken = service_.act(action);
     if (taken) {
       return json_answer(http::status::accepted, {{"action_id", *taken}});

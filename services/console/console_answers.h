@@ -35,11 +35,15 @@ struct ReadingAnswer {
 struct StoringAnswer {
   std::function<HttpResponse()> make;
 };
+/// Made by a thread that waits until an operator's action is stored: nothing else waits for that.
+struct ActingAnswer {
+  std::function<HttpResponse()> make;
+};
 /// The events behind `id`, and those to come.
 struct EventStream {
   std::uint64_t id;
 };
-using Answer = std::variant<HttpResponse, ReadingAnswer, StoringAnswer, EventStream>;
+using Answer = std::variant<HttpResponse, ReadingAnswer, StoringAnswer, ActingAnswer, EventStream>;
 
 class ConsoleAnswers {
  public:
@@ -48,8 +52,8 @@ class ConsoleAnswers {
     ConsoleFeed& feed;
     AlertDesk& desk;
     Archive& archive;
-    /// Takes an operator's action, which it may wait for. @return its id; InvalidInput for a bad
-    /// one.
+    /// Takes an operator's action, and waits until it is stored. @return its id; InvalidInput for a
+    /// bad one.
     std::function<Expected<std::string>(const nlohmann::json&)> act = {};
   };
   /// @param hosts By which browsers call it, as in `Host` without the port, in small letters.

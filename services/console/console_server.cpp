@@ -173,6 +173,8 @@ class ConsoleServer::Loop {
       send_when_made(reading_, session, std::move(reading->make));
     } else if (auto* const storing = std::get_if<StoringAnswer>(&answer)) {
       send_when_made(storing_, session, std::move(storing->make));
+    } else if (auto* const acting = std::get_if<ActingAnswer>(&answer)) {
+      send_when_made(acting_, session, std::move(acting->make));
     } else {
       watch(session, std::get<EventStream>(answer).id);
     }
@@ -283,6 +285,7 @@ class ConsoleServer::Loop {
   std::set<Shared> viewers_;
   asio::thread_pool reading_{1};
   asio::thread_pool storing_{1};
+  asio::thread_pool acting_{1};
   std::thread thread_;
 };
 

@@ -43,6 +43,21 @@ class BoundedQueue {
     return true;
   }
 
+  /// Likewise, whatever is queued: for the few that somebody waits for.
+  bool push_at_once(T item) {
+    const std::size_t weight = weigh_(item);
+    {
+      const std::lock_guard lock{mutex_};
+      if (closed_) {
+        return false;
+      }
+      items_.push_back(std::move(item));
+      queued_ += weight;
+    }
+    filled_.notify_one();
+    return true;
+  }
+
   /// Waits for the next item; empty only when closed and drained.
   std::optional<T> take() {
     std::unique_lock lock{mutex_};

@@ -1,6 +1,15 @@
 #include "services/serving/action_inbox.h"
 
+#include <fmt/format.h>
+
+#include <chrono>
+
 namespace spindrift {
+namespace {
+
+constexpr std::chrono::seconds kPatience{5};
+
+}  // namespace
 
 Expected<std::string> ActionInbox::take(const nlohmann::json& request) {
   return parse_action(request, known_)
@@ -13,10 +22,18 @@ Expected<std::string> ActionInbox::take(const nlohmann::json& request) {
         }
         SampleBatch batch;
         batch.actions.push_back(action);
-        if (!taken_.push(std::move(batch))) {
+        stored_.expect(action.action_id);
+        if (!taken_.push_at_once(std::move(batch))) {
           return Unexpected{{ErrorCode::Unavailable,
                              "the service is stopping and takes nothing more: say it again to the "
                              "next one"}};
+        }
+        if (!stored_.wait(action.action_id, kPatience)) {
+          return Unexpected{
+              {ErrorCode::Unavailable,
+               fmt::format("{} is not stored within {} s: it is taken, and done as soon as the "
+                           "archive stores again; do not say it twice",
+                           action.action_id, kPatience.count())}};
         }
         return action.action_id;
       });

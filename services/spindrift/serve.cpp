@@ -197,13 +197,14 @@ void note_faults(std::span<const ArchiveBatch> stored, Problems& problems) {
 Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db, AlertDesk& desk,
                                                 Announcer& announcer, Problems& problems,
                                                 DisagreementNotices& disagreements,
-                                                ThreadFailures& failures) {
+                                                StoredActions& actions, ThreadFailures& failures) {
   return Archive::open(db, {.on_write_failure = OnWriteFailure::Retry,
                             .on_submit = [&](ArchiveBatch& batch) { desk.see(batch); },
                             .on_refused = [&](const ArchiveBatch& batch) { desk.take_back(batch); },
                             .on_committed =
                                 [&](std::span<const ArchiveBatch> stored) {
                                   desk.note_stored(stored);
+                                  actions.note(stored);
                                   failures.note(contained("announcing", [&] {
                                     announcer.committed(stored);
                                     disagreements.tell(stored);
@@ -282,8 +283,9 @@ Expected<GoneOn> go_on(const ServiceParts& parts, ConsoleFeed* feed, Announcer& 
 
 /// Takes telemetry and answers requests, until a signal or a failure.
 Expected<void> take_and_answer(const ServeOptions& options, const ServiceParts& parts,
-                               ConsoleFeed* feed, ServiceTerminal& terminal, GoneOn stored) {
-  ActionInbox inbox{kinds_of(parts.missions), parts.archive, parts.taken};
+                               ConsoleFeed* feed, ServiceTerminal& terminal, StoredActions& actions,
+                               GoneOn stored) {
+  ActionInbox inbox{kinds_of(parts.missions), parts.archive, parts.taken, actions};
   const auto requests = answer_requests(options.db, parts.archive, parts.desk, inbox);
   const auto console = start_console(options, feed, parts.desk, parts.archive, inbox);
   if (!console) {
@@ -345,7 +347,9 @@ Expected<void> serve(const ServeOptions& options) {
     return Unexpected{webhook.error()};
   }
   DisagreementNotices disagreements{options.db};
-  const auto opened = open_archive(options.db, desk, announcer, problems, disagreements, failures);
+  StoredActions actions;
+  const auto opened =
+      open_archive(options.db, desk, announcer, problems, disagreements, actions, failures);
   if (!opened) {
     return Unexpected{opened.error()};
   }
@@ -378,7 +382,7 @@ Expected<void> serve(const ServeOptions& options) {
           },
       .on_finished = [&] { return disagreements.store(archive); }};
   const auto done = go_on(parts, feed.get(), announcer).and_then([&](GoneOn stored) {
-    return take_and_answer(options, parts, feed.get(), terminal, std::move(stored));
+    return take_and_answer(options, parts, feed.get(), terminal, actions, std::move(stored));
   });
   if (auto outcome = outcome_of(done, archive.close()); !outcome) {
     return outcome;

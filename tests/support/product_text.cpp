@@ -51,6 +51,10 @@ class Line {
 Line line_of(const PulseUse& use) {
   Line line;
   line << "use" << use.pulse.t << name_of(use.pulse.channel) << use.revolution << use.rejected_by;
+  if (use.said) {
+    line << use.said->residual.value << use.said->residual.sigma << use.said->limit
+         << use.said->rejected_by;
+  }
   return line;
 }
 
@@ -88,6 +92,13 @@ Line line_of(const SampleContradiction& contradiction) {
   for (const SampleContradiction::By& by : contradiction.by) {
     line << by.name << by.used;
   }
+  return line;
+}
+
+Line line_of(const AxisChoice& choice) {
+  Line line;
+  line << "choice" << choice.axis_icrf << choice.other_icrf << choice.delta_chi_square
+       << choice.settled_by;
   return line;
 }
 
