@@ -1,0 +1,134 @@
+// What the archive has of the residuals of every edge and sample, and of why each was left out.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/archive_rows.h"
+#include "tests/support/program.h"
+#include "tests/support/recorded_files.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_paths.h"
+#include "tests/support/text_of.h"
+#include "tests/support/three_axis_files.h"
+
+namespace spindrift::residuals_test {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+double real_of(const std::filesystem::path& db, const std::string& query) {
+  return std::stod(rows_of(db, query).at(0));
+}
+
+class Residuals : public ::testing::Test {
+ protected:
+  void process(const std::string& pass) {
+    db_ = folder_.path() / (pass + ".db");
+    Program program{arguments(pass, db_)};
+    ASSERT_EQ(program.exit_status(), 0) << program.log();
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path db_;
+};
+
+TEST_F(Residuals, OfTheNominalPassAreNormalForBothEstimators) {
+  process("nominal");
+  for (const std::string estimator : {"sequential", "batch"}) {
+    SCOPED_TRACE(estimator);
+    const std::string of_it = " FROM edge_residual WHERE estimator = '" + estimator + "'";
+    EXPECT_GT(number_of(db_, "SELECT count(*)" + of_it), 3000);
+    // The first turns of `sequential` settle it.
+    EXPECT_NEAR(std::sqrt(real_of(db_, "SELECT avg(whitened * whitened)" + of_it +
+                                           " AND used = 1 AND revolution > 20")),
+                1.0, 0.05);
+    EXPECT_NEAR(real_of(db_, "SELECT avg(whitened)" + of_it + " AND used = 1"), 0.0, 0.1);
+  }
+  EXPECT_EQ(number_of(db_, "SELECT sum(used) FROM edge_residual WHERE estimator = 'batch'"),
+            number_of(db_, "SELECT edges FROM spin_batch"));
+}
+
+TEST_F(Residuals, AreBeyondTheirLimitWhereLeftOutAndWithinItWhereUsed) {
+  for (const std::string pass : {"nominal", "dirty", "coded", "north-only"}) {
+    SCOPED_TRACE(pass);
+    process(pass);
+    EXPECT_THAT(rows_of(db_,
+                        "SELECT * FROM edge_residual WHERE whitened IS NOT NULL AND"
+                        " (abs(whitened) <= \"limit\") <> used"),
+                IsEmpty());
+    EXPECT_THAT(rows_of(db_, "SELECT * FROM edge_residual WHERE (rejected_by IS NULL) <> used"),
+                IsEmpty());
+    EXPECT_GT(number_of(db_, "SELECT count(*) FROM spin_measurement WHERE expected IS NOT NULL"),
+              500);
+    EXPECT_THAT(rows_of(db_,
+                        "SELECT * FROM spin_measurement WHERE expected IS NOT NULL AND"
+                        " (abs(value - expected) <= \"limit\") <> accepted AND"
+                        " coalesce(rejected_by, quantity) = quantity"),
+                IsEmpty());
+    EXPECT_THAT(rows_of(db_,
+                        "SELECT * FROM spin_measurement WHERE rejected_by = quantity AND quantity"
+                        " <> 'period' AND expected IS NULL"),
+                IsEmpty());
+  }
+}
+
+TEST_F(Residuals, AreNotStoredWhereTheMissionFileSaysSo) {
+  const PassCopy pass{"nominal"};
+  std::ofstream{pass.mission(), std::ios::app} << "\n[archive]\nresiduals = false\n";
+  Program program{pass.arguments_here()};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM edge_residual"), 0);
+  EXPECT_GT(number_of(pass.db, "SELECT count(*) FROM spin_measurement WHERE expected IS NOT NULL"),
+            0);
+}
+
+TEST_F(Residuals, EveryFixHasItsCandidatesAndTheRunItsChoice) {
+  process("nominal");
+  EXPECT_EQ(number_of(db_,
+                      "SELECT count(*) FROM spin_fix WHERE NOT EXISTS (SELECT 1 FROM"
+                      " spin_fix_candidate AS c WHERE c.revolution = spin_fix.revolution AND"
+                      " c.candidate = 0 AND c.misfit >= 0)"),
+            0);
+  EXPECT_THAT(rows_of(db_,
+                      "SELECT settled_by <> 'nothing', delta_chi_square > 20 OR"
+                      " delta_chi_square IS NULL FROM axis_choice"),
+              ElementsAre("1|1|"));
+  EXPECT_EQ(number_of(db_, "SELECT count(*) FROM spin_fix WHERE resolution = 'PRIOR'"), 0);
+}
+
+TEST_F(Residuals, OfAThreeAxisPassAreThoseOfItsSensorsWithValueAndLimit) {
+  testing::write_three_axis_pass(
+      folder_.path(),
+      {.duration_s = 300.0, .gyro_s = 1.0, .star_s = 5.0, .sun_s = 5.0, .separation = true});
+  db_ = folder_.path() / "out.db";
+  Program program{{"process", "--mission", (folder_.path() / "mission.toml").string(),
+                   "--telemetry", folder_.path().string(), "--db", db_.string()}};
+  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  EXPECT_THAT(rows_of(db_, "SELECT DISTINCT estimator FROM sample_residual ORDER BY 1"),
+              ElementsAre("batch|", "mekf|", "sequential|"));
+  EXPECT_THAT(rows_of(db_,
+                      "SELECT * FROM sample_residual WHERE nis IS NOT NULL AND"
+                      " (nis <= \"limit\") <> used"),
+              IsEmpty());
+  EXPECT_THAT(rows_of(db_,
+                      "SELECT DISTINCT kind, dof, unit FROM sample_residual WHERE estimator ="
+                      " 'mekf' AND kind <> 'gyro' ORDER BY 1"),
+              ElementsAre("star|3|deg|", "sun|2|deg|"));
+  EXPECT_THAT(rows_of(db_,
+                      "SELECT rejected_by FROM rejected_sample WHERE kind = 'gyro' AND"
+                      " rejected_by IN ('saturated', 'frozen', 'outlier') AND"
+                      " (value IS NULL OR value <= \"limit\")"),
+              IsEmpty());
+  EXPECT_NEAR(real_of(db_,
+                      "SELECT avg(nis / dof) FROM sample_residual WHERE estimator = 'mekf' AND"
+                      " used = 1 AND kind = 'star'"),
+              1.0, 0.35);
+}
+
+}  // namespace spindrift::residuals_test
