@@ -125,6 +125,19 @@ test('shows the edges of before to who comes late', async () => {
   });
 });
 
+test('tells what the edges say to the filter, and why some were left out', async () => {
+  await eventually(async () => {
+    await page.mouse.move(0, 0);
+    assert.match(await text('residuals-note'), /^used × noise: sun1 \d+ % × \d\.\d\d, sun2 /);
+  });
+  const { used, noise } = (await shown()).residuals.sun1;
+  assert.ok(used > 0.9 && noise > 0.8 && noise < 1.2, `${used}, ${noise}`);
+  await page.focus('#raster');
+  await page.keyboard.press('ArrowRight');
+  const said = await text('raster-said');
+  if (said) assert.match(said, /rejected: \w+(, -?[\d.e-]+ (deg|s|sigma), limit [\d.e-]+)?$/);
+});
+
 test('asks for the axis that was pointed at', async () => eventually(async () => {  // The axis may move between both readings.
   const { width, height } = await page.locator('#sky').boundingBox();
   const { ra_deg, dec_deg } = await shown();

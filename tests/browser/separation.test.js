@@ -33,3 +33,7 @@ test('shows the events of the archive, and the attitude in the same order of ang
     [stored.qx, stored.qy, stored.qz, stored.qw]);
   shown.forEach((angle, i) => assert.ok(Math.abs(angle - angles[i]) < 1e-9, `${shown} and ${angles}`));
 });
+
+test('tells what the sensors say to the filter', async () => {
+  await page.locator('#residuals-note', { hasText: /^used × noise: star \d+ % × \d\.\d\d/ }).waitFor({ timeout: 20_000 });
+});

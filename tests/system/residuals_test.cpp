@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -52,6 +54,19 @@ TEST_F(Residuals, OfTheNominalPassAreNormalForBothEstimators) {
   }
   EXPECT_EQ(number_of(db_, "SELECT sum(used) FROM edge_residual WHERE estimator = 'batch'"),
             number_of(db_, "SELECT edges FROM spin_batch"));
+}
+
+TEST_F(Residuals, AreThoseThatAnIndependentProgramFinds) {
+  process("nominal");
+  const std::string command =
+      "/usr/bin/python3 " + (test_data().parent_path() / "system" / "batch_residuals.py").string() +
+      " " + db_.string() + " " + (kPasses / "nominal" / "mission.toml").string();
+  const std::unique_ptr<FILE, int (*)(FILE*)> program{::popen(command.c_str(), "r"), &::pclose};
+  ASSERT_TRUE(program);
+  double largest_s = -1.0;
+  ASSERT_EQ(std::fscanf(program.get(), "%lf", &largest_s), 1);
+  EXPECT_GT(largest_s, 0.0);
+  EXPECT_LT(largest_s, 1e-6);
 }
 
 TEST_F(Residuals, AreBeyondTheirLimitWhereLeftOutAndWithinItWhereUsed) {

@@ -518,11 +518,39 @@ void SpinPass::note_choice(const SpinFix& fix) {
         fix.alternates.begin(), fix.alternates.end(),
         [](const SpinAlternate& a, const SpinAlternate& b) { return a.misfit < b.misfit; });
     alternate_icrf_ = best->axis_icrf;
-    alternates_misfit_ += best->misfit - fix.misfit;
   }
 }
 
-/// The edges say most of another axis, where a filter has followed it; else the fixes do.
+/// Of the good measurements of the last revolutions about an axis, by their noise.
+double SpinPass::chi_square_about(const Eigen::Vector3d& axis_icrf) const {
+  double sum = 0.0;
+  for (const Candidate& candidate : recent_) {
+    if (!candidate.sun_earth) {
+      continue;
+    }
+    for (const AngleResidual& residual :
+         residuals(config_, candidate.measured, *candidate.sun_earth, axis_icrf)) {
+      sum += std::pow(residual.value_rad / residual.sigma_rad, 2);
+    }
+  }
+  return sum;
+}
+
+/// Where no fix names another axis, it is the mirror image in the plane of Sun and Earth, which
+/// sees both at the same angles.
+std::optional<Eigen::Vector3d> SpinPass::other_axis_icrf(const Eigen::Vector3d& axis_icrf) const {
+  const auto last = std::find_if(recent_.rbegin(), recent_.rend(), [](const Candidate& candidate) {
+    return candidate.sun_earth.has_value();
+  });
+  if (alternate_icrf_ || last == recent_.rend()) {
+    return alternate_icrf_;
+  }
+  const Eigen::Vector3d across =
+      last->sun_earth->sun_icrf.cross(last->sun_earth->earth_icrf).normalized();
+  return Eigen::Vector3d{axis_icrf - 2.0 * axis_icrf.dot(across) * across};
+}
+
+/// The edges say most of another axis, where a filter has followed it; else the measured angles do.
 std::optional<AxisChoice> SpinPass::axis_choice() const {
   if (!sequential_.has_begun() && mean_.count() == 0) {
     return std::nullopt;
@@ -531,16 +559,19 @@ std::optional<AxisChoice> SpinPass::axis_choice() const {
                                                                  "dispersion", "nothing"};
   AxisChoice choice{
       .axis_icrf = sequential_.has_begun() ? sequential_.axis_icrf() : mean_.axis_icrf(),
-      .other_icrf = alternate_icrf_,
-      .delta_chi_square = alternates_misfit_,
+      .other_icrf = {},
+      .delta_chi_square = 0.0,
       .settled_by = kSettledBy.at(static_cast<std::size_t>(
           last_accepted_ ? said_resolution(*last_accepted_) : Resolution::Ambiguous))};
+  if (sequential_.settled_by_edges()) {
+    choice.settled_by = "edges";
+  }
   if (const auto rival = sequential_.rival()) {
     choice.other_icrf = rival->axis_icrf;
     choice.delta_chi_square = 2.0 * rival->less;
-  }
-  if (sequential_.settled_by_edges()) {
-    choice.settled_by = "edges";
+  } else if ((choice.other_icrf = other_axis_icrf(choice.axis_icrf))) {
+    choice.delta_chi_square =
+        chi_square_about(*choice.other_icrf) - chi_square_about(choice.axis_icrf);
   }
   return choice;
 }
@@ -624,7 +655,6 @@ void SpinPass::forget_prior(TaiTime t) {
 void SpinPass::begin_anew(TaiTime t) {
   last_accepted_.reset();
   alternate_icrf_.reset();
-  alternates_misfit_ = 0.0;
   mean_.begin_anew(t);
   recent_axes_ = AxisWindow{static_cast<std::size_t>(config_.screening.window)};
   screening_ = ScreeningWindow{config_.screening};

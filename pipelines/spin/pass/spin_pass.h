@@ -113,6 +113,8 @@ class SpinPass {
   void say_why_not_accepted(const SpinFix& fix);
   void announce_axis(Candidate& candidate, SpinOutput& out);
   void note_choice(const SpinFix& fix);
+  double chi_square_about(const Eigen::Vector3d& axis_icrf) const;
+  std::optional<Eigen::Vector3d> other_axis_icrf(const Eigen::Vector3d& axis_icrf) const;
   std::optional<AxisChoice> axis_choice() const;
   std::optional<KnownAxis> established_axis() const;
   bool recent_fixes_left_the_mean_for(const Eigen::Vector3d& axis_icrf) const;
@@ -163,7 +165,6 @@ class SpinPass {
   int restarts_handled_ = 0;
   std::optional<SpinFix> last_accepted_;
   std::optional<Eigen::Vector3d> alternate_icrf_;  ///< The best one of the last fix with any.
-  double alternates_misfit_ = 0.0;  ///< Of the best ones, less that of their fixes, their sum.
 
   Exclusions<PulseChannel> excluded_;
   std::multimap<TaiTime, SpinAction> to_do_;  ///< With the revolutions from then on.
