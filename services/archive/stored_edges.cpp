@@ -52,15 +52,12 @@ Eigen::Vector3d axis_of(SQLite::Statement& row) {
                          .dec_rad = row.getColumn(1).getDouble() * kRadPerDeg});
 }
 
-/// Its own first, then those of the other candidates, some twice.
+/// Its own first, then those of the other candidates.
 /// @param fix A row of spin_fix.
 std::string select_axes_of(const char* fix) {
   return fmt::format(
-      " SELECT ra_deg, dec_deg FROM {0}"
-      " UNION ALL SELECT alternate_ra_deg, alternate_dec_deg FROM {0}"
-      " WHERE alternate_ra_deg IS NOT NULL"
-      " UNION ALL SELECT c.ra_deg, c.dec_deg FROM {0}"
-      " JOIN spin_fix_candidate AS c USING (run_id, revolution)",
+      " SELECT c.ra_deg, c.dec_deg FROM {} JOIN spin_fix_candidate AS c"
+      " USING (run_id, revolution) ORDER BY c.candidate",
       fix);
 }
 

@@ -27,7 +27,7 @@ struct Count {
     ++summary.fixes;
     summary.fixes_accepted += fix.accepted ? 1 : 0;
     ++summary.fixes_by_case[fix.geometry_case];
-    ++summary.fixes_by_resolution[name_of(fix.resolution)];
+    ++summary.fixes_by_resolution[name_of(said_resolution(fix))];
   }
   void operator()(const SpinEstimate& estimate) const {
     summary.estimates.insert_or_assign(estimate.estimator, estimate);

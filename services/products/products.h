@@ -9,7 +9,6 @@
 
 #include "services/products/alert.h"
 #include "services/products/attitude.h"
-#include "services/products/axis_choice.h"
 #include "services/products/batch_solution.h"
 #include "services/products/model_comparison.h"
 #include "services/products/product_kind.h"

@@ -102,7 +102,7 @@ TEST_F(ArchiveProducts, ARejectedSampleKeepsItsFirstReasonWhenItComesAgain) {
                  " '; ') FROM rejection_summary"),
             "sample star innovation 1; sample sun late 1");
   EXPECT_EQ(text("SELECT says FROM rejected_sample_utc WHERE kind = 'star'"),
-            "too far from where the attitude has it");
+            "too far from where the estimator expects it, or it expects none there");
 }
 
 TEST_F(ArchiveProducts, SpinFixIsStoredInDegreesWithItsCovariance) {

@@ -224,11 +224,11 @@ class ThreeAxisTexts {
         if (!is_stray) {
           texts.push_back(fmt::format("{} {}", tai_ns(sample->t), name_of(sample->rejected_by)));
         }
-      } else {
-        const auto& estimate = std::get<AttitudeEstimate>(product);
-        texts.push_back(fmt::format("{} {} {} {} {}", tai_ns(estimate.t), estimate.q_icrf_body.x(),
-                                    estimate.q_icrf_body.w(), estimate.covariance_rad2.trace(),
-                                    static_cast<int>(estimate.assessment.quality)));
+      } else if (const auto* const estimate = std::get_if<AttitudeEstimate>(&product)) {
+        texts.push_back(fmt::format("{} {} {} {} {}", tai_ns(estimate->t),
+                                    estimate->q_icrf_body.x(), estimate->q_icrf_body.w(),
+                                    estimate->covariance_rad2.trace(),
+                                    static_cast<int>(estimate->assessment.quality)));
       }
     }
   }

@@ -245,7 +245,7 @@ TEST(MissionRefusals, WithUnknownNamesIsRefused) {
               ElementsAre("mission.toml:12: spni: unknown; did you mean spin?"));
   EXPECT_THAT(
       problems_of("colour = \"red\"\n" + std::string{kElements}),
-      ElementsAre("mission.toml:1: colour: unknown; allowed here: alerts, contact, "
+      ElementsAre("mission.toml:1: colour: unknown; allowed here: alerts, archive, contact, "
                   "ground_model, orbit, reconstruction, sources, spacecraft, spin, three_axis"));
   EXPECT_THAT(problems_of(replaced(contract(), "\\[spin.noise\\]", "[spin.nose]")),
               ElementsAre(HasSubstr("spin.nose: unknown; did you mean noise?")));

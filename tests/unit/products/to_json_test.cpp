@@ -11,9 +11,11 @@ TEST(ProductToJson, HasTheColumnsOfTheTable) {
                                               .quantity = SpinQuantity::Period,
                                               .value = 0.5,
                                               .sigma = 0.25,
-                                              .rejected_by = Rejection::Period});
+                                              .rejected_by = Rejection::Period,
+                                              .test = Rational{.expected = 0.25, .limit = 0.125}});
   EXPECT_EQ(object, nlohmann::json::parse(R"({"revolution": 3, "quantity": "period", "value": 0.5,
-      "unit": "s", "sigma": 0.25, "accepted": false, "rejected_by": "period"})"));
+      "unit": "s", "sigma": 0.25, "accepted": false, "rejected_by": "period",
+      "expected": 0.25, "limit": 0.125})"));
 }
 
 TEST(ProductToJson, WhatHasNoValueIsNull) {

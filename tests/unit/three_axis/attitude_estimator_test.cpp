@@ -244,8 +244,13 @@ TEST_F(AttitudeEstimatorTest, AWrongFixIsRejectedWithItsInnovation) {
   run(0.0, 20.0, [&](double t_s) { star(t_s); });
   products_.clear();
   star(20.0, {0.01, 0.0, 0.0});
-  ASSERT_EQ(products_.size(), 1U);
-  const auto& rejected = std::get<RejectedSample>(products_.front());
+  ASSERT_EQ(products_.size(), 2U);
+  const Observation& said = std::get<SampleObservation>(products_.front()).said;
+  EXPECT_EQ(said.source, SampleSource::Star);
+  EXPECT_EQ(said.rejected_by, Rejection::Innovation);
+  EXPECT_NEAR(said.residual.value.norm(), 0.01, 1e-3);
+  const auto& rejected = std::get<RejectedSample>(products_.back());
+  EXPECT_EQ(said.nis, rejected.squared_innovation);
   EXPECT_EQ(rejected.kind, SampleKind::Star);
   EXPECT_EQ(rejected.rejected_by, Rejection::Innovation);
   EXPECT_GT(*rejected.squared_innovation, innovation_gate(3));

@@ -90,8 +90,8 @@ class Contradictions : public ::testing::Test {
           made.contradictions.push_back(fmt::format("{} {} {}{}", contradiction->kind,
                                                     tai_ns(contradiction->t), fmt::join(by, ""),
                                                     contradiction->late ? " late" : ""));
-        } else {
-          made.rejected.push_back(std::get<RejectedSample>(product));
+        } else if (const auto* rejected = std::get_if<RejectedSample>(&product)) {
+          made.rejected.push_back(*rejected);
         }
       }
     };

@@ -134,7 +134,9 @@ TEST_F(ThreeAxisPassTest, RepeatedSamplesChangeNothing) {
   std::vector<AttitudeEstimate> of_twice;
   const auto keep = [](ThreeAxisOutput output, std::vector<AttitudeEstimate>& into) {
     for (const ThreeAxisProduct& product : output.products) {
-      into.push_back(std::get<AttitudeEstimate>(product));
+      if (const auto* const estimate = std::get_if<AttitudeEstimate>(&product)) {
+        into.push_back(*estimate);
+      }
     }
   };
   for (int i = 0; i < 80; ++i) {

@@ -59,8 +59,11 @@ TEST(NoticeWords, SayWhatMostOfAKindAreLeftOutForAndWhatHelps) {
                           {"range_deg_s", 10.0}}}),
             "100 % of the gyro samples so far are left out as 'saturated': the last has 57.3 "
             "deg/s, and range_deg_s = 10; correct that, or send the rates in rad/s");
-  for (int i = 0; i <= static_cast<int>(Rejection::Innovation); ++i) {
-    const std::string rejected_by{name_of(static_cast<Rejection>(i))};
+  using enum Rejection;
+  for (const Rejection rejection :
+       {Late, OutOfTime, Contradicted, Operator, NoSensor, NoOrbit, NoField, Saturated, Frozen,
+        Outlier, Shadow, Unit, Innovation}) {
+    const std::string rejected_by{name_of(rejection)};
     const std::string sentence = sentence_of({MostLeftOut,
                                               {{"sensor", std::string{"sun"}},
                                                {"percent", 95.0},
