@@ -76,7 +76,8 @@ inline std::vector<std::string> all_rows(const std::filesystem::path& db) {
   const SQLite::Database database{db.string(), SQLite::OPEN_READONLY, kBusy_ms};
   SQLite::Statement tables{
       database,
-      "SELECT name, (SELECT group_concat('"' || name || '"') FROM pragma_table_info(stored.name)"
+      "SELECT name, (SELECT group_concat(char(34) || name || char(34))"
+      " FROM pragma_table_info(stored.name)"
       " WHERE name NOT IN ('run_id', 'session', 'started_utc', 'finished_utc', 'first_arrival',"
       "  'arrival', 'received', 'announced_utc'))"
       " FROM sqlite_schema AS stored WHERE type = 'table' AND name NOT LIKE 'sqlite_%'"
