@@ -134,7 +134,7 @@ TEST_F(Residuals, OfAThreeAxisPassAreThoseOfItsSensorsWithValueAndLimit) {
   EXPECT_THAT(rows_of(db_,
                       "SELECT DISTINCT kind, dof, unit FROM sample_residual WHERE estimator ="
                       " 'mekf' AND kind <> 'gyro' ORDER BY 1"),
-              ElementsAre("star|3|deg|", "sun|2|deg|"));
+              ElementsAre("magnetometer|3|nT|", "star|3|deg|", "sun|2|deg|"));
   EXPECT_THAT(rows_of(db_,
                       "SELECT rejected_by FROM rejected_sample WHERE kind = 'gyro' AND"
                       " rejected_by IN ('saturated', 'frozen', 'outlier') AND"
