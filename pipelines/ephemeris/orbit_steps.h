@@ -16,12 +16,11 @@
 namespace spindrift {
 
 struct OrbitStep {
-  TaiTime
-      from;  ///< The last instant before it, and the first behind: the same where segments touch.
-  TaiTime to;
-  int line;       ///< The first state behind the step stands there in the OEM.
-  double off_km;  ///< The positions of both sides differ by this there, and the velocities:
-  double off_km_s;
+  TaiTime from;     ///< The last instant before the step.
+  TaiTime to;       ///< The first instant behind it: the same where segments touch.
+  int line;         ///< The first state behind the step stands there in the OEM.
+  double off_km;    ///< The positions of both sides differ by this at `to`.
+  double off_km_s;  ///< The velocities of both sides differ by this at `to`.
 };
 
 /// In order of time. Segments are compared where the later one begins to be used, as each has it

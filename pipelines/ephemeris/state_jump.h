@@ -44,8 +44,8 @@ std::optional<Eigen::Vector3d> halfway_icrf_km(const EphemerisPoint& from,
 /// A step that nothing explains.
 struct OrbitJump {
   EphemerisPoint to;
-  double off_km;    ///< The position is so far from where the point before it leads to,
-  double off_km_s;  ///< and the velocity so far from what that point leads to.
+  double off_km;    ///< The position is so far from where the point before it leads to.
+  double off_km_s;  ///< The velocity is so far from what the point before it leads to.
   TaiTime from;     ///< The point before it has this time.
 };
 

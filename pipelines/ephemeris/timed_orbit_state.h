@@ -18,11 +18,8 @@ struct TimedOrbitState {
 
 /// But for rounding.
 inline bool say_the_same(const TimedOrbitState& a, const TimedOrbitState& b) {
-  const auto are_same = [](const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
-    return same_but_for_rounding<3>({one.x(), one.y(), one.z()}, {other.x(), other.y(), other.z()});
-  };
-  return are_same(a.state.position_icrf_km, b.state.position_icrf_km) &&
-         are_same(a.state.velocity_icrf_km_s, b.state.velocity_icrf_km_s);
+  return same_but_for_rounding(a.state.position_icrf_km, b.state.position_icrf_km) &&
+         same_but_for_rounding(a.state.velocity_icrf_km_s, b.state.velocity_icrf_km_s);
 }
 
 }  // namespace spindrift

@@ -16,7 +16,7 @@ struct MagneticField {
 };
 
 inline bool say_the_same(const MagneticField& a, const MagneticField& b) {
-  return are_same(a.field_body_nt, b.field_body_nt);
+  return same_but_for_rounding(a.field_body_nt, b.field_body_nt);
 }
 
 }  // namespace spindrift

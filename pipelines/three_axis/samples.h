@@ -36,29 +36,25 @@ struct SunDirection {
   Sender sender = Sender::First;
 };
 
+/// A sender rounds what it sends; another may send the same with another length.
+template <int N>
+bool are_same_direction(const Eigen::Vector<double, N>& a, const Eigen::Vector<double, N>& b) {
+  return same_but_for_rounding(a, b) || same_but_for_rounding<N>(a.normalized(), b.normalized());
+}
+
 /// @name Whether two samples say the same, but for rounding
 /// @{
-inline bool are_same(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return same_but_for_rounding<3>({a.x(), a.y(), a.z()}, {b.x(), b.y(), b.z()});
-}
 inline bool say_the_same(const GyroSample& a, const GyroSample& b) {
-  return are_same(a.rate_body_rad_s, b.rate_body_rad_s);
+  return same_but_for_rounding(a.rate_body_rad_s, b.rate_body_rad_s);
 }
-inline bool are_same(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
-  return same_but_for_rounding<4>({a.x(), a.y(), a.z(), a.w()}, {b.x(), b.y(), b.z(), b.w()});
-}
-/// As they are sent, or as they are used: of length 1.
 inline bool say_the_same(const SunDirection& a, const SunDirection& b) {
-  return are_same(a.sun_body, b.sun_body) ||
-         are_same(a.sun_body.normalized(), b.sun_body.normalized());
+  return are_same_direction(a.sun_body, b.sun_body);
 }
-/// Likewise; q and -q are one attitude.
+/// q and -q are one attitude.
 inline bool say_the_same(const StarFix& a, const StarFix& b) {
   const Eigen::Vector4d one = a.q_icrf_sensor.coeffs();
-  Eigen::Vector4d other = b.q_icrf_sensor.coeffs();
-  other *= one.dot(other) < 0.0 ? -1.0 : 1.0;
-  return are_same(one, other) ||
-         are_same(Eigen::Vector4d{one.normalized()}, Eigen::Vector4d{other.normalized()});
+  const Eigen::Vector4d other = b.q_icrf_sensor.coeffs();
+  return are_same_direction<4>(one, one.dot(other) < 0.0 ? -other : other);
 }
 /// @}
 

@@ -20,22 +20,6 @@ std::vector<SQLite::Statement> of_each_kind(SQLite::Database& database, const Ma
   return statements;
 }
 
-/// Of what is not there NaN would equal nothing: a member of it is left out.
-template <class Value>
-std::vector<double> numbers_of(const Value& value) {
-  std::vector<double> numbers;
-  for_each_column(value, [&numbers]<class Member>(std::string_view /*name*/, const Member& member) {
-    if constexpr (requires { member.has_value(); }) {
-      if (member) {
-        numbers.push_back(*member);
-      }
-    } else {
-      numbers.push_back(member);
-    }
-  });
-  return numbers;
-}
-
 }  // namespace
 
 ContradictionWriter::ContradictionWriter(SQLite::Database& database)
@@ -93,7 +77,7 @@ bool ContradictionWriter::see(const ArchiveBatch& batch, const TelemetrySample<V
     if (came.origin.source == there.origin.source) {
       return is_of_run;
     }
-    if (is_of_run && numbers_of(stored.value) != numbers_of(sample.value)) {
+    if (is_of_run && json_of_sample(stored.value) != json_of_sample(sample.value)) {
       say_rounded(batch, there, came);
     }
     if (is_contested(batch.run_id, there)) {

@@ -9,9 +9,10 @@
 namespace spindrift {
 
 bool say_the_same(const CodedFrame& a, const CodedFrame& b) {
+  using One = Eigen::Vector<double, 1>;
   const auto is_one = [](const std::optional<double>& one, const std::optional<double>& other) {
     return one.has_value() == other.has_value() &&
-           (!one || same_but_for_rounding<1>({*one}, {*other}));
+           (!one || same_but_for_rounding(One{*one}, One{*other}));
   };
   return is_one(a.period_s, b.period_s) &&
          std::equal(a.delay_s.begin(), a.delay_s.end(), b.delay_s.begin(), is_one);

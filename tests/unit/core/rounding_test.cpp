@@ -8,7 +8,7 @@
 
 namespace spindrift::rounding_test {
 
-using Three = std::array<double, 3>;
+using One = Eigen::Vector<double, 1>;
 
 /// As a sender writes it that has six digits, or float32.
 double written(double value, const char* format) {
@@ -21,14 +21,14 @@ TEST(Rounding, WhatSixDigitsOrFloat32KeepIsTheSame) {
   std::uniform_real_distribution<double> decade{-6.0, 6.0};
   for (int i = 0; i < 20'000; ++i) {
     const double scale = std::pow(10.0, decade(rng));
-    const Three value{scale * normal(rng), scale * normal(rng), scale * normal(rng)};
+    const Eigen::Vector3d value{scale * normal(rng), scale * normal(rng), scale * normal(rng)};
     for (const char* format : {"{:.6g}", "{:.9g}", "{:.6f}", "{:.9f}"}) {
       SCOPED_TRACE(fmt::format("{} {} {} as {}", value[0], value[1], value[2], format));
-      Three sent{};
-      Three sent_as_float{};
-      for (std::size_t k = 0; k < value.size(); ++k) {
-        sent.at(k) = written(value.at(k), format);
-        sent_as_float.at(k) = static_cast<double>(static_cast<float>(value.at(k)));
+      Eigen::Vector3d sent;
+      Eigen::Vector3d sent_as_float;
+      for (Eigen::Index k = 0; k < value.size(); ++k) {
+        sent[k] = written(value[k], format);
+        sent_as_float[k] = static_cast<double>(static_cast<float>(value[k]));
       }
       ASSERT_TRUE(same_but_for_rounding(value, sent));
       ASSERT_TRUE(same_but_for_rounding(sent, value));
@@ -60,8 +60,8 @@ TEST(Rounding, ADifferenceOfTwoUnitsOfTheSixthDigitIsNone) {
   EXPECT_FALSE(same_but_for_rounding<3>({0.601234, 0.7999993, 0.0}, {0.601234, 0.8000013, 0.0}));
   EXPECT_TRUE(same_but_for_rounding<3>({12345.63, 1.0, 0.0}, {12345.63, 1.09, 0.0}));
   EXPECT_FALSE(same_but_for_rounding<3>({12345.63, 1.0, 0.0}, {12345.63, 1.2, 0.0}));
-  EXPECT_FALSE(same_but_for_rounding<1>({0.0}, {1.1e-6}));
-  EXPECT_FALSE(same_but_for_rounding<1>({1e6}, {0.0}));
+  EXPECT_FALSE(same_but_for_rounding(One{0.0}, One{1.1e-6}));
+  EXPECT_FALSE(same_but_for_rounding(One{1e6}, One{0.0}));
 }
 
 }  // namespace spindrift::rounding_test
