@@ -38,6 +38,18 @@ std::optional<SampleSource> Ledger::mostly_left_out() const {
              : std::nullopt;
 }
 
+std::vector<SourceSummary> Ledger::sources() const {
+  std::vector<SourceSummary> all;
+  for (std::size_t i = 0; i < of_.size(); ++i) {
+    if (const ObservationRecord& record = of_[i].record; record.heard() > 0.0) {
+      all.push_back({.source = static_cast<SampleSource>(i),
+                     .used = 1.0 - record.share_left_out(),
+                     .noise = record.noise()});
+    }
+  }
+  return all;
+}
+
 void Ledger::restart() {
   turns_ = 0;
   all_.restart();

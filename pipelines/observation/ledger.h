@@ -16,6 +16,17 @@
 
 namespace spindrift {
 
+/// What people are shown is of the last few hundred observations of each source.
+inline constexpr RecordRules kShownRules{
+    .recent = 300.0, .fewest_freedoms = 15.0, .most_freedoms = 300.0, .noise_from_share = 1.0};
+
+/// What people are shown of one source.
+struct SourceSummary {
+  SampleSource source;
+  double used;   ///< Share.
+  double noise;  ///< ObservationRecord::noise().
+};
+
 class Ledger {
  public:
   explicit Ledger(const RecordRules& rules)
@@ -30,6 +41,8 @@ class Ledger {
 
   /// The source that is left out in the most of the recent turns, where that is more than half.
   std::optional<SampleSource> mostly_left_out() const;
+  /// Every source that has spoken.
+  std::vector<SourceSummary> sources() const;
   std::int64_t turns() const { return turns_; }
 
   /// The estimator begins anew: as ObservationRecord.

@@ -24,9 +24,6 @@ constexpr std::size_t kMostEdgesAtOnce = 1000;
 constexpr std::size_t kTurnsKept = 256;
 constexpr std::size_t kActionsKept = 5;
 constexpr std::size_t kFailedKept = 1000;
-// What is shown of the residuals is of the last few hundred of each source.
-constexpr RecordRules kShownRules{
-    .recent = 300.0, .fewest_freedoms = 15.0, .most_freedoms = 300.0, .noise_from_share = 1.0};
 
 std::string_view name_of(LinkState link) {
   constexpr std::array<std::string_view, 3> kNames = {"waiting", "live", "stale"};
@@ -233,12 +230,8 @@ nlohmann::json ShownSpacecraft::held_against(const PulseUse& edge) const {
 /// By the name of the source.
 nlohmann::json ShownSpacecraft::residuals() const {
   nlohmann::json all = nlohmann::json::object();
-  for (std::size_t i = 0; i < kSampleSources; ++i) {
-    const auto source = static_cast<SampleSource>(i);
-    if (const ObservationRecord& record = ledger_.of(source); record.heard() > 0.0) {
-      all[std::string{name_of(source)}] = {{"used", 1.0 - record.share_left_out()},
-                                           {"noise", record.noise()}};
-    }
+  for (const SourceSummary& one : ledger_.sources()) {
+    all[std::string{name_of(one.source)}] = {{"used", one.used}, {"noise", one.noise}};
   }
   return all;
 }

@@ -14,6 +14,9 @@ struct Count {
     } else {
       ++summary.edges_accepted;
     }
+    if (use.said) {
+      summary.ledger.add({&*use.said, 1});
+    }
   }
   void operator()(const RevolutionProduct& /*revolution*/) const { ++summary.revolutions; }
   void operator()(const SpinMeasurement& /*measurement*/) const {}
@@ -60,6 +63,8 @@ void RunSummary::count(const ThreeAxisProduct& product) {
     ++samples_rejected.at(index_of(rejected->kind))[name_of(rejected->rejected_by)];
   } else if (const auto* const estimate = std::get_if<AttitudeEstimate>(&product)) {
     attitude = *estimate;
+  } else if (const auto* const sample = std::get_if<SampleObservation>(&product)) {
+    ledger.add({&sample->said, 1});
   }
 }
 

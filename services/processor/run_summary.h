@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipelines/observation/ledger.h"
 #include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/types/products.h"
 #include "pipelines/three_axis/products.h"
@@ -50,6 +51,8 @@ struct RunSummary {
   std::vector<RunFault> faults = {};                        ///< Likewise.
   std::map<std::string, std::int64_t> contradictions = {};  ///< Likewise; by kind of sample.
   PassVerdict verdict = {};                                 ///< Likewise.
+  /// What edges said to `sequential`, or samples to the filter.
+  Ledger ledger{kShownRules};
 
   void count(const SpinProduct& product);
   void count(const ThreeAxisProduct& product);

@@ -1,9 +1,12 @@
 #include "services/spindrift/summary_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "pipelines/frames/euler312.h"
 #include "pipelines/time/utc.h"
@@ -183,6 +186,24 @@ nlohmann::json sensors_json(const RunSummary& summary) {
   return sensors;
 }
 
+/// What the estimator used of each sensor, and how many times the noise it allows for they had.
+std::string residuals_text(const RunSummary& summary) {
+  std::vector<std::string> texts;
+  for (const SourceSummary& one : summary.ledger.sources()) {
+    texts.push_back(
+        fmt::format("{} {:.0f} % x {:.2f}", name_of(one.source), 100.0 * one.used, one.noise));
+  }
+  return texts.empty() ? std::string{} : fmt::format("  used x noise {}\n", fmt::join(texts, ", "));
+}
+
+nlohmann::json residuals_json(const RunSummary& summary) {
+  nlohmann::json residuals = nlohmann::json::object();
+  for (const SourceSummary& one : summary.ledger.sources()) {
+    residuals[std::string{name_of(one.source)}] = {{"used", one.used}, {"noise", one.noise}};
+  }
+  return residuals;
+}
+
 std::string reconstructions_text(const RunSummary& summary) {
   std::string text;
   for (const ReconstructionProduct& one : summary.reconstructions) {
@@ -281,7 +302,8 @@ std::string to_text(const RunSummary& summary) {
       text += counted(count, plural) + ", ";
     }
     text += rejected_text(summary) + "\n" + contradictions_text(summary);
-    return text + sensors_text(summary) + attitude_text(summary) + faults_text(summary);
+    return text + sensors_text(summary) + residuals_text(summary) + attitude_text(summary) +
+           faults_text(summary);
   }
   text += fmt::format("  received     {} edges, {} of them stored, {} coded frames, {}\n",
                       summary.edges_received, summary.edges_stored, summary.coded_frames_received,
@@ -291,6 +313,7 @@ std::string to_text(const RunSummary& summary) {
   for (const auto& [test, count] : summary.edges_rejected) {
     text += fmt::format("               {} rejected: {}\n", count, test);
   }
+  text += residuals_text(summary);
   text += fmt::format("  revolutions  {} with sun1\n", summary.revolutions);
   return text + fixes_text(summary) + axis_text(summary) + faults_text(summary) +
          disagreements_text(summary) + (summary.batch ? to_text(*summary.batch) : std::string{});
@@ -318,6 +341,7 @@ nlohmann::json to_json(const RunSummary& summary) {
                       {"sequential", nullptr},
                       {"batch", nullptr},
                       {"sensors", sensors_json(summary)},
+                      {"residuals", residuals_json(summary)},
                       {"attitude", nullptr},
                       {"reconstruction", nullptr},
                       {"faults", nlohmann::json::array()},

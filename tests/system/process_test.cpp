@@ -77,6 +77,11 @@ TEST(Process, PrintsWhatItStored) {
   const auto run = nlohmann::json::parse(program.out())["runs"][0];
   EXPECT_EQ(run["edges_received"], number_of(db, "SELECT count(*) FROM pulse"));
   EXPECT_EQ(run["edges_accepted"], number_of(db, "SELECT sum(accepted) FROM pulse_use"));
+  EXPECT_EQ(run["residuals"].size(), 4U) << run["residuals"];
+  for (const auto& [channel, residual] : run["residuals"].items()) {
+    EXPECT_GT(residual["used"], 0.95) << channel;
+    EXPECT_NEAR(residual["noise"], 1.0, 0.15) << channel;
+  }
   EXPECT_EQ(run["revolutions"], number_of(db, "SELECT count(*) FROM revolution"));
   EXPECT_EQ(run["fixes_accepted"], number_of(db, "SELECT sum(accepted) FROM spin_fix"));
   EXPECT_EQ(run["fixes"], number_of(db, "SELECT count(*) FROM spin_fix"));

@@ -128,4 +128,16 @@ TEST(Ledger, BegunAnewHasNoSharesAndCounts) {
   EXPECT_FALSE(ledger.mostly_left_out());
 }
 
+TEST(Ledger, SaysOfEverySourceThatSpokeWhatIsUsedAndHowItScatters) {
+  Ledger ledger{kShownRules};
+  add(ledger, 100, {NorthIn});
+  const std::vector<SourceSummary> sources = ledger.sources();
+  ASSERT_EQ(sources.size(), kEdges.size());
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    EXPECT_EQ(sources[i].source, kEdges[i]);
+    EXPECT_DOUBLE_EQ(sources[i].used, kEdges[i] == NorthIn ? 0.0 : 1.0);
+    EXPECT_DOUBLE_EQ(sources[i].noise, 1.0);
+  }
+}
+
 }  // namespace spindrift::ledger_test
