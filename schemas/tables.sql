@@ -404,10 +404,15 @@ CREATE TABLE spin_fix_other (
   PRIMARY KEY (run_id, revolution, candidate)
 ) STRICT, WITHOUT ROWID;
 
--- Of a run that has ended: the axis that it took, the best other axis, by how much the edges or the fixes fit that
--- worse, and what settled it. NULL: no other axis was ever possible.
+-- The axis that a run took, that of its answer in force (view pass_verdict) with the time of that; the best other axis, NULL
+-- where there is none; and what settled it: its edges, or the first accepted fix that was not chosen by the pass's own axis.
+-- delta_chi_square: by how much the edges fit the other axis worse, a state fitted to them near each (where that leads to the
+-- same axis, phase and rate alone): their squared residuals by their noise, of an edge beyond 8 sigmas, or that a body about
+-- that axis would not give, 64. NULL: only a solution of `batch` compares them.
 CREATE TABLE axis_choice (
   run_id           TEXT PRIMARY KEY NOT NULL REFERENCES run,
+  t_tai_ns         INTEGER NOT NULL,
+  estimator        TEXT NOT NULL CHECK (estimator IN ('mean', 'sequential', 'batch')),
   ra_deg           REAL NOT NULL CHECK (ra_deg >= 0 AND ra_deg < 360),
   dec_deg          REAL NOT NULL CHECK (dec_deg BETWEEN -90 AND 90),
   other_ra_deg     REAL CHECK (other_ra_deg >= 0 AND other_ra_deg < 360),
@@ -416,7 +421,7 @@ CREATE TABLE axis_choice (
   settled_by       TEXT NOT NULL CHECK (
     settled_by IN ('edges', 'geometry', 'constraint', 'prior', 'dispersion', 'nothing')),
   CHECK ((other_ra_deg IS NULL) = (other_dec_deg IS NULL)),
-  CHECK ((other_ra_deg IS NULL) = (delta_chi_square IS NULL))
+  CHECK (other_ra_deg IS NOT NULL OR delta_chi_square IS NULL)
 ) STRICT, WITHOUT ROWID;
 
 -- cov_* as in spin_fix.

@@ -180,11 +180,12 @@ std::string first_revolution() {
 
 template <class Kind, class Table>
 std::string withdrawal() {
-  if constexpr (kHasTime<Table>) {
-    return "DELETE " + since<Table>();
-  } else if constexpr (kOfLatest<Table>) {
+  if constexpr (kOfLatest<Table>) {
+    // All of it with the product that it is of, whatever times its rows have.
     return fmt::format("DELETE FROM {} WHERE run_id = ?1 AND EXISTS (SELECT 1 {})", Table::kName,
                        since<MainTable<Kind>>());
+  } else if constexpr (kHasTime<Table>) {
+    return "DELETE " + since<Table>();
   } else {
     static_assert(has_column<Table>("revolution"), "nothing tells when its rows are withdrawn");
     return fmt::format("DELETE FROM {} WHERE run_id = ?1 AND revolution >= {}", Table::kName,

@@ -4,12 +4,14 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <map>
 #include <span>
 #include <variant>
 #include <vector>
 
+#include "pipelines/frames/celestial.h"
 #include "pipelines/spin/disambiguation/chosen_root.h"
 #include "services/archive/connection.h"
 #include "services/archive/stored_pass.h"
@@ -85,15 +87,16 @@ bool has_come_to(SQLite::Database& database, const std::string& run_id, TaiTime 
   return query.getColumn(0).getInt() != 0;
 }
 
-/// What SpinPass made of a choice, at the first fix that it settled. Empty: there was nothing to
-/// choose.
+/// What SpinPass makes of a choice: at the first fix from then on that left one, the candidate
+/// nearest to it. Empty: there was nothing to choose.
 std::optional<SpinPrior> chosen_root(SQLite::Database& database, const std::string& run_id,
-                                     TaiTime from, TaiTime to) {
+                                     const ChooseRoot& choice, TaiTime from, TaiTime to) {
   SQLite::Statement query{
       database,
-      "WITH settled AS (SELECT * FROM spin_fix WHERE run_id = ?1 AND t_tai_ns >= ?2 AND"
-      "  t_tai_ns < ?3 AND resolution = 'PRIOR' ORDER BY t_tai_ns LIMIT 1)" +
-          select_axes_of("settled")};
+      "WITH chosen AS (SELECT * FROM spin_fix WHERE run_id = ?1 AND t_tai_ns >= ?2 AND"
+      "  t_tai_ns < ?3 AND resolution <> 'AMBIGUOUS' AND alternate_ra_deg IS NOT NULL"
+      "  ORDER BY t_tai_ns LIMIT 1)" +
+          select_axes_of("chosen")};
   query.bind(1, run_id);
   query.bind(2, tai_ns(from));
   query.bind(3, tai_ns(to));
@@ -101,9 +104,15 @@ std::optional<SpinPrior> chosen_root(SQLite::Database& database, const std::stri
   while (query.executeStep()) {
     axes_icrf.push_back(axis_of(query));
   }
-  return axes_icrf.size() > 1
-             ? std::optional{prior_choosing(axes_icrf.front(), std::span{axes_icrf}.subspan(1))}
-             : std::nullopt;
+  if (axes_icrf.empty()) {
+    return std::nullopt;
+  }
+  const auto root =
+      std::min_element(axes_icrf.begin(), axes_icrf.end(), [&](const auto& a, const auto& b) {
+        return angle_between_rad(choice.axis_icrf, a) < angle_between_rad(choice.axis_icrf, b);
+      });
+  std::iter_swap(axes_icrf.begin(), root);
+  return prior_choosing(axes_icrf.front(), std::span{axes_icrf}.subspan(1));
 }
 
 bool is_of_prior(const SpinAction& action) {
@@ -115,13 +124,12 @@ void read_told_prior(SQLite::Database& database, const std::multimap<TaiTime, Sp
                      StoredEdges& stored) {
   for (auto said = of_prior.begin(); said != of_prior.end(); ++said) {
     const auto next = std::next(said);
-    const auto* const prior = std::get_if<SetPrior>(&said->second);
-    if (prior == nullptr) {
+    if (const auto* const choice = std::get_if<ChooseRoot>(&said->second)) {
       const TaiTime until = next == of_prior.end() ? TaiTime::max() : next->first;
-      const auto root = chosen_root(database, stored.run_id, said->first, until);
+      const auto root = chosen_root(database, stored.run_id, *choice, said->first, until);
       stored.told_prior = root ? root : stored.told_prior;
     } else if (has_come_to(database, stored.run_id, said->first)) {
-      stored.told_prior = prior->prior;
+      stored.told_prior = std::get<SetPrior>(said->second).prior;
     }
   }
 }

@@ -18,11 +18,11 @@ namespace {
 
 constexpr std::chrono::minutes kBetweenBatches{1};
 
-/// @param prior In the place of the mission's.
 Expected<BatchSolution> solve_edges(SpinConfig config, const Orbit& orbit, PassEdges edges,
-                                    const std::optional<SpinPrior>& prior) {
-  config.prior = prior;
-  const auto starts = edges.starts(prior);
+                                    const SpinRun::Known& known) {
+  config.prior = known.prior;
+  StartingAxes starts = edges.starts(known.prior);
+  starts.of_pass = known.choice;
   const bool noise_chose = edges.noise_chose_among_copies();
   auto solution = spindrift::solve_batch(config, orbit, std::move(edges).edges(), starts);
   if (solution && noise_chose) {
@@ -36,8 +36,8 @@ Expected<std::vector<Product>> batch_products(BatchSolution solution, bool keeps
   if (!keeps_residuals) {
     solution.said = {};
   }
-  return unless_withheld(
-      {solution.estimate, std::make_shared<const BatchSolution>(std::move(solution))});
+  return unless_withheld({solution.estimate, solution.choice,
+                          std::make_shared<const BatchSolution>(std::move(solution))});
 }
 
 }  // namespace
@@ -105,9 +105,8 @@ void SpinRun::make_batch_due() {
   const auto last = edges_.last();
   // Its last edge names a solution: there is one only.
   if (last && last != last_batch_ && !is_stored(*last)) {
-    due_.push_back({.batch = computing_.batch(),
-                    .solve = [this, edges = edges_, prior = computing_.pass().told_prior()] {
-                      return solve(edges, prior, Solution::OnTheWay);
+    due_.push_back({.batch = computing_.batch(), .solve = [this, edges = edges_, known = known()] {
+                      return solve(edges, known, Solution::OnTheWay);
                     }});
   }
   last_batch_ = last;
@@ -123,13 +122,12 @@ bool SpinRun::is_stored(TaiTime batch) const {
 std::vector<BackgroundTask> SpinRun::take_background_tasks() { return std::exchange(due_, {}); }
 
 /// What the edges say is kept of the last solution only: each would replace it.
-Expected<std::vector<Product>> SpinRun::solve(const PassEdges& edges,
-                                              const std::optional<SpinPrior>& prior,
+Expected<std::vector<Product>> SpinRun::solve(const PassEdges& edges, const Known& known,
                                               Solution which) const {
   const bool keeps_residuals = keeps_residuals_ && which == Solution::Last;
   return solved_or_fault(computing_.spacecraft_id(), "batch solution",
                          edges.last().value_or(TaiTime{}), [&] {
-                           return solve_edges(config_, orbit_, edges, prior)
+                           return solve_edges(config_, orbit_, edges, known)
                                .and_then([keeps_residuals](BatchSolution solution) {
                                  return batch_products(std::move(solution), keeps_residuals);
                                });
@@ -157,8 +155,7 @@ ArchiveBatch SpinRun::finish() {
   ArchiveBatch last = computing_.batch();
   settle(last.products);
   if (!computing_.failed()) {
-    if (auto products =
-            solve(std::exchange(edges_, {}), computing_.pass().told_prior(), Solution::Last)) {
+    if (auto products = solve(std::exchange(edges_, {}), known(), Solution::Last)) {
       summary_.count_solution(*products);
       std::move(products->begin(), products->end(), std::back_inserter(last.products));
     } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {
@@ -183,12 +180,12 @@ void SpinRun::end_run(std::vector<ArchiveBatch>& batches) {
   }
   ArchiveBatch held = computing_.batch();
   settle(held.products);
-  BackgroundTask last{
-      .batch = computing_.batch(),
-      .solve = [this, failed = computing_.failed(), edges = std::exchange(edges_, {}),
-                prior = computing_.pass().told_prior()] {
-        return failed ? std::vector<Product>{} : solve(edges, prior, Solution::Last);
-      }};
+  BackgroundTask last{.batch = computing_.batch(),
+                      .solve = [this, failed = computing_.failed(),
+                                edges = std::exchange(edges_, {}), known = known()] {
+                        return failed ? std::vector<Product>{}
+                                      : solve(edges, known, Solution::Last);
+                      }};
   last.batch.finished_utc = utc_now();
   last.summary = &finished_.emplace_back(std::move(summary_));
   batches.push_back(std::move(held));

@@ -29,6 +29,12 @@ class SpinRun {
  public:
   static constexpr std::int64_t kLastRevolutions = 1000;
 
+  /// What `batch` is given of the pass beside its edges.
+  struct Known {
+    std::optional<SpinPrior> prior;  ///< In the place of the mission's.
+    std::optional<AxisChoice> choice;
+  };
+
   /// @param mission Of a spinner.
   SpinRun(const Mission& mission, const std::string& run_id, SolvingPlan plan);
 
@@ -60,8 +66,9 @@ class SpinRun {
   void settle(std::vector<Product>& products);
   void end_run(std::vector<ArchiveBatch>& batches);
   enum class Solution { OnTheWay, Last };
-  Expected<std::vector<Product>> solve(const PassEdges& edges,
-                                       const std::optional<SpinPrior>& prior, Solution which) const;
+  Known known() const { return {computing_.pass().told_prior(), computing_.pass().axis_choice()}; }
+  Expected<std::vector<Product>> solve(const PassEdges& edges, const Known& known,
+                                       Solution which) const;
 
   SpinConfig config_;
   Orbit orbit_;

@@ -122,15 +122,20 @@ struct ProductKind<SpinFix> {
   }
 };
 
-/// Which axis a pass has taken, by its fixes or its edges.
+/// Which axis a pass has taken: that of the answer in force.
 struct AxisChoiceTable {
   static constexpr std::string_view kName = "axis_choice";
   static constexpr std::array<std::string_view, 1> kKey{"run_id"};
+  /// Where `batch` has an answer, that is the one in force.
+  static constexpr std::string_view kReplaces =
+      "excluded.estimator = 'batch' OR axis_choice.estimator <> 'batch'";
 
   static std::optional<PlaceDeg> other(const AxisChoice& choice) {
     return choice.other_icrf ? std::optional{place_deg(*choice.other_icrf)} : std::nullopt;
   }
   static constexpr auto kColumns = columns(
+      ProductColumn{"t_tai_ns", [](const AxisChoice& one) { return tai_ns(one.t); }},
+      ProductColumn{"estimator", [](const AxisChoice& one) { return name_of(one.estimator); }},
       ProductColumn{"ra_deg",
                     [](const AxisChoice& one) { return place_deg(one.axis_icrf).ra_deg; }},
       ProductColumn{"dec_deg",
@@ -145,17 +150,13 @@ struct AxisChoiceTable {
                       const auto place = other(one);
                       return place ? std::optional{place->dec_deg} : std::nullopt;
                     }},
-      ProductColumn{"delta_chi_square",
-                    [](const AxisChoice& one) {
-                      return one.other_icrf ? std::optional{one.delta_chi_square} : std::nullopt;
-                    }},
-      ProductColumn{"settled_by", [](const AxisChoice& one) { return one.settled_by; }});
+      ProductColumn{"delta_chi_square", [](const AxisChoice& one) { return one.delta_chi_square; }},
+      ProductColumn{"settled_by", [](const AxisChoice& one) { return name_of(one.settled_by); }});
 };
 
 template <>
 struct ProductKind<AxisChoice> {
   static constexpr ProductWeight kWeight = ProductWeight::Result;
-  static constexpr bool kStays = true;  ///< It is of a whole pass.
   using Tables = std::tuple<AxisChoiceTable>;
 };
 

@@ -400,6 +400,70 @@ TEST_F(ArchiveProducts, BiasesAreThoseOfTheLastSolutionAndSayWhetherTheyAreInThe
   EXPECT_EQ(after(again), "");
 }
 
+TEST_F(ArchiveProducts, ResidualsOfBatchGoWithTheirSolutionAllTogether) {
+  const auto with_residuals = [](std::int64_t t_tai_ns) {
+    ArchiveBatch batch = solution_with(t_tai_ns, {});
+    BatchSolution solution = *std::get<BatchProduct>(batch.products.front());
+    for (std::int64_t t = 10; t <= t_tai_ns; t += 10) {
+      solution.said.push_back({.pulse = {.t = tai_from_ns(t), .channel = PulseChannel::Sun1},
+                               .residual_s = 1e-5,
+                               .sigma_s = 1e-4,
+                               .used = true});
+    }
+    batch.products = {std::make_shared<const BatchSolution>(std::move(solution))};
+    return batch;
+  };
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(start_of("run-1")));
+  const auto after = [&](ArchiveBatch batch) {
+    EXPECT_TRUE(archive->submit(std::move(batch)));
+    EXPECT_TRUE(archive->flush());
+    return number("SELECT count(*) FROM batch_residual");
+  };
+  EXPECT_EQ(after(with_residuals(100)), 10);
+  ArchiveBatch again = testing::batch_of("run-1");
+  again.continuation = Continuation{.t = tai_from_ns(101)};
+  EXPECT_EQ(after(again), 10);
+  again.continuation = Continuation{.t = tai_from_ns(50)};
+  EXPECT_EQ(after(again), 0);
+  EXPECT_EQ(after(with_residuals(60)), 6);
+  // One on the way has none to store.
+  EXPECT_EQ(after(solution_with(120, {})), 0);
+}
+
+AxisChoice choice_at(std::int64_t t_tai_ns, SpinEstimator estimator) {
+  return {.t = tai_from_ns(t_tai_ns),
+          .estimator = estimator,
+          .axis_icrf = Eigen::Vector3d::UnitX(),
+          .other_icrf = {},
+          .delta_chi_square = {},
+          .settled_by = SettledBy::Geometry};
+}
+
+TEST_F(ArchiveProducts, TheChoiceOfARunIsThatOfBatchUntilItIsMadeAgain) {
+  const auto archive = open();
+  ASSERT_TRUE(archive->submit(start_of("run-1")));
+  const auto after = [&](ArchiveBatch batch) {
+    EXPECT_TRUE(archive->submit(std::move(batch)));
+    EXPECT_TRUE(archive->flush());
+    return text(
+        "SELECT ifnull(group_concat(format('%s %d', estimator, t_tai_ns)), '') FROM axis_choice");
+  };
+  const auto made = [](std::int64_t t_tai_ns, SpinEstimator estimator) {
+    ArchiveBatch batch = testing::batch_of("run-1");
+    batch.products = {choice_at(t_tai_ns, estimator)};
+    return batch;
+  };
+  EXPECT_EQ(after(made(90, SpinEstimator::Mean)), "mean 90");
+  EXPECT_EQ(after(made(100, SpinEstimator::Batch)), "batch 100");
+  EXPECT_EQ(after(made(200, SpinEstimator::Sequential)), "batch 100");
+  EXPECT_EQ(after(made(300, SpinEstimator::Batch)), "batch 300");
+  ArchiveBatch again = testing::batch_of("run-1");
+  again.continuation = Continuation{.t = tai_from_ns(200)};
+  EXPECT_EQ(after(again), "");
+  EXPECT_EQ(after(made(200, SpinEstimator::Sequential)), "sequential 200");
+}
+
 TEST_F(ArchiveProducts, BiasThatIsNotObservableHasNoValue) {
   store(start_of("run-1"));
   store(solution_with(100, {{NorthChordBias, 0.0, 0.001, false, true}}));

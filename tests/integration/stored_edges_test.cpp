@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "tests/integration/archive_fixture.h"
 
@@ -40,7 +41,8 @@ TEST_F(ArchiveEdges, OfARunWithoutSun1AreThere) {
   EXPECT_EQ(std::move(stored->pass).edges().size(), 5U);
 }
 
-/// Of the second fix a choice made a prior of the first of two roots, 12 deg apart.
+/// The second fix is the first that has several roots, 12 deg apart; what settled the pass before
+/// chose the other one there.
 TEST_F(ArchiveEdges, HaveThePriorThatOperatorsToldInThePlaceOfTheMissions) {
   store_run("run-1", 3);
   const auto told_by = [&](std::int64_t t_tai_ns, const SpinAction& does, const char* action,
@@ -67,11 +69,15 @@ TEST_F(ArchiveEdges, HaveThePriorThatOperatorsToldInThePlaceOfTheMissions) {
                 .geometry_case = 5,
                 .axis_icrf = Eigen::Vector3d::UnitX(),
                 .covariance_rad2 = 1e-6 * Eigen::Matrix2d::Identity(),
-                .alternates = {{.axis_icrf = axis_icrf_from(12.0, 0.0)}},
-                .resolution = turn == 1 ? Resolution::Ambiguous : Resolution::Prior,
+                .alternates = {},
+                .resolution = turn == 1 ? Resolution::Geometry : Resolution::Prior,
                 .norm = 1.0,
-                .accepted = turn == 2});
+                .accepted = true});
   }
+  auto& several = std::get<SpinFix>(fixes.products.back());
+  several.axis_icrf = axis_icrf_from(12.0, 0.0);
+  several.alternates = {{.axis_icrf = Eigen::Vector3d::UnitX()}};
+  several.settled_before = Resolution::Geometry;
   store(fixes);
   const SetPrior prior{{.axis_icrf = axis_icrf_from(30.0, 40.0), .sigma_rad = 0.1}};
   constexpr const char* kPrior = R"({"ra_deg":30,"dec_deg":40,"sigma_deg":5})";

@@ -98,7 +98,7 @@ Line line_of(const SampleContradiction& contradiction) {
 Line line_of(const AxisChoice& choice) {
   Line line;
   line << "choice" << choice.axis_icrf << choice.other_icrf << choice.delta_chi_square
-       << choice.settled_by;
+       << name_of(choice.settled_by);
   return line;
 }
 

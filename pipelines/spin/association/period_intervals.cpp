@@ -38,21 +38,22 @@ std::optional<PeriodCandidate> PeriodIntervals::candidate(
   if (!edge) {
     return std::nullopt;
   }
-  const bool good = revolution.good_edge(reference).has_value();
+  const auto& rejected_by = revolution.edge_rejections.at(index_of(reference));
   if (!start_) {
     const auto candidate = noted(revolution, expected_s);
-    if (good) {
+    if (!rejected_by) {
       start_ = {.t = *edge, .revolution = revolution.number};
     }
     return candidate;
   }
   const std::int64_t turns = revolution.number - start_->revolution;
   const TaiTime middle = start_->t + (*edge - start_->t) / 2;
-  PeriodCandidate candidate = good ? window_.add(start_->t, *edge, turns, expected_s(middle))
-                                   : window_.refused(start_->t, *edge, turns);
+  PeriodCandidate candidate = rejected_by
+                                  ? window_.refused(start_->t, *edge, turns, *rejected_by)
+                                  : window_.add(start_->t, *edge, turns, expected_s(middle));
   candidate.sigma_s =
       std::hypot(candidate.sigma_s, apparent_motion_s(reference, candidate.period_s));
-  if (candidate.accepted || (good && turns >= kMostTurnsRefused)) {
+  if (!candidate.rejected_by || (!rejected_by && turns >= kMostTurnsRefused)) {
     start_ = {.t = *edge, .revolution = revolution.number};
   }
   return candidate;

@@ -19,11 +19,12 @@ PeriodCandidate SpinPeriodWindow::add(TaiTime from, TaiTime to, std::int64_t tur
   return add(elapsed_s(from, to) / turns_d, turns_d, expected_s);
 }
 
-PeriodCandidate SpinPeriodWindow::refused(TaiTime from, TaiTime to, std::int64_t turns) const {
+PeriodCandidate SpinPeriodWindow::refused(TaiTime from, TaiTime to, std::int64_t turns,
+                                          Rejection rejected_by) const {
   const auto turns_d = static_cast<double>(turns);
   return {.period_s = elapsed_s(from, to) / turns_d,
           .sigma_s = candidate_sigma_s_ / turns_d,
-          .accepted = false};
+          .rejected_by = rejected_by};
 }
 
 PeriodCandidate SpinPeriodWindow::add(double period_s, double turns, double expected_s) {
@@ -33,7 +34,7 @@ PeriodCandidate SpinPeriodWindow::add(double period_s, double turns, double expe
       differences_s_.mean({.sigma = screening_.sigma, .stated = candidate_sigma_s_});
   return {.period_s = period_s,
           .sigma_s = candidate_sigma_s_ / turns,
-          .accepted = mean.keeps(difference_s),
+          .rejected_by = mean.keeps(difference_s) ? std::nullopt : std::optional{Rejection::Period},
           .test = Rational{.expected = expected_s + mean.mean, .limit = mean.limit}};
 }
 

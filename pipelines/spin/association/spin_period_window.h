@@ -27,8 +27,9 @@ class SpinPeriodWindow {
   PeriodCandidate add(TaiTime from, TaiTime to, std::int64_t turns, double expected_s);
   /// The same for one turn timed elsewhere.
   PeriodCandidate add(double period_s, double expected_s) { return add(period_s, 1.0, expected_s); }
-  /// An interval that ends at an edge known to be wrong: it is not added.
-  PeriodCandidate refused(TaiTime from, TaiTime to, std::int64_t turns) const;
+  /// An interval that ends at an edge that was rejected, as it is with that: it is not added.
+  PeriodCandidate refused(TaiTime from, TaiTime to, std::int64_t turns,
+                          Rejection rejected_by) const;
 
   std::size_t size() const { return differences_s_.size(); }
 

@@ -12,6 +12,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/uncertain_attitude.h"
 #include "pipelines/spin/batch/after_changepoint.h"
+#include "pipelines/spin/batch/axis_choice.h"
 #include "pipelines/spin/batch/batch_assessment.h"
 #include "pipelines/spin/batch/bias_choice.h"
 #include "pipelines/spin/batch/bias_selection.h"
@@ -229,6 +230,7 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
                     solved->left_out->edges, format_utc(solved->left_out->until, 0),
                     solution.outliers, solution.edges + solution.outliers));
   }
+  solution.choice = axis_choice(*solved, starts.of_pass);
   const BiasSet suspected = config.batch.biases.value_or(seen_biases(information));
   solution.undetermined = Observability{information, suspected}.undetermined();
   const auto wanted = most_significant_bias(best.beside_offsets(), best.estimated);

@@ -68,6 +68,7 @@ struct BatchSolution {
   TaiTime nutation_t;  ///< Where FoundNutation says t_s; without one, that of the estimate.
   ConingEstimate coning;
   std::vector<BatchEdge> said = {};  ///< By all edges that it was solved with, in order of time.
+  AxisChoice choice = {};
 };
 
 }  // namespace spindrift

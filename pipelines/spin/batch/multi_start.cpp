@@ -1,6 +1,8 @@
 #include "pipelines/spin/batch/multi_start.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
@@ -132,16 +134,44 @@ Expected<Best> best_of_starts(const PassModel& model, std::span<const PassEdge> 
   }
   std::stable_sort(all.begin(), all.end(), likelier);
   const double settled = all.front().misfit() + kSettled * all.front().excess_noise();
-  std::erase_if(all, [&](const EvaluatedFit& one) { return one.misfit() > settled; });
-  const auto possible = expected_of(std::move(all), model.config().prior);
-  const EvaluatedFit& best = possible.front();
-  const auto other = std::find_if(possible.begin(), possible.end(), [&](const EvaluatedFit& one) {
-    return !same_axis(one.fit.state, best.fit.state);
-  });
-  return Best{.best = best,
-              .alternate_axis_icrf = other == possible.end()
-                                         ? std::nullopt
-                                         : std::optional{other->fit.state.axis_icrf()}};
+  std::vector<EvaluatedFit> likely;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(likely),
+               [&](const EvaluatedFit& one) { return one.misfit() <= settled; });
+  const auto possible = expected_of(std::move(likely), model.config().prior);
+  Best found{.best = possible.front(), .alternate_axis_icrf = {}, .other = {}};
+  const auto is_elsewhere = [&](const EvaluatedFit& one) {
+    return !same_axis(one.fit.state, found.best.fit.state);
+  };
+  const auto alternate = std::find_if(possible.begin(), possible.end(), is_elsewhere);
+  if (alternate != possible.end()) {
+    found.alternate_axis_icrf = alternate->fit.state.axis_icrf();
+  }
+  const auto other = std::find_if(all.begin(), all.end(), is_elsewhere);
+  if (other != all.end()) {
+    found.other = {.axis_icrf = other->fit.state.axis_icrf(),
+                   .more_misfit = other->misfit() - found.best.misfit()};
+    found.by_prior = alternate == possible.end() && other->misfit() <= settled;
+  }
+  return found;
+}
+
+OtherAxis compared_with(const EvaluatedFit& best, const PassModel& model,
+                        std::span<const PassEdge> edges, const Eigen::Vector3d& axis_icrf) {
+  const auto near = initial_state(model, edges, axis_icrf);
+  if (!near) {
+    const double bound = static_cast<double>(edges.size()) * kOutlierSigmas * kOutlierSigmas;
+    return {.axis_icrf = axis_icrf, .more_misfit = bound - best.misfit()};
+  }
+  const SpinState end = coarse_fit(model, edges, *near, best.estimated);
+  if (!same_axis(end, best.fit.state)) {
+    const auto one = explain_motion(model, edges, end, best.estimated);
+    if (one && !same_axis(one->fit.state, best.fit.state)) {
+      return {.axis_icrf = one->fit.state.axis_icrf(),
+              .more_misfit = one->misfit() - best.misfit()};
+    }
+  }
+  return {.axis_icrf = axis_icrf,
+          .more_misfit = information_of(model, edges, *near).misfit() - best.misfit()};
 }
 
 }  // namespace spindrift

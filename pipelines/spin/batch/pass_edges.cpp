@@ -8,6 +8,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/measurement/measurement.h"
 
 namespace spindrift {
 namespace {
@@ -18,7 +19,9 @@ constexpr double kSameStart_rad = 0.1 * kRadPerDeg;
 /// Not where it should be, or with nothing to compare it with; else it is one of several edges of
 /// an angle that failed its test.
 bool is_bad(Rejection rejection) {
-  return rejection != Rejection::Geometry && rejection < Rejection::Period;
+  return rejection != Rejection::Geometry &&
+         std::none_of(kMeasuredAngles.begin(), kMeasuredAngles.end(),
+                      [&](SpinQuantity angle) { return rejection_of(angle) == rejection; });
 }
 
 }  // namespace

@@ -152,7 +152,9 @@ std::vector<SpinFix> Disambiguator::settle(std::int64_t revolution, TaiTime t,
   // What the pass itself has established needs no further test.
   if (nearest && (established || candidates.near_tangent)) {
     SpinFix fix = fix_of(revolution, t, candidates, *nearest, Resolution::Prior);
-    fix.chosen_by_pass = established.has_value();
+    if (established) {
+      fix.settled_before = established->settled_by;
+    }
     return {std::move(fix)};
   }
   if (candidates.near_tangent) {

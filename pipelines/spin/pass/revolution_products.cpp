@@ -11,9 +11,7 @@ std::vector<Verdict> verdicts_on(const Revolution& revolution,
                                  const RevolutionMeasurements& measured) {
   std::vector<Verdict> verdicts;
   if (const auto& period = revolution.period_candidate) {
-    verdicts.push_back(
-        {.quantity = SpinQuantity::Period,
-         .rejected_by = period->accepted ? std::nullopt : std::optional{Rejection::Period}});
+    verdicts.push_back({.quantity = SpinQuantity::Period, .rejected_by = period->rejected_by});
   }
   for (const SpinQuantity quantity : kMeasuredAngles) {
     if (const auto value = value_of(measured, quantity)) {

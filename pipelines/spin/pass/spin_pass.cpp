@@ -1,7 +1,6 @@
 #include "pipelines/spin/pass/spin_pass.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -294,6 +293,7 @@ void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
   if (predicted_from_) {
     predict(candidate, predicted_from_->axis_icrf);
   }
+  screen(candidate);
   settle(candidate, out);
   recent_.push_back(std::move(candidate));
   if (recent_.size() > static_cast<std::size_t>(config_.screening.window)) {
@@ -390,7 +390,6 @@ void SpinPass::screen(Candidate& candidate) const {
 }
 
 void SpinPass::settle(Candidate& candidate, SpinOutput& out) {
-  screen(candidate);
   const std::size_t first = out.products.size();
   auto products = revolution_products(config_, candidate.revolution, candidate.measured);
   std::move(products.begin(), products.end(), std::back_inserter(out.products));
@@ -498,6 +497,9 @@ void SpinPass::announce_axis(Candidate& candidate, SpinOutput& out) {
     SpinEstimate mean = mean_.estimate(revolution);
     doubt_copies(mean.assessment);
     doubt_where_orbit_steps(mean);
+    if (!sequential_.has_begun()) {
+      answer_ = mean;
+    }
     out.products.emplace_back(std::move(mean));
     notices_.mean_began();
   }
@@ -505,13 +507,16 @@ void SpinPass::announce_axis(Candidate& candidate, SpinOutput& out) {
     doubt_copies(sequential->assessment);
     doubt_where_orbit_steps(*sequential);
     notices_.estimated(*sequential);
+    answer_ = *sequential;
     out.products.emplace_back(std::move(*sequential));
   }
 }
 
+/// A fix that is given again takes the place of what it was.
 void SpinPass::note_choice(const SpinFix& fix) {
-  if (fix.accepted) {
-    last_accepted_ = fix;
+  if (fix.accepted && !fix.settled_before &&
+      (!settling_fix_ || fix.revolution <= settling_fix_->revolution)) {
+    settling_fix_ = fix;
   }
   if (!fix.alternates.empty()) {
     const auto best = std::min_element(
@@ -521,24 +526,13 @@ void SpinPass::note_choice(const SpinFix& fix) {
   }
 }
 
-/// Of the good measurements of the last revolutions about an axis, by their noise.
-double SpinPass::chi_square_about(const Eigen::Vector3d& axis_icrf) const {
-  double sum = 0.0;
-  for (const Candidate& candidate : recent_) {
-    if (!candidate.sun_earth) {
-      continue;
-    }
-    for (const AngleResidual& residual :
-         residuals(config_, candidate.measured, *candidate.sun_earth, axis_icrf)) {
-      sum += std::pow(residual.value_rad / residual.sigma_rad, 2);
-    }
-  }
-  return sum;
-}
-
-/// Where no fix names another axis, it is the mirror image in the plane of Sun and Earth, which
-/// sees both at the same angles.
+/// The one that came nearest by the edges; where none competed by the last fix. Where no fix names
+/// another axis, it is the mirror image in the plane of Sun and Earth, which sees both at the same
+/// angles.
 std::optional<Eigen::Vector3d> SpinPass::other_axis_icrf(const Eigen::Vector3d& axis_icrf) const {
+  if (const auto rival = sequential_.rival()) {
+    return rival->axis_icrf;
+  }
   const auto last = std::find_if(recent_.rbegin(), recent_.rend(), [](const Candidate& candidate) {
     return candidate.sun_earth.has_value();
   });
@@ -550,30 +544,18 @@ std::optional<Eigen::Vector3d> SpinPass::other_axis_icrf(const Eigen::Vector3d& 
   return Eigen::Vector3d{axis_icrf - 2.0 * axis_icrf.dot(across) * across};
 }
 
-/// The edges say most of another axis, where a filter has followed it; else the measured angles do.
 std::optional<AxisChoice> SpinPass::axis_choice() const {
-  if (!sequential_.has_begun() && mean_.count() == 0) {
+  if (!answer_) {
     return std::nullopt;
   }
-  static constexpr std::array<std::string_view, 5> kSettledBy = {"geometry", "constraint", "prior",
-                                                                 "dispersion", "nothing"};
-  AxisChoice choice{
-      .axis_icrf = sequential_.has_begun() ? sequential_.axis_icrf() : mean_.axis_icrf(),
-      .other_icrf = {},
-      .delta_chi_square = 0.0,
-      .settled_by = kSettledBy.at(static_cast<std::size_t>(
-          last_accepted_ ? said_resolution(*last_accepted_) : Resolution::Ambiguous))};
-  if (sequential_.settled_by_edges()) {
-    choice.settled_by = "edges";
-  }
-  if (const auto rival = sequential_.rival()) {
-    choice.other_icrf = rival->axis_icrf;
-    choice.delta_chi_square = 2.0 * rival->less;
-  } else if ((choice.other_icrf = other_axis_icrf(choice.axis_icrf))) {
-    choice.delta_chi_square =
-        chi_square_about(*choice.other_icrf) - chi_square_about(choice.axis_icrf);
-  }
-  return choice;
+  const Resolution by_fix = settling_fix_ ? settling_fix_->resolution : Resolution::Ambiguous;
+  return AxisChoice{
+      .t = answer_->t,
+      .estimator = answer_->estimator,
+      .axis_icrf = answer_->axis_icrf,
+      .other_icrf = other_axis_icrf(answer_->axis_icrf),
+      .delta_chi_square = {},
+      .settled_by = sequential_.settled_by_edges() ? SettledBy::Edges : settled_by(by_fix)};
 }
 
 void SpinPass::doubt_where_orbit_steps(SpinEstimate& estimate) {
@@ -653,7 +635,7 @@ void SpinPass::forget_prior(TaiTime t) {
 }
 
 void SpinPass::begin_anew(TaiTime t) {
-  last_accepted_.reset();
+  settling_fix_.reset();
   alternate_icrf_.reset();
   mean_.begin_anew(t);
   recent_axes_ = AxisWindow{static_cast<std::size_t>(config_.screening.window)};
@@ -698,7 +680,8 @@ std::optional<KnownAxis> SpinPass::established_axis() const {
   }
   const KnownAxis by_mean{
       .axis_icrf = mean_.axis_icrf(),
-      .sigma_rad = std::hypot(std::sqrt(mean_.covariance_rad2().trace()), kModelLimit_rad)};
+      .sigma_rad = std::hypot(std::sqrt(mean_.covariance_rad2().trace()), kModelLimit_rad),
+      .settled_by = settling_fix_ ? settling_fix_->resolution : Resolution::Dispersion};
   return by_edges && by_edges->sigma_rad < by_mean.sigma_rad ? by_edges : by_mean;
 }
 

@@ -81,6 +81,10 @@ class SpinPass {
   /// anew.
   const std::optional<SpinPrior>& told_prior() const { return told_prior_; }
 
+  /// That of `sequential`, or where that has not begun of `mean`, so far; not compared with the
+  /// other one. Empty: there is no estimate.
+  std::optional<AxisChoice> axis_choice() const;
+
  private:
   /// A revolution with all that is needed to settle it.
   struct Candidate {
@@ -113,9 +117,7 @@ class SpinPass {
   void say_why_not_accepted(const SpinFix& fix);
   void announce_axis(Candidate& candidate, SpinOutput& out);
   void note_choice(const SpinFix& fix);
-  double chi_square_about(const Eigen::Vector3d& axis_icrf) const;
   std::optional<Eigen::Vector3d> other_axis_icrf(const Eigen::Vector3d& axis_icrf) const;
-  std::optional<AxisChoice> axis_choice() const;
   std::optional<KnownAxis> established_axis() const;
   bool recent_fixes_left_the_mean_for(const Eigen::Vector3d& axis_icrf) const;
   void start_again_where_moved(const SpinEstimate& sequential);
@@ -163,7 +165,9 @@ class SpinPass {
   RecentMean inconsistent_share_;  ///< Of the last revolutions that could have a fix.
   SequentialEstimator sequential_;
   int restarts_handled_ = 0;
-  std::optional<SpinFix> last_accepted_;
+  std::optional<SpinEstimate> answer_;  ///< The last of `sequential`, or before it of `mean`.
+  /// The first accepted fix since the pass began, or began anew, that it did not choose itself.
+  std::optional<SpinFix> settling_fix_;
   std::optional<Eigen::Vector3d> alternate_icrf_;  ///< The best one of the last fix with any.
 
   Exclusions<PulseChannel> excluded_;

@@ -5,11 +5,16 @@
 
 #include <Eigen/Core>
 
+#include "pipelines/spin/types/products.h"
+
 namespace spindrift {
 
 struct KnownAxis {
   Eigen::Vector3d axis_icrf;  ///< Unit.
   double sigma_rad;
+  /// What told it from others, and with it the candidates that it chooses. Edges do that as the
+  /// dispersion does: over many turns one axis goes on fitting them.
+  Resolution settled_by = Resolution::Dispersion;
 };
 
 }  // namespace spindrift

@@ -12,6 +12,9 @@ std::string_view name_of(SpinQuantity quantity) {
 }
 
 Rejection rejection_of(SpinQuantity quantity) {
+  static_assert(static_cast<int>(Rejection::MixedAzimuth) - static_cast<int>(Rejection::Period) ==
+                    static_cast<int>(SpinQuantity::MixedAzimuth),
+                "the tests stand in the order of the quantities");
   return static_cast<Rejection>(static_cast<int>(Rejection::Period) + static_cast<int>(quantity));
 }
 
@@ -22,7 +25,20 @@ std::string_view name_of(Resolution resolution) {
 }
 
 Resolution said_resolution(const SpinFix& fix) {
-  return fix.chosen_by_pass ? Resolution::Dispersion : fix.resolution;
+  return fix.settled_before.value_or(fix.resolution);
+}
+
+std::string_view name_of(SettledBy settled_by) {
+  static constexpr std::array<std::string_view, 6> kNames = {"edges", "geometry",   "constraint",
+                                                             "prior", "dispersion", "nothing"};
+  return kNames.at(static_cast<std::size_t>(settled_by));
+}
+
+SettledBy settled_by(Resolution resolution) {
+  static_assert(static_cast<int>(SettledBy::Nothing) ==
+                static_cast<int>(SettledBy::Geometry) + static_cast<int>(Resolution::Ambiguous));
+  return static_cast<SettledBy>(static_cast<int>(SettledBy::Geometry) +
+                                static_cast<int>(resolution));
 }
 
 std::string_view name_of(SpinEstimator estimator) {

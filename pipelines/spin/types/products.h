@@ -86,23 +86,32 @@ struct SpinFix {
   /// The candidates lie where they come together and vanish, within the noise: the covariance is
   /// too small, and the true one may be missing.
   bool near_tangent = false;
-  double misfit = 0.0;          ///< As of an alternate.
-  bool chosen_by_pass = false;  ///< PRIOR, but by the axis that the pass itself has established.
+  double misfit = 0.0;  ///< As of an alternate.
+  /// PRIOR, but by the axis that the pass itself has established: what had settled that.
+  std::optional<Resolution> settled_before = {};
 };
 /// As it is said: what the pass itself has established is no prior that anybody gave.
 Resolution said_resolution(const SpinFix& fix);
 
-/// Which axis a pass has taken, and what else there was.
-struct AxisChoice {
-  Eigen::Vector3d axis_icrf;
-  std::optional<Eigen::Vector3d> other_icrf;  ///< The best other axis; empty: there never was one.
-  double delta_chi_square;                    ///< By so much that fits worse.
-  /// "edges", "geometry", "constraint", "prior", "dispersion", or "nothing".
-  std::string_view settled_by;
-};
-
 enum class SpinEstimator { Mean, Sequential, Batch };
 std::string_view name_of(SpinEstimator estimator);
+
+/// What told the axis of a pass from others: its edges, or, in their order, a resolution of a fix.
+enum class SettledBy { Edges, Geometry, Constraint, Prior, Dispersion, Nothing };
+std::string_view name_of(SettledBy settled_by);
+SettledBy settled_by(Resolution resolution);
+
+/// Which axis a pass has taken, and what else there was.
+struct AxisChoice {
+  TaiTime t;                ///< Of the estimate that has it.
+  SpinEstimator estimator;  ///< Likewise.
+  Eigen::Vector3d axis_icrf;
+  std::optional<Eigen::Vector3d> other_icrf;  ///< The best other axis; empty: there is none.
+  /// By so much the edges fit that worse, a state fitted to them near each: the difference of
+  /// PassInformation::misfit(). Empty: only `batch` compares them.
+  std::optional<double> delta_chi_square;
+  SettledBy settled_by;
+};
 
 struct SpinEstimate {
   TaiTime t;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "pipelines/core/rational.h"
+#include "pipelines/observation/rejection.h"
 
 namespace spindrift {
 
@@ -13,9 +14,9 @@ namespace spindrift {
 struct PeriodCandidate {
   double period_s;
   double sigma_s;  ///< From the stated pulse noise.
-  bool accepted;
-  /// What the test expected, and how far from that it may be; empty: it ends at an edge that is
-  /// known to be wrong.
+  /// By its test, or with the edge that it ends at; empty: accepted.
+  std::optional<Rejection> rejected_by;
+  /// What the test expected, and how far from that it may be; empty: it was rejected with its edge.
   std::optional<Rational> test = {};
 };
 

@@ -11,6 +11,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/batch_estimator.h"
+#include "pipelines/spin/batch/multi_start.h"
 #include "pipelines/spin/batch/pass_edges.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "tests/support/observed_spin.h"
@@ -207,11 +208,31 @@ TEST(SpinActions, AChosenRootSettlesAnAmbiguousPassForAllEstimators) {
   }
   SpinConfig config = pass.body.config;
   config.prior = passed.prior;
-  const auto starts = passed.edges.starts(config.prior);
+  auto starts = passed.edges.starts(config.prior);
+  starts.of_pass = all_of<AxisChoice>(passed.output).back();
+  EXPECT_EQ(starts.of_pass->settled_by, SettledBy::Prior);
   const auto edges = std::move(passed.edges).edges();
   const auto batch = solve_batch(config, pass.orbit, edges, starts).value();
   EXPECT_LT(error_deg(batch.estimate, pass.body.axis_icrf), 1.0);
   EXPECT_NE(batch.estimate.assessment.quality, Quality::Ambiguous);
+  // What the pass chose by itself behind the first ten rests on the operator's word as they do.
+  EXPECT_EQ(said_resolution(fixes.back()), Resolution::Prior);
+  EXPECT_EQ(batch.choice.settled_by, SettledBy::Prior);
+  EXPECT_GT(angle_between_rad(batch.choice.other_icrf.value(), pass.body.axis_icrf),
+            5.0 * kRadPerDeg);
+}
+
+TEST(SpinActions, WhereNothingSettlesAPassItsEdgesAllTogetherMay) {
+  const TwoRoots pass;
+  Passed passed = run(pass.body.config, pass.orbit, pass.pulses, {});
+  auto starts = passed.edges.starts({});
+  starts.of_pass = all_of<AxisChoice>(passed.output).back();
+  EXPECT_EQ(starts.of_pass->settled_by, SettledBy::Nothing);
+  const auto batch =
+      solve_batch(pass.body.config, pass.orbit, std::move(passed.edges).edges(), starts).value();
+  EXPECT_EQ(batch.choice.axis_icrf, batch.estimate.axis_icrf);
+  EXPECT_EQ(batch.choice.settled_by, SettledBy::Edges);
+  EXPECT_GT(batch.choice.delta_chi_square.value(), kSettled);
 }
 
 TEST(SpinActions, AChosenRootThatTheEdgesContradictIsGivenUp) {

@@ -402,12 +402,12 @@ TEST(AssociationDirt, ASpoiltSun1IsRejectedAloneAndKeptWithItsRevolution) {
   EXPECT_EQ(spoilt.edge(Sun1), spoilt_t);
   EXPECT_EQ(spoilt.edge_rejections.at(index_of(Sun1)), Rejection::Phase);
   ASSERT_TRUE(spoilt.period_candidate);
-  EXPECT_FALSE(spoilt.period_candidate->accepted);
+  EXPECT_EQ(spoilt.period_candidate->rejected_by, Rejection::Phase);
   // Where the clock expects it: within five sigmas of the edge.
   EXPECT_NEAR(seconds_between(kStart, spoilt.t_start), 40.0, 5e-4);
   for (const std::size_t next : {39U, 41U}) {
     EXPECT_TRUE(all.closed.at(next).good_edge(Sun1));
-    EXPECT_TRUE(all.closed.at(next).period_candidate->accepted);
+    EXPECT_FALSE(all.closed.at(next).period_candidate->rejected_by);
     EXPECT_EQ(all.closed.at(next).t_start, *all.closed.at(next).edge(Sun1));
   }
 }

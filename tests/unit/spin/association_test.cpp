@@ -40,7 +40,7 @@ TEST(Association, TheIntervalThatEndsAtASun1IsItsPeriodCandidate) {
   for (std::size_t i = 1; i < all.closed.size(); ++i) {
     ASSERT_TRUE(all.closed[i].period_candidate);
     ASSERT_NEAR(all.closed[i].period_candidate->period_s, kPeriod_s, 1e-9);
-    ASSERT_TRUE(all.closed[i].period_candidate->accepted);
+    ASSERT_FALSE(all.closed[i].period_candidate->rejected_by);
   }
 }
 

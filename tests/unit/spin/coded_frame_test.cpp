@@ -108,7 +108,7 @@ TEST(CodedFrame, OneAloneIsARevolutionWithItsPeriod) {
   EXPECT_EQ(revolution.t_start, kStart);
   EXPECT_DOUBLE_EQ(revolution.period.period_s, 1.0);
   ASSERT_TRUE(revolution.period_candidate);
-  EXPECT_TRUE(revolution.period_candidate->accepted);
+  EXPECT_FALSE(revolution.period_candidate->rejected_by);
   EXPECT_DOUBLE_EQ(revolution.period_candidate->period_s, 1.0);
 }
 

@@ -123,9 +123,12 @@ TEST(Disambiguation, WhatThePriorSaysOfTheCandidatesIsTold) {
 TEST(Disambiguation, WhatThePassHasEstablishedTakesThePlaceOfThePrior) {
   Scene scene;
   scene.config.prior = SpinPrior{.axis_icrf = -scene.axis_icrf, .sigma_rad = 1.0 * kRadPerDeg};
-  const KnownAxis known{.axis_icrf = scene.axis_icrf, .sigma_rad = 0.1 * kRadPerDeg};
+  const KnownAxis known{.axis_icrf = scene.axis_icrf,
+                        .sigma_rad = 0.1 * kRadPerDeg,
+                        .settled_by = Resolution::Geometry};
   const SpinFix fix = settled(scene, scene.seen(), kDihedrals, known);
   EXPECT_EQ(fix.resolution, Resolution::Prior);
+  EXPECT_EQ(said_resolution(fix), Resolution::Geometry);
   EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 1e-6);
 }
 

@@ -32,7 +32,7 @@ TEST_F(PeriodIntervalsTest, AnIntervalMaySpanTurnsWithoutAnEdge) {
   EXPECT_FALSE(candidate(with_sun1(0)));
   const auto found = candidate(with_sun1(3));
   ASSERT_TRUE(found);
-  EXPECT_TRUE(found->accepted);
+  EXPECT_FALSE(found->rejected_by);
   EXPECT_NEAR(found->period_s, kPeriod_s, 1e-9);
 }
 
@@ -41,7 +41,8 @@ TEST_F(PeriodIntervalsTest, NoneStartsOrIsAcceptedAtABadEdge) {
   EXPECT_FALSE(candidate(with_sun1(1)));
   const auto bad = candidate(with_sun1(2, Rejection::Phase));
   ASSERT_TRUE(bad);
-  EXPECT_FALSE(bad->accepted);
+  EXPECT_EQ(bad->rejected_by, Rejection::Phase);
+  EXPECT_FALSE(bad->test);
   ASSERT_TRUE(candidate(with_sun1(3)));
 }
 

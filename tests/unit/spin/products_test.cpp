@@ -44,6 +44,15 @@ TEST(SpinProducts, ResolutionsHaveTheNamesOfTheArchive) {
   EXPECT_EQ(name_of(Resolution::Ambiguous), "AMBIGUOUS");
 }
 
+TEST(SpinProducts, WhatSettledAnAxisIsItsEdgesOrAResolutionOfAFix) {
+  EXPECT_EQ(name_of(SettledBy::Edges), "edges");
+  EXPECT_EQ(name_of(settled_by(Resolution::Geometry)), "geometry");
+  EXPECT_EQ(name_of(settled_by(Resolution::Constraint)), "constraint");
+  EXPECT_EQ(name_of(settled_by(Resolution::Prior)), "prior");
+  EXPECT_EQ(name_of(settled_by(Resolution::Dispersion)), "dispersion");
+  EXPECT_EQ(name_of(settled_by(Resolution::Ambiguous)), "nothing");
+}
+
 TEST(SpinProducts, EstimatorsHaveTheNamesOfTheArchive) {
   EXPECT_EQ(name_of(SpinEstimator::Mean), "mean");
   EXPECT_EQ(name_of(SpinEstimator::Sequential), "sequential");

@@ -21,11 +21,11 @@ SpinPeriodWindow window_of(int length) {
 TEST(SpinPeriodWindow, AGapOfSeveralTurnsIsDividedByThem) {
   SpinPeriodWindow window = window_of(100);
   const PeriodCandidate candidate = window.add(after(0.0), after(3.0), 4, 0.75);
-  EXPECT_TRUE(candidate.accepted);
+  EXPECT_FALSE(candidate.rejected_by);
   EXPECT_NEAR(candidate.period_s, 0.75, kRounding_s);
   EXPECT_DOUBLE_EQ(candidate.sigma_s, kCandidateSigma_s / 4.0);
-  const PeriodCandidate refused = window.refused(after(0.0), after(3.0), 4);
-  EXPECT_FALSE(refused.accepted);
+  const PeriodCandidate refused = window.refused(after(0.0), after(3.0), 4, Rejection::Phase);
+  EXPECT_EQ(refused.rejected_by, Rejection::Phase);
   EXPECT_NEAR(refused.period_s, 0.75, kRounding_s);
   EXPECT_DOUBLE_EQ(refused.sigma_s, kCandidateSigma_s / 4.0);
   EXPECT_EQ(window.size(), 1U);
@@ -34,10 +34,10 @@ TEST(SpinPeriodWindow, AGapOfSeveralTurnsIsDividedByThem) {
 TEST(SpinPeriodWindow, RefusesAWrongInterval) {
   SpinPeriodWindow window = window_of(100);
   for (int turn = 0; turn < 30; ++turn) {
-    EXPECT_TRUE(window.add(after(turn), after(turn + 1), 1, 1.0).accepted);
+    EXPECT_FALSE(window.add(after(turn), after(turn + 1), 1, 1.0).rejected_by);
   }
   const PeriodCandidate candidate = window.add(after(30.0), after(31.004), 1, 1.0);
-  EXPECT_FALSE(candidate.accepted);
+  EXPECT_EQ(candidate.rejected_by, Rejection::Period);
   EXPECT_NEAR(candidate.period_s, 1.004, kRounding_s);
 }
 
@@ -47,16 +47,16 @@ TEST(SpinPeriodWindow, ADriftOfTheRateHidesNoWrongInterval) {
   const auto edge = [](double turn) { return after(turn + 0.5e-3 * turn * turn); };
   const auto expected_s = [](double turn) { return 1.0 + 1e-3 * (turn + 0.5); };
   for (int turn = 0; turn < 150; ++turn) {
-    EXPECT_TRUE(window.add(edge(turn), edge(turn + 1), 1, expected_s(turn)).accepted);
+    EXPECT_FALSE(window.add(edge(turn), edge(turn + 1), 1, expected_s(turn)).rejected_by);
   }
   const TaiTime late = shifted(edge(151), 0.004);
-  EXPECT_FALSE(window.add(edge(150), late, 1, expected_s(150)).accepted);
+  EXPECT_TRUE(window.add(edge(150), late, 1, expected_s(150)).rejected_by);
 }
 
 TEST(SpinPeriodWindow, WhatAllIntervalsShareRefusesNone) {
   SpinPeriodWindow window = window_of(100);
   for (int turn = 0; turn < 30; ++turn) {
-    EXPECT_TRUE(window.add(1.0, 1.02).accepted || turn == 0);
+    EXPECT_TRUE(!window.add(1.0, 1.02).rejected_by || turn == 0);
   }
 }
 
@@ -74,13 +74,13 @@ TEST(SpinPeriodWindow, FollowsAChangeOfRateOnceItIsTheMajority) {
   for (int turn = 0; turn < 20; ++turn, t_s += 1.0) {
     window.add(after(t_s), after(t_s + 1.0), 1, 1.0);
   }
-  EXPECT_FALSE(window.add(after(t_s), after(t_s + 1.1), 1, 1.0).accepted);
+  EXPECT_TRUE(window.add(after(t_s), after(t_s + 1.1), 1, 1.0).rejected_by);
   PeriodCandidate last{};
   for (int turn = 0; turn < 11; ++turn) {
     t_s += 1.1;
     last = window.add(after(t_s), after(t_s + 1.1), 1, 1.0);
   }
-  EXPECT_TRUE(last.accepted);
+  EXPECT_FALSE(last.rejected_by);
 }
 
 }  // namespace spindrift::spin_period_window_test
