@@ -302,8 +302,8 @@ CREATE TABLE rejected_sample (
   -- Normalised, of 2 (sun) or 3 degrees of freedom, of a magnetometer 1 (the strength) where there is no
   -- attitude yet. NULL: not by innovation
   squared_innovation REAL,
-  -- What another test found, and what it was held against: saturated and outlier in deg/s, frozen how many samples
-  -- repeat, unit how many times too large the rates are. NULL: the test has no number
+  -- What the test found, and what it was held against: innovation as squared_innovation, saturated and outlier in
+  -- deg/s, frozen how many samples repeat, unit how many times too large the rates are. NULL: the test has no number
   value              REAL,
   "limit"            REAL,
   PRIMARY KEY (run_id, t_tai_ns, kind)
@@ -311,8 +311,10 @@ CREATE TABLE rejected_sample (
 
 -- What each sample said to an estimator: measured minus expected, in components, with the sigma of each by what the
 -- estimator knew before. star: about the body's axes; sun: about two axes across it; magnetometer: likewise, and its
--- strength, all in nT. nis: normalised innovation squared, a chi-square of dof degrees of freedom. Of the gyro only samples
--- that were left out: residual_1 is what the test found, limit what that was held against (rejected_sample).
+-- strength, all in nT. nis: normalised innovation squared, a chi-square of dof degrees of freedom. Star fixes of batch and
+-- sequential are held against the middle one of those beside them, by what the gyro turned between; dof 0: nothing was
+-- expected. Of the gyro only samples that were left out: residual_1 is what the test found, limit what that was held
+-- against (rejected_sample).
 CREATE TABLE sample_residual (
   run_id      TEXT NOT NULL REFERENCES run,
   estimator   TEXT NOT NULL CHECK (

@@ -8,7 +8,6 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
-#include "pipelines/observation/innovation_gate.h"
 #include "pipelines/reconstruction/chain_covariance.h"
 #include "pipelines/reconstruction/chain_fit.h"
 #include "pipelines/reconstruction/chain_solution.h"
@@ -55,27 +54,19 @@ SensorResiduals sun_residuals(const Observations& all, const ChainSolution& fine
   return residuals;
 }
 
-/// A fix that agrees with its neighbours is used however far the solution is from it.
-SensorResiduals star_residuals(const Observations& all, const ChainSolution& fine,
-                               std::vector<Observation>& said) {
+/// A fix that agrees with its neighbours is used however far the solution is from it: what it says
+/// is what it said to them.
+SensorResiduals star_residuals(const ChainSolution& fine, std::vector<Observation>& said) {
   const Chain& chain = fine.solved.chain;
+  said.insert(said.end(), fine.stars.said.begin(), fine.stars.said.end());
   SensorResiduals residuals{.count = std::ssize(chain.stars),
-                            .outliers = std::ssize(fine.stars.gated)};
+                            .outliers = std::ssize(fine.stars.gated())};
   double squares = 0.0;
   for (const ChainStar& star : chain.stars) {
     const Vector3d off_rad = rotation_vector_of(
         fine.solved.state.q_icrf_body[star.node].conjugate() * star.of.q_icrf_body);
-    const double nis = off_rad.squaredNorm() / std::pow(chain.noise.star_rad, 2);
-    squares += nis;
-    said.push_back({.t = shifted(all.origin, star.of.t_s),
-                    .source = SampleSource::Star,
-                    .residual = {.freedom = 3,
-                                 .value = off_rad,
-                                 .sigma = Vector3d::Constant(chain.noise.star_rad)},
-                    .nis = nis,
-                    .limit = std::max(nis, innovation_gate(3))});
+    squares += off_rad.squaredNorm() / std::pow(chain.noise.star_rad, 2);
   }
-  add_gated(all, fine.stars, said);
   if (fine.louder_star > 1.0) {
     residuals.noise = fine.louder_star;
   } else if (residuals.count > kFewResiduals) {
@@ -158,7 +149,8 @@ Expected<Reconstruction> reconstruct_batch(const ReconstructionRequest& request,
   const Matrix3d bias_covariance_rad2_s2 = known.shared.topLeftCorner<3, 3>();
   std::vector<Observation> said;
   const SensorResiduals sun = sun_residuals(all, *fine, said);
-  const SensorResiduals star = star_residuals(all, *fine, said);
+  const SensorResiduals star = star_residuals(*fine, said);
+  add_gyro_left_out(all, said);
   Reconstruction result{.method = ReconstructionMethod::Batch,
                         .events = bounded_events(request, all, *fine, history),
                         .history = std::move(history.attitudes),

@@ -163,7 +163,7 @@ struct CoarseSolution {
 Expected<CoarseSolution> coarse_of(const ReconstructionRequest& request, const Observations& all) {
   const ChainNoise noise = noise_of(request);
   const StarConsensus first = consensus_of(
-      all.rates, all.stars,
+      all, all.stars,
       {.star_rad = noise.star_rad,
        .bias_rad_s = Vector3d::Zero(),
        .bias_covariance_rad2_s2 = std::pow(noise.bias_rad_s, 2) * Matrix3d::Identity()});
@@ -172,12 +172,12 @@ Expected<CoarseSolution> coarse_of(const ReconstructionRequest& request, const O
     return Unexpected{solved.error()};
   }
   StarConsensus stars =
-      consensus_of(all.rates, first.accepted,
+      consensus_of(all, first.accepted,
                    {.star_rad = noise.star_rad,
                     .bias_rad_s = solved->state.bias_rad_s,
                     .bias_covariance_rad2_s2 =
                         covariance_of(solved->chain, solved->state).shared.topLeftCorner<3, 3>()});
-  stars.gated.insert(stars.gated.end(), first.gated.begin(), first.gated.end());
+  stars.add(first.gated());
   stars.contradict = stars.contradict || first.contradict;
   return CoarseSolution{.solved = *std::move(solved), .stars = std::move(stars)};
 }

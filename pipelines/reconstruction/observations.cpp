@@ -12,10 +12,10 @@
 #include "pipelines/ephemeris/shadow.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
-#include "pipelines/reconstruction/gyro_screening.h"
 #include "pipelines/reconstruction/request_check.h"
 #include "pipelines/reconstruction/torque_free_arc.h"
 #include "pipelines/statistics/variance_factor.h"
+#include "pipelines/three_axis/gyro_screening.h"
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
 
@@ -127,16 +127,16 @@ std::vector<GyroSample> needed(const Samples& samples, const Observations& all) 
 }
 
 Expected<RateTrack> rates_of(const Samples& samples, const GyroSensor& sensor, Observations& all) {
-  const ScreenedGyro gyro = screened(needed(samples, all), sensor);
+  ScreenedGyro gyro = screened(needed(samples, all), sensor);
+  all.gyro_left_out = std::move(gyro.left_out);
   if (gyro.usable.size() < 2) {
     return refused(ErrorCode::Unobservable,
                    fmt::format("{} gyro samples behind T2 can be used, {} are saturated, {} "
                                "frozen and {} off from their neighbours: at least 2 are needed",
-                               gyro.usable.size(), gyro.saturated, gyro.frozen, gyro.outliers));
+                               gyro.usable.size(), all.gyro_left_out_by(Rejection::Saturated),
+                               all.gyro_left_out_by(Rejection::Frozen),
+                               all.gyro_left_out_by(Rejection::Outlier)));
   }
-  all.saturated = gyro.saturated;
-  all.frozen = gyro.frozen;
-  all.outliers = gyro.outliers;
   all.first_is_outlier = gyro.first_is_outlier;
   all.gyro_noise = gyro.noise;
   const double louder = gyro.noise.value_or(1.0);
@@ -202,9 +202,19 @@ Observation sun_observation(const Observations& all, const SunObservation& sun,
   return said;
 }
 
+std::int64_t Observations::gyro_left_out_by(Rejection test) const {
+  return std::count_if(gyro_left_out.begin(), gyro_left_out.end(),
+                       [=](const RejectedSample& sample) { return sample.rejected_by == test; });
+}
+
+void add_gyro_left_out(const Observations& all, std::vector<Observation>& said) {
+  std::transform(all.gyro_left_out.begin(), all.gyro_left_out.end(), std::back_inserter(said),
+                 &observation_of);
+}
+
 SensorResiduals gyro_residuals(const Observations& all) {
   return {.count = all.gyro_samples,
-          .outliers = all.saturated + all.frozen + all.outliers,
+          .outliers = std::ssize(all.gyro_left_out),
           .noise = all.gyro_noise};
 }
 

@@ -41,14 +41,13 @@ struct Observations {
   double gyro_noise_rad_s = 0.0;  ///< That of the samples, where it is more than stated.
   std::optional<double> gyro_noise = std::nullopt;  ///< Over the stated one.
   std::int64_t gyro_samples = 0;
-  std::int64_t saturated = 0;
-  std::int64_t frozen = 0;
-  std::int64_t outliers = 0;        ///< Of the gyro (gyro_outlier.h).
+  std::vector<RejectedSample> gyro_left_out = {};
   bool first_is_outlier = false;    ///< Of those one is the first behind T2.
   std::int64_t in_shadow = 0;       ///< Sun vectors while the Earth hid the Sun, left out.
   std::int64_t shadow_unknown = 0;  ///< Sun vectors that the orbit does not cover.
 
   double seconds_of(TaiTime t) const { return seconds_between(origin, t); }
+  std::int64_t gyro_left_out_by(Rejection test) const;
 };
 
 /// What a sun vector says: about two axes across it.
@@ -62,6 +61,7 @@ Observation sun_observation(const Observations& all, const SunObservation& sun,
 inline constexpr double kUsedBehindFirstFix_s = 120.0;
 
 SensorResiduals gyro_residuals(const Observations& all);
+void add_gyro_left_out(const Observations& all, std::vector<Observation>& said);
 
 /// So far beyond gyro samples, in order of time, an event or a star fix may lie: the next sample
 /// was on its way.

@@ -85,7 +85,8 @@ struct Reconstruction {
   SensorResiduals gyro;
   SensorResiduals sun;
   SensorResiduals star;
-  /// What sun vectors and star fixes said, used or not, in rad; each sensor in order of time.
+  /// What sun vectors and star fixes said, used or not, in rad, and the gyro samples that were left
+  /// out; each sensor in order of time.
   std::vector<Observation> said = {};
   Assessment assessment;
   int iterations;  ///< Of Ceres.

@@ -53,10 +53,11 @@ void add_gyro(const Observations& all, Doubts& doubts) {
     doubts.add({GyroGaps, {{"count", all.rates.gaps()}, {"longest_s", longest_s}}},
                longest_s > kLongGap_s);
   }
-  doubts.count(GyroSaturated, all.saturated, true);
-  doubts.count(GyroFrozen, all.frozen, true);
-  doubts.count(GyroOutliers, all.outliers,
-               all.first_is_outlier || is_many(all.outliers, all.gyro_samples, kManyOutliers));
+  doubts.count(GyroSaturated, all.gyro_left_out_by(Rejection::Saturated), true);
+  doubts.count(GyroFrozen, all.gyro_left_out_by(Rejection::Frozen), true);
+  const std::int64_t outliers = all.gyro_left_out_by(Rejection::Outlier);
+  doubts.count(GyroOutliers, outliers,
+               all.first_is_outlier || is_many(outliers, all.gyro_samples, kManyOutliers));
 }
 
 void add_noise(const char* sensor, const SensorResiduals& residuals, Doubts& doubts) {
@@ -86,8 +87,8 @@ Assessment assess(const ReconstructionRequest& request, const Observations& all,
   const bool unchecked = result.sun.count == 0 && result.star.count == 1;
   Doubts doubts{.assessment = {unchecked ? Quality::Converging : Quality::Ok}};
   doubts.count(StarFixes, result.star.count, false);
-  doubts.count(StarFixesGated, std::ssize(stars.gated),
-               is_many(std::ssize(stars.gated), std::ssize(stars.accepted), kManyFixesGated));
+  const std::int64_t gated = std::ssize(stars.gated());
+  doubts.count(StarFixesGated, gated, is_many(gated, std::ssize(stars.accepted), kManyFixesGated));
   if (stars.contradict) {
     doubts.add({StarFixesContradict}, true);
   }

@@ -155,7 +155,7 @@ class Backwards {
                                 noise_rad * noise_rad * Matrix3d::Identity();
     Observation said = sun_observation(all, sun, sun.measured_body - predicted, covariance);
     said.limit = innovation_gate(2);
-    if (said.nis >= said.limit) {
+    if (said.nis > said.limit) {
       said.rejected_by = Rejection::Innovation;
     }
     return said;
@@ -281,17 +281,23 @@ Expected<Reconstruction> reconstruct_sequential(const ReconstructionRequest& req
                                                 const Observations& all) {
   const GyroSensor& gyro = *request.sensors.gyro;
   const StarConsensus stars =
-      consensus_of(all.rates, all.stars,
+      consensus_of(all, all.stars,
                    {.star_rad = request.sensors.star_tracker->noise_rad,
                     .bias_rad_s = Vector3d::Zero(),
                     .bias_covariance_rad2_s2 =
                         gyro.bias_sigma_rad_s * gyro.bias_sigma_rad_s * Matrix3d::Identity()});
   const double last_s = all.seconds_of(all.events.back().t);
-  const auto pass = backwards(request, all, anchor(stars.accepted, last_s));
+  const StarObservation& star = anchor(stars.accepted, last_s);
+  const auto pass = backwards(request, all, star);
   if (!pass) {
     return Unexpected{pass.error()};
   }
   History history = history_of(request, all, pass->nodes);
+  std::vector<Observation> said{pass->said.rbegin(), pass->said.rend()};
+  const TaiTime anchored = shifted(all.origin, star.t_s);
+  std::copy_if(stars.said.begin(), stars.said.end(), std::back_inserter(said),
+               [=](const Observation& one) { return one.rejected_by || one.t == anchored; });
+  add_gyro_left_out(all, said);
   Reconstruction result{.method = ReconstructionMethod::Sequential,
                         .events = events_of(all, history),
                         .history = std::move(history.attitudes),
@@ -300,11 +306,10 @@ Expected<Reconstruction> reconstruct_sequential(const ReconstructionRequest& req
                         .open_bias = {},
                         .gyro = gyro_residuals(all),
                         .sun = pass->sun,
-                        .star = {.count = 1, .outliers = std::ssize(stars.gated)},
-                        .said = {pass->said.rbegin(), pass->said.rend()},
+                        .star = {.count = 1, .outliers = std::ssize(stars.gated())},
+                        .said = std::move(said),
                         .assessment = {},
                         .iterations = pass->iterations};
-  add_gated(all, stars, result.said);
   result.assessment = assess(request, all, result, stars);
   return result;
 }

@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <iterator>
 #include <utility>
 
@@ -16,6 +18,8 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kNeighbours = 4;
 
+bool is_left_out(const Observation& said) { return said.rejected_by.has_value(); }
+
 Turn joined(const Turn& first, const Turn& then) {
   const Matrix3d back = then.turn.toRotationMatrix().transpose();
   return {
@@ -24,86 +28,113 @@ Turn joined(const Turn& first, const Turn& then) {
       .covariance_rad2 = back * first.covariance_rad2 * back.transpose() + then.covariance_rad2};
 }
 
-/// Normalised, of three degrees of freedom.
-double squared_difference(const StarObservation& earlier, const StarObservation& later,
-                          const Turn& turn, const ConsensusNoise& noise) {
+/// Of one fix from where another has it, about its axes.
+struct Difference {
+  Residual residual;
+  double nis;
+};
+
+/// Of the later one, and of the earlier one.
+std::array<Difference, 2> differences(const StarObservation& earlier, const StarObservation& later,
+                                      const Turn& turn, const ConsensusNoise& noise) {
   const Vector3d off_rad = rotation_vector_of(
       turn.turn.conjugate() * (earlier.q_icrf_body.conjugate() * later.q_icrf_body));
   const Matrix3d covariance_rad2 =
       turn.covariance_rad2 + 2.0 * noise.star_rad * noise.star_rad * Matrix3d::Identity() +
       turn.per_bias_s * noise.bias_covariance_rad2_s2 * turn.per_bias_s.transpose();
-  return off_rad.dot(covariance_rad2.llt().solve(off_rad));
+  const double nis = off_rad.dot(covariance_rad2.llt().solve(off_rad));
+  const auto about = [&](const Matrix3d& axes) {
+    return Residual{.freedom = 3,
+                    .value = axes * off_rad,
+                    .sigma = (axes * covariance_rad2 * axes.transpose()).diagonal().cwiseSqrt()};
+  };
+  return {Difference{about(Matrix3d::Identity()), nis},
+          Difference{about(-turn.turn.toRotationMatrix()), nis}};
 }
 
-/// That of the neighbour in the middle, or the lower of two there: where it agrees, at least half
-/// do.
-double middle_of(std::vector<double> squares) {
-  if (squares.empty()) {
-    return 0.0;
+/// By those of its neighbours that `differ` has, the one in the middle, or the lower of two there:
+/// where that agrees, at least half do.
+Observation said_by(TaiTime t, std::vector<Difference> differ) {
+  Observation said{.t = t, .source = SampleSource::Star, .limit = innovation_gate(3)};
+  if (differ.empty()) {
+    return said;
   }
-  const auto middle = squares.begin() + (std::ssize(squares) - 1) / 2;
-  std::nth_element(squares.begin(), middle, squares.end());
-  return *middle;
+  const auto middle = differ.begin() + (std::ssize(differ) - 1) / 2;
+  std::nth_element(differ.begin(), middle, differ.end(),
+                   [](const Difference& a, const Difference& b) { return a.nis < b.nis; });
+  said.residual = middle->residual;
+  said.nis = middle->nis;
+  if (said.nis > said.limit) {
+    said.rejected_by = Rejection::Innovation;
+  }
+  return said;
 }
 
-/// Those that agree with at least half of their neighbours among these.
-/// @param gated The others are added to it.
-std::vector<StarObservation> agreeing(const RateTrack& rates,
-                                      std::span<const StarObservation> stars,
-                                      const ConsensusNoise& noise, std::vector<GatedStar>& gated) {
+/// What each says among these.
+std::vector<Observation> observations_among(std::span<const StarObservation> stars,
+                                            const Observations& all, const ConsensusNoise& noise) {
   std::vector<double> times_s;
   for (const StarObservation& star : stars) {
     times_s.push_back(star.t_s);
   }
-  const std::vector<Turn> turns = rates.turns(times_s, noise.bias_rad_s);
-  std::vector<std::vector<double>> squares(stars.size());
+  const std::vector<Turn> turns = all.rates.turns(times_s, noise.bias_rad_s);
+  std::vector<std::vector<Difference>> differ(stars.size());
   for (std::size_t i = 0; i < stars.size(); ++i) {
     Turn turn;
     for (std::size_t j = i + 1; j < std::min(stars.size(), i + 1 + kNeighbours); ++j) {
       turn = joined(turn, turns[j - 1]);
-      const double apart = squared_difference(stars[i], stars[j], turn, noise);
-      squares[i].push_back(apart);
-      squares[j].push_back(apart);
+      const auto [of_later, of_earlier] = differences(stars[i], stars[j], turn, noise);
+      differ[j].push_back(of_later);
+      differ[i].push_back(of_earlier);
     }
   }
-  std::vector<StarObservation> accepted;
+  std::vector<Observation> said;
   for (std::size_t i = 0; i < stars.size(); ++i) {
-    const double nis = middle_of(std::move(squares[i]));
-    if (nis < innovation_gate(3)) {
-      accepted.push_back(stars[i]);
-    } else {
-      gated.push_back({.of = stars[i], .nis = nis});
-    }
+    said.push_back(said_by(shifted(all.origin, stars[i].t_s), std::move(differ[i])));
   }
-  return accepted;
+  return said;
 }
 
 }  // namespace
 
-void add_gated(const Observations& all, const StarConsensus& stars,
-               std::vector<Observation>& said) {
-  for (const GatedStar& star : stars.gated) {
-    said.push_back({.t = shifted(all.origin, star.of.t_s),
-                    .source = SampleSource::Star,
-                    .nis = star.nis,
-                    .limit = innovation_gate(3),
-                    .rejected_by = Rejection::Innovation});
-  }
-}
-
-StarConsensus consensus_of(const RateTrack& rates, std::span<const StarObservation> stars,
+StarConsensus consensus_of(const Observations& all, std::span<const StarObservation> stars,
                            const ConsensusNoise& noise) {
   StarConsensus result{.accepted = {stars.begin(), stars.end()}};
-  for (std::size_t before = 0; before != result.accepted.size();) {
-    before = result.accepted.size();
-    result.accepted = agreeing(rates, result.accepted, noise, result.gated);
+  std::vector<Observation> said = observations_among(stars, all, noise);
+  while (std::any_of(said.begin(), said.end(), is_left_out)) {
+    std::vector<StarObservation> agree;
+    for (std::size_t i = 0; i < said.size(); ++i) {
+      if (is_left_out(said[i])) {
+        result.said.push_back(said[i]);
+      } else {
+        agree.push_back(result.accepted[i]);
+      }
+    }
+    result.accepted = std::move(agree);
+    said = observations_among(result.accepted, all, noise);
   }
   result.contradict = result.accepted.empty();
   if (result.contradict) {
     result.accepted.assign(stars.begin(), stars.end());
-    result.gated.clear();
+    result.said.clear();
+    for (const StarObservation& star : stars) {
+      said.push_back(said_by(shifted(all.origin, star.t_s), {}));
+    }
   }
+  result.add(said);
   return result;
+}
+
+void StarConsensus::add(const std::vector<Observation>& more) {
+  said.insert(said.end(), more.begin(), more.end());
+  std::sort(said.begin(), said.end(),
+            [](const Observation& a, const Observation& b) { return a.t < b.t; });
+}
+
+std::vector<Observation> StarConsensus::gated() const {
+  std::vector<Observation> gated;
+  std::copy_if(said.begin(), said.end(), std::back_inserter(gated), is_left_out);
+  return gated;
 }
 
 }  // namespace spindrift

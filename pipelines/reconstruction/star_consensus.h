@@ -8,22 +8,22 @@
 #include <span>
 #include <vector>
 
+#include "pipelines/observation/observation.h"
 #include "pipelines/reconstruction/observations.h"
-#include "pipelines/reconstruction/rate_track.h"
 
 namespace spindrift {
 
-/// One that disagrees with most of its neighbours.
-struct GatedStar {
-  StarObservation of;
-  double nis;  ///< Of the difference from the one that is in the middle of them, three freedoms.
-};
-
 struct StarConsensus {
   std::vector<StarObservation> accepted;
-  std::vector<GatedStar> gated = {};
+  /// Of each fix, used or not, off the neighbour that is in the middle of them. Nothing is expected
+  /// of one without neighbours, nor where they contradict each other. In order of time.
+  std::vector<Observation> said = {};
   /// No fix has most of its neighbours with it: all are accepted, as nobody knows which is wrong.
   bool contradict = false;
+
+  /// What those said that disagree with most of their neighbours.
+  std::vector<Observation> gated() const;
+  void add(const std::vector<Observation>& more);
 };
 
 struct ConsensusNoise {
@@ -32,12 +32,9 @@ struct ConsensusNoise {
   Eigen::Matrix3d bias_covariance_rad2_s2;
 };
 
-/// What those said that were gated: how far off they are nobody has found.
-void add_gated(const Observations& all, const StarConsensus& stars, std::vector<Observation>& said);
-
 /// A fix is accepted that agrees with at least half of the four before and the four behind it that
 /// are accepted.
-StarConsensus consensus_of(const RateTrack& rates, std::span<const StarObservation> stars,
+StarConsensus consensus_of(const Observations& all, std::span<const StarObservation> stars,
                            const ConsensusNoise& noise);
 
 }  // namespace spindrift

@@ -96,14 +96,8 @@ AttitudeEstimator::AttitudeEstimator(const ThreeAxisConfig& config)
       ledger_{kSampleRules} {}
 
 void AttitudeEstimator::push(const GyroSample& sample, Products& out) {
-  if (const auto rejection = judge(sample)) {
-    leave_out(
-        {.t = sample.t,
-         .kind = SampleKind::Gyro,
-         .rejected_by = *rejection,
-         .failed = gyro_unit_.factor() ? FailedTest{.value = *gyro_unit_.factor(), .limit = 1.0}
-                                       : gyro_.failed(sample)},
-        out);
+  if (const auto rejected = judge(sample)) {
+    leave_out(*rejected, out);
     if (!waits_for_gyro(sample.t)) {
       give_way(sample.t, out);
       give_where_due(out);
@@ -120,10 +114,13 @@ void AttitudeEstimator::push(const GyroSample& sample, Products& out) {
   }
 }
 
-std::optional<Rejection> AttitudeEstimator::judge(const GyroSample& sample) {
+std::optional<RejectedSample> AttitudeEstimator::judge(const GyroSample& sample) {
   gyro_unit_.note(sample);
-  if (gyro_unit_.factor()) {
-    return Rejection::Unit;
+  if (const auto factor = gyro_unit_.factor()) {
+    return RejectedSample{.t = sample.t,
+                          .kind = SampleKind::Gyro,
+                          .rejected_by = Rejection::Unit,
+                          .failed = FailedTest{.value = *factor, .limit = 1.0}};
   }
   return gyro_.judge(sample);
 }
@@ -137,11 +134,7 @@ void AttitudeEstimator::decide_suspect(const GyroSample& next, Products& out) {
 }
 
 void AttitudeEstimator::leave_out_suspect(const GyroDeviation& off, Products& out) {
-  leave_out({.t = std::exchange(suspect_, std::nullopt)->t,
-             .kind = SampleKind::Gyro,
-             .rejected_by = Rejection::Outlier,
-             .failed = FailedTest{.value = off.off_rad_s, .limit = off.limit_rad_s}},
-            out);
+  leave_out(outlier(*std::exchange(suspect_, std::nullopt), off), out);
 }
 
 void AttitudeEstimator::leave_out_suspect(Products& out) {
@@ -225,11 +218,7 @@ bool AttitudeEstimator::is_frozen(TaiTime t, SampleKind kind, const FrozenSample
   FrozenSamples& frozen = frozen_.at(index_of(kind));
   const bool is_frozen = frozen.note(values, noise) > 0;
   if (is_frozen) {
-    leave_out({.t = t,
-               .kind = kind,
-               .rejected_by = Rejection::Frozen,
-               .failed = FailedTest{.value = static_cast<double>(frozen.repeats()),
-                                    .limit = frozen.most_by_chance()}},
+    leave_out({.t = t, .kind = kind, .rejected_by = Rejection::Frozen, .failed = frozen.failed()},
               out);
   }
   return is_frozen;
@@ -395,7 +384,7 @@ void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& o
     leave_out({.t = seen.t,
                .kind = seen.kind,
                .rejected_by = Rejection::Innovation,
-               .squared_innovation = strength},
+               .failed = FailedTest{.value = strength, .limit = innovation_gate(1)}},
               out);
     return;
   }
@@ -428,9 +417,11 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
   said.residual.sigma *= length;
   out.emplace_back(SampleObservation{.estimator = AttitudeSource::Mekf, .said = said});
   if (said.rejected_by) {
-    leave_out(
-        {.t = t, .kind = kind, .rejected_by = *said.rejected_by, .squared_innovation = said.nis},
-        out);
+    leave_out({.t = t,
+               .kind = kind,
+               .rejected_by = *said.rejected_by,
+               .failed = FailedTest{.value = said.nis, .limit = said.limit}},
+              out);
     if (!is_out(kind)) {
       ledger_.add({&said, 1});
       ++rejected_in_a_row_;

@@ -94,7 +94,7 @@ class AttitudeEstimator {
  private:
   using Sample = std::variant<StarFix, SeenDirection>;
 
-  std::optional<Rejection> judge(const GyroSample& sample);
+  std::optional<RejectedSample> judge(const GyroSample& sample);
   void take_in_gyro(const GyroSample& sample, Products& out);
   void decide_suspect(const GyroSample& next, Products& out);
   void leave_out_suspect(const GyroDeviation& off, Products& out);

@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "pipelines/three_axis/products.h"
+
 namespace spindrift {
 
 class FrozenSamples {
@@ -39,8 +41,8 @@ class FrozenSamples {
 
   /// Of the last sample.
   int repeats() const { return repeats_; }
-  /// So many in a row are not too many, where it repeats.
-  double most_by_chance() const { return most_by_chance_; }
+  /// Where it repeats: how many, and how many in a row are not too many.
+  FailedTest failed() const { return {static_cast<double>(repeats_), most_by_chance_}; }
 
   /// Of the value where it is coarsest; 0: no value ever changed.
   double step() const;

@@ -1,7 +1,7 @@
 #include "pipelines/three_axis/gyro_watch.h"
 
-#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "pipelines/statistics/significance.h"
@@ -11,40 +11,22 @@ namespace spindrift {
 namespace {
 
 constexpr double kRecentInterval = 0.1;
-constexpr double kGap = 1.5;        // Usual intervals.
-constexpr double kClipped = 0.999;  // Of the range.
+constexpr double kGap = 1.5;  // Usual intervals.
 // Of the noise, of each axis of a sample: it comes to the median within some ten samples.
 constexpr double kRecentNoise = 0.05;
 
 }  // namespace
 
-bool is_saturated(const GyroSample& sample, const GyroSensor& sensor) {
-  return sensor.range_rad_s &&
-         sample.rate_body_rad_s.cwiseAbs().maxCoeff() >= kClipped * *sensor.range_rad_s;
-}
-
-std::optional<Rejection> GyroWatch::judge(const GyroSample& sample) {
+std::optional<RejectedSample> GyroWatch::judge(const GyroSample& sample) {
   const bool was_out = out_because_.has_value();
   const bool is_frozen = frozen_.note(sample.rate_body_rad_s, sensor_.noise_rad_s) > 0;
-  if (is_saturated(sample, sensor_)) {
-    out_because_ = Rejection::Saturated;
-  } else if (is_frozen) {
-    out_because_ = Rejection::Frozen;
-  } else {
-    out_because_ = std::nullopt;
-  }
+  auto rejected =
+      rejected_alone(sample, sensor_, is_frozen ? std::optional{frozen_.failed()} : std::nullopt);
+  out_because_ = rejected ? std::optional{rejected->rejected_by} : std::nullopt;
   if (out_because_ && !was_out) {
     out_since_ = sample.t;
   }
-  return out_because_;
-}
-
-FailedTest GyroWatch::failed(const GyroSample& sample) const {
-  if (out_because_ == Rejection::Saturated) {
-    return {.value = sample.rate_body_rad_s.cwiseAbs().maxCoeff(),
-            .limit = kClipped * sensor_.range_rad_s.value()};
-  }
-  return {.value = static_cast<double>(frozen_.repeats()), .limit = frozen_.most_by_chance()};
+  return rejected;
 }
 
 std::optional<GyroDeviation> GyroWatch::deviation_from_line(const GyroSample& sample) const {
@@ -55,11 +37,12 @@ std::optional<GyroDeviation> GyroWatch::deviation_from_line(const GyroSample& sa
 
 GyroDeviation GyroWatch::deviation_from_both(const GyroSample& suspect,
                                              const GyroSample& next) const {
-  return deviation(last_->rate_body_rad_s, suspect.rate_body_rad_s, next.rate_body_rad_s,
-                   change_rad_s(*before_last_, *last_, last_->t, suspect.t), scatter_rad_s());
+  return deviation(std::array{*before_last_, *last_, suspect, next}, 2, scatter_rad_s());
 }
 
-double GyroWatch::scatter_rad_s() const { return std::max(noise_rad_s_, 0.5 * frozen_.step()); }
+double GyroWatch::scatter_rad_s() const {
+  return noise_or_step_rad_s(noise_rad_s_, frozen_.step());
+}
 
 void GyroWatch::accept(const GyroSample& sample) {
   wander_.note(sample.t, sample.rate_body_rad_s);
@@ -82,13 +65,9 @@ void GyroWatch::note_interval(double interval_s) {
 
 /// Of the median: as many deviations are above as below it.
 void GyroWatch::note_noise(const GyroSample& sample) {
-  const double share = elapsed_s(last_->t, sample.t) / elapsed_s(before_last_->t, last_->t);
-  const Eigen::Vector3d off_rad_s =
-      sample.rate_body_rad_s - last_->rate_body_rad_s -
-      share * (last_->rate_body_rad_s - before_last_->rate_body_rad_s);
-  const double spread = std::sqrt(1.0 + (1.0 + share) * (1.0 + share) + share * share);
-  for (const double off : off_rad_s) {
-    const bool is_more = std::abs(off) > kMedianDeviation * spread * noise_rad_s_;
+  const OffLine line = off_line(sample, *last_, *before_last_);
+  for (const double off : line.off_rad_s) {
+    const bool is_more = std::abs(off) > kMedianDeviation * line.spread * noise_rad_s_;
     noise_rad_s_ *= is_more ? 1.0 + kRecentNoise : 1.0 - kRecentNoise;
   }
   noise_rad_s_ = std::max(noise_rad_s_, sensor_.noise_rad_s);

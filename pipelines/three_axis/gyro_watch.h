@@ -1,5 +1,6 @@
 /// @file
-/// Which gyro samples are measurements, and how the rate changes between them.
+/// Which gyro samples are measurements, as they come, and how the rate changes between them. All of
+/// a span together: gyro_screening.h.
 
 #pragma once
 
@@ -7,16 +8,12 @@
 
 #include "pipelines/three_axis/config.h"
 #include "pipelines/three_axis/frozen_samples.h"
-#include "pipelines/three_axis/gyro_outlier.h"
+#include "pipelines/three_axis/gyro_tests.h"
 #include "pipelines/three_axis/products.h"
 #include "pipelines/three_axis/rate_wander.h"
 #include "pipelines/three_axis/samples.h"
 
 namespace spindrift {
-
-/// Within a thousandth of the range or beyond it: a clipped rate is told by the last number that
-/// the telemetry has below the range.
-bool is_saturated(const GyroSample& sample, const GyroSensor& sensor);
 
 class GyroWatch {
  public:
@@ -26,10 +23,7 @@ class GyroWatch {
   /// Once for each sample.
   /// @param sample Later than the one before.
   /// @return Why it is no measurement whatever comes; empty: it may be one.
-  std::optional<Rejection> judge(const GyroSample& sample);
-
-  /// What the last sample that `judge` took for none has failed, and what it was held against.
-  FailedTest failed(const GyroSample& sample) const;
+  std::optional<RejectedSample> judge(const GyroSample& sample);
 
   /// How far it is off the line through the two before it; empty: there are none. One that stands
   /// out is suspect: the next one must tell what it is.

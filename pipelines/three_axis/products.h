@@ -32,8 +32,9 @@ constexpr SampleKind kind_of(SampleSource source) {
   return static_cast<SampleKind>(index_of(source) - index_of(SampleSource::OrbitState));
 }
 
-/// What failed a test, and what it was held against: of Saturated and Outlier rad/s, of Frozen how
-/// many samples repeat, of Unit how many times too large the rates are.
+/// What failed a test, and what it was held against: of Innovation the normalised square, of
+/// Saturated and Outlier rad/s, of Frozen how many samples repeat, of Unit how many times too large
+/// the rates are.
 struct FailedTest {
   double value;
   double limit;
@@ -43,9 +44,11 @@ struct RejectedSample {
   TaiTime t;
   SampleKind kind;
   Rejection rejected_by;
-  std::optional<double> squared_innovation = {};  ///< Normalised; of Innovation.
-  std::optional<FailedTest> failed = {};
+  std::optional<FailedTest> failed = {};  ///< Empty: the test has no number.
 };
+
+/// Of the gyro, which no estimator expects: its residual is what the test found.
+Observation observation_of(const RejectedSample& gyro);
 
 /// The record of one sensor in a pass.
 struct SensorHealth {

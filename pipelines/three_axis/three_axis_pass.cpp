@@ -7,7 +7,6 @@
 #include "pipelines/ephemeris/shadow.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/geomagnetism/field_at_spacecraft.h"
-#include "pipelines/observation/innovation_gate.h"
 
 namespace spindrift {
 namespace {
@@ -15,9 +14,6 @@ namespace {
 // Fewer may be left out by chance, or for what passes.
 constexpr std::int64_t kFewestLeftOut = 50;
 constexpr double kMostLeftOut = 0.9;
-
-/// Of what a sample is tested with: a field has a strength, too.
-int freedom_of(SampleKind kind) { return kind == SampleKind::Sun ? 2 : 3; }
 
 }  // namespace
 
@@ -273,11 +269,11 @@ Notice ThreeAxisPass::most_left_out(const RejectedSample& last, double percent) 
                  {"rejected_by", std::string{name_of(last.rejected_by)}}}};
   if (last.rejected_by == Rejection::Saturated) {
     notice.values.push_back({"rate_deg_s", degrees(last.failed.value().value)});
-    notice.values.push_back({"range_deg_s", degrees(last.failed.value().limit)});
+    notice.values.push_back({"range_deg_s", degrees(config_.gyro->range_rad_s.value())});
   }
-  if (last.squared_innovation) {
-    notice.values.push_back({"sigmas", std::sqrt(*last.squared_innovation)});
-    notice.values.push_back({"most_sigmas", std::sqrt(innovation_gate(freedom_of(last.kind)))});
+  if (last.rejected_by == Rejection::Innovation) {
+    notice.values.push_back({"sigmas", std::sqrt(last.failed.value().value)});
+    notice.values.push_back({"most_sigmas", std::sqrt(last.failed.value().limit)});
   }
   return notice;
 }

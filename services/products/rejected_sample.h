@@ -15,11 +15,22 @@
 
 namespace spindrift {
 
-/// Rates are stored in deg/s, all else is a number.
-inline double unit_of_test(const RejectedSample& sample) {
-  const bool is_rate =
-      sample.rejected_by == Rejection::Saturated || sample.rejected_by == Rejection::Outlier;
+/// What a test finds is stored in: rates in deg/s, all else is a number.
+inline double unit_of_test(Rejection test) {
+  const bool is_rate = test == Rejection::Saturated || test == Rejection::Outlier;
   return is_rate ? kDegPerRad : 1.0;
+}
+/// Of the gyro.
+inline std::string_view name_of_test_unit(Rejection test) {
+  switch (test) {
+    case Rejection::Saturated:
+    case Rejection::Outlier:
+      return "deg_s";
+    case Rejection::Frozen:
+      return "samples";
+    default:
+      return "times";
+  }
 }
 
 struct RejectedSampleTable {
@@ -31,17 +42,21 @@ struct RejectedSampleTable {
       ProductColumn{"rejected_by",
                     [](const RejectedSample& sample) { return name_of(sample.rejected_by); }},
       ProductColumn{"squared_innovation",
-                    [](const RejectedSample& sample) { return sample.squared_innovation; }},
-      ProductColumn{"value",
                     [](const RejectedSample& sample) {
-                      return sample.failed
-                                 ? std::optional{sample.failed->value * unit_of_test(sample)}
+                      return sample.rejected_by == Rejection::Innovation
+                                 ? std::optional{sample.failed.value().value}
                                  : std::nullopt;
                     }},
+      ProductColumn{"value",
+                    [](const RejectedSample& sample) {
+                      return sample.failed ? std::optional{sample.failed->value *
+                                                           unit_of_test(sample.rejected_by)}
+                                           : std::nullopt;
+                    }},
       ProductColumn{"limit", [](const RejectedSample& sample) {
-                      return sample.failed
-                                 ? std::optional{sample.failed->limit * unit_of_test(sample)}
-                                 : std::nullopt;
+                      return sample.failed ? std::optional{sample.failed->limit *
+                                                           unit_of_test(sample.rejected_by)}
+                                           : std::nullopt;
                     }});
   /// A sample that is late is not said to be so when something else has become of it: it arrived
   /// twice.
@@ -52,32 +67,25 @@ struct RejectedSampleTable {
 struct GyroResidualTable {
   static constexpr std::string_view kName = "sample_residual";
   static constexpr std::array<std::string_view, 3> kKey{"estimator", "t_tai_ns", "kind"};
-  static constexpr std::string_view kCondition = "kind = 'gyro'";
+  static constexpr std::string_view kCondition =
+      "kind = 'gyro' AND estimator NOT IN ('batch', 'sequential')";
 
   using One = RejectedSample;
   static bool has_row(const One& sample) {
     return sample.kind == SampleKind::Gyro && sample.failed.has_value();
-  }
-  static std::string_view unit(const One& sample) {
-    switch (sample.rejected_by) {
-      case Rejection::Saturated:
-      case Rejection::Outlier:
-        return "deg_s";
-      case Rejection::Frozen:
-        return "samples";
-      default:
-        return "times";
-    }
   }
   static constexpr auto kColumns = columns(
       ProductColumn{"estimator", [](const One& /*one*/) { return name_of(AttitudeSource::Mekf); }},
       ProductColumn{"t_tai_ns", [](const One& one) { return tai_ns(one.t); }},
       ProductColumn{"kind", [](const One& one) { return name_of(one.kind); }},
       ProductColumn{"dof", [](const One& /*one*/) { return std::int64_t{1}; }},
-      ProductColumn{"unit", &unit},
-      ProductColumn{"residual_1",
-                    [](const One& one) { return one.failed->value * unit_of_test(one); }},
-      ProductColumn{"limit", [](const One& one) { return one.failed->limit * unit_of_test(one); }},
+      ProductColumn{"unit", [](const One& one) { return name_of_test_unit(one.rejected_by); }},
+      ProductColumn{
+          "residual_1",
+          [](const One& one) { return one.failed->value * unit_of_test(one.rejected_by); }},
+      ProductColumn{
+          "limit",
+          [](const One& one) { return one.failed->limit * unit_of_test(one.rejected_by); }},
       ProductColumn{"used", [](const One& /*one*/) { return false; }},
       ProductColumn{"rejected_by", [](const One& one) { return name_of(one.rejected_by); }});
 };

@@ -11,30 +11,47 @@
 #include "pipelines/three_axis/products.h"
 #include "services/products/product_kind.h"
 #include "services/products/pulse_use.h"
+#include "services/products/rejected_sample.h"
 #include "services/units/degrees.h"
 
 namespace spindrift {
 
-/// Angles are stored in degrees, fields in nT.
-inline double unit_of_residual(SampleSource source) {
-  return source == SampleSource::Magnetometer ? 1.0 : kDegPerRad;
+/// A gyro sample, which is there only where it was left out (rejected_sample.h).
+inline bool is_gyro(const Observation& said) { return said.source == SampleSource::Gyro; }
+
+/// Angles are stored in degrees, fields in nT, of the gyro what its tests find.
+inline double unit_of_residual(const Observation& said) {
+  if (is_gyro(said)) {
+    return unit_of_test(said.rejected_by.value());
+  }
+  return said.source == SampleSource::Magnetometer ? 1.0 : kDegPerRad;
 }
-inline std::string_view name_of_unit(SampleSource source) {
-  return source == SampleSource::Magnetometer ? "nT" : "deg";
+inline std::string_view name_of_unit(const Observation& said) {
+  if (is_gyro(said)) {
+    return name_of_test_unit(said.rejected_by.value());
+  }
+  return said.source == SampleSource::Magnetometer ? "nT" : "deg";
 }
 
 /// Of a component; without a value beyond the freedom.
 template <int kComponent>
 std::optional<double> residual_of(const Observation& said) {
   return kComponent < said.residual.freedom
-             ? std::optional{said.residual.value[kComponent] * unit_of_residual(said.source)}
+             ? std::optional{said.residual.value[kComponent] * unit_of_residual(said)}
              : std::nullopt;
 }
 template <int kComponent>
 std::optional<double> sigma_of(const Observation& said) {
-  return kComponent < said.residual.freedom
-             ? std::optional{said.residual.sigma[kComponent] * unit_of_residual(said.source)}
+  return kComponent < said.residual.freedom && !is_gyro(said)
+             ? std::optional{said.residual.sigma[kComponent] * unit_of_residual(said)}
              : std::nullopt;
+}
+/// Without one where nothing was expected.
+inline std::optional<double> nis_of(const Observation& said) {
+  return said.residual.freedom > 0 && !is_gyro(said) ? std::optional{said.nis} : std::nullopt;
+}
+inline double limit_of(const Observation& said) {
+  return is_gyro(said) ? said.limit * unit_of_residual(said) : said.limit;
 }
 
 struct SampleResidualTable {
@@ -49,15 +66,15 @@ struct SampleResidualTable {
       ProductColumn{"t_tai_ns", [](const One& one) { return tai_ns(one.said.t); }},
       ProductColumn{"kind", [](const One& one) { return name_of(kind_of(one.said.source)); }},
       ProductColumn{"dof", [](const One& one) { return std::int64_t{one.said.residual.freedom}; }},
-      ProductColumn{"unit", [](const One& one) { return name_of_unit(one.said.source); }},
+      ProductColumn{"unit", [](const One& one) { return name_of_unit(one.said); }},
       ProductColumn{"residual_1", [](const One& one) { return residual_of<0>(one.said); }},
       ProductColumn{"residual_2", [](const One& one) { return residual_of<1>(one.said); }},
       ProductColumn{"residual_3", [](const One& one) { return residual_of<2>(one.said); }},
       ProductColumn{"sigma_1", [](const One& one) { return sigma_of<0>(one.said); }},
       ProductColumn{"sigma_2", [](const One& one) { return sigma_of<1>(one.said); }},
       ProductColumn{"sigma_3", [](const One& one) { return sigma_of<2>(one.said); }},
-      ProductColumn{"nis", [](const One& one) { return std::optional{one.said.nis}; }},
-      ProductColumn{"limit", [](const One& one) { return one.said.limit; }},
+      ProductColumn{"nis", [](const One& one) { return nis_of(one.said); }},
+      ProductColumn{"limit", [](const One& one) { return limit_of(one.said); }},
       ProductColumn{"used", [](const One& one) { return !one.said.rejected_by; }},
       ProductColumn{"rejected_by", [](const One& one) { return name_of(one.said.rejected_by); }});
 };

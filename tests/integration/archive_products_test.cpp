@@ -86,18 +86,19 @@ TEST_F(ArchiveProducts, ARejectedSampleKeepsItsFirstReasonWhenItComesAgain) {
   RejectedSample fix{.t = tai_from_ns(7),
                      .kind = SampleKind::Star,
                      .rejected_by = Rejection::Innovation,
-                     .squared_innovation = 40.5};
+                     .failed = FailedTest{.value = 40.5, .limit = 31.8}};
   batch.products = {fix};
   fix.rejected_by = Rejection::Late;
-  fix.squared_innovation.reset();
+  fix.failed.reset();
   batch.products.emplace_back(fix);
   fix.kind = SampleKind::Sun;
   batch.products.emplace_back(fix);
   store(batch);
 
-  EXPECT_EQ(text("SELECT group_concat(format('%d %s %s %g', t_tai_ns, kind, rejected_by,"
-                 " ifnull(squared_innovation, 0)), '; ') FROM rejected_sample"),
-            "7 star innovation 40.5; 7 sun late 0");
+  EXPECT_EQ(text("SELECT group_concat(format('%d %s %s %g %g %g', t_tai_ns, kind, rejected_by,"
+                 " ifnull(squared_innovation, 0), ifnull(value, 0), ifnull(\"limit\", 0)), '; ')"
+                 " FROM rejected_sample"),
+            "7 star innovation 40.5 40.5 31.8; 7 sun late 0 0 0");
   EXPECT_EQ(text("SELECT group_concat(what || ' ' || name || ' ' || rejected_by || ' ' || rejected,"
                  " '; ') FROM rejection_summary"),
             "sample star innovation 1; sample sun late 1");

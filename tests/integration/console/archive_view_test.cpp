@@ -70,7 +70,7 @@ TEST_F(ArchiveView, HasInnovationsAsNormalDeviates) {
        RejectedSample{.t = tai_from_ns(4 * kSecond_ns),
                       .kind = SampleKind::Sun,
                       .rejected_by = Rejection::Innovation,
-                      .squared_innovation = 100.0}});
+                      .failed = FailedTest{.value = 100.0, .limit = 28.7}}});
   ASSERT_EQ(found.size(), 3U);
   EXPECT_NEAR(found[0].value, 0.0, 0.02);
   EXPECT_NEAR(found[1].value, 3.0, 0.05);

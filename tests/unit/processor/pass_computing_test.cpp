@@ -26,10 +26,11 @@ class FakePass {
     }
     t_ = sample.t;
     ThreeAxisOutput output{
-        .products = {RejectedSample{.t = sample.t,
-                                    .kind = SampleKind::Gyro,
-                                    .rejected_by = Rejection::Innovation,
-                                    .squared_innovation = sample.rate_body_rad_s.x()}},
+        .products = {RejectedSample{
+            .t = sample.t,
+            .kind = SampleKind::Gyro,
+            .rejected_by = Rejection::Innovation,
+            .failed = FailedTest{.value = sample.rate_body_rad_s.x(), .limit = 1.0}}},
         .notices = {}};
     if (sample.rate_body_rad_s.z() != 0.0) {
       output.products.emplace_back(AttitudeEstimate{.t = sample.t,

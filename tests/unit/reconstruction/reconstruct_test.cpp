@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "tests/support/recorded_separation.h"
@@ -30,6 +34,16 @@ const ReconstructedEvent& at(const Reconstruction& found, SeparationEvent event)
 }
 
 double sigma_rad(const ReconstructedEvent& event) { return event.attitude.sigma_rad(); }
+
+/// Of what such samples said; empty: those that were used. What was left out is beyond its limit.
+std::int64_t count(const Reconstruction& found, SampleSource source,
+                   std::optional<Rejection> rejected_by) {
+  return std::count_if(found.said.begin(), found.said.end(), [&](const Observation& said) {
+    const double value = source == SampleSource::Gyro ? said.residual.value[0] : said.nis;
+    EXPECT_TRUE(said.source != source || (value > said.limit) == said.rejected_by.has_value());
+    return said.source == source && said.rejected_by == rejected_by;
+  });
+}
 
 /// Sigmas, of three degrees of freedom.
 double normalised(const Vector3d& error_rad, const ReconstructedEvent& event) {
@@ -203,6 +217,11 @@ TEST(ReconstructBatch, LeavesOutFrozenAndSaturatedSamples) {
   flight.gyro[500].rate_body_rad_s.x() = 0.1;
   const Reconstruction found = batch(flight.request());
   EXPECT_EQ(found.gyro.outliers, 20);
+  EXPECT_EQ(count(found, SampleSource::Gyro, Rejection::Frozen), 19);
+  EXPECT_EQ(count(found, SampleSource::Gyro, Rejection::Saturated), 1);
+  EXPECT_EQ(count(reconstruct(flight.request(), ReconstructionMethod::Sequential).value(),
+                  SampleSource::Gyro, Rejection::Frozen),
+            19);
   EXPECT_TRUE(has(found.assessment, ReasonCode::GyroFrozen));
   EXPECT_TRUE(has(found.assessment, ReasonCode::GyroSaturated));
   EXPECT_EQ(found.assessment.quality, Quality::Doubtful);
@@ -341,6 +360,12 @@ TEST(ReconstructBatch, UsesAllStarFixesButThoseFarOff) {
   flight.stars[0].q_icrf_sensor = flight.stars[0].q_icrf_sensor * quaternion_by({0.5, 0.0, 0.0});
   const Reconstruction dirty = batch(flight.request());
   EXPECT_EQ(dirty.star.outliers, 1);
+  EXPECT_EQ(count(dirty, SampleSource::Star, Rejection::Innovation), 1);
+  EXPECT_EQ(count(dirty, SampleSource::Star, std::nullopt), 20);
+  const Reconstruction backwards =
+      reconstruct(flight.request(), ReconstructionMethod::Sequential).value();
+  EXPECT_EQ(count(backwards, SampleSource::Star, Rejection::Innovation), 1);
+  EXPECT_EQ(count(backwards, SampleSource::Star, std::nullopt), 1);
   EXPECT_TRUE(has(dirty.assessment, ReasonCode::StarFixesGated));
   EXPECT_LT(normalised(flight.error_rad(3, at(dirty, FirstStarFix).attitude.q_icrf_body),
                        at(dirty, FirstStarFix)),

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/observation/innovation_gate.h"
 
 namespace spindrift::star_consensus_test {
 
@@ -12,8 +15,11 @@ using Eigen::Vector3d;
 
 constexpr double kStar_rad = 1e-4;
 
-const RateTrack kRates{
-    {{0.0, Vector3d{0.0, 0.0, 0.01}}, {100.0, Vector3d{0.0, 0.0, 0.01}}}, 0.0, 100.0, 1e-5};
+const Observations kAll{
+    .origin = tai_from_ns(7'000'000'000),
+    .events = {},
+    .rates = {
+        {{0.0, Vector3d{0.0, 0.0, 0.01}}, {100.0, Vector3d{0.0, 0.0, 0.01}}}, 0.0, 100.0, 1e-5}};
 const ConsensusNoise kNoise{kStar_rad, Vector3d::Zero(), 1e-8 * Matrix3d::Identity()};
 
 std::vector<StarObservation> fixes(int count) {
@@ -25,20 +31,50 @@ std::vector<StarObservation> fixes(int count) {
 }
 
 TEST(StarConsensus, OfOneFixIsThatFix) {
-  const StarConsensus found = consensus_of(kRates, fixes(1), kNoise);
+  const StarConsensus found = consensus_of(kAll, fixes(1), kNoise);
   EXPECT_EQ(found.accepted.size(), 1U);
   EXPECT_FALSE(found.contradict);
+  ASSERT_EQ(found.said.size(), 1U);
+  EXPECT_EQ(found.said[0].t, kAll.origin);
+  EXPECT_EQ(found.said[0].residual.freedom, 0);
+  EXPECT_FALSE(found.said[0].rejected_by);
 }
 
 TEST(StarConsensus, LeavesOutTheFixThatIsFarOffWhereverItIs) {
   for (const std::size_t wrong : {0U, 3U, 9U}) {
     std::vector<StarObservation> stars = fixes(10);
     stars[wrong].q_icrf_body = stars[wrong].q_icrf_body * quaternion_by({0.0, 0.05, 0.0});
-    const StarConsensus found = consensus_of(kRates, stars, kNoise);
-    EXPECT_EQ(found.gated.size(), 1U);
+    const StarConsensus found = consensus_of(kAll, stars, kNoise);
+    EXPECT_EQ(found.gated().size(), 1U);
     EXPECT_FALSE(found.contradict);
     for (const StarObservation& star : found.accepted) {
       EXPECT_NE(star.t_s, stars[wrong].t_s);
+    }
+  }
+}
+
+/// Whether the one in the middle of its neighbours is before it or behind it.
+TEST(StarConsensus, EachSaysHowFarItIsOffTheMiddleOfItsNeighboursAboutItsAxes) {
+  for (const std::size_t wrong : {0U, 3U, 9U}) {
+    std::vector<StarObservation> stars = fixes(10);
+    const Vector3d off_rad{0.0, 0.05, -0.02};
+    stars[wrong].q_icrf_body = stars[wrong].q_icrf_body * quaternion_by(off_rad);
+    const StarConsensus found = consensus_of(kAll, stars, kNoise);
+    ASSERT_EQ(found.said.size(), 10U);
+    for (std::size_t i = 0; i < found.said.size(); ++i) {
+      const Observation& said = found.said[i];
+      EXPECT_EQ(said.t, shifted(kAll.origin, static_cast<double>(i)));
+      EXPECT_EQ(said.source, SampleSource::Star);
+      EXPECT_EQ(said.residual.freedom, 3);
+      EXPECT_EQ(said.limit, innovation_gate(3));
+      EXPECT_EQ(said.rejected_by.has_value(), i == wrong);
+      EXPECT_EQ(said.nis > said.limit, i == wrong);
+      EXPECT_LT((said.residual.value - (i == wrong ? off_rad : Vector3d::Zero())).norm(), 1e-12);
+      // Of two fixes, the gyro and its bias: all axes alike, as far as these are small.
+      const double squares =
+          (said.residual.value.array() / said.residual.sigma.array()).square().sum();
+      EXPECT_NEAR(squares, said.nis, 1e-3 * said.nis + 1e-12);
+      EXPECT_GT(said.residual.sigma.minCoeff(), std::sqrt(2.0) * kStar_rad);
     }
   }
 }
@@ -49,23 +85,28 @@ TEST(StarConsensus, LeavesOutFourFalseOnesBeforeFiveTrueOnes) {
   for (std::size_t i = 0; i < 4; ++i) {
     stars[i].q_icrf_body = stars[i].q_icrf_body * quaternion_by({0.0, 0.05, 0.0});
   }
-  const StarConsensus found = consensus_of(kRates, stars, kNoise);
-  EXPECT_EQ(found.gated.size(), 4U);
+  const StarConsensus found = consensus_of(kAll, stars, kNoise);
+  EXPECT_EQ(found.gated().size(), 4U);
   EXPECT_EQ(found.accepted.front().t_s, 4.0);
 }
 
 TEST(StarConsensus, SaysThatTwoContradictEachOther) {
   std::vector<StarObservation> stars = fixes(2);
   stars[0].q_icrf_body = stars[0].q_icrf_body * quaternion_by({0.0, 0.05, 0.0});
-  const StarConsensus found = consensus_of(kRates, stars, kNoise);
+  const StarConsensus found = consensus_of(kAll, stars, kNoise);
   EXPECT_TRUE(found.contradict);
   EXPECT_EQ(found.accepted.size(), 2U);
+  EXPECT_EQ(found.said.size(), 2U);
+  for (const Observation& said : found.said) {
+    EXPECT_EQ(said.residual.freedom, 0);
+    EXPECT_FALSE(said.rejected_by);
+  }
 }
 
 TEST(StarConsensus, TakesAFlippedSignForTheSameAttitude) {
   std::vector<StarObservation> stars = fixes(3);
   stars[1].q_icrf_body.coeffs() *= -1.0;
-  EXPECT_EQ(consensus_of(kRates, stars, kNoise).accepted.size(), 3U);
+  EXPECT_EQ(consensus_of(kAll, stars, kNoise).accepted.size(), 3U);
 }
 
 }  // namespace spindrift::star_consensus_test

@@ -18,11 +18,13 @@ constexpr GyroSensor kGyro{.noise_rad_s = 3e-5, .bias_sigma_rad_s = 2e-4, .range
 
 /// Taken for a measurement where nothing speaks against it.
 std::optional<Rejection> judge(GyroWatch& watch, const GyroSample& sample) {
-  const auto rejection = watch.judge(sample);
-  if (!rejection) {
+  const auto rejected = watch.judge(sample);
+  if (!rejected) {
     watch.accept(sample);
+    return std::nullopt;
   }
-  return rejection;
+  EXPECT_GE(rejected->failed.value().value, rejected->failed->limit);
+  return rejected->rejected_by;
 }
 
 TEST(GyroWatch, ASaturatedSampleIsNoMeasurement) {

@@ -10,6 +10,7 @@
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/geomagnetism/field_at_spacecraft.h"
+#include "pipelines/observation/innovation_gate.h"
 #include "services/geomagnetism/igrf.h"
 #include "tests/support/assessed.h"
 #include "tests/support/stepped_orbit.h"
@@ -99,6 +100,22 @@ TEST_F(ThreeAxisPassTest, StarSunAndGyroMakeAnAttitude) {
   EXPECT_THAT(notices_, IsEmpty());
   EXPECT_EQ(pass_.sensors().at(index_of(SampleKind::Sun)).accepted, 40);
   EXPECT_EQ(pass_.sensors().at(index_of(SampleKind::Gyro)).last_seen, at_s(39.75));
+}
+
+TEST_F(ThreeAxisPassTest, AGyroAtItsRangeIsSaidOnceWithTheRangeOfTheMission) {
+  config_.gyro->range_rad_s = 0.01;
+  pass_ = ThreeAxisPass{config_, std::nullopt};
+  for (int i = 0; i < 60; ++i) {
+    add(pass_.push(GyroSample{.t = at_s(0.25 * i), .rate_body_rad_s = {0.0, 0.02, 0.0}}));
+  }
+  add(pass_.finish());
+  ASSERT_FALSE(notices_.empty());
+  EXPECT_EQ(notices_.front(), (Notice{NoticeCode::MostLeftOut,
+                                      {{"sensor", std::string{"gyro"}},
+                                       {"percent", 100.0},
+                                       {"rejected_by", std::string{"saturated"}},
+                                       {"rate_deg_s", degrees(0.02)},
+                                       {"range_deg_s", degrees(0.01)}}}));
 }
 
 TEST_F(ThreeAxisPassTest, LateSamplesAreLeftOutAndSaidOnce) {
@@ -323,7 +340,8 @@ TEST_F(MagnetometerPassTest, AFieldOfAnotherStrengthIsLeftOutBeforeThereIsAnAtti
   for (const RejectedSample& sample : rejected()) {
     EXPECT_EQ(sample.kind, SampleKind::Magnetometer);
     // 5 % of 20,000 to 60,000 nT over 100 nT.
-    EXPECT_GT(*sample.squared_innovation, 50.0);
+    EXPECT_GT(sample.failed.value().value, 50.0);
+    EXPECT_EQ(sample.failed->limit, innovation_gate(sample.t == at_s(30.0) ? 3 : 1));
   }
   EXPECT_EQ(last().assessment.quality, Quality::Ok);
 }

@@ -1,24 +1,23 @@
 /// @file
-/// Which gyro samples tell a rate: not those at the end of the range, those that repeat, nor
-/// those off from their neighbours.
+/// Which gyro samples of a whole span tell a rate, by both sides of each and by what all of them
+/// show of their noise and of the step of the telemetry. As they come: gyro_watch.h.
 
 #pragma once
 
-#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "pipelines/three_axis/config.h"
+#include "pipelines/three_axis/products.h"
 #include "pipelines/three_axis/samples.h"
 
 namespace spindrift {
 
 struct ScreenedGyro {
   std::vector<GyroSample> usable;
-  std::int64_t saturated = 0;
-  std::int64_t frozen = 0;  ///< Behind the first of a row that repeats (frozen_samples.h).
-  /// Off from their neighbours (gyro_outlier.h), by the noise that the samples have.
-  std::int64_t outliers = 0;
+  /// Of a row that repeats all but the first. In order of time.
+  std::vector<RejectedSample> left_out;
   bool first_is_outlier = false;
   /// How many times the stated noise they scatter by about the lines through their neighbours, by
   /// the median; empty where there are too few.

@@ -1,14 +1,17 @@
-#include "pipelines/three_axis/gyro_outlier.h"
+#include "pipelines/three_axis/gyro_tests.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <span>
+#include <vector>
 
 #include "tests/support/turning_body.h"
 
-namespace spindrift::gyro_outlier_test {
+namespace spindrift::gyro_tests_test {
 
 using Eigen::Vector3d;
 using testing::at_s;
@@ -19,14 +22,45 @@ const Vector3d kNone = Vector3d::Zero();
 
 Vector3d any_vector(std::mt19937_64& rng) { return normal_vector(rng, 0.01); }
 
-TEST(ChangeOfRate, IsTheSlopeBesideTimesTheTime) {
-  const GyroSample a{at_s(1.0), {0.1, 0.2, 0.3}};
-  const GyroSample b{at_s(3.0), {0.2, 0.2, -0.1}};
-  const Vector3d change = change_rad_s(a, b, at_s(3.0), at_s(3.5));
-  EXPECT_LT((change - Vector3d{0.025, 0.0, 0.1}).norm(), 1e-12);
-  // Whatever the order, and the direction of time.
-  EXPECT_LT((change_rad_s(b, a, at_s(3.0), at_s(3.5)) - change).norm(), 1e-12);
-  EXPECT_LT((change_rad_s(a, b, at_s(1.0), at_s(0.5)) - change).norm(), 1e-12);
+/// Five samples, a second apart, of which the rate changes by `change` on either side of the
+/// middle.
+struct Around {
+  Vector3d before;
+  Vector3d behind;
+  Vector3d change;
+
+  GyroDeviation deviation_of(const Vector3d& at, double noise_rad_s) const {
+    return deviation(std::array<GyroSample, 5>{{{at_s(0.0), before - change},
+                                                {at_s(1.0), before},
+                                                {at_s(2.0), at},
+                                                {at_s(3.0), behind},
+                                                {at_s(4.0), behind + change}}},
+                     2, noise_rad_s);
+  }
+  bool stands_out(const Vector3d& at, double noise_rad_s = 0.0) const {
+    return deviation_of(at, noise_rad_s).stands_out();
+  }
+};
+
+/// By the slope there times the time; the steps of time are 2, 0.5, 0.5 and 0.1 s.
+TEST(StandsOut, BeyondTheLesserOfTheChangesOnBothSides) {
+  const Vector3d rate{0.01, 0.02, 0.03};
+  const Vector3d up{0.0, 0.004, 0.0};
+  const std::vector<GyroSample> samples{{at_s(0.0), rate - up},
+                                        {at_s(2.0), rate},
+                                        {at_s(2.5), rate + Vector3d{0.0, 0.01, 0.0}},
+                                        {at_s(3.0), rate},
+                                        {at_s(3.1), rate - 0.05 * up}};
+  const auto off_rad_s = [](std::span<const GyroSample> some, std::size_t i) {
+    return deviation(some, i, 0.0).off_rad_s;
+  };
+  EXPECT_NEAR(off_rad_s(samples, 2), 0.01 - 0.001, 1e-12);
+  EXPECT_NEAR(off_rad_s(std::span{samples}.first(4), 2), 0.01 - 0.001, 1e-12);
+  std::vector<GyroSample> steep = samples;
+  steep[0].rate_body_rad_s = rate - 2.0 * up;
+  EXPECT_NEAR(off_rad_s(steep, 2), 0.01 - 0.001, 1e-12);
+  EXPECT_NEAR(off_rad_s(std::span{steep}.first(4), 2), 0.01 - 0.002, 1e-12);
+  EXPECT_NEAR(off_rad_s(std::span{steep}.subspan(1), 1), 0.01 - 0.001, 1e-12);
 }
 
 TEST(StandsOut, NothingBetweenItsNeighboursDoes) {
@@ -35,8 +69,7 @@ TEST(StandsOut, NothingBetweenItsNeighboursDoes) {
     const Vector3d before = any_vector(rng);
     const Vector3d behind = any_vector(rng);
     const double share = std::uniform_real_distribution{0.0, 1.0}(rng);
-    EXPECT_FALSE(
-        deviation(before, before + share * (behind - before), behind, kNone, 0.0).stands_out());
+    EXPECT_FALSE((Around{before, behind, kNone}.stands_out(before + share * (behind - before))));
   }
 }
 
@@ -50,12 +83,12 @@ TEST(StandsOut, WhatIsBeyondBothByMoreThanTheRateChangesDoesOnAnyAxis) {
           sign > 0.0 ? std::max(before[axis], behind[axis]) : std::min(before[axis], behind[axis]);
       Vector3d at = 0.5 * (before + behind);
       at[axis] = farther + sign * 0.999 * change[axis];
-      EXPECT_FALSE(deviation(before, at, behind, change, 0.0).stands_out());
+      EXPECT_FALSE((Around{before, behind, change}.stands_out(at)));
       at[axis] = farther + sign * 1.001 * change[axis];
-      EXPECT_TRUE(deviation(before, at, behind, change, 0.0).stands_out());
+      EXPECT_TRUE((Around{before, behind, change}.stands_out(at)));
       // Time and rates turned round: the same.
-      EXPECT_TRUE(deviation(behind, at, before, change, 0.0).stands_out());
-      EXPECT_TRUE(deviation(-before, -at, -behind, change, 0.0).stands_out());
+      EXPECT_TRUE((Around{behind, before, change}.stands_out(at)));
+      EXPECT_TRUE((Around{-before, -behind, change}.stands_out(-at)));
     }
   }
 }
@@ -63,16 +96,15 @@ TEST(StandsOut, WhatIsBeyondBothByMoreThanTheRateChangesDoesOnAnyAxis) {
 /// The difference of two samples has the root of two times the noise of one.
 TEST(StandsOut, NoiseOfTwoSamplesIsNotEnough) {
   const double limit = 5.0 * std::numbers::sqrt2 * kNoise_rad_s;
-  EXPECT_FALSE(
-      deviation(kNone, 0.999 * limit * Vector3d::UnitY(), kNone, kNone, kNoise_rad_s).stands_out());
-  EXPECT_TRUE(
-      deviation(kNone, 1.001 * limit * Vector3d::UnitY(), kNone, kNone, kNoise_rad_s).stands_out());
+  const Around still{kNone, kNone, kNone};
+  EXPECT_FALSE(still.stands_out(0.999 * limit * Vector3d::UnitY(), kNoise_rad_s));
+  EXPECT_TRUE(still.stands_out(1.001 * limit * Vector3d::UnitY(), kNoise_rad_s));
   std::mt19937_64 rng{2};
   for (int i = 0; i < 20'000; ++i) {
     const Vector3d before = normal_vector(rng, kNoise_rad_s);
     const Vector3d at = normal_vector(rng, kNoise_rad_s);
-    ASSERT_FALSE(
-        deviation(before, at, normal_vector(rng, kNoise_rad_s), kNone, kNoise_rad_s).stands_out());
+    const Vector3d behind = normal_vector(rng, kNoise_rad_s);
+    ASSERT_FALSE((Around{before, behind, kNone}.stands_out(at, kNoise_rad_s)));
   }
 }
 
@@ -144,4 +176,4 @@ TEST(EndStandsOut, TheLastIsLikeTheFirst) {
   EXPECT_TRUE(last.stands_out_by(off, kNoise_rad_s));
 }
 
-}  // namespace spindrift::gyro_outlier_test
+}  // namespace spindrift::gyro_tests_test

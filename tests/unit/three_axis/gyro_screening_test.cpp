@@ -1,4 +1,4 @@
-#include "pipelines/reconstruction/gyro_screening.h"
+#include "pipelines/three_axis/gyro_screening.h"
 
 #include <gtest/gtest.h>
 
@@ -26,11 +26,20 @@ std::vector<GyroSample> noisy(int count, double grid_rad_s = 0.0) {
   return samples;
 }
 
+/// All of them beyond what they were held against.
+std::int64_t count(const ScreenedGyro& found, Rejection test) {
+  std::int64_t count = 0;
+  for (const RejectedSample& sample : found.left_out) {
+    EXPECT_GE(sample.failed.value().value, sample.failed->limit);
+    count += sample.rejected_by == test ? 1 : 0;
+  }
+  return count;
+}
+
 TEST(GyroScreening, KeepsWhatIsGoodAndSeesItsNoise) {
   const ScreenedGyro screened_gyro = screened(noisy(2000), kGyro);
   EXPECT_EQ(screened_gyro.usable.size(), 2000U);
-  EXPECT_EQ(screened_gyro.saturated, 0);
-  EXPECT_EQ(screened_gyro.frozen, 0);
+  EXPECT_TRUE(screened_gyro.left_out.empty());
   EXPECT_NEAR(screened_gyro.noise.value(), 1.0, 0.06);
 }
 
@@ -40,8 +49,11 @@ TEST(GyroScreening, LeavesOutWhatRepeatsButForItsFirst) {
     samples[i].rate_body_rad_s = samples[100].rate_body_rad_s;
   }
   const ScreenedGyro screened_gyro = screened(samples, kGyro);
-  EXPECT_EQ(screened_gyro.frozen, 19);
+  EXPECT_EQ(count(screened_gyro, Rejection::Frozen), 19);
   EXPECT_EQ(screened_gyro.usable.size(), 381U);
+  for (const RejectedSample& sample : screened_gyro.left_out) {
+    EXPECT_EQ(sample.failed.value().value, 20.0);
+  }
 }
 
 TEST(GyroScreening, LeavesOutWhatRepeatsAboutOneAxis) {
@@ -49,12 +61,12 @@ TEST(GyroScreening, LeavesOutWhatRepeatsAboutOneAxis) {
   for (std::size_t i = 101; i < 120; ++i) {
     samples[i].rate_body_rad_s.y() = samples[100].rate_body_rad_s.y();
   }
-  EXPECT_EQ(screened(samples, kGyro).frozen, 19);
+  EXPECT_EQ(count(screened(samples, kGyro), Rejection::Frozen), 19);
 }
 
 /// A grid three times the noise repeats most samples by chance.
 TEST(GyroScreening, KeepsWhatRepeatsOnACoarseGrid) {
-  EXPECT_EQ(screened(noisy(2000, 3.0 * kGyro.noise_rad_s), kGyro).frozen, 0);
+  EXPECT_TRUE(screened(noisy(2000, 3.0 * kGyro.noise_rad_s), kGyro).left_out.empty());
 }
 
 TEST(GyroScreening, LeavesOutWhatIsAtTheEndOfTheRange) {
@@ -62,7 +74,7 @@ TEST(GyroScreening, LeavesOutWhatIsAtTheEndOfTheRange) {
   samples[40].rate_body_rad_s.y() = -0.1;
   samples[41].rate_body_rad_s.z() = 0.13;
   const ScreenedGyro screened_gyro = screened(samples, kGyro);
-  EXPECT_EQ(screened_gyro.saturated, 2);
+  EXPECT_EQ(count(screened_gyro, Rejection::Saturated), 2);
   EXPECT_EQ(screened_gyro.usable.size(), 98U);
 }
 
@@ -72,13 +84,31 @@ TEST(GyroScreening, LeavesOutASpikeWhereverItIs) {
       std::vector<GyroSample> samples = noisy(100);
       samples[spike].rate_body_rad_s.x() += size_rad_s;
       const ScreenedGyro found = screened(samples, kGyro);
-      EXPECT_EQ(found.outliers, 1) << spike << " " << size_rad_s;
+      EXPECT_EQ(count(found, Rejection::Outlier), 1) << spike << " " << size_rad_s;
+      EXPECT_EQ(found.left_out.at(0).t, samples[spike].t);
       EXPECT_EQ(found.usable.size(), 99U);
       EXPECT_EQ(found.first_is_outlier, spike == 0);
       EXPECT_TRUE(std::none_of(found.usable.begin(), found.usable.end(),
                                [&](const auto& sample) { return sample.t == samples[spike].t; }));
     }
   }
+}
+
+TEST(GyroScreening, SaysWhatItLeavesOutInOrderOfTime) {
+  std::vector<GyroSample> samples = noisy(400);
+  samples[0].rate_body_rad_s.setZero();
+  samples[20].rate_body_rad_s.x() = 0.2;
+  samples[40].rate_body_rad_s.y() += 0.002;
+  for (std::size_t i = 61; i < 80; ++i) {
+    samples[i].rate_body_rad_s = samples[60].rate_body_rad_s;
+  }
+  samples[399].rate_body_rad_s.z() += 0.002;
+  const ScreenedGyro found = screened(samples, kGyro);
+  EXPECT_EQ(count(found, Rejection::Outlier), 3);
+  EXPECT_EQ(count(found, Rejection::Saturated), 1);
+  EXPECT_EQ(count(found, Rejection::Frozen), 19);
+  EXPECT_TRUE(std::is_sorted(found.left_out.begin(), found.left_out.end(),
+                             [](const auto& a, const auto& b) { return a.t < b.t; }));
 }
 
 /// A gyro that has just been switched on.
@@ -107,7 +137,8 @@ TEST(GyroScreening, KeepsWhatThrustersDo) {
         const double down = std::clamp((i - 80.0) / samples_on, 0.0, 1.0);
         samples[static_cast<std::size_t>(i)].rate_body_rad_s.y() += 0.0174 * (up - down);
       }
-      EXPECT_EQ(screened(samples, kGyro).outliers, 0) << samples_on << " " << begin;
+      EXPECT_EQ(count(screened(samples, kGyro), Rejection::Outlier), 0)
+          << samples_on << " " << begin;
     }
   }
 }
