@@ -127,19 +127,23 @@ void tell_actions_left(BoundedQueue<SampleBatch>& taken) {
 Expected<std::unique_ptr<RequestServer>> answer_requests(const std::filesystem::path& db,
                                                          Archive& archive, AlertDesk& desk,
                                                          ActionInbox& inbox) {
-  auto server = RequestServer::start(db, [&](const nlohmann::json& request) {
-    let_samples_come_first();
-    const std::string what = request.value("do", "");
-    if (what == kAlertRequest) {
-      return answer_alert(request, desk, archive);
-    }
-    if (what == kActionRequest) {
-      return answer_action(request, inbox);
-    }
-    return what == kReconstructRequest
-               ? answer_reconstruct(request, db, archive)
-               : nlohmann::json{{"error", "not known here: do = reconstruct, alert, action are"}};
-  });
+  const auto behind_samples = [](RequestServer::Answer answer) -> RequestServer::Answer {
+    return [answer = std::move(answer)](const nlohmann::json& request) {
+      let_samples_come_first();
+      return answer(request);
+    };
+  };
+  auto server = RequestServer::start(
+      db,
+      {{std::string{kAlertRequest}, behind_samples([&](const nlohmann::json& request) {
+          return answer_alert(request, desk, archive);
+        })},
+       {std::string{kActionRequest}, behind_samples([&](const nlohmann::json& request) {
+          return answer_action(request, inbox);
+        })},
+       {std::string{kReconstructRequest}, behind_samples([&, db](const nlohmann::json& request) {
+          return answer_reconstruct(request, db, archive);
+        })}});
   if (!server) {
     warn("no_requests", {{"why", server.error().message}},
          fmt::format(
