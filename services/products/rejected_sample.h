@@ -53,6 +53,7 @@ struct GyroResidualTable {
   static constexpr std::string_view kName = "sample_residual";
   static constexpr std::array<std::string_view, 3> kKey{"estimator", "t_tai_ns", "kind"};
   static constexpr std::string_view kCondition = "kind = 'gyro'";
+  static constexpr bool kOfResiduals = true;
 
   using One = RejectedSample;
   static bool has_row(const One& sample) {
