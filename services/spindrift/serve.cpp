@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -239,6 +240,24 @@ Expected<void> note_announced(const std::filesystem::path& db,
   return {};
 }
 
+/// Where the next run has yet to begin. Nobody on the bus is told of it again.
+Expected<void> take_up_last_runs(const std::filesystem::path& db,
+                                 const std::map<std::string, LastRun>& last_runs, AlertDesk& desk,
+                                 ConsoleFeed* feed) {
+  for (const auto& [spacecraft, last] : last_runs) {
+    desk.take_up_run(spacecraft, last.run_id);
+    if (feed == nullptr) {
+      continue;
+    }
+    const auto results = find_stored_results(db, last.run_id);
+    if (!results) {
+      return Unexpected{results.error()};
+    }
+    feed->put(spacecraft, last.run_id, results->in_force());
+  }
+  return {};
+}
+
 /// Those of the runs of such services, before anything is computed: what a rehearsal has left open
 /// must not wake anybody.
 Expected<void> take_up_alerts(const std::filesystem::path& db, RunMode mode, AlertDesk& desk,
@@ -278,7 +297,8 @@ Expected<GoneOn> go_on(const ServiceParts& parts, ConsoleFeed* feed, Announcer& 
       .and_then([&] { return take_up_alerts(parts.db, parts.mode, parts.desk, feed); })
       .and_then([&] { return parts.processor.go_on(parts.db, moment_of(parts.processor)); })
       .and_then([&](GoneOn stored) {
-        return note_announced(parts.db, stored.routed.samples, announcer)
+        return take_up_last_runs(parts.db, stored.last_runs, parts.desk, feed)
+            .and_then([&] { return note_announced(parts.db, stored.routed.samples, announcer); })
             .and_then([&] { return submit_all(parts.archive, std::move(stored.routed.samples)); })
             .and_then([&] { return parts.archive.flush(); })
             .map([&] { return std::move(stored); });
