@@ -445,7 +445,7 @@ CREATE TABLE spin_estimate (
     OR quality = 'LOST'),
   reasons              TEXT NOT NULL,  -- JSON: array of objects with `code` and values
   status               TEXT NOT NULL,  -- a sentence for people made of the two
-  announced_utc        TEXT,           -- of a live run, when it was stored, at once before it was announced; else NULL
+  announced_utc        TEXT,           -- of a live run, the time of the commit before it was announced; else NULL
   PRIMARY KEY (run_id, estimator, t_tai_ns)  -- the last of each is looked for once a second
 ) STRICT, WITHOUT ROWID;
 

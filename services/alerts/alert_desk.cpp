@@ -150,6 +150,14 @@ void AlertDesk::take_up(const std::string& spacecraft, const std::string& run_id
   desk.book.take_up(run_id, alert);
 }
 
+void AlertDesk::take_up_run(const std::string& spacecraft, const std::string& run_id) {
+  const std::lock_guard lock{mutex_};
+  const auto desk = desks_.find(spacecraft);
+  if (desk != desks_.end() && desk->second.supervised) {
+    desk->second.supervised->stored_run = run_id;
+  }
+}
+
 void AlertDesk::see(ArchiveBatch& batch) {
   const std::lock_guard lock{mutex_};
   const auto found = desks_.find(batch.spacecraft_id);

@@ -44,6 +44,9 @@ class AlertDesk {
   /// An alert of before, as the archive has it, in the order in which they were raised.
   void take_up(const std::string& spacecraft, const std::string& run_id, const Alert& alert);
 
+  /// The last run of a spacecraft, until the next begins: alerts of the service stand with it.
+  void take_up_run(const std::string& spacecraft, const std::string& run_id);
+
   /// Of the samples and products of `batch` the alerts that they raise and clear, in the order of
   /// computing. They are added to it or, since products would hold samples back, to the next batch
   /// without samples; as what was taken back is.
@@ -67,7 +70,8 @@ class AlertDesk {
   /// @return what is to be stored.
   std::vector<ArchiveBatch> see(const std::map<std::string, ServiceState>& states, TaiTime now);
 
-  /// The run of a spacecraft that is computed now, as far as the archive holds it. Empty: none yet.
+  /// The run of a spacecraft that is computed now, as far as the archive holds it; before it the
+  /// one that was taken up. Empty: none yet.
   std::string run_of(const std::string& spacecraft) const;
 
   /// Where the axis should be now; empty: nobody has said, or it is no spinner.

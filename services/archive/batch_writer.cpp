@@ -53,6 +53,12 @@ std::vector<SQLite::Statement> insert_statements(SQLite::Database& database) {
   return statements;
 }
 
+RunOfProducts run_of(const ArchiveBatch& batch) {
+  return {.run_id = batch.run_id,
+          .spacecraft_id = batch.spacecraft_id,
+          .stores_residuals = batch.stores_residuals};
+}
+
 }  // namespace
 
 BatchWriter::BatchWriter(SQLite::Database& database)
@@ -95,6 +101,7 @@ Expected<void> BatchWriter::write(std::span<const ArchiveBatch> batches) {
       insert(batch);
     }
     insert_latest_counts(batches);
+    insert_announced(batches);
     transaction.commit();
     contradictions_.end_write(true);
     return {};
@@ -131,7 +138,7 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
     }
   });
   for (const RunNotice& notice : contradictions_.take_notices()) {
-    products_.insert(batch.run_id, batch.spacecraft_id, std::nullopt, notice);
+    products_.insert(run_of(batch), std::nullopt, notice);
   }
   for (const OperatorAction& action : batch.actions) {
     insert(batch.run_id, action);
@@ -142,19 +149,28 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
   for (const RejectedInput& rejected : batch.rejected) {
     insert(batch.run_id, rejected);
   }
-  if (!batch.products.empty()) {
-    const std::optional<std::string> announced_utc =
-        is_live(batch.run_id) ? std::optional{utc_now()} : std::nullopt;
-    for (const Product& product : batch.products) {
-      if (const auto* const contradiction = std::get_if<SampleContradiction>(&product)) {
-        contradictions_.settle(batch.run_id, *contradiction);
-      } else {
-        products_.insert(batch.run_id, batch.spacecraft_id, announced_utc, product);
-      }
+  for (const Product& product : batch.products) {
+    if (const auto* const contradiction = std::get_if<SampleContradiction>(&product)) {
+      contradictions_.settle(batch.run_id, *contradiction);
+    } else if (!ProductWriter::says_when_announced(product)) {
+      products_.insert(run_of(batch), std::nullopt, product);
     }
   }
   if (batch.finished_utc) {
     execute(run_finished_, *batch.finished_utc, batch.run_id);
+  }
+}
+
+/// At last, so that the time in them is that of the commit, as near as a row can have it.
+void BatchWriter::insert_announced(std::span<const ArchiveBatch> batches) {
+  const std::string now = utc_now();
+  for (const ArchiveBatch& batch : batches) {
+    for (const Product& product : batch.products) {
+      if (ProductWriter::says_when_announced(product)) {
+        products_.insert(run_of(batch), is_live(batch.run_id) ? std::optional{now} : std::nullopt,
+                         product);
+      }
+    }
   }
 }
 

@@ -96,6 +96,7 @@ class BatchWriter {
   void insert(const std::string& run_id, const RejectedInput& rejected);
   void insert(const std::string& run_id, const SourceCount& count);
   bool is_live(const std::string& run_id);
+  void insert_announced(std::span<const ArchiveBatch> batches);
   void insert_latest_counts(std::span<const ArchiveBatch> batches);
 
   SQLite::Database& database_;

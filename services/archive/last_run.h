@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "pipelines/time/tai_time.h"
 #include "services/archive/records.h"
 
 namespace spindrift {
@@ -20,6 +21,7 @@ struct LastRun {
   std::string software_version;
   std::string config_sha256;
   std::optional<std::string> orbit_sha256;  ///< Empty: the mission names no file.
+  std::optional<TaiTime> last_sample;       ///< Empty: none came.
 };
 
 /// @param mode Of the runs to look at.

@@ -26,6 +26,10 @@ constexpr bool kSaysWhenAnnounced = requires {
   Table::kSaysWhenAnnounced;
 };
 template <class Table>
+constexpr bool kOfResiduals = requires {
+  Table::kOfResiduals;
+};
+template <class Table>
 constexpr bool kOfLatest = requires {
   &Table::t_tai_ns;
 };
@@ -87,22 +91,22 @@ class TableWriter {
     }
   }
 
-  void write(const std::string& run_id, const std::string& spacecraft_id,
-             const std::optional<std::string>& announced_utc, const Kind& product) {
-    if (is_outdated(run_id, product)) {
+  void write(const RunOfProducts& run, const std::optional<std::string>& announced_utc,
+             const Kind& product) {
+    if (is_outdated(run.run_id, product) || (kOfResiduals<Table> && !run.stores_residuals)) {
       return;
     }
     if constexpr (kHasMany<Table>) {
-      execute(*gone_, run_id, Table::group(product));
+      execute(*gone_, run.run_id, Table::group(product));
     }
     for_each_row<Table>(product, [&](const auto& row) {
       with_columns<Table>([&](const auto&... column) {
         if constexpr (kOfSpacecraft<Table>) {
-          execute(insert_, run_id, spacecraft_id, column.get(row)...);
+          execute(insert_, run.run_id, run.spacecraft_id, column.get(row)...);
         } else if constexpr (kSaysWhenAnnounced<Table>) {
-          execute(insert_, run_id, announced_utc, column.get(row)...);
+          execute(insert_, run.run_id, announced_utc, column.get(row)...);
         } else {
-          execute(insert_, run_id, column.get(row)...);
+          execute(insert_, run.run_id, column.get(row)...);
         }
       });
     });
@@ -135,14 +139,23 @@ class KindWriter<Kind, std::tuple<Table...>> {
   explicit KindWriter(SQLite::Database& database)
       : tables_{TableWriter<Kind, Table>{database}...} {}
 
-  void write(const std::string& run_id, const std::string& spacecraft_id,
-             const std::optional<std::string>& announced_utc, const Kind& product) {
-    std::apply(
-        [&](auto&... table) { (table.write(run_id, spacecraft_id, announced_utc, product), ...); },
-        tables_);
+  void write(const RunOfProducts& run, const std::optional<std::string>& announced_utc,
+             const Kind& product) {
+    if constexpr (requires { ProductKind<Kind>::without_residuals(product); }) {
+      if (!run.stores_residuals) {
+        write_all(run, announced_utc, ProductKind<Kind>::without_residuals(product));
+        return;
+      }
+    }
+    write_all(run, announced_utc, product);
   }
 
  private:
+  void write_all(const RunOfProducts& run, const std::optional<std::string>& announced_utc,
+                 const Kind& product) {
+    std::apply([&](auto&... table) { (table.write(run, announced_utc, product), ...); }, tables_);
+  }
+
   std::tuple<TableWriter<Kind, Table>...> tables_;
 };
 
@@ -204,12 +217,22 @@ ProductWriter::ProductWriter(SQLite::Database& database)
 
 ProductWriter::~ProductWriter() = default;
 
-void ProductWriter::insert(const std::string& run_id, const std::string& spacecraft_id,
+bool ProductWriter::says_when_announced(const Product& product) {
+  return std::visit(
+      []<class Kind>(const Kind& /*value*/) {
+        bool says = false;
+        for_each_table<Kind>([&]<class Table>() { says = says || kSaysWhenAnnounced<Table>; });
+        return says;
+      },
+      product);
+}
+
+void ProductWriter::insert(const RunOfProducts& run,
                            const std::optional<std::string>& announced_utc,
                            const Product& product) {
   std::visit(
       [&]<class Kind>(const Kind& value) {
-        std::get<KindWriter<Kind>>(kinds_->all).write(run_id, spacecraft_id, announced_utc, value);
+        std::get<KindWriter<Kind>>(kinds_->all).write(run, announced_utc, value);
       },
       product);
 }

@@ -14,6 +14,12 @@
 
 namespace spindrift {
 
+struct RunOfProducts {
+  const std::string& run_id;
+  const std::string& spacecraft_id;
+  bool stores_residuals;
+};
+
 /// The prepared statements of one connection. All of it throws SQLite::Exception.
 class ProductWriter {
  public:
@@ -25,10 +31,13 @@ class ProductWriter {
   ProductWriter(ProductWriter&&) = delete;
   ProductWriter& operator=(ProductWriter&&) = delete;
 
+  /// Whether a row of it has announced_utc.
+  static bool says_when_announced(const Product& product);
+
   /// In place of one with its key.
-  /// @param announced_utc Of products that are announced, when; empty: they are not for now.
-  void insert(const std::string& run_id, const std::string& spacecraft_id,
-              const std::optional<std::string>& announced_utc, const Product& product);
+  /// @param announced_utc Where it says that; empty: it is not announced for now.
+  void insert(const RunOfProducts& run, const std::optional<std::string>& announced_utc,
+              const Product& product);
 
   /// Those of a run from a time on, but those that stay (kStays). A product without a time has that
   /// of its revolution, which those tables tell that have both.

@@ -89,6 +89,7 @@ struct ArchiveBatch {
   std::vector<std::int64_t> silences = {};  ///< Each before the sample of that arrival.
   std::vector<RejectedInput> rejected = {};
   std::vector<Product> products = {};
+  bool stores_residuals = true;  ///< What measurements say to the estimators, of the products.
   std::vector<SourceCount> source_counts = {};
   std::optional<std::string> finished_utc = {};  ///< ISO 8601, ending in Z.
   /// Not stored: when the last sample came that the products rest on. Empty: they waited for none.

@@ -33,6 +33,10 @@ Expected<std::vector<SeriesPoint>> values_of(SQLite::Database& archive, const st
                                .limit = rows.getColumn(kHeld + 1).getDouble(),
                                .unit = rows.getColumn(kHeld + 2).getString()};
     }
+    constexpr int kUsed = 7;
+    if (rows.getColumnCount() > kUsed && !rows.getColumn(kUsed).isNull()) {
+      point.used = rows.getColumn(kUsed).getInt() != 0;
+    }
     points.push_back(std::move(point));
   }
   std::reverse(points.begin(), points.end());

@@ -61,6 +61,9 @@ nlohmann::json json_of(const SeriesPoint& point) {
   if (!point.rejected_by.empty()) {
     json["rejected_by"] = point.rejected_by;
   }
+  if (point.used) {
+    json["used"] = *point.used;
+  }
   if (point.held) {
     json["off"] = point.held->off;
     json["limit"] = point.held->limit;

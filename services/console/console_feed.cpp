@@ -78,6 +78,17 @@ void ConsoleFeed::put(const std::string& spacecraft, const std::string& run_id,
       product);
 }
 
+void ConsoleFeed::put(const std::string& spacecraft, const std::string& run_id,
+                      const std::vector<Product>& results) {
+  {
+    const std::lock_guard lock{mutex_};
+    shown_.at(spacecraft).show(run_id);
+  }
+  for (const Product& result : results) {
+    put(spacecraft, run_id, result);
+  }
+}
+
 void ConsoleFeed::put_details(const ArchiveBatch& stored) {
   const std::lock_guard lock{mutex_};
   for (const RejectedInput& rejected : stored.rejected) {

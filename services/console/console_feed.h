@@ -34,6 +34,9 @@ class ConsoleFeed {
   /// @name Of the service, once it is stored
   /// @{
   void put(const std::string& spacecraft, const std::string& run_id, const Product& product);
+  /// The last run of a spacecraft, until the next begins.
+  void put(const std::string& spacecraft, const std::string& run_id,
+           const std::vector<Product>& results);
   /// What is not announced, of a run whose results are.
   void put_details(const ArchiveBatch& stored);
   void put(const Health& health);

@@ -40,16 +40,16 @@ std::vector<SeriesPoint> decimate(std::span<const SeriesPoint> points, std::size
   if (points.size() <= most) {
     return {points.begin(), points.end()};
   }
-  std::vector<SeriesPoint> accepted;
-  std::vector<SeriesPoint> rejected;
-  std::partition_copy(points.begin(), points.end(), std::back_inserter(accepted),
-                      std::back_inserter(rejected),
-                      [](const SeriesPoint& point) { return point.accepted.value_or(true); });
-  const std::size_t of_rejected =
-      std::min(rejected.size(), std::max(most / 2, most - std::min(most, accepted.size())));
+  std::vector<SeriesPoint> taken;
+  std::vector<SeriesPoint> left_out;
+  std::partition_copy(points.begin(), points.end(), std::back_inserter(taken),
+                      std::back_inserter(left_out),
+                      [](const SeriesPoint& point) { return !point.is_left_out(); });
+  const std::size_t of_left_out =
+      std::min(left_out.size(), std::max(most / 2, most - std::min(most, taken.size())));
   std::vector<SeriesPoint> kept;
-  thin(rejected, of_rejected, kept);
-  thin(accepted, most - of_rejected, kept);
+  thin(left_out, of_left_out, kept);
+  thin(taken, most - of_left_out, kept);
   std::stable_sort(kept.begin(), kept.end(), &is_earlier);
   return kept;
 }

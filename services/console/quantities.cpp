@@ -39,8 +39,10 @@ Quantity phase(std::string_view channel) {
       .unit = "deg",
       .sql = fmt::format(
           "SELECT t_tai_ns, 360 * (turns - floor(turns)), accepted, rejected_by, off, \"limit\", "
-          "unit FROM (SELECT edge.t_tai_ns, (edge.t_tai_ns - turn.t_tai_ns) / (1e9 * period_s) "
-          "AS turns, edge.accepted, edge.rejected_by, coalesce(value - expected, residual_ns * "
+          "unit, used FROM (SELECT edge.t_tai_ns, (edge.t_tai_ns - turn.t_tai_ns) / (1e9 * "
+          "period_s) "
+          "AS turns, edge.accepted, edge.rejected_by, edge.used, coalesce(value - expected, "
+          "residual_ns * "
           "1.0 / sigma_ns) AS off, coalesce(\"limit\", residual_limit) AS \"limit\", "
           "coalesce(unit, 'sigma') AS unit FROM pulse_use AS edge CROSS JOIN revolution AS turn "
           "ON turn.run_id = edge.run_id AND turn.revolution = coalesce(edge.revolution, (SELECT "

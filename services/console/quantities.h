@@ -13,7 +13,8 @@ namespace spindrift {
 struct Quantity {
   std::string name;
   std::string unit;
-  /// Rows of t_tai_ns, value, accepted, rejected_by; the newest first. ?1: the run; ?2: up to.
+  /// Rows of t_tai_ns, value, accepted, rejected_by, for some also off, limit, unit and, behind
+  /// these, used; the newest first. ?1: the run; ?2: up to.
   std::string sql;
 };
 

@@ -63,13 +63,13 @@ class PassComputing {
   using Output = decltype(std::declval<Pass&>().finish());
   using PassProduct = typename decltype(Output::products)::value_type;
 
-  /// @param keeps_residuals What measurements say to the estimators is stored.
+  /// @param stores_residuals What measurements say to the estimators is stored.
   PassComputing(std::string spacecraft_id, std::string run_id, Pass pass,
-                bool keeps_residuals = true)
+                bool stores_residuals = true)
       : spacecraft_id_{std::move(spacecraft_id)},
         run_id_{std::move(run_id)},
         pass_{std::move(pass)},
-        keeps_residuals_{keeps_residuals} {}
+        stores_residuals_{stores_residuals} {}
 
   /// The runs of `made` are stored, and their samples come again.
   void go_on(AllMadeBefore made) { made_before_ = std::move(made); }
@@ -100,6 +100,7 @@ class PassComputing {
     ArchiveBatch batch;
     batch.run_id = run_id_;
     batch.spacecraft_id = spacecraft_id_;
+    batch.stores_residuals = stores_residuals_;
     return batch;
   }
 
@@ -187,26 +188,10 @@ class PassComputing {
         name_senders(*contradiction, notices);
       }
     }
-    if (!keeps_residuals_) {
-      leave_residuals_out(output.products);
-    }
     std::vector<RunNotice> of_pass = told(spacecraft_id_, output.notices);
     std::move(of_pass.begin(), of_pass.end(), std::back_inserter(notices));
     note(std::as_const(output));
     return notices;
-  }
-
-  static void leave_residuals_out(std::vector<PassProduct>& products) {
-    std::erase_if(products, []<class... Kind>(std::variant<Kind...>& product) {
-      return std::visit(
-          []<class Made>(Made& made) {
-            if constexpr (std::is_same_v<Made, PulseUse>) {
-              made.said.reset();
-            }
-            return std::is_same_v<Made, SampleObservation>;
-          },
-          product);
-    });
   }
 
   /// Of each kind the first is said.
@@ -259,7 +244,7 @@ class PassComputing {
   std::string spacecraft_id_;
   std::string run_id_;
   Pass pass_;
-  bool keeps_residuals_;
+  bool stores_residuals_;
   AllMadeBefore made_before_;
   std::optional<TaiTime> again_from_;  ///< Until the pass is there again: what it makes is stored.
   TaiTime reached_ = {};               ///< The sample that was computed last.

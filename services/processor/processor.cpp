@@ -123,25 +123,29 @@ Expected<GoneOn> Processor::go_on(const std::filesystem::path& archive, const Mo
       return Unexpected{stored.error()};
     }
     if (stored->empty()) {
-      const auto last = find_last_run(archive, runs_[i].spacecraft_id(), runs_[i].start().mode);
+      auto last = find_last_run(archive, runs_[i].spacecraft_id(), runs_[i].start().mode);
       if (!last) {
         return Unexpected{last.error()};
       }
-      SpacecraftRun::Taken begun = runs_[i].begin();
       if (*last) {
-        const std::string why = why_not_continued(**last, runs_[i].start());
-        begun.batches.front().products.emplace_back(told(
-            "new_run",
-            {{"spacecraft", runs_[i].spacecraft_id()}, {"run_id", runs_[i].run_id()}, {"why", why}},
-            fmt::format("{}: a new run begins: {}: {}", runs_[i].spacecraft_id(), runs_[i].run_id(),
-                        why)));
+        begin_behind(i, **std::move(last), gone_on);
+      } else {
+        add(runs_[i].begin(), gone_on.routed);
       }
-      add(std::move(begun), gone_on.routed);
     } else {
       go_on(i, *stored, moment, gone_on);
     }
   }
   return gone_on;
+}
+
+void Processor::begin_behind(std::size_t i, LastRun last, GoneOn& gone_on) {
+  SpacecraftRun& run = runs_[i];
+  const std::string why = why_not_continued(last, run.start());
+  run.begin_later(
+      told("new_run", {{"spacecraft", run.spacecraft_id()}, {"run_id", run.run_id()}, {"why", why}},
+           fmt::format("{}: a new run begins: {}: {}", run.spacecraft_id(), run.run_id(), why)));
+  gone_on.last_runs.emplace(run.spacecraft_id(), std::move(last));
 }
 
 void Processor::go_on(std::size_t i, const std::vector<StoredPass>& stored, const Moment& moment,
@@ -192,7 +196,7 @@ Routed Processor::route(SampleBatch samples, const Moment& moment) {
   for (auto& [run, of_run] : by_run) {
     add(runs_.at(run).take(std::move(of_run), moment), routed);
   }
-  if (!told_of_others_.empty()) {
+  if (!told_of_others_.empty() && runs_.front().has_begun()) {
     // Like bad input it stands with the first run.
     ArchiveBatch& told = routed.samples.emplace_back();
     told.run_id = runs_.front().run_id();
@@ -281,6 +285,9 @@ std::vector<ArchiveBatch> Processor::finish() {
 }
 
 std::vector<ArchiveBatch> Processor::finish(std::size_t spacecraft) {
+  if (!runs_.at(spacecraft).has_begun()) {
+    return {};
+  }
   SpacecraftRun::Taken rest = runs_.at(spacecraft).finish();
   std::vector<ArchiveBatch> batches = std::move(rest.batches);
   for (const PassInput& input : rest.inputs) {
@@ -317,6 +324,9 @@ std::vector<std::string> Processor::spacecraft() const {
 std::vector<RunSummary> Processor::summaries() const {
   std::vector<RunSummary> summaries;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
+    if (!runs_[i].has_begun()) {
+      continue;
+    }
     for (RunSummary& summary :
          std::visit([](const auto& pass) { return pass.summaries(); }, passes_[i])) {
       const Received received = runs_[i].received(summary.run_id);

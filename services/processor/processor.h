@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "services/archive/last_run.h"
 #include "services/archive/records.h"
 #include "services/mission/mission.h"
 #include "services/processor/spacecraft_run.h"
@@ -35,6 +36,8 @@ struct Routed {
 struct GoneOn {
   Routed routed;
   LastOrigins last_origins;  ///< Of all the samples in it; a session may stand there twice.
+  /// By spacecraft, where none goes on: what is known last, until the next run begins.
+  std::map<std::string, LastRun> last_runs = {};
 };
 
 /// Has two sides, each for one thread: `route` takes samples in, `compute` works on them. The
@@ -52,7 +55,9 @@ class Processor {
 
   std::vector<ArchiveBatch> begin();
 
-  /// In place of `begin`: goes on with those runs that `archive` holds, and begins the others. Its
+  /// In place of `begin`: goes on with those runs that `archive` holds. Of the other spacecraft the
+  /// first run begins now, and a later one with its first sample or action, so that until then the
+  /// run before it is the last. Its
   /// batches are committed before the next of `route` are submitted; its work comes first.
   /// @return the error of reading the archive.
   Expected<GoneOn> go_on(const std::filesystem::path& archive, const Moment& moment = {});
@@ -102,6 +107,7 @@ class Processor {
   void distribute(SamplesOfKind<Value>& samples, std::map<std::size_t, SampleBatch>& by_run);
   void go_on(std::size_t i, const std::vector<StoredPass>& stored, const Moment& moment,
              GoneOn& gone_on);
+  void begin_behind(std::size_t i, LastRun last, GoneOn& gone_on);
   void count_other(const std::string& spacecraft, std::int64_t samples);
 
   std::unordered_map<std::string, std::size_t> index_of_;  ///< Of a spacecraft, in both below.

@@ -55,7 +55,7 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
              .telemetry_sha256 = source.sha256,
              .label = source.label,
              .telemetry = source.telemetry,
-             .started_utc = utc_now(),
+             .started_utc = {},
              // Sets runs of different archives apart, should they be merged. Order does not rest on
              // the clock: arrive_after.
              .first_arrival = tai_ns(tai_now())},
@@ -85,8 +85,12 @@ ArchiveBatch SpacecraftRun::batch() const {
 }
 
 SpacecraftRun::Taken SpacecraftRun::begin() {
+  start_.started_utc = utc_now();
   Taken first = nothing_taken();
   first.batches.front().start = start_;
+  if (begins_with_) {
+    first.batches.front().products.emplace_back(*std::exchange(begins_with_, std::nullopt));
+  }
   // Whoever loads the mission warns of it before there is a run.
   for (const std::string& doubt : orbit_doubts_) {
     first.batches.front().products.emplace_back(notice_of(
@@ -95,6 +99,12 @@ SpacecraftRun::Taken SpacecraftRun::begin() {
   }
   repeat_actions_before(start_.first_arrival, first);
   return first;
+}
+
+/// What was counted before stands in it.
+SpacecraftRun::Taken SpacecraftRun::begin_with(SampleBatch& samples) {
+  samples.counts.insert(latest_counts_.begin(), latest_counts_.end());
+  return begin();
 }
 
 Received SpacecraftRun::received(const std::string& run_id) const {
@@ -182,7 +192,12 @@ void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken&
 }
 
 SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples, const Moment& moment) {
-  Taken out = nothing_taken();
+  if (!has_begun() && size_of(samples) == 0) {
+    // Counts alone are of what another service stores. They are the run's once it begins.
+    static_cast<void>(source_counts(samples.counts));
+    return nothing_taken();
+  }
+  Taken out = has_begun() ? nothing_taken() : begin_with(samples);
   notices_.tell_undescribed(samples.samples, out.batches.back().products);
   in_order_of_arrival(samples.samples, [&](auto& sample) { sort(std::move(sample), moment, out); });
   for (OperatorAction& action : samples.actions) {
@@ -428,7 +443,6 @@ void SpacecraftRun::begin_new_pass(const TelemetryValues& its_first, Taken& out)
   received_before_.emplace(run_id_, received_);
   end_reach(out.batches.back());
 
-  start_.started_utc = utc_now();
   start_.first_arrival = next_arrival_;
   run_id_ = unique_id();
   Taken first = begin();

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "services/archive/records.h"
@@ -92,6 +93,10 @@ class SpacecraftRun {
   /// The run itself, before its first sample.
   Taken begin();
 
+  /// In place of `begin`: with the first of what `take` gets to store. @param notice Of the run.
+  void begin_later(RunNotice notice) { begins_with_ = std::move(notice); }
+  bool has_begun() const { return !begins_with_; }
+
   Taken take(SampleBatch samples, const Moment& moment);
 
   /// Nothing came for a while: a silence among the samples. None when none has come since the last.
@@ -139,6 +144,7 @@ class SpacecraftRun {
   void release_held(std::vector<PassInput>& inputs);
   void note_reach(ArchiveBatch& batch);
   void end_reach(ArchiveBatch& batch);
+  Taken begin_with(SampleBatch& samples);
   void begin_new_pass(const TelemetryValues& its_first, Taken& out);
   void begin_new_pass_of_held(Taken& out);
   std::vector<SourceCount> source_counts(const std::map<std::string, SequenceCounts>& by_source);
@@ -149,6 +155,7 @@ class SpacecraftRun {
   RunStart start_;
   std::vector<std::string> orbit_doubts_;
   std::string run_id_;
+  std::optional<RunNotice> begins_with_;  ///< Empty: it has begun.
   std::int64_t next_arrival_;
   std::int64_t silent_before_;  ///< The arrival before which it was silent last.
   Received received_;

@@ -203,6 +203,7 @@ inline std::int64_t whole_ns(double t_s) { return std::llround(t_s * 1e9); }
 struct BatchResidualTable {
   static constexpr std::string_view kName = "batch_residual";
   static constexpr std::array<std::string_view, 3> kKey{"is_last", "t_tai_ns", "channel"};
+  static constexpr bool kOfResiduals = true;
 
   static std::int64_t t_tai_ns(const BatchProduct& solution) { return batch_t_tai_ns(solution); }
   static std::int64_t group(const BatchProduct& /*solution*/) { return 1; }

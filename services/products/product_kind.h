@@ -45,6 +45,7 @@ constexpr auto columns(ProductColumn<Get>... column) {
 ///   Parts          a table of which it is given its rows besides
 /// and where it needs it
 ///   kStays         true: it is not withdrawn in part, but stays until another takes its place
+///   without_residuals  what is stored of it by runs that do not store residuals
 ///
 /// A table has
 ///   kName
@@ -52,6 +53,7 @@ constexpr auto columns(ProductColumn<Get>... column) {
 ///   kColumns       its columns, from columns(ProductColumn...)
 /// and where it needs them
 ///   kOfSpacecraft  true: the spacecraft's column stands behind the run's
+///   kOfResiduals   true: it has no rows of runs that do not store residuals
 ///   kSaysWhenAnnounced  true: the column announced_utc stands behind the run's, of live runs
 ///   kCondition     an SQL condition that tells its rows from those of other kinds there
 ///   kReplaces      an SQL condition on which a row takes the place of one with the same key

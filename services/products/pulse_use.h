@@ -60,6 +60,10 @@ template <>
 struct ProductKind<PulseUse> {
   static constexpr ProductWeight kWeight = ProductWeight::Detail;
   using Tables = std::tuple<PulseUseTable>;
+  static PulseUse without_residuals(PulseUse use) {
+    use.said.reset();
+    return use;
+  }
 };
 
 }  // namespace spindrift

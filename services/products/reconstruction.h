@@ -176,6 +176,7 @@ struct ReconstructionEventTable {
 struct ReconstructedAttitudeTable {
   static constexpr std::string_view kName = "attitude";
   static constexpr std::array<std::string_view, 2> kKey{"source", "t_tai_ns"};
+  static constexpr bool kSaysWhenAnnounced = true;
 
   struct Row {
     std::string_view source;
@@ -233,6 +234,7 @@ struct ReconstructedAttitudeTable {
 struct ReconstructionResidualTable {
   static constexpr std::string_view kName = "sample_residual";
   static constexpr std::array<std::string_view, 3> kKey{"estimator", "t_tai_ns", "kind"};
+  static constexpr bool kOfResiduals = true;
 
   static std::string_view group(const ReconstructionProduct& product) { return method_of(product); }
   static std::vector<SampleObservation> rows(const ReconstructionProduct& product) {

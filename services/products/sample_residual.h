@@ -59,6 +59,7 @@ struct SampleResidualTable {
   static constexpr std::array<std::string_view, 3> kKey{"estimator", "t_tai_ns", "kind"};
   static constexpr std::string_view kCondition =
       "kind <> 'gyro' AND estimator NOT IN ('batch', 'sequential')";
+  static constexpr bool kOfResiduals = true;
 
   using One = SampleObservation;
   static constexpr auto kColumns = columns(

@@ -22,8 +22,14 @@ Expected<std::string> ActionInbox::take(const nlohmann::json& request) {
         }
         SampleBatch batch;
         batch.actions.push_back(action);
-        stored_.expect(action.action_id);
+        if (!stored_.expect(action.action_id)) {
+          return Unexpected{{ErrorCode::Unavailable,
+                             fmt::format("{} actions wait to be stored already: say it again when "
+                                         "they are",
+                                         StoredActions::kMostAwaited)}};
+        }
         if (!taken_.push_at_once(std::move(batch))) {
+          stored_.forget(action.action_id);
           return Unexpected{{ErrorCode::Unavailable,
                              "the service is stopping and takes nothing more: say it again to the "
                              "next one"}};

@@ -26,8 +26,8 @@ class ActionInbox {
 
   /// Its place is behind the samples that are taken already, whether these leave room or not. It
   /// waits until the action is stored.
-  /// @return its action_id; as parse_action; Unavailable where nothing more is taken, or stored
-  ///         within 5 s.
+  /// @return its action_id; as parse_action; Unavailable where nothing more is taken, too many
+  ///         wait, or it is not stored within 5 s.
   Expected<std::string> take(const nlohmann::json& request);
 
  private:

@@ -159,6 +159,11 @@ void note_stored(const GoneOn& gone_on, const Processor& processor, Heard& heard
     heard.sessions.go_on(id, gone_on.last_origins, t);
     heard.links.go_on(id, t);
   }
+  for (const auto& [id, last] : gone_on.last_runs) {
+    if (last.last_sample) {
+      heard.links.go_on(id, *last.last_sample);
+    }
+  }
 }
 
 }  // namespace

@@ -2,9 +2,14 @@
 
 namespace spindrift {
 
-void StoredActions::expect(const std::string& action_id) {
+bool StoredActions::expect(const std::string& action_id) {
   const std::lock_guard lock{mutex_};
-  awaited_.insert(action_id);
+  return awaited_.size() < kMostAwaited && awaited_.insert(action_id).second;
+}
+
+void StoredActions::forget(const std::string& action_id) {
+  const std::lock_guard lock{mutex_};
+  awaited_.erase(action_id);
 }
 
 void StoredActions::note(std::span<const ArchiveBatch> stored) {
@@ -22,10 +27,7 @@ void StoredActions::note(std::span<const ArchiveBatch> stored) {
 
 bool StoredActions::wait(const std::string& action_id, std::chrono::seconds at_most) {
   std::unique_lock lock{mutex_};
-  const bool is_stored =
-      stored_.wait_for(lock, at_most, [&] { return !awaited_.contains(action_id); });
-  awaited_.erase(action_id);
-  return is_stored;
+  return stored_.wait_for(lock, at_most, [&] { return !awaited_.contains(action_id); });
 }
 
 }  // namespace spindrift

@@ -1,10 +1,11 @@
 /// @file
-/// Which operators' actions the archive has stored, for those who wait for that.
+/// Which operators' actions are handed on and not stored yet, for those who wait until they are.
 
 #pragma once
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <mutex>
 #include <set>
 #include <span>
@@ -17,8 +18,13 @@ namespace spindrift {
 /// Used by any thread.
 class StoredActions {
  public:
-  /// Before the action is handed on.
-  void expect(const std::string& action_id);
+  /// More are no word of a person, or the archive does not store.
+  static constexpr std::size_t kMostAwaited = 64;
+
+  /// Before the action is handed on. @return false when kMostAwaited are not stored yet.
+  bool expect(const std::string& action_id);
+  /// It is not handed on.
+  void forget(const std::string& action_id);
 
   /// After each commit.
   void note(std::span<const ArchiveBatch> stored);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -127,19 +128,23 @@ void tell_actions_left(BoundedQueue<SampleBatch>& taken) {
 Expected<std::unique_ptr<RequestServer>> answer_requests(const std::filesystem::path& db,
                                                          Archive& archive, AlertDesk& desk,
                                                          ActionInbox& inbox) {
-  auto server = RequestServer::start(db, [&](const nlohmann::json& request) {
-    let_samples_come_first();
-    const std::string what = request.value("do", "");
-    if (what == kAlertRequest) {
-      return answer_alert(request, desk, archive);
-    }
-    if (what == kActionRequest) {
-      return answer_action(request, inbox);
-    }
-    return what == kReconstructRequest
-               ? answer_reconstruct(request, db, archive)
-               : nlohmann::json{{"error", "not known here: do = reconstruct, alert, action are"}};
-  });
+  const auto behind_samples = [](RequestServer::Answer answer) -> RequestServer::Answer {
+    return [answer = std::move(answer)](const nlohmann::json& request) {
+      let_samples_come_first();
+      return answer(request);
+    };
+  };
+  auto server = RequestServer::start(
+      db,
+      {{std::string{kAlertRequest}, behind_samples([&](const nlohmann::json& request) {
+          return answer_alert(request, desk, archive);
+        })},
+       {std::string{kActionRequest}, behind_samples([&](const nlohmann::json& request) {
+          return answer_action(request, inbox);
+        })},
+       {std::string{kReconstructRequest}, behind_samples([&, db](const nlohmann::json& request) {
+          return answer_reconstruct(request, db, archive);
+        })}});
   if (!server) {
     warn("no_requests", {{"why", server.error().message}},
          fmt::format(
@@ -235,6 +240,24 @@ Expected<void> note_announced(const std::filesystem::path& db,
   return {};
 }
 
+/// Where the next run has yet to begin. Nobody on the bus is told of it again.
+Expected<void> take_up_last_runs(const std::filesystem::path& db,
+                                 const std::map<std::string, LastRun>& last_runs, AlertDesk& desk,
+                                 ConsoleFeed* feed) {
+  for (const auto& [spacecraft, last] : last_runs) {
+    desk.take_up_run(spacecraft, last.run_id);
+    if (feed == nullptr) {
+      continue;
+    }
+    const auto results = find_stored_results(db, last.run_id);
+    if (!results) {
+      return Unexpected{results.error()};
+    }
+    feed->put(spacecraft, last.run_id, results->in_force());
+  }
+  return {};
+}
+
 /// Those of the runs of such services, before anything is computed: what a rehearsal has left open
 /// must not wake anybody.
 Expected<void> take_up_alerts(const std::filesystem::path& db, RunMode mode, AlertDesk& desk,
@@ -274,7 +297,8 @@ Expected<GoneOn> go_on(const ServiceParts& parts, ConsoleFeed* feed, Announcer& 
       .and_then([&] { return take_up_alerts(parts.db, parts.mode, parts.desk, feed); })
       .and_then([&] { return parts.processor.go_on(parts.db, moment_of(parts.processor)); })
       .and_then([&](GoneOn stored) {
-        return note_announced(parts.db, stored.routed.samples, announcer)
+        return take_up_last_runs(parts.db, stored.last_runs, parts.desk, feed)
+            .and_then([&] { return note_announced(parts.db, stored.routed.samples, announcer); })
             .and_then([&] { return submit_all(parts.archive, std::move(stored.routed.samples)); })
             .and_then([&] { return parts.archive.flush(); })
             .map([&] { return std::move(stored); });

@@ -113,6 +113,10 @@ std::string status_line(const Mission& mission, const SpacecraftHealth& health,
   std::vector<Part> parts{{Need::Name, health.spacecraft}};
   if (!health.last_sample || !health.data_age_s) {
     parts.push_back({Need::Always, "waiting for telemetry"});
+    if (health.last_sample) {
+      parts.push_back({Need::Utc, "last " + format_utc(*health.last_sample, 0)});
+      add_answer(health.verdict, parts);
+    }
     return fitted(std::move(parts), columns);
   }
   const std::string utc = format_utc(*health.last_sample, 0);

@@ -135,7 +135,15 @@ test('tells what the edges say to the filter, and why some were left out', async
   await page.focus('#raster');
   await page.keyboard.press('ArrowRight');
   const said = await text('raster-said');
-  if (said) assert.match(said, /rejected: \w+(, -?[\d.e-]+ (deg|s|sigma), limit [\d.e-]+)?$/);
+  const ofLeftOut = /(rejected: \w+|left out by sequential: innovation)(, -?[\d.e-]+ (deg|s|sigma), limit [\d.e-]+)?$/;
+  if (said) assert.match(said, ofLeftOut);
+  await eventually(async () => {
+    assert.match(await text('series-note'), /^last 30 min, \d+ points, \d+ left out$/);
+  });
+  const [, count] = (await text('series-note')).match(/(\d+) left out$/);
+  await page.focus('#series');
+  await page.keyboard.press('ArrowLeft');
+  if (count > 0) assert.match(await text('series-note'), /^\d\d:\d\d:\d\d (rejected|accepted, left out)/);
 });
 
 test('asks for the axis that was pointed at', async () => eventually(async () => {  // The axis may move between both readings.

@@ -295,6 +295,35 @@ TEST_F(ArchiveProducts, EstimatesOfALiveRunSayWhenTheyWereStoredAndNoOthers) {
   }
 }
 
+TEST_F(ArchiveProducts, ResidualsAreLeftOutWhereARunStoresNone) {
+  const Observation said{.t = tai_from_ns(1),
+                         .source = SampleSource::Star,
+                         .residual = {.freedom = 1, .sigma = Eigen::Vector3d::Ones()},
+                         .nis = 1.0,
+                         .limit = 25.0};
+  for (const bool stores_residuals : {true, false}) {
+    ArchiveBatch batch = start_of(stores_residuals ? "all" : "without");
+    batch.stores_residuals = stores_residuals;
+    batch.products = {SampleObservation{.estimator = AttitudeSource::Mekf, .said = said},
+                      RejectedSample{.t = tai_from_ns(2),
+                                     .kind = SampleKind::Gyro,
+                                     .rejected_by = Rejection::Frozen,
+                                     .failed = FailedTest{.value = 9.0, .limit = 5.0}},
+                      PulseUse{.pulse = {.t = tai_from_ns(3), .channel = PulseChannel::Sun1},
+                               .revolution = 1,
+                               .said = said}};
+    store(batch);
+  }
+  const auto rows_of = [&](const std::string& table) {
+    SQLite::Database database = reader();
+    return column(database, "SELECT run_id FROM " + table + " ORDER BY run_id");
+  };
+  EXPECT_THAT(rows_of("sample_residual"), ElementsAre("all", "all"));
+  EXPECT_THAT(rows_of("edge_residual"), ElementsAre("all"));
+  EXPECT_THAT(rows_of("rejected_sample"), ElementsAre("all", "without"));
+  EXPECT_THAT(rows_of("pulse_use"), ElementsAre("all", "without"));
+}
+
 TEST_F(ArchiveProducts, NoticeIsStoredOnceHoweverOftenItIsTold) {
   ArchiveBatch batch = start_of("run-1");
   const RunNotice of_then{.t = tai_from_ns(1'483'228'837'000'000'000),

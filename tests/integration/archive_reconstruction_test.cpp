@@ -104,6 +104,14 @@ TEST_F(ArchiveReconstruction, ALaterSolutionTakesThePlaceOfAllOfTheEarlier) {
               ElementsAre("batch20", "sequential10"));
 }
 
+TEST_F(ArchiveReconstruction, AttitudesOfALiveRunSayWhenTheyWereAnnounced) {
+  ArchiveBatch live = start_of("run-1");
+  live.start->mode = RunMode::Live;
+  store(live);
+  store_products({early_solution()});
+  EXPECT_EQ(text("SELECT count(announced_utc) FROM attitude"), "5");
+}
+
 TEST_F(ArchiveReconstruction, ReconstructedAttitudesDoNotPoseAsThatOfThePass) {
   store(start_of("run-1"));
   store_products({filtered_at(4), early_solution()});

@@ -53,6 +53,27 @@ TEST_F(ArchiveView, HasThePhaseOfEveryEdgeBehindTheFirstOfItsTurn) {
   EXPECT_EQ(found[1].rejected_by, "unassociated");
 }
 
+TEST_F(ArchiveView, SaysWhichAcceptedEdgesTheFilterLeftOut) {
+  PulseUse left_out = edge(10'500'000'000, 5);
+  left_out.said = Observation{.t = left_out.pulse.t,
+                              .source = SampleSource::Sun2,
+                              .residual = {.freedom = 1,
+                                           .value = Eigen::Vector3d{6e-3, 0.0, 0.0},
+                                           .sigma = Eigen::Vector3d{1e-3, 0.0, 0.0}},
+                              .nis = 36.0,
+                              .limit = 25.0,
+                              .rejected_by = Rejection::Innovation};
+  const auto found = values(
+      SpacecraftKind::Spin, "phase_sun2",
+      {RevolutionProduct{.revolution = 5, .t_sun1 = tai_from_ns(10 * kSecond_ns), .period_s = 2.0},
+       left_out, edge(11 * kSecond_ns, 5)});
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].accepted, true);
+  EXPECT_EQ(found[0].used, false);
+  EXPECT_EQ(found[0].held, (HeldAgainst{.off = 6.0, .limit = 5.0, .unit = "sigma"}));
+  EXPECT_EQ(found[1].used, std::nullopt);  // It was not asked.
+}
+
 TEST_F(ArchiveView, HasInnovationsAsNormalDeviates) {
   const auto attitude = [](std::int64_t t_tai_ns, const Innovations& innovations) {
     return AttitudeEstimate{.t = tai_from_ns(t_tai_ns),

@@ -1,9 +1,11 @@
 // The console of `spindrift serve`, as a browser sees it.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -105,6 +107,52 @@ TEST_F(ServedConsole, TakesAnAcknowledgementAndKnowsItAfterARestart) {
   viewer.reset();  // Before its client.
   start();
   EXPECT_EQ(client_->get_json("/api/v1/state")["alerts"][0]["state"], "acknowledged");
+  EXPECT_EQ(stop(), 0) << service_->log();
+}
+
+TEST_F(ServedConsole, ShowsTheRunOfBeforeUntilTheNextOneHasTelemetry) {
+  replay();
+  ASSERT_TRUE(
+      eventually([&] { return number_of(db(), "SELECT count(*) FROM spin_estimate") > 590; }));
+  ASSERT_EQ(stop(), 0) << service_->log();
+  const std::int64_t first_arrival = number_of(db(), "SELECT first_arrival FROM run");
+  std::ofstream{copy_.mission(), std::ios::app} << "\n# better known now\n";
+  start();
+  ASSERT_TRUE(eventually([&] { return shown().contains("quality"); })) << service_->log();
+  EXPECT_EQ(number_of(db(), "SELECT count(*) FROM run"), 1);
+  EXPECT_EQ(shown()["state"], "stale");
+  EXPECT_EQ(shown()["t_tai_ns"], number_of(db(), "SELECT last_tai_ns FROM run"));
+  EXPECT_EQ(shown()["ra_deg"], real_of(db(), "SELECT ra_deg FROM pass_verdict"));
+  EXPECT_FALSE(shown()["estimates"].empty());
+  EXPECT_FALSE(shown()["go"]["is_go"]);
+  EXPECT_FALSE(client_
+                   ->get_json("/api/v1/series?spacecraft=SPINNER&quantity=sun_angle&from=0"
+                              "&to=9000000000000000000&points=100")["points"]
+                   .empty());
+  EXPECT_EQ(stop(), 0) << service_->log();  // An empty run is none.
+  EXPECT_EQ(number_of(db(), "SELECT count(*) FROM run"), 1);
+  start();
+  replay();
+  ASSERT_TRUE(eventually([&] { return number_of(db(), "SELECT count(*) FROM run") == 2; }));
+  ASSERT_TRUE(eventually([&] { return shown()["state"] == "live"; }));
+  EXPECT_EQ(number_of(db(), fmt::format("SELECT count(*) FROM notice JOIN run USING (run_id)"
+                                        " WHERE code = 'new_run' AND first_arrival > {}",
+                                        first_arrival)),
+            1);
+  EXPECT_EQ(stop(), 0) << service_->log();
+}
+
+TEST_F(ServedConsole, ShowsResidualsThatTheArchiveDoesNotKeep) {
+  ASSERT_EQ(stop(), 0) << service_->log();
+  std::filesystem::remove(db());
+  std::ofstream{copy_.mission(), std::ios::app} << "\n[archive]\nresiduals = false\n";
+  start();
+  EventViewer viewer = client_->watch();
+  replay();
+  ASSERT_TRUE(eventually([&] { return shown()["residuals"].size() > 2; })) << shown();
+  EXPECT_THAT(viewer.until("\"off_unit\":\"sigma\""), HasSubstr("event: pulse\n"));
+  EXPECT_GT(number_of(db(), "SELECT count(*) FROM pulse_use"), 0);
+  EXPECT_EQ(number_of(db(), "SELECT count(*) FROM edge_residual"), 0);
   EXPECT_EQ(stop(), 0) << service_->log();
 }
 

@@ -52,10 +52,12 @@ TEST(Decimate, ShowsWhatWasRejectedAmongWhatWasNot) {
     points[place].accepted = false;
     points[place].rejected_by = "late";
   }
+  points[700].used = false;
   const auto kept = decimate(points, 20);
   EXPECT_LE(kept.size(), 20U);
   EXPECT_THAT(kept, Contains(points[100]));
   EXPECT_THAT(kept, Contains(points[500]));
+  EXPECT_THAT(kept, Contains(points[700]));
 }
 
 TEST(Decimate, LeavesHalfToWhatWasAcceptedHoweverMuchWasRejected) {

@@ -83,6 +83,15 @@ TEST(PassComputing, SilencesHaveTheirPlaceAmongTheSamples) {
   EXPECT_EQ(batches[0].spacecraft_id, "SAT");
 }
 
+TEST(PassComputing, SaysWhetherItsResidualsAreStored) {
+  const auto stores_residuals = [](bool stores) {
+    PassComputing<FakePass> computing{"SAT", "run", FakePass{}, stores};
+    return computing.compute(input_at({1}), kNote).at(0).stores_residuals;
+  };
+  EXPECT_TRUE(stores_residuals(true));
+  EXPECT_FALSE(stores_residuals(false));
+}
+
 TEST(PassComputing, KnowsNothingOfTheOtherKinds) {
   PassComputing<FakePass> computing{"SAT", "run", FakePass{}};
   PassInput input = input_at({});

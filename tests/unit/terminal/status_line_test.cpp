@@ -76,6 +76,13 @@ TEST_F(StatusLine, SaysThatNothingComesAndThatThereIsNoAnswer) {
             "SPINNER waiting for telemetry");
 }
 
+TEST_F(StatusLine, SaysOfWhenTheAnswerOfTheRunBeforeIs) {
+  health_.data_age_s.reset();
+  EXPECT_EQ(line(100, std::nullopt),
+            "SPINNER waiting for telemetry last 2026-11-20T03:24:04Z ra 100.146 dec -54.924 "
+            "sequential AMBIGUOUS 0.042deg");
+}
+
 TEST_F(StatusLine, ShowsTheSensorsThatTheMissionHas) {
   arrivals_.last.clear();
   EXPECT_THAT(line(kUsual), HasSubstr(" sun -/- N -/- S -/- "));

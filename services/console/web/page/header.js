@@ -37,7 +37,9 @@ export function drawHeader(craft, service, since_s, stale) {
   for (const name of ofSpin) places.get(name).parentElement.hidden = !spin;
   places.get('To target').parentElement.hidden = !Number.isFinite(craft.to_target_deg);
   put('UTC', craft.utc ? craft.utc.replace('T', ' ').replace(/(\.\d+)?Z$/, '') : '–');
-  put('Data age', duration(craft.data_age_s + since_s), craft.state === 'stale' ? 'bad' : '');
+  const isOfBefore = craft.utc && !Number.isFinite(craft.data_age_s);
+  put('Data age', isOfBefore ? 'before the start' : duration(craft.data_age_s + since_s),
+    craft.state === 'stale' ? 'bad' : '');
   put('Mode', service?.mode === 'replay' ? '↻ REPLAY' : service?.mode ? `▶ ${service.mode.toUpperCase()}` : '–',
     service?.mode === 'replay' ? 'warn' : '');
   const link = stale ? 'unknown' : craft.state ?? 'waiting';

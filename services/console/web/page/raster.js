@@ -1,9 +1,9 @@
-// Spin phase of the edges against time: a dot for an accepted one, a cross for a rejected one; each channel's name at its
-// last edge.
+// Spin phase of the edges against time: a dot for an accepted one, a cross for a rejected one, in another colour for one
+// that only the filter left out; each channel's name at its last edge.
 import { Ring } from './ring.js';
 import { begin, colours, cross } from './canvas.js';
 import { byId, clock, number } from './text.js';
-import { heldAgainst } from './held.js';
+import { isLeftOut, isRejected, nextLeftOut, whatBecameOf } from './held.js';
 import { seriesOf } from './trace.js';
 
 const shown_s = 300;
@@ -78,12 +78,12 @@ export class Raster {
       const y = 6 + plot.h * (1 - edge.phase_deg / 360);
       this.drawn.push({ x, y, edge, at: utcOf(edge.t_tai_ns) });
       named.set(edge.channel, y);
-      if (edge.accepted) {
+      if (isLeftOut(edge)) {
+        pen.strokeStyle = isRejected(edge) ? colours.bad : colours.warn;
+        cross(pen, x, y, 4);
+      } else {
         pen.fillStyle = channels[edge.channel] ?? colours.text;
         pen.fillRect(x - 1.5, y - 1.5, 3, 3);
-      } else {
-        pen.strokeStyle = colours.bad;
-        cross(pen, x, y, 4);
       }
     }
     this.name(pen, named, left + plot.w + 8, 6 + plot.h);
@@ -111,21 +111,15 @@ export class Raster {
     this.tell(nearest);
   }
 
-  // The arrow keys go through the rejected edges, as a pointer would.
   walk(event) {
-    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-    const rejected = this.drawn.filter(one => !one.edge.accepted);
-    if (!step || !rejected.length) return;
-    event.preventDefault();
-    const at = rejected.findIndex(one => one.edge === this.told);
-    this.tell(rejected.at((at < 0 && step > 0 ? 0 : at + step) % rejected.length));
+    const edge = nextLeftOut(event, this.drawn.map(one => one.edge), this.told);
+    if (edge) this.tell(this.drawn.find(one => one.edge === edge));
   }
 
   tell(one) {
     this.told = one?.edge;
     byId('raster-said').textContent = one
-      ? `${one.edge.channel} ${clock(one.at)} ${number(one.edge.phase_deg, 1, '°')} ${
-        one.edge.accepted ? 'accepted' : `rejected: ${one.edge.rejected_by}`}${heldAgainst(one.edge)}`
+      ? `${one.edge.channel} ${clock(one.at)} ${number(one.edge.phase_deg, 1, '°')} ${whatBecameOf(one.edge)}`
       : '';
   }
 }

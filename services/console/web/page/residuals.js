@@ -1,7 +1,7 @@
 // What each channel, or sensor, says to the filter: its whitened residuals against time, whose standard deviation is 1 when
 // all is well, with the share that is used and the noise factor of each.
 import { Chart, crosses, dots, line } from './chart.js';
-import { heldAgainst } from './held.js';
+import { nextLeftOut, whatBecameOf } from './held.js';
 import { seriesOf } from './trace.js';
 import { clock, number } from './text.js';
 
@@ -62,19 +62,14 @@ export class Residuals {
     if (!this.told) this.say();
   }
 
-  // The arrow keys go through what was left out.
   walk(event) {
-    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-    const left_out = this.rows.filter(row => !row.accepted);
-    if (!step || !left_out.length) return;
-    event.preventDefault();
-    const at = left_out.indexOf(this.told);
-    this.say(left_out.at((at < 0 && step > 0 ? 0 : at + step) % left_out.length));
+    const row = nextLeftOut(event, this.rows, this.told);
+    if (row) this.say(row);
   }
 
   say(row) {
     this.told = row;
-    this.note.textContent = row ? `${row.name} ${clock(row.utc_s)} ${row.accepted ? 'used' : `rejected: ${row.rejected_by}`}${heldAgainst(row)}`
+    this.note.textContent = row ? `${row.name} ${clock(row.utc_s)} ${whatBecameOf(row, 'used')}`
       : this.summary ? `used × noise: ${this.summary}` : 'no residuals yet';
   }
 }

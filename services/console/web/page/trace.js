@@ -1,7 +1,8 @@
 // One quantity of the archive against time. Measurements have no event of their own: the newest span is asked for
 // again and again, decimated by the service.
 import { Chart, crosses, dots } from './chart.js';
-import { heldAgainst } from './held.js';
+import { isLeftOut, nextLeftOut, whatBecameOf } from './held.js';
+import { clock } from './text.js';
 
 const span_ns = 1800e9;
 const points = 800;
@@ -20,13 +21,16 @@ export function seriesOf(spacecraft, quantity, from, to, most = points) {
 
 export class Trace {
   constructor(box, note, spacecraft, { name, unit }) {
-    Object.assign(this, { note, spacecraft, quantity: name, rows: [] });
-    this.chart = new Chart(box, [dots('accepted', '#7cb9f2'), crosses('rejected', '#ff8a75')], { unit });
-    box.addEventListener('pointermove', this.hovered = () => this.say());
+    Object.assign(this, { box, note, spacecraft, quantity: name, rows: [] });
+    this.chart = new Chart(box, [dots('accepted', '#7cb9f2'), crosses('left out', '#ff8a75')], { unit });
+    box.tabIndex = 0;
+    box.addEventListener('pointermove', this.hovered = () => this.say(this.rows[this.chart.plot.cursor.idx]));
+    box.addEventListener('keydown', this.walked = event => this.walk(event));
   }
 
   destroy() {
-    this.chart.box.removeEventListener('pointermove', this.hovered);
+    this.box.removeEventListener('pointermove', this.hovered);
+    this.box.removeEventListener('keydown', this.walked);
     this.chart.destroy();
     this.chart = null;
   }
@@ -39,15 +43,15 @@ export class Trace {
       const answer = await seriesOf(this.spacecraft, this.quantity, t_tai_ns - span_ns, t_tai_ns);
       if (!this.chart) return;
       this.asked = t_tai_ns;
-      this.rows = answer.points;
+      this.rows = answer.points.map(point => ({ ...point, utc_s: utcOf(point.t_tai_ns) }));
       this.chart.draw([
-        this.rows.map(row => utcOf(row.t_tai_ns)),
-        this.rows.map(row => row.accepted === false ? null : row.value),
-        this.rows.map(row => row.accepted === false ? row.value : null),
+        this.rows.map(row => row.utc_s),
+        this.rows.map(row => isLeftOut(row) ? null : row.value),
+        this.rows.map(row => isLeftOut(row) ? row.value : null),
       ]);
-      const rejected = this.rows.filter(row => row.accepted === false).length;
-      this.summary = this.rows.length ? `last 30 min, ${this.rows.length} points, ${rejected} rejected` : 'no points yet';
-      this.say();
+      const leftOut = this.rows.filter(isLeftOut).length;
+      this.summary = this.rows.length ? `last 30 min, ${this.rows.length} points, ${leftOut} left out` : 'no points yet';
+      if (!this.told) this.say();
     } catch (error) {
       this.note.textContent = `no series: ${error.message}`;
     } finally {
@@ -55,8 +59,13 @@ export class Trace {
     }
   }
 
-  say() {
-    const row = this.rows[this.chart.plot.cursor.idx];
-    this.note.textContent = row?.accepted === false ? `rejected: ${row.rejected_by ?? 'no reason given'}${heldAgainst(row)}` : this.summary ?? '';
+  walk(event) {
+    const row = nextLeftOut(event, this.rows, this.told);
+    if (row) this.say(row);
+  }
+
+  say(row) {
+    this.told = row && isLeftOut(row) ? row : undefined;
+    this.note.textContent = this.told ? `${clock(row.utc_s)} ${whatBecameOf(row)}` : this.summary ?? '';
   }
 }
