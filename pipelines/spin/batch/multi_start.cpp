@@ -163,15 +163,9 @@ OtherAxis compared_with(const EvaluatedFit& best, const PassModel& model,
     return {.axis_icrf = axis_icrf, .more_misfit = bound - best.misfit()};
   }
   const SpinState end = coarse_fit(model, edges, *near, best.estimated);
-  if (!same_axis(end, best.fit.state)) {
-    const auto one = explain_motion(model, edges, end, best.estimated);
-    if (one && !same_axis(one->fit.state, best.fit.state)) {
-      return {.axis_icrf = one->fit.state.axis_icrf(),
-              .more_misfit = one->misfit() - best.misfit()};
-    }
-  }
-  return {.axis_icrf = axis_icrf,
-          .more_misfit = information_of(model, edges, *near).misfit() - best.misfit()};
+  const SpinState& other = same_axis(end, best.fit.state) ? *near : end;
+  return {.axis_icrf = other.axis_icrf(),
+          .more_misfit = information_of(model, edges, other).misfit() - best.misfit()};
 }
 
 }  // namespace spindrift

@@ -34,8 +34,9 @@ struct Best {
 Expected<Best> best_of_starts(const PassModel& model, std::span<const PassEdge> edges,
                               std::span<const Eigen::Vector3d> starts, BiasSet estimated);
 
-/// The axis that `axis_icrf` leads to; where that is the best one, itself, with phase and rate
-/// fitted. An edge that it would not give counts as an outlier.
+/// The axis that `axis_icrf` leads to by some thousands of edges, which is enough for one that is
+/// no start; where that is the best one, itself, with phase and rate fitted. An edge that it would
+/// not give counts as an outlier.
 OtherAxis compared_with(const EvaluatedFit& best, const PassModel& model,
                         std::span<const PassEdge> edges, const Eigen::Vector3d& axis_icrf);
 
