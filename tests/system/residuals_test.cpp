@@ -149,10 +149,37 @@ TEST_F(Residuals, OfAThreeAxisPassAreThoseOfItsSensorsWithValueAndLimit) {
                       " 'mekf' AND kind <> 'gyro' ORDER BY 1"),
               ElementsAre("magnetometer|3|nT|", "star|3|deg|", "sun|2|deg|"));
   EXPECT_THAT(rows_of(db_,
-                      "SELECT rejected_by FROM rejected_sample WHERE kind = 'gyro' AND"
-                      " rejected_by IN ('saturated', 'frozen', 'outlier') AND"
+                      "SELECT * FROM rejected_sample WHERE rejected_by IN ('innovation',"
+                      " 'saturated', 'frozen', 'outlier') AND"
                       " (value IS NULL OR value <= \"limit\")"),
               IsEmpty());
+}
+
+/// Whether the filter has the samples too, or only a reconstruction.
+TEST_F(Residuals, OfAReconstructionAreThoseOfGatedFixesAndGyroSamplesToo) {
+  testing::write_three_axis_pass(
+      folder_.path(),
+      {.duration_s = 300.0, .gyro_s = 1.0, .star_s = 5.0, .sun_s = 5.0, .separation = true});
+  for (const std::string command : {"process", "reconstruct"}) {
+    SCOPED_TRACE(command);
+    db_ = folder_.path() / (command + ".db");
+    Program program{{command, "--mission", (folder_.path() / "mission.toml").string(),
+                     "--telemetry", folder_.path().string(), "--db", db_.string()}};
+    ASSERT_EQ(program.exit_status(), 0) << program.log();
+    // The batch uses the fixes to two minutes behind the first one, the sequential that one.
+    EXPECT_THAT(
+        rows_of(db_,
+                "SELECT estimator, kind, dof, unit, rejected_by, count(*) FROM"
+                " sample_residual WHERE kind IN ('gyro', 'star') AND estimator <> 'mekf'"
+                " GROUP BY 1, 2, 3, 4, 5 ORDER BY 1, 2, 5"),
+        ElementsAre("batch|gyro|1|deg_s|saturated|1|", "batch|star|3|deg||24|",
+                    "batch|star|3|deg|innovation|1|", "sequential|gyro|1|deg_s|saturated|1|",
+                    "sequential|star|3|deg||1|", "sequential|star|3|deg|innovation|1|"));
+    EXPECT_THAT(rows_of(db_,
+                        "SELECT * FROM sample_residual WHERE kind = 'gyro' AND"
+                        " (residual_1 <= \"limit\" OR nis IS NOT NULL OR sigma_1 IS NOT NULL)"),
+                IsEmpty());
+  }
 }
 
 }  // namespace spindrift::residuals_test
