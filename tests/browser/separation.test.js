@@ -35,5 +35,5 @@ test('shows the events of the archive, and the attitude in the same order of ang
 });
 
 test('tells what the sensors say to the filter', async () => {
-  await page.locator('#residuals-note', { hasText: /^used × noise: star \d+ % × \d\.\d\d/ }).waitFor({ timeout: 20_000 });
+  await page.locator('#residuals-note', { hasText: /^used × noise: sun \d+ % × \d\.\d\d/ }).waitFor({ timeout: 20_000 });
 });
