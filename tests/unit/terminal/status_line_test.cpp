@@ -78,7 +78,7 @@ TEST_F(StatusLine, SaysThatNothingComesAndThatThereIsNoAnswer) {
 
 TEST_F(StatusLine, SaysOfWhenTheAnswerOfTheRunBeforeIs) {
   health_.data_age_s.reset();
-  EXPECT_EQ(line(100, std::nullopt),
+  EXPECT_EQ(line(200, std::nullopt),
             "SPINNER waiting for telemetry last 2026-11-20T03:24:04Z ra 100.146 dec -54.924 "
             "sequential AMBIGUOUS 0.042deg");
 }

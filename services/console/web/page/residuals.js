@@ -69,7 +69,11 @@ export class Residuals {
 
   say(row) {
     this.told = row;
-    this.note.textContent = row ? `${row.name} ${clock(row.utc_s)} ${whatBecameOf(row, 'used')}`
-      : this.summary ? `used × noise: ${this.summary}` : 'no residuals yet';
+    this.note.textContent = row ? `${row.name} ${clock(row.utc_s)} ${whatBecameOf(row, 'used')}` : this.overall();
+  }
+
+  // Of a run from before the service there is no summary.
+  overall() {
+    return this.summary ? `used × noise: ${this.summary}` : this.rows.length ? `${this.rows.length} of the last 30 min` : 'no residuals yet';
   }
 }
