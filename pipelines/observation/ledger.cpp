@@ -42,9 +42,10 @@ std::vector<SourceSummary> Ledger::sources() const {
   std::vector<SourceSummary> all;
   for (std::size_t i = 0; i < of_.size(); ++i) {
     if (const ObservationRecord& record = of_[i].record; record.heard() > 0.0) {
+      const double used = 1.0 - record.share_left_out();
       all.push_back({.source = static_cast<SampleSource>(i),
-                     .used = 1.0 - record.share_left_out(),
-                     .noise = record.noise()});
+                     .used = used,
+                     .noise = used > 0.0 ? std::optional{record.noise()} : std::nullopt});
     }
   }
   return all;

@@ -23,8 +23,8 @@ inline constexpr RecordRules kShownRules{
 /// What people are shown of one source.
 struct SourceSummary {
   SampleSource source;
-  double used;   ///< Share.
-  double noise;  ///< ObservationRecord::noise().
+  double used;                  ///< Share.
+  std::optional<double> noise;  ///< ObservationRecord::noise(); empty: none was used.
 };
 
 class Ledger {

@@ -231,7 +231,9 @@ nlohmann::json ShownSpacecraft::held_against(const PulseUse& edge) const {
 nlohmann::json ShownSpacecraft::residuals() const {
   nlohmann::json all = nlohmann::json::object();
   for (const SourceSummary& one : ledger_.sources()) {
-    all[std::string{name_of(one.source)}] = {{"used", one.used}, {"noise", one.noise}};
+    nlohmann::json& said = all[std::string{name_of(one.source)}];
+    said["used"] = one.used;
+    add(said, "noise", one.noise);
   }
   return all;
 }

@@ -190,8 +190,8 @@ nlohmann::json sensors_json(const RunSummary& summary) {
 std::string residuals_text(const RunSummary& summary) {
   std::vector<std::string> texts;
   for (const SourceSummary& one : summary.ledger.sources()) {
-    texts.push_back(
-        fmt::format("{} {:.0f} % x {:.2f}", name_of(one.source), 100.0 * one.used, one.noise));
+    texts.push_back(fmt::format("{} {:.0f} %{}", name_of(one.source), 100.0 * one.used,
+                                one.noise ? fmt::format(" x {:.2f}", *one.noise) : ""));
   }
   return texts.empty() ? std::string{} : fmt::format("  used x noise {}\n", fmt::join(texts, ", "));
 }
@@ -199,7 +199,8 @@ std::string residuals_text(const RunSummary& summary) {
 nlohmann::json residuals_json(const RunSummary& summary) {
   nlohmann::json residuals = nlohmann::json::object();
   for (const SourceSummary& one : summary.ledger.sources()) {
-    residuals[std::string{name_of(one.source)}] = {{"used", one.used}, {"noise", one.noise}};
+    residuals[std::string{name_of(one.source)}] = {
+        {"used", one.used}, {"noise", one.noise ? nlohmann::json(*one.noise) : nlohmann::json{}}};
   }
   return residuals;
 }

@@ -135,8 +135,9 @@ TEST(Ledger, SaysOfEverySourceThatSpokeWhatIsUsedAndHowItScatters) {
   ASSERT_EQ(sources.size(), kEdges.size());
   for (std::size_t i = 0; i < sources.size(); ++i) {
     EXPECT_EQ(sources[i].source, kEdges[i]);
-    EXPECT_DOUBLE_EQ(sources[i].used, kEdges[i] == NorthIn ? 0.0 : 1.0);
-    EXPECT_DOUBLE_EQ(sources[i].noise, 1.0);
+    const bool is_left_out = kEdges[i] == NorthIn;
+    EXPECT_DOUBLE_EQ(sources[i].used, is_left_out ? 0.0 : 1.0);
+    EXPECT_EQ(sources[i].noise, is_left_out ? std::nullopt : std::optional{1.0});
   }
 }
 
