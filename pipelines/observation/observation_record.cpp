@@ -7,19 +7,22 @@
 namespace spindrift {
 
 void ObservationRecord::add(std::span<const Observation> together) {
-  for (const Observation& observation : together) {
-    const bool is_left_out = observation.rejected_by.has_value();
-    for (RecentMean* share : {&recent_share_, &share_from_the_start_, &share_for_noise_}) {
-      share->add(is_left_out ? 1.0 : 0.0);
-    }
-    left_out_ += is_left_out ? 1 : 0;
+  const auto left_out = std::count_if(together.begin(), together.end(),
+                                      [](const auto& one) { return one.rejected_by.has_value(); });
+  for (RecentMean* share : {&recent_share_, &share_from_the_start_, &share_for_noise_}) {
+    share->add(static_cast<double>(left_out), static_cast<double>(together.size()));
   }
+  left_out_ += left_out;
   const bool with_left_out = share_for_noise_.mean() > rules_.noise_from_share;
+  double squares = 0.0;
+  double freedoms = 0.0;
   for (const Observation& observation : together) {
     if (with_left_out || !observation.rejected_by) {
-      mean_square_.add(observation.bounded_nis(), std::max(observation.residual.freedom, 1));
+      squares += observation.bounded_nis();
+      freedoms += std::max(observation.residual.freedom, 1);
     }
   }
+  mean_square_.add(squares, freedoms);
 }
 
 double ObservationRecord::excess_noise() const {
