@@ -12,14 +12,10 @@ namespace {
 
 Expected<ReconstructionProduct> solved_by(ReconstructionMethod method,
                                           const ReconstructionRequest& request,
-                                          const std::optional<LauncherAttitude>& launcher,
-                                          bool keeps_residuals) {
+                                          const std::optional<LauncherAttitude>& launcher) {
   auto separation = reconstruct_separation(request, method, launcher);
   if (!separation) {
     return Unexpected{std::move(separation.error())};
-  }
-  if (!keeps_residuals) {
-    separation->solution.said = {};
   }
   auto product = std::make_shared<const ReconstructedSeparation>(*std::move(separation));
   if (const auto why = why_withheld(Product{product})) {
@@ -32,14 +28,13 @@ Expected<ReconstructionProduct> solved_by(ReconstructionMethod method,
 
 SolvedSeparation solve_separation(const ReconstructionRequest& request,
                                   const std::optional<LauncherAttitude>& launcher,
-                                  std::optional<ReconstructionMethod> method,
-                                  bool keeps_residuals) {
+                                  std::optional<ReconstructionMethod> method) {
   SolvedSeparation solved;
   for (const auto one : {ReconstructionMethod::Batch, ReconstructionMethod::Sequential}) {
     if (method.value_or(one) != one) {
       continue;
     }
-    if (auto product = solved_by(one, request, launcher, keeps_residuals)) {
+    if (auto product = solved_by(one, request, launcher)) {
       solved.methods.push_back(*std::move(product));
     } else if (std::find(solved.failures.begin(), solved.failures.end(), product.error().message) ==
                solved.failures.end()) {

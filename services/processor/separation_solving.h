@@ -19,9 +19,8 @@ struct SolvedSeparation {
 };
 
 /// By one method, or by both.
-/// @param keeps_residuals What the samples said stands in the solutions.
 SolvedSeparation solve_separation(const ReconstructionRequest& request,
                                   const std::optional<LauncherAttitude>& launcher,
-                                  std::optional<ReconstructionMethod> method, bool keeps_residuals);
+                                  std::optional<ReconstructionMethod> method);
 
 }  // namespace spindrift

@@ -47,8 +47,7 @@ SpinRun::SpinRun(const Mission& mission, const std::string& run_id, SolvingPlan 
       orbit_{*mission.orbit},
       computing_{mission.spacecraft_id, run_id, SpinPass{config_, orbit_},
                  mission.stores_residuals},
-      plan_{plan},
-      keeps_residuals_{mission.stores_residuals} {
+      plan_{plan} {
   begin(run_id);
 }
 
@@ -124,7 +123,7 @@ std::vector<BackgroundTask> SpinRun::take_background_tasks() { return std::excha
 /// What the edges say is kept of the last solution only: each would replace it.
 Expected<std::vector<Product>> SpinRun::solve(const PassEdges& edges, const Known& known,
                                               Solution which) const {
-  const bool keeps_residuals = keeps_residuals_ && which == Solution::Last;
+  const bool keeps_residuals = which == Solution::Last;
   return solved_or_fault(computing_.spacecraft_id(), "batch solution",
                          edges.last().value_or(TaiTime{}), [&] {
                            return solve_edges(config_, orbit_, edges, known)

@@ -76,7 +76,6 @@ class SpinRun {
   RunSummary summary_;
   PassComputing<SpinPass> computing_;
   SolvingPlan plan_;
-  bool keeps_residuals_;
   PassEdges edges_;
   std::optional<TaiTime> next_batch_;
   std::optional<TaiTime> last_batch_;    ///< The last edge of the solution that was due last.

@@ -47,8 +47,7 @@ ThreeAxisRun::ThreeAxisRun(const Mission& mission, const std::string& run_id, So
       field_{config_.magnetometer ? std::optional{igrf().value()} : std::nullopt},
       separation_{mission.separation},
       computing_{mission.spacecraft_id, run_id, new_pass(), mission.stores_residuals},
-      plan_{plan},
-      keeps_residuals_{mission.stores_residuals} {
+      plan_{plan} {
   begin(run_id);
 }
 
@@ -155,11 +154,9 @@ BackgroundTask ThreeAxisRun::solving(std::shared_ptr<const ReconstructionRequest
   const TaiTime separation = request->times.separation;
   return {.batch = computing_.batch(),
           .solve =
-              [=, launcher = separation_->launcher, spacecraft_id = computing_.spacecraft_id(),
-               keeps_residuals = keeps_residuals_] {
+              [=, launcher = separation_->launcher, spacecraft_id = computing_.spacecraft_id()] {
                 return solved_or_fault(spacecraft_id, kReconstruction, separation, [&] {
-                  return products_of(spacecraft_id,
-                                     solve_separation(*request, launcher, method, keeps_residuals));
+                  return products_of(spacecraft_id, solve_separation(*request, launcher, method));
                 });
               },
           .what = kReconstruction,

@@ -58,7 +58,6 @@ class ThreeAxisRun {
   RunSummary summary_;
   PassComputing<ThreeAxisPass> computing_;
   SolvingPlan plan_;
-  bool keeps_residuals_;
   std::optional<SeparationRecord> record_;  ///< Where the mission tells of a separation.
   Exclusions<SampleKind> excluded_;         ///< From it.
   bool has_forgotten_ = false;              ///< What a solution rested on.

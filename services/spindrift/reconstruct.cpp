@@ -177,8 +177,7 @@ Expected<SolvedSeparation> solved(const ReconstructOptions& options, const Missi
                                       .orbit_states = std::move(samples.orbit_states),
                                       .disturbance_rad_s2 = mission.separation->disturbance_rad_s2,
                                       .node_at_every_gyro_sample = true};
-  auto solved = solve_separation(request, mission.separation->launcher, options.method,
-                                 mission.stores_residuals);
+  auto solved = solve_separation(request, mission.separation->launcher, options.method);
   if (solved.methods.empty()) {
     return refused(fmt::format("{}: {}", mission.spacecraft_id, fmt::join(solved.failures, "\n")));
   }
@@ -197,7 +196,9 @@ Expected<std::string> store(const ReconstructOptions& options, const Mission& mi
   if (!processor) {
     return Unexpected{processor.error()};
   }
-  ArchiveBatch last{.run_id = {}, .spacecraft_id = mission.spacecraft_id};
+  ArchiveBatch last{.run_id = {},
+                    .spacecraft_id = mission.spacecraft_id,
+                    .stores_residuals = mission.stores_residuals};
   const auto submit = [&](std::vector<ArchiveBatch> batches) {
     last.run_id = batches.empty() ? last.run_id : batches.back().run_id;
     return submit_all(archive, std::move(batches));
