@@ -283,7 +283,7 @@ CREATE TABLE pulse_use (
   -- filter was asked; of residual_ns and sigma_ns also: the filter expected no such edge.
   residual_ns    INTEGER,
   sigma_ns       INTEGER,
-  residual_limit REAL,
+  residual_limit_milli INTEGER,  -- thousandths take a quarter of the room of a number
   used           INTEGER CHECK (used IN (0, 1)),
   PRIMARY KEY (run_id, t_tai_ns, channel),  -- a run has one spacecraft
   CHECK (accepted = (rejected_by IS NULL))
@@ -473,6 +473,7 @@ CREATE TABLE spin_batch (
   bound_deg              REAL NOT NULL CHECK (bound_deg >= 0),  -- Cramer-Rao, both axes together
   edges                  INTEGER NOT NULL CHECK (edges > 0),
   outliers               INTEGER NOT NULL CHECK (outliers >= 0),
+  residual_limit         REAL NOT NULL,  -- whitened: an edge that is farther off is an outlier
   noise                  REAL NOT NULL CHECK (noise >= 1),  -- times the stated one
   iterations             INTEGER NOT NULL,
   changed_tai_ns         INTEGER,  -- attitude or rate did, and only edges after it count; NULL: did not
@@ -510,12 +511,9 @@ CREATE TABLE batch_residual (
   run_id         TEXT NOT NULL REFERENCES run,
   is_last        INTEGER NOT NULL CHECK (is_last = 1),
   t_tai_ns       INTEGER NOT NULL,
-  channel        TEXT NOT NULL CHECK (
-    channel = 'sun1' OR channel = 'sun2' OR channel = 'north_in' OR channel = 'north_out'
-    OR channel = 'south_in' OR channel = 'south_out'),
+  channel        INTEGER NOT NULL CHECK (channel BETWEEN 0 AND 5),  -- in the order of the view
   residual_ns    INTEGER,
   sigma_ns       INTEGER NOT NULL,
-  residual_limit REAL NOT NULL,
   used           INTEGER NOT NULL CHECK (used IN (0, 1)),
   PRIMARY KEY (run_id, is_last, t_tai_ns, channel)
 ) STRICT, WITHOUT ROWID;

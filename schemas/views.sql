@@ -146,13 +146,17 @@ SELECT run_id, revolution, candidate, ra_deg, dec_deg, misfit FROM spin_fix_othe
 CREATE VIEW edge_residual AS
 SELECT run_id, t_tai_ns, channel, 'sequential' AS estimator, revolution,
   residual_ns / 1e9 AS residual_s, sigma_ns / 1e9 AS sigma_s, residual_ns * 1.0 / sigma_ns AS whitened,
-  residual_limit AS "limit", used, CASE used WHEN 0 THEN 'innovation' END AS rejected_by
+  residual_limit_milli / 1e3 AS "limit", used, CASE used WHEN 0 THEN 'innovation' END AS rejected_by
 FROM pulse_use WHERE used IS NOT NULL
 UNION ALL
-SELECT said.run_id, said.t_tai_ns, said.channel, 'batch', revolution,
+SELECT said.run_id, said.t_tai_ns, named.channel, 'batch', revolution,
   said.residual_ns / 1e9, said.sigma_ns / 1e9, said.residual_ns * 1.0 / said.sigma_ns,
-  said.residual_limit, said.used, CASE said.used WHEN 0 THEN 'innovation' END
-FROM batch_residual AS said LEFT JOIN pulse_use USING (run_id, t_tai_ns, channel);
+  (SELECT residual_limit FROM spin_batch WHERE spin_batch.run_id = said.run_id ORDER BY t_tai_ns DESC LIMIT 1),
+  said.used, CASE said.used WHEN 0 THEN 'innovation' END
+FROM batch_residual AS said JOIN (SELECT 0 AS number, 'sun1' AS channel UNION ALL VALUES
+    (1, 'sun2'), (2, 'north_in'), (3, 'north_out'), (4, 'south_in'), (5, 'south_out')) AS named ON named.number = said.channel
+  LEFT JOIN pulse_use ON pulse_use.run_id = said.run_id AND pulse_use.t_tai_ns = said.t_tai_ns
+    AND pulse_use.channel = named.channel;
 
 -- How many edges, measurements, other samples and input rows were left out, by reason.
 CREATE VIEW rejection_summary AS

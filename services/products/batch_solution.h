@@ -35,6 +35,7 @@ struct SpinBatchTable {
       ProductColumn{"bound_deg", [](const BatchProduct& s) { return s->bound_rad * kDegPerRad; }},
       ProductColumn{"edges", [](const BatchProduct& s) { return s->edges; }},
       ProductColumn{"outliers", [](const BatchProduct& s) { return s->outliers; }},
+      ProductColumn{"residual_limit", [](const BatchProduct& /*s*/) { return kOutlierSigmas; }},
       ProductColumn{"noise", [](const BatchProduct& s) { return s->noise; }},
       ProductColumn{"iterations",
                     [](const BatchProduct& s) { return std::int64_t{s->iterations}; }},
@@ -199,7 +200,8 @@ struct SpinConingTable {
 
 inline std::int64_t whole_ns(double t_s) { return std::llround(t_s * 1e9); }
 
-/// A part of the view edge_residual. In whole nanoseconds, which take half the room of numbers.
+/// A part of the view edge_residual. In whole nanoseconds and numbers of channels, which take less
+/// room than seconds and names.
 struct BatchResidualTable {
   static constexpr std::string_view kName = "batch_residual";
   static constexpr std::array<std::string_view, 3> kKey{"is_last", "t_tai_ns", "channel"};
@@ -212,14 +214,15 @@ struct BatchResidualTable {
   static constexpr auto kColumns = columns(
       ProductColumn{"is_last", [](const BatchEdge& /*edge*/) { return std::int64_t{1}; }},
       ProductColumn{"t_tai_ns", [](const BatchEdge& edge) { return tai_ns(edge.pulse.t); }},
-      ProductColumn{"channel", [](const BatchEdge& edge) { return name_of(edge.pulse.channel); }},
+      ProductColumn{
+          "channel",
+          [](const BatchEdge& edge) { return static_cast<std::int64_t>(edge.pulse.channel); }},
       ProductColumn{"residual_ns",
                     [](const BatchEdge& edge) {
                       return edge.residual_s ? std::optional{whole_ns(*edge.residual_s)}
                                              : std::nullopt;
                     }},
       ProductColumn{"sigma_ns", [](const BatchEdge& edge) { return whole_ns(edge.sigma_s); }},
-      ProductColumn{"residual_limit", [](const BatchEdge& /*edge*/) { return kOutlierSigmas; }},
       ProductColumn{"used", [](const BatchEdge& edge) { return edge.used; }});
 };
 

@@ -49,7 +49,10 @@ struct PulseUseTable {
       ProductColumn{"rejected_by", [](const PulseUse& use) { return name_of(use.rejected_by); }},
       residual_ns_column("residual_ns", [](const Residual& residual) { return residual.value[0]; }),
       residual_ns_column("sigma_ns", [](const Residual& residual) { return residual.sigma[0]; }),
-      said_column("residual_limit", [](const Observation& said) { return std::sqrt(said.limit); }),
+      said_column("residual_limit_milli",
+                  [](const Observation& said) {
+                    return std::int64_t{std::llround(1e3 * std::sqrt(said.limit))};
+                  }),
       said_column("used", [](const Observation& said) { return !said.rejected_by; }));
   /// An edge that is late is not said to be so when something else has become of it: it arrived
   /// twice.

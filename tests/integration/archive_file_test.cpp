@@ -144,9 +144,13 @@ TEST_F(ArchiveFile, TablesOfEveryEdgeTakeNoOtherNamesThanThoseOfTheContract) {
        {"sun1", "sun2", "north_in", "north_out", "south_in", "south_out", "Sun1", "", "sun"}) {
     const bool known = pulse_channel_from(channel).has_value();
     EXPECT_EQ(takes(fmt::format("pulse VALUES ('A', 1, '{}', '', 0, 0, 0)", channel)), known);
-    EXPECT_EQ(takes(fmt::format("pulse_use VALUES ('r', 'A', 1, '{}', 1, 1, NULL, 1, 1, 4.1, 1)",
+    EXPECT_EQ(takes(fmt::format("pulse_use VALUES ('r', 'A', 1, '{}', 1, 1, NULL, 1, 1, 4100, 1)",
                                 channel)),
               known);
+  }
+  for (const int number : {-1, 0, 5, 6}) {
+    EXPECT_EQ(takes(fmt::format("batch_residual VALUES ('r', 1, 1, {}, 1, 1, 1)", number)),
+              number >= 0 && number <= 5);
   }
   EXPECT_TRUE(
       takes("spin_measurement VALUES ('r', 1, 'mixed_azimuth', 1, 'deg', 1, 1, NULL, 1, 1)"));
