@@ -1,11 +1,11 @@
 /// @file
-/// From where on an innovation contradicts.
+/// The gate beyond which an innovation contradicts what the estimator expects.
 
 #pragma once
 
 namespace spindrift {
 
-/// Of the normalised innovation squared: so much noise alone reaches once in 1.7 million.
+/// @return The normalised innovation squared that noise alone exceeds once in 1.7 million samples.
 /// @param freedom 1 to 3.
 double innovation_gate(int freedom);
 

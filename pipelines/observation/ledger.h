@@ -60,7 +60,7 @@ class Ledger {
   const Source& at(SampleSource source) const { return of_[index_of(source)]; }
 
   ObservationRecord all_;
-  std::vector<Source> of_;  ///< By SampleSource.
+  std::vector<Source> of_;  ///< Each stands at the index of its SampleSource.
   std::int64_t turns_ = 0;
 };
 

@@ -34,7 +34,7 @@ enum class SampleSource : std::uint8_t {
 };
 inline constexpr std::size_t kSampleSources = 11;
 constexpr std::size_t index_of(SampleSource source) { return static_cast<std::size_t>(source); }
-/// As in the archive: that of its channel, or of its kind.
+/// The archive calls a source by its pulse channel, or by its kind of sample.
 constexpr std::string_view name_of(SampleSource source) {
   constexpr std::array<std::string_view, kSampleSources> kNames = {
       "sun1",        "sun2", "north_in", "north_out", "south_in",    "south_out",
@@ -58,7 +58,7 @@ struct Observation {
   double limit = 0.0;  ///< What `nis` was held against.
   std::optional<Rejection> rejected_by = {};  ///< Empty: it was used.
 
-  /// Of one freedom: in standard deviations.
+  /// @return A residual of one degree of freedom, in its standard deviations.
   double whitened() const { return residual.value[0] / residual.sigma[0]; }
   /// What was left out counts as at its limit: nobody knows how far off a spurious one is.
   double bounded_nis() const { return rejected_by ? limit : nis; }

@@ -1,5 +1,6 @@
 /// @file
-/// What the observations of one source, or of several together, say of it.
+/// The record of what the observations of one source, or of several together, say of its noise
+/// and of how many are left out.
 
 #pragma once
 
