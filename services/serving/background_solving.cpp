@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -46,26 +47,49 @@ void give_way_to_other_threads() {
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 std::atomic<bool> given_up = false;
 
-/// In a thread that does nothing else: one that gives way must not hold the archive's locks, and
-/// without privileges none can cease to give way. Among busy processes it takes minutes: it is left
-/// to itself when patience ends. @return nothing then.
-std::optional<Expected<std::vector<Product>>> solve_giving_way(const BackgroundTask& task,
-                                                               const Patience& patience) {
-  std::packaged_task<Expected<std::vector<Product>>()> solving{[task] {
-    task.is_awaited ? let_samples_come_first() : give_way_to_other_threads();
+using Solved = Expected<std::vector<Product>>;
+
+/// A thread that does nothing else: one that gives way must not hold the archive's locks.
+struct Attempt {
+  std::future<Solved> solved;
+  std::thread thread;
+};
+
+Attempt attempt(const BackgroundTask& task, bool gives_way) {
+  std::packaged_task<Solved()> solving{[task, gives_way] {
+    if (gives_way) {
+      task.is_awaited ? let_samples_come_first() : give_way_to_other_threads();
+    }
     return task.solve();
   }};
-  auto solution = solving.get_future();
-  std::thread thread{std::move(solving)};
-  while (solution.wait_for(kPatiencePoll) != std::future_status::ready) {
-    if (patience.ended) {
-      given_up = true;
-      thread.detach();
-      return std::nullopt;
+  auto solved = solving.get_future();
+  return {.solved = std::move(solved), .thread = std::thread{std::move(solving)}};
+}
+
+/// It gives way until the service is told to stop. Then no fix waits for the processor any more,
+/// but a thread cannot cease to give way without privileges, and among busy processes it takes
+/// minutes: a second thread solves the same at the usual priority, and the first that is ready
+/// counts. The other is left to itself, as both are when patience ends. @return nothing then.
+std::optional<Solved> solve(const BackgroundTask& task, const Patience& patience) {
+  std::vector<Attempt> attempts;
+  bool gives_way = !patience.stopping;
+  attempts.push_back(attempt(task, gives_way));
+  auto ready = attempts.end();
+  while (ready == attempts.end() && !patience.ended) {
+    if (gives_way && patience.stopping) {
+      gives_way = false;
+      attempts.push_back(attempt(task, gives_way));
     }
+    attempts.back().solved.wait_for(kPatiencePoll);
+    ready = std::find_if(attempts.begin(), attempts.end(), [](const Attempt& one) {
+      return one.solved.wait_for(std::chrono::seconds{0}) == std::future_status::ready;
+    });
   }
-  thread.join();
-  return solution.get();
+  for (auto one = attempts.begin(); one != attempts.end(); ++one) {
+    given_up = given_up || one != ready;
+    one == ready ? one->thread.join() : one->thread.detach();
+  }
+  return ready == attempts.end() ? std::nullopt : std::optional{ready->solved.get()};
 }
 
 }  // namespace
@@ -91,7 +115,7 @@ std::size_t solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& ar
       ++left[spacecraft];
       continue;
     }
-    auto products = solve_giving_way(*task, patience);
+    auto products = solve(*task, patience);
     if (!products) {
       ++left[spacecraft];
       continue;
