@@ -16,7 +16,7 @@ namespace spindrift::background_solving_test {
 /// usual priority is.
 TEST(BackgroundSolving, NothingGivesWayAnyMoreOnceTheServiceStops) {
   const TemporaryFolder folder;
-  auto archive = Archive::open(folder.path() / "solved.db");
+  auto archive = Archive::open(folder.path() / "solved.db", {});
   ASSERT_TRUE(archive) << archive.error().message;
   std::promise<void> giving_way;
   std::promise<void> solved;
