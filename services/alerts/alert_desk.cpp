@@ -11,7 +11,7 @@
 #include <variant>
 
 #include "pipelines/three_axis/sample_kind.h"
-#include "services/words/alert_words.h"
+#include "services/base/alert_words.h"
 
 namespace spindrift {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "services/clock/wall_clock.h"
+#include "services/base/wall_clock.h"
 
 namespace spindrift {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "services/archive/connection.h"
-#include "services/queue/contained.h"
+#include "services/base/contained.h"
 
 namespace spindrift {
 namespace {

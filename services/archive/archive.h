@@ -22,7 +22,7 @@
 #include "services/archive/records.h"
 #include "services/archive/store.h"
 #include "services/archive/write_lock.h"
-#include "services/clock/duration_histogram.h"
+#include "services/base/duration_histogram.h"
 
 namespace spindrift {
 

@@ -13,7 +13,7 @@
 
 #include "services/archive/bind.h"
 #include "services/archive/connection.h"
-#include "services/clock/wall_clock.h"
+#include "services/base/wall_clock.h"
 
 namespace spindrift {
 namespace {

@@ -3,7 +3,7 @@
 #include <sqlite3.h>
 
 #include "services/archive/paced_writes.h"
-#include "services/queue/contained.h"
+#include "services/base/contained.h"
 
 namespace spindrift {
 namespace {

@@ -4,8 +4,8 @@
 #include "services/archive/batch_writer.h"
 #include "services/archive/bind.h"
 #include "services/archive/stored_rows.h"
+#include "services/base/warning.h"
 #include "services/products/notice_of.h"
-#include "services/standard_error/warning.h"
 #include "services/telemetry/by_kind.h"
 #include "services/telemetry/sample_json.h"
 

@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "services/actions/parse_action.h"
 #include "services/archive/connection.h"
 #include "services/archive/stored_pass.h"
+#include "services/operator/parse_action.h"
 
 namespace spindrift {
 namespace {

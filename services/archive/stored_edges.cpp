@@ -15,8 +15,8 @@
 #include "pipelines/spin/disambiguation/chosen_root.h"
 #include "services/archive/connection.h"
 #include "services/archive/stored_pass.h"
+#include "services/base/degrees.h"
 #include "services/products/named.h"
-#include "services/units/degrees.h"
 
 namespace spindrift {
 namespace {

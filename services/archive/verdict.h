@@ -11,9 +11,16 @@
 
 #include "pipelines/core/expected.h"
 #include "services/products/pass_verdict.h"
-#include "services/words/disagreement_words.h"
 
 namespace spindrift {
+
+/// Two estimators whose axes differ by more than their sigmas explain.
+struct Disagreement {
+  std::string one;  ///< Estimators, as in spin_estimate.
+  std::string other;
+  double apart_deg;
+  double apart_sigmas;  ///< The larger of the two, for they share their edges.
+};
 
 /// In the order of `run_ids`, all of one moment of the archive. Throws SQLite::Exception.
 std::vector<PassVerdict> verdicts_in(SQLite::Database& archive,

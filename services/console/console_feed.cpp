@@ -8,7 +8,7 @@
 
 #include "pipelines/time/utc.h"
 #include "services/alerts/alert_json.h"
-#include "services/clock/wall_clock.h"
+#include "services/base/wall_clock.h"
 #include "services/console/go_no_go.h"
 
 namespace spindrift {

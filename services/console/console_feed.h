@@ -15,7 +15,7 @@
 
 #include "services/alerts/stored_alerts.h"
 #include "services/archive/records.h"
-#include "services/clock/duration_histogram.h"
+#include "services/base/duration_histogram.h"
 #include "services/console/event_ring.h"
 #include "services/console/shown_spacecraft.h"
 #include "services/mission/mission.h"

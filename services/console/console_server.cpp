@@ -15,8 +15,8 @@
 #include <utility>
 #include <variant>
 
+#include "services/base/contained.h"
 #include "services/console/token_file.h"
-#include "services/queue/contained.h"
 #include "services/serving/background_solving.h"
 
 namespace spindrift {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "services/words/json_line.h"
+#include "services/base/json_line.h"
 
 namespace spindrift {
 namespace {

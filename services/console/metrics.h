@@ -8,7 +8,7 @@
 #include <string>
 
 #include "services/archive/archive.h"
-#include "services/clock/duration_histogram.h"
+#include "services/base/duration_histogram.h"
 
 namespace spindrift {
 

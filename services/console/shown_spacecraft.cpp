@@ -11,9 +11,9 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/time/utc.h"
+#include "services/base/degrees.h"
+#include "services/base/reasons_json.h"
 #include "services/products/to_json.h"
-#include "services/units/degrees.h"
-#include "services/words/reasons_json.h"
 
 namespace spindrift {
 namespace {

@@ -11,7 +11,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "services/requests/request_socket.h"
+#include "services/operator/request_socket.h"
 
 namespace spindrift {
 namespace {

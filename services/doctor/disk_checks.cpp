@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "services/base/duration.h"
 #include "services/doctor/disk.h"
-#include "services/words/duration.h"
 
 namespace spindrift::doctor {
 namespace {

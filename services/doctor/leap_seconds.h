@@ -3,32 +3,10 @@
 
 #pragma once
 
-#include <chrono>
-#include <optional>
-#include <string_view>
-
-#include "pipelines/time/tai_time.h"
+#include "services/base/leap_tables.h"
 #include "services/doctor/check.h"
 
 namespace spindrift::doctor {
-
-/// A table of leap seconds: its last offset and the day until which it is known to be complete.
-struct LeapTable {
-  int tai_minus_utc_s;
-  std::chrono::sys_days complete_until;
-};
-
-struct LeapFacts {
-  std::chrono::sys_days day;         ///< For which they are to be known.
-  LeapTable erfa;                    ///< With which the program computes.
-  std::optional<LeapTable> machine;  ///< Of the package tzdata; absent where it is not installed.
-};
-
-/// From the text of leap-seconds.list, whose times are seconds since 1900. Absent for another text.
-std::optional<LeapTable> machine_table(std::string_view text);
-
-/// @param t For which they are to be known.
-LeapFacts leap_facts(TaiTime t);
 
 Check check_leap_seconds(const LeapFacts& facts);
 

@@ -43,9 +43,6 @@ struct ComingPass {
   TaiTime to;
 };
 
-/// When the model of the Earth's field does; empty: the spacecraft has no magnetometer.
-std::optional<TaiTime> field_end(const Mission& mission);
-
 MissionFacts mission_facts(const Mission& mission, const ComingPass& pass);
 
 std::vector<Check> check_missions(std::span<const MissionFacts> missions, const ComingPass& pass);

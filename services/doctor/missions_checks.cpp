@@ -4,9 +4,9 @@
 #include <set>
 
 #include "pipelines/time/utc.h"
+#include "services/base/duration.h"
 #include "services/doctor/missions.h"
-#include "services/geomagnetism/igrf.h"
-#include "services/words/duration.h"
+#include "services/mission/igrf.h"
 
 namespace spindrift::doctor {
 namespace {

@@ -1,9 +1,9 @@
 #include <toml++/toml.h>
 
 #include "pipelines/time/time_span.h"
-#include "services/comparison/ground_model.h"
 #include "services/doctor/missions.h"
-#include "services/geomagnetism/igrf.h"
+#include "services/mission/igrf.h"
+#include "services/simulation/ground_model.h"
 
 namespace spindrift::doctor {
 namespace {
@@ -49,12 +49,6 @@ void look_at_model(const Mission& mission, MissionFacts& facts) {
 }
 
 }  // namespace
-
-std::optional<TaiTime> field_end(const Mission& mission) {
-  const ThreeAxisConfig* const three_axis = mission.three_axis();
-  return three_axis != nullptr && three_axis->magnetometer ? std::optional{igrf_end()}
-                                                           : std::nullopt;
-}
 
 MissionFacts mission_facts(const Mission& mission, const ComingPass& pass) {
   MissionFacts facts{

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "services/words/json_line.h"
+#include "services/base/json_line.h"
 
 namespace spindrift::doctor {
 namespace {

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <utility>
 
-#include "services/clock/wall_clock.h"
+#include "services/base/wall_clock.h"
 #include "services/ingest/from_idl.h"
 #include "services/ingest/rejection_limit.h"
 #include "services/ingest/sequence_tracker.h"

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <utility>
 
-#include "services/clock/wall_clock.h"
+#include "services/base/contained.h"
+#include "services/base/wall_clock.h"
 #include "services/ingest/from_idl.h"
-#include "services/queue/contained.h"
 
 namespace spindrift {
 namespace {

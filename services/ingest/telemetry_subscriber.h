@@ -16,12 +16,12 @@
 #include <thread>
 #include <tuple>
 
+#include "services/base/bounded_queue.h"
 #include "services/bus/reader.h"
 #include "services/bus/telemetry_messages.h"
 #include "services/bus/wait_set.h"
 #include "services/ingest/arrivals.h"
 #include "services/ingest/writing_order.h"
-#include "services/queue/bounded_queue.h"
 #include "services/telemetry/last_origins.h"
 #include "services/telemetry/sample_batch.h"
 

@@ -7,16 +7,17 @@
 #include <optional>
 #include <utility>
 
-#include "services/input_file/input_file.h"
-#include "services/input_file/sha256.h"
+#include "services/base/input_file.h"
+#include "services/base/sha256.h"
+#include "services/mission/document.h"
+#include "services/mission/igrf.h"
 #include "services/mission/mission_alerts.h"
 #include "services/mission/mission_orbit.h"
 #include "services/mission/mission_schema.h"
 #include "services/mission/mission_spin.h"
 #include "services/mission/mission_three_axis.h"
 #include "services/mission/orbit_doubts.h"
-#include "services/toml_schema/document.h"
-#include "services/toml_schema/values.h"
+#include "services/mission/values.h"
 
 namespace spindrift {
 namespace {
@@ -125,6 +126,12 @@ Expected<Mission> mission_of(const std::filesystem::path& path, std::string text
 
 Expected<Mission> load_spinner(const std::filesystem::path& path) {
   return load(path, SpacecraftKind::Spin);
+}
+
+std::optional<TaiTime> field_end(const Mission& mission) {
+  const ThreeAxisConfig* const three_axis = mission.three_axis();
+  return three_axis != nullptr && three_axis->magnetometer ? std::optional{igrf_end()}
+                                                           : std::nullopt;
 }
 
 }  // namespace spindrift

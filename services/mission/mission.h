@@ -58,4 +58,8 @@ Expected<Mission> mission_of(const std::filesystem::path& path, std::string text
 /// That of a spinner. @return InvalidConfiguration for any other, too.
 Expected<Mission> load_spinner(const std::filesystem::path& path);
 
+/// When the model of the Earth's magnetic field ends that the mission needs.
+/// @return Empty where the spacecraft has no magnetometer.
+std::optional<TaiTime> field_end(const Mission& mission);
+
 }  // namespace spindrift

@@ -6,8 +6,8 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/time/utc.h"
-#include "services/toml_schema/values.h"
-#include "services/units/degrees.h"
+#include "services/base/degrees.h"
+#include "services/mission/values.h"
 
 namespace spindrift {
 namespace {

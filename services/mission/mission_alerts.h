@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "pipelines/supervision/limits.h"
-#include "services/toml_schema/document.h"
-#include "services/toml_schema/scalar.h"
+#include "services/mission/document.h"
+#include "services/mission/scalar.h"
 
 namespace spindrift {
 

@@ -11,9 +11,9 @@
 
 #include "pipelines/core/shown.h"
 #include "pipelines/frames/angle.h"
-#include "services/input_file/file_lines.h"
-#include "services/input_file/sha256.h"
-#include "services/toml_schema/values.h"
+#include "services/base/file_lines.h"
+#include "services/base/sha256.h"
+#include "services/mission/values.h"
 
 namespace spindrift {
 namespace {

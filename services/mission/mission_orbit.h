@@ -11,7 +11,7 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
-#include "services/toml_schema/scalar.h"
+#include "services/mission/scalar.h"
 
 namespace spindrift {
 

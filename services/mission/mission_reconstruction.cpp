@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "services/toml_schema/values.h"
+#include "services/mission/values.h"
 
 namespace spindrift {
 namespace {

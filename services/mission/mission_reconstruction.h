@@ -7,7 +7,7 @@
 
 #include "pipelines/reconstruction/launcher_check.h"
 #include "pipelines/reconstruction/request.h"
-#include "services/toml_schema/document.h"
+#include "services/mission/document.h"
 
 namespace spindrift {
 

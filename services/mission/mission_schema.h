@@ -4,7 +4,7 @@
 #pragma once
 
 #include "pipelines/core/expected.h"
-#include "services/toml_schema/schema.h"
+#include "services/mission/schema.h"
 
 namespace spindrift {
 

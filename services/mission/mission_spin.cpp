@@ -5,7 +5,7 @@
 #include <string>
 
 #include "pipelines/frames/celestial.h"
-#include "services/toml_schema/values.h"
+#include "services/mission/values.h"
 
 namespace spindrift {
 namespace {

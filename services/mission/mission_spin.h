@@ -4,7 +4,7 @@
 #pragma once
 
 #include "pipelines/spin/types/config.h"
-#include "services/toml_schema/scalar.h"
+#include "services/mission/scalar.h"
 
 namespace spindrift {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "services/toml_schema/values.h"
+#include "services/mission/values.h"
 
 namespace spindrift {
 namespace {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "pipelines/three_axis/config.h"
-#include "services/toml_schema/scalar.h"
+#include "services/mission/scalar.h"
 
 namespace spindrift {
 

@@ -3,9 +3,9 @@
 #include <spdlog/spdlog.h>
 
 #include "pipelines/time/utc.h"
+#include "services/base/notice_words.h"
 #include "services/processor/what_is_thrown.h"
 #include "services/processor/withheld.h"
-#include "services/words/notice_words.h"
 
 namespace spindrift {
 

@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "pipelines/time/utc.h"
+#include "services/base/notice_words.h"
 #include "services/processor/told.h"
-#include "services/words/notice_words.h"
 
 namespace spindrift {
 namespace {

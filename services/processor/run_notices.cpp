@@ -9,8 +9,8 @@
 
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
+#include "services/base/counted.h"
 #include "services/processor/told.h"
-#include "services/words/counted.h"
 
 namespace spindrift {
 namespace {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <utility>
 
+#include "services/base/notice_words.h"
 #include "services/processor/withheld.h"
-#include "services/words/notice_words.h"
 
 namespace spindrift {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
-#include "services/clock/unique_id.h"
-#include "services/clock/wall_clock.h"
+#include "services/base/unique_id.h"
+#include "services/base/wall_clock.h"
 #include "services/processor/told.h"
 #include "services/processor/version.h"
 #include "services/products/notice_of.h"

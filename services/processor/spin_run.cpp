@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "pipelines/spin/batch/batch_estimator.h"
-#include "services/clock/wall_clock.h"
+#include "services/base/wall_clock.h"
 #include "services/processor/told.h"
 
 namespace spindrift {

@@ -11,8 +11,8 @@
 
 #include "pipelines/three_axis/sample_kind.h"
 #include "pipelines/time/utc.h"
-#include "services/clock/wall_clock.h"
-#include "services/geomagnetism/igrf.h"
+#include "services/base/wall_clock.h"
+#include "services/mission/igrf.h"
 #include "services/processor/separation_solving.h"
 #include "services/processor/told.h"
 

@@ -1,7 +1,7 @@
 #include "services/processor/told.h"
 
+#include "services/base/warning.h"
 #include "services/products/notice_of.h"
-#include "services/standard_error/warning.h"
 
 namespace spindrift {
 

@@ -17,12 +17,12 @@
 #include <tuple>
 
 #include "pipelines/three_axis/products.h"
+#include "services/base/assessment_words.h"
+#include "services/base/degrees.h"
+#include "services/base/reasons_json.h"
 #include "services/products/attitude_covariance.h"
 #include "services/products/named.h"
 #include "services/products/product_kind.h"
-#include "services/units/degrees.h"
-#include "services/words/assessment_words.h"
-#include "services/words/reasons_json.h"
 
 namespace spindrift {
 

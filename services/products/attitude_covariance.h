@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "services/units/degrees.h"
+#include "services/base/degrees.h"
 
 namespace spindrift {
 

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "services/base/degrees.h"
 #include "services/products/product_kind.h"
-#include "services/units/degrees.h"
 
 namespace spindrift {
 

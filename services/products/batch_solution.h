@@ -14,9 +14,9 @@
 
 #include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/batch/pass_information.h"
+#include "services/base/bias_words.h"
+#include "services/base/degrees.h"
 #include "services/products/product_kind.h"
-#include "services/units/degrees.h"
-#include "services/words/bias_words.h"
 
 namespace spindrift {
 

@@ -10,8 +10,8 @@
 #include <tuple>
 
 #include "pipelines/three_axis/products.h"
+#include "services/base/degrees.h"
 #include "services/products/product_kind.h"
-#include "services/units/degrees.h"
 
 namespace spindrift {
 

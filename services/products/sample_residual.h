@@ -9,10 +9,10 @@
 #include <tuple>
 
 #include "pipelines/three_axis/products.h"
+#include "services/base/degrees.h"
 #include "services/products/product_kind.h"
 #include "services/products/pulse_use.h"
 #include "services/products/rejected_sample.h"
-#include "services/units/degrees.h"
 
 namespace spindrift {
 

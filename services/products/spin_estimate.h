@@ -9,11 +9,11 @@
 #include <tuple>
 
 #include "pipelines/spin/types/products.h"
+#include "services/base/assessment_words.h"
+#include "services/base/reasons_json.h"
 #include "services/products/axis_columns.h"
 #include "services/products/named.h"
 #include "services/products/product_kind.h"
-#include "services/words/assessment_words.h"
-#include "services/words/reasons_json.h"
 
 namespace spindrift {
 

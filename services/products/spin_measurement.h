@@ -9,9 +9,9 @@
 #include <tuple>
 
 #include "pipelines/spin/types/products.h"
+#include "services/base/degrees.h"
 #include "services/products/product_kind.h"
 #include "services/products/pulse_use.h"
-#include "services/units/degrees.h"
 
 namespace spindrift {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "services/base/assessment_words.h"
+#include "services/base/degrees.h"
 #include "services/products/attitude.h"
-#include "services/units/degrees.h"
-#include "services/words/assessment_words.h"
 
 namespace spindrift {
 namespace {

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "pipelines/core/expected.h"
-#include "services/actions/parse_action.h"
 #include "services/archive/archive.h"
-#include "services/queue/bounded_queue.h"
+#include "services/base/bounded_queue.h"
+#include "services/operator/parse_action.h"
 #include "services/serving/stored_actions.h"
 #include "services/telemetry/sample_batch.h"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "services/queue/contained.h"
+#include "services/base/contained.h"
 
 namespace spindrift {
 

@@ -10,7 +10,7 @@
 
 #include "services/alerts/alert_desk.h"
 #include "services/archive/archive.h"
-#include "services/queue/bounded_queue.h"
+#include "services/base/bounded_queue.h"
 #include "services/serving/thread_failures.h"
 
 namespace spindrift {

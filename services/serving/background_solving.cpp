@@ -20,8 +20,8 @@
 #include <utility>
 #include <vector>
 
+#include "services/base/warning.h"
 #include "services/processor/told.h"
-#include "services/standard_error/warning.h"
 
 namespace spindrift {
 namespace {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "services/archive/archive.h"
+#include "services/base/bounded_queue.h"
 #include "services/processor/background_task.h"
-#include "services/queue/bounded_queue.h"
 #include "services/serving/patience.h"
 
 namespace spindrift {

@@ -8,8 +8,8 @@
 
 #include "pipelines/core/expected.h"
 #include "services/archive/archive.h"
+#include "services/base/bounded_queue.h"
 #include "services/processor/processor.h"
-#include "services/queue/bounded_queue.h"
 #include "services/serving/background_solving.h"
 #include "services/serving/patience.h"
 

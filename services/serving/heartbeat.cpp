@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "services/clock/every.h"
-#include "services/clock/wall_clock.h"
-#include "services/queue/contained.h"
+#include "services/base/contained.h"
+#include "services/base/every.h"
+#include "services/base/wall_clock.h"
 #include "services/serving/service_manager.h"
 
 namespace spindrift {

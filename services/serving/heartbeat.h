@@ -13,13 +13,13 @@
 #include <vector>
 
 #include "services/archive/archive.h"
-#include "services/ingest/gap_watch.h"
 #include "services/ingest/telemetry_subscriber.h"
 #include "services/processor/pass_input.h"
 #include "services/processor/problems.h"
-#include "services/publisher/link_watch.h"
 #include "services/publisher/result_publisher.h"
 #include "services/serving/alert_outbox.h"
+#include "services/serving/gap_watch.h"
+#include "services/serving/link_watch.h"
 #include "services/serving/service_watch.h"
 #include "services/serving/thread_failures.h"
 #include "services/serving/verdict_watch.h"

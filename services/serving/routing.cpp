@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "services/archive/submit_all.h"
-#include "services/clock/wall_clock.h"
-#include "services/processor/silence_watch.h"
+#include "services/base/wall_clock.h"
+#include "services/serving/silence_watch.h"
 
 namespace spindrift {
 namespace {

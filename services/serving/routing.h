@@ -7,11 +7,11 @@
 
 #include "pipelines/core/expected.h"
 #include "services/archive/archive.h"
+#include "services/base/bounded_queue.h"
 #include "services/processor/problems.h"
 #include "services/processor/processor.h"
-#include "services/publisher/link_watch.h"
-#include "services/queue/bounded_queue.h"
 #include "services/serving/computing.h"
+#include "services/serving/link_watch.h"
 #include "services/serving/session_watch.h"
 #include "services/telemetry/sample_batch.h"
 

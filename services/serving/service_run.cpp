@@ -15,8 +15,9 @@
 #include <utility>
 
 #include "services/archive/submit_all.h"
+#include "services/base/contained.h"
+#include "services/base/warning.h"
 #include "services/ingest/telemetry_subscriber.h"
-#include "services/queue/contained.h"
 #include "services/serving/alert_outbox.h"
 #include "services/serving/background_solving.h"
 #include "services/serving/computing.h"
@@ -25,7 +26,6 @@
 #include "services/serving/routing.h"
 #include "services/serving/service_manager.h"
 #include "services/serving/service_watch.h"
-#include "services/standard_error/warning.h"
 
 namespace spindrift {
 namespace {

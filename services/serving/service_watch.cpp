@@ -9,9 +9,8 @@
 
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
-#include "services/clock/wall_clock.h"
-#include "services/doctor/leap_seconds.h"
-#include "services/doctor/missions.h"
+#include "services/base/leap_tables.h"
+#include "services/base/wall_clock.h"
 
 namespace spindrift {
 namespace {
@@ -19,7 +18,7 @@ namespace {
 constexpr double kBytesPerGib = 1024.0 * 1024.0 * 1024.0;
 
 std::optional<TaiTime> leap_seconds_until() {
-  const doctor::LeapFacts facts = doctor::leap_facts(tai_now());
+  const LeapFacts facts = leap_facts(tai_now());
   const std::chrono::sys_days until =
       facts.machine ? std::max(facts.machine->complete_until, facts.erfa.complete_until)
                     : facts.erfa.complete_until;
@@ -47,7 +46,7 @@ ServiceWatch::ServiceWatch(const Watched& watched) : watched_{watched} {
     if (mission.orbit && mission.orbit->ephemeris() != nullptr) {
       until.emplace("orbit", mission.orbit->ephemeris()->usable_to());
     }
-    if (const auto end = doctor::field_end(mission)) {
+    if (const auto end = field_end(mission)) {
       until.emplace("field_coefficients", *end);
     }
   }

@@ -17,8 +17,8 @@
 #include "services/ingest/rehearsal_clocks.h"
 #include "services/ingest/telemetry_subscriber.h"
 #include "services/mission/mission.h"
-#include "services/publisher/link_watch.h"
 #include "services/serving/backlog_watch.h"
+#include "services/serving/link_watch.h"
 #include "services/serving/session_watch.h"
 
 namespace spindrift {

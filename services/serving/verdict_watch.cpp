@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "services/archive/verdict.h"
-#include "services/clock/every.h"
-#include "services/queue/contained.h"
+#include "services/base/contained.h"
+#include "services/base/every.h"
 #include "services/serving/background_solving.h"
 
 namespace spindrift {

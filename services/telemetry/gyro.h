@@ -8,9 +8,9 @@
 #include <tuple>
 
 #include "pipelines/three_axis/samples.h"
+#include "services/base/degrees.h"
 #include "services/telemetry/plausible.h"
 #include "services/telemetry/telemetry.h"
-#include "services/units/degrees.h"
 
 namespace spindrift {
 

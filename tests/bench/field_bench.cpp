@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "services/geomagnetism/igrf.h"
+#include "services/mission/igrf.h"
 #include "tests/support/geographiclib_field.h"
 
 namespace spindrift {

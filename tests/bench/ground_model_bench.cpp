@@ -14,7 +14,7 @@
 #include "pipelines/ground_model/dynamics/stepped_body.h"
 #include "pipelines/ground_model/link/chance.h"
 #include "pipelines/ground_model/sensors/three_axis_reading.h"
-#include "services/scenario/scenario.h"
+#include "services/simulation/scenario.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
-#include "services/telemetry_files/telemetry_files.h"
-#include "services/telemetry_files/telemetry_stream.h"
+#include "services/telemetry/telemetry_files.h"
+#include "services/telemetry/telemetry_stream.h"
 
 namespace spindrift::bench {
 

@@ -1,11 +1,5 @@
 // What includes what in pipelines/ and services/. Link lines alone do not show it: every target
-// sees the whole source tree. What a folder may include its README names, in one sentence that
-// ends with the first full stop:
-//
-//     May depend on: `pipelines/core`, `clock`.
-//
-// A folder is named as it is seen from the nearest folder that holds both; "nothing" stands where
-// none is used. A folder without a README counts as a part of the one above it.
+// sees the whole source tree.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,8 +23,6 @@ namespace spindrift::include_rule_test {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-constexpr int kMostHeaders = 24;
 
 struct Source {
   std::string folder;
@@ -164,113 +156,12 @@ std::vector<std::string> world_in_pipelines(const std::vector<Source>& sources) 
   return found;
 }
 
-/// Of folders with more headers than one can overlook.
-std::vector<std::string> crowded_folders(const std::vector<Source>& sources) {
-  std::map<std::string, int> headers;
-  for (const Source& source : sources) {
-    headers[source.folder] += source.name.ends_with(".h") ? 1 : 0;
-  }
-  std::vector<std::string> crowded;
-  for (const auto& [folder, count] : headers) {
-    if (count > kMostHeaders) {
-      crowded.push_back(folder + " has " + std::to_string(count) + " headers");
-    }
-  }
-  return crowded;
-}
-
-bool has_readme(const std::filesystem::path& root, const std::string& folder) {
-  return std::filesystem::exists(root / folder / "README.md");
-}
-
-/// The folder whose README speaks of `folder`; empty when there is none.
-std::string described_by(const std::filesystem::path& root, std::string folder) {
-  while (!folder.empty() && !has_readme(root, folder)) {
-    folder = std::filesystem::path{folder}.parent_path().string();
-  }
-  return folder;
-}
-
-/// As a README of `from` names it.
-std::string name_of(const std::string& folder, std::filesystem::path from) {
-  while (from.has_parent_path()) {
-    from = from.parent_path();
-    if (folder.starts_with(from.string() + "/")) {
-      return folder.substr(from.string().size() + 1);
-    }
-  }
-  return folder;
-}
-
-/// What a README says that its folder may depend on; empty when it does not.
-std::optional<std::set<std::string>> named_in(const std::string& readme) {
-  constexpr std::string_view kBegin = "\nMay depend on: ";
-  const auto begin = readme.find(kBegin);
-  if (begin == std::string::npos) {
-    return std::nullopt;
-  }
-  const auto end = readme.find('.', begin);
-  std::istringstream sentence{readme.substr(begin + kBegin.size(), end - begin - kBegin.size())};
-  std::set<std::string> names;
-  std::string name;
-  while (std::getline(sentence, name, '`') && std::getline(sentence, name, '`')) {
-    names.insert(name);
-  }
-  return names;
-}
-
-/// Of each README below `pipelines` and `services` what it leaves out and what it has too much.
-std::vector<std::string> false_readmes(const std::filesystem::path& root,
-                                       const std::vector<Source>& sources) {
-  std::map<std::string, std::map<std::string, std::string>> used;  // By README, name; a line.
-  std::vector<std::string> found;
-  for (const Source& source : sources) {
-    if (has_readme(root, source.folder)) {
-      used.try_emplace(source.folder);
-    }
-  }
-  for (const auto& [folder, uses] : uses_of(sources)) {
-    const std::string readme = described_by(root, folder);
-    for (const auto& [include, line] : uses) {
-      if (described_by(root, include) != readme) {
-        used[readme].try_emplace(name_of(include, readme), line);
-      }
-    }
-  }
-  for (const auto& [folder, names] : used) {
-    const auto named = named_in(text_of(root / folder / "README.md"));
-    if (!named) {
-      found.push_back(folder + " has no line \"May depend on: \"");
-      continue;
-    }
-    for (const auto& [name, line] : names) {
-      if (!named->contains(name)) {
-        found.push_back(folder + " does not name " + name + ": " + line);
-      }
-    }
-    for (const std::string& name : *named) {
-      if (!names.contains(name)) {
-        found.push_back(folder + " names " + name + ", which nothing there includes");
-      }
-    }
-  }
-  return found;
-}
-
-TEST(IncludeRule, EachReadmeNamesWhatItsFolderDependsOn) {
-  EXPECT_THAT(false_readmes(source_folder(), sources_of(source_folder())), IsEmpty());
-}
-
 TEST(IncludeRule, NoFoldersIncludeEachOtherInACircle) {
   EXPECT_THAT(first_cycle(sources_of(source_folder())), IsEmpty());
 }
 
 TEST(IncludeRule, PipelinesIncludeNothingOfTheWorld) {
   EXPECT_THAT(world_in_pipelines(sources_of(source_folder())), IsEmpty());
-}
-
-TEST(IncludeRule, NoFolderHasMoreThan24Headers) {
-  EXPECT_THAT(crowded_folders(sources_of(source_folder())), IsEmpty());
 }
 
 /// A source tree that keeps all rules, to break them.
@@ -282,21 +173,12 @@ class MadeUpTree : public ::testing::Test {
     add("pipelines/spin/mean/mean.cpp", "#include \"pipelines/spin/fix/axis.h\"\n");
     add("services/bus/reader.h", "#include <dds/dds.h>\n#include \"pipelines/core/value.h\"\n");
     add("services/ingest/subscriber.h", "#include \"services/bus/reader.h\"\n");
-    add("pipelines/README.md", "# pipelines\n");
-    add("services/README.md", "# services\n");
-    add("pipelines/spin/fix/README.md", "# fix\n\nFixes.\nMay depend on: `core`.\n");
-    add("pipelines/spin/mean/README.md", "# mean\n\nMay depend on: `fix`. Of axes.\n");
-    add("services/bus/README.md", "# bus\n\nMay depend on: `pipelines/core`.\n");
-    add("services/ingest/README.md", "# ingest\n\nMay depend on: `bus`.\n");
   }
   void add(const std::filesystem::path& path, const std::string& text) const {
     std::filesystem::create_directories((tree_.path() / path).parent_path());
     tree_.write(path, text);
   }
   std::vector<Source> sources() const { return sources_of(tree_.path()); }
-  std::vector<std::string> false_readmes() const {
-    return include_rule_test::false_readmes(tree_.path(), sources());
-  }
 
  private:
   TemporaryFolder tree_;
@@ -307,41 +189,6 @@ using IncludeRuleOf = MadeUpTree;
 TEST_F(IncludeRuleOf, AHealthyTreeIsKept) {
   EXPECT_THAT(first_cycle(sources()), IsEmpty());
   EXPECT_THAT(world_in_pipelines(sources()), IsEmpty());
-  EXPECT_THAT(crowded_folders(sources()), IsEmpty());
-  EXPECT_THAT(false_readmes(), IsEmpty());
-}
-
-TEST_F(IncludeRuleOf, AReadmeWithoutTheLineIsFound) {
-  add("services/bus/README.md", "# bus\n\nIt may depend on `pipelines/core`.\n");
-  EXPECT_THAT(false_readmes(), ElementsAre("services/bus has no line \"May depend on: \""));
-}
-
-TEST_F(IncludeRuleOf, WhatAReadmeDoesNotNameIsFound) {
-  add("pipelines/spin/mean/more.cpp", "#include \"pipelines/core/value.h\"\n");
-  EXPECT_THAT(false_readmes(),
-              ElementsAre("pipelines/spin/mean does not name core: pipelines/spin/mean/more.cpp "
-                          "includes pipelines/core/value.h"));
-}
-
-TEST_F(IncludeRuleOf, WhatAReadmeNamesInVainIsFound) {
-  add("services/ingest/README.md", "# ingest\n\nMay depend on: `pipelines/core`,\n`bus`.\n");
-  EXPECT_THAT(false_readmes(),
-              ElementsAre("services/ingest names pipelines/core, which nothing there includes"));
-}
-
-TEST_F(IncludeRuleOf, AFolderWithoutReadmeIsAPartOfTheOneAbove) {
-  add("pipelines/spin/fix/roots/root.h", "#include \"pipelines/spin/fix/axis.h\"\n");
-  EXPECT_THAT(false_readmes(), IsEmpty());
-  add("pipelines/spin/fix/roots/root.h", "#include \"pipelines/spin/mean/mean.h\"\n");
-  EXPECT_THAT(false_readmes(), ElementsAre(HasSubstr("pipelines/spin/fix does not name mean: ")));
-}
-
-TEST_F(IncludeRuleOf, AFolderThatUsesNothingSaysSo) {
-  add("services/progress/bar.h", "#include <string>\n");
-  add("services/progress/README.md", "# progress\n\nA bar.\n");
-  EXPECT_THAT(false_readmes(), ElementsAre(HasSubstr("services/progress has no line")));
-  add("services/progress/README.md", "# progress\n\nA bar.\nMay depend on: nothing.\n");
-  EXPECT_THAT(false_readmes(), IsEmpty());
 }
 
 TEST_F(IncludeRuleOf, ACircleIsNamedWithItsFiles) {
@@ -379,13 +226,6 @@ TEST_F(IncludeRuleOf, EveryPartOfTheWorldIsRefusedToPipelines) {
   add("pipelines/core/value.h", "const auto now = std::chrono::steady_clock::now();\n");
   EXPECT_THAT(world_in_pipelines(sources()),
               ElementsAre("pipelines/core/value.h names steady_clock"));
-}
-
-TEST_F(IncludeRuleOf, OneHeaderTooManyIsCounted) {
-  for (int i = 0; i < kMostHeaders; ++i) {
-    add("services/bus/header_" + std::to_string(i) + ".h", "");
-  }
-  EXPECT_THAT(crowded_folders(sources()), ElementsAre("services/bus has 25 headers"));
 }
 
 }  // namespace spindrift::include_rule_test

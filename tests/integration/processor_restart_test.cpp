@@ -13,9 +13,9 @@
 
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
-#include "services/scenario/pass_files.h"
-#include "services/telemetry_files/telemetry_files.h"
-#include "services/telemetry_files/telemetry_stream.h"
+#include "services/simulation/pass_files.h"
+#include "services/telemetry/telemetry_files.h"
+#include "services/telemetry/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/samples.h"

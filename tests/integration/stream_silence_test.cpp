@@ -10,9 +10,9 @@
 
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
-#include "services/processor/silence_watch.h"
-#include "services/telemetry_files/telemetry_files.h"
-#include "services/telemetry_files/telemetry_stream.h"
+#include "services/serving/silence_watch.h"
+#include "services/telemetry/telemetry_files.h"
+#include "services/telemetry/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/samples.h"

@@ -14,11 +14,11 @@
 #include <variant>
 #include <vector>
 
-#include "services/actions/parse_action.h"
 #include "services/mission/mission.h"
+#include "services/operator/parse_action.h"
 #include "services/processor/processor.h"
-#include "services/telemetry_files/telemetry_files.h"
-#include "services/telemetry_files/telemetry_stream.h"
+#include "services/telemetry/telemetry_files.h"
+#include "services/telemetry/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/three_axis_files.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "services/geomagnetism/igrf.h"
+#include "services/mission/igrf.h"
 #include "tests/support/geographiclib_field.h"
 
 namespace spindrift::main_field_test {

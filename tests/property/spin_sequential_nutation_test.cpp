@@ -9,7 +9,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/spin/pass/spin_pass.h"
-#include "services/words/assessment_words.h"
+#include "services/base/assessment_words.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/wobbling_pass.h"

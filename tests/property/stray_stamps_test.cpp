@@ -15,9 +15,9 @@
 
 #include "pipelines/spin/pass/spin_pass.h"
 #include "pipelines/three_axis/three_axis_pass.h"
-#include "services/telemetry_files/telemetry_files.h"
-#include "services/telemetry_files/telemetry_row.h"
-#include "services/telemetry_files/telemetry_stream.h"
+#include "services/telemetry/telemetry_files.h"
+#include "services/telemetry/telemetry_row.h"
+#include "services/telemetry/telemetry_stream.h"
 #include "tests/support/product_text.h"
 #include "tests/support/recorded_pass.h"
 #include "tests/support/temporary_folder.h"

@@ -16,7 +16,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
-#include "services/words/assessment_words.h"
+#include "services/base/assessment_words.h"
 #include "tests/support/dirt.h"
 #include "tests/support/product_text.h"
 #include "tests/support/random_pass.h"

@@ -12,7 +12,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/euler312.h"
 #include "pipelines/reconstruction/separation.h"
-#include "services/separation/separation_report.h"
+#include "services/reports/separation_report.h"
 
 namespace spindrift::testing {
 

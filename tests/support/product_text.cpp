@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pipelines/spin/types/products.h"
-#include "services/words/assessment_words.h"
+#include "services/base/assessment_words.h"
 
 namespace spindrift::testing {
 namespace {

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "services/telemetry_files/telemetry_stream.h"
+#include "services/telemetry/telemetry_stream.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift {

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "services/scenario/scenario.h"
+#include "services/simulation/scenario.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift::testing {

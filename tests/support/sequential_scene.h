@@ -16,7 +16,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sequential/sequential.h"
-#include "services/words/assessment_words.h"
+#include "services/base/assessment_words.h"
 #include "tests/support/normalised_square.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/spinning_body.h"

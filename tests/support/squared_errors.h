@@ -12,7 +12,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/spin/pass/spin_pass.h"
-#include "services/words/assessment_words.h"
+#include "services/base/assessment_words.h"
 #include "tests/support/information_limit.h"
 #include "tests/support/normalised_square.h"
 #include "tests/support/observed_spin.h"

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "services/telemetry_files/csv.h"
-#include "services/telemetry_files/parse_row.h"
-#include "services/telemetry_files/telemetry_layout.h"
+#include "services/telemetry/csv.h"
+#include "services/telemetry/parse_row.h"
+#include "services/telemetry/telemetry_layout.h"
 
 namespace spindrift::testing {
 

@@ -11,7 +11,7 @@
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/geomagnetism/field_at_spacecraft.h"
-#include "services/geomagnetism/igrf.h"
+#include "services/mission/igrf.h"
 #include "tests/support/turning_body.h"
 
 namespace spindrift::testing {

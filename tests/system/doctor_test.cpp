@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "pipelines/time/utc.h"
-#include "services/clock/wall_clock.h"
+#include "services/base/wall_clock.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "pipelines/frames/celestial.h"
-#include "services/actions/parse_action.h"
 #include "services/alerts/alert_desk.h"
 #include "services/archive/stored_edges.h"
 #include "services/mission/mission.h"
+#include "services/operator/parse_action.h"
 #include "services/processor/processor.h"
-#include "services/telemetry_files/telemetry_files.h"
-#include "services/telemetry_files/telemetry_stream.h"
+#include "services/telemetry/telemetry_files.h"
+#include "services/telemetry/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/samples.h"

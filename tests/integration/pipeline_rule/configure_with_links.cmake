@@ -12,12 +12,12 @@ function(link_in_copy pipeline scope link)
 endfunction()
 
 link_in_copy(time PRIVATE PkgConfig::SQLITE3)
-link_in_copy(geomagnetism PRIVATE spindrift::queue)
+link_in_copy(geomagnetism PRIVATE spindrift::base)
 link_in_copy(statistics PUBLIC Threads::Threads)
 link_in_copy(core INTERFACE Threads::Threads)
 link_in_copy(three_axis PRIVATE Eigen3::Eigen)
 link_in_copy(frames PRIVATE spindrift::time)
-set(expected "core Threads::Threads" "geomagnetism spindrift::queue" "statistics Threads::Threads" "time PkgConfig::SQLITE3")
+set(expected "core Threads::Threads" "geomagnetism spindrift::base" "statistics Threads::Threads" "time PkgConfig::SQLITE3")
 
 execute_process(
   COMMAND ${CMAKE_COMMAND} -G ${GENERATOR} -S ${copy} -B ${WORK_DIR}/build -D BUILD_TESTING=OFF

@@ -14,13 +14,13 @@
 #include <vector>
 
 #include "services/alerts/alert_desk.h"
-#include "services/ingest/gap_watch.h"
 #include "services/ingest/sequence_tracker.h"
 #include "services/processor/processor.h"
-#include "services/scenario/pass_files.h"
-#include "services/scenario/scenario.h"
-#include "services/scenario/simulated_pass.h"
+#include "services/serving/gap_watch.h"
 #include "services/serving/session_watch.h"
+#include "services/simulation/pass_files.h"
+#include "services/simulation/scenario.h"
+#include "services/simulation/simulated_pass.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"

@@ -14,7 +14,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "pipelines/spin/types/model_allowance.h"
-#include "services/words/assessment_words.h"
+#include "services/base/assessment_words.h"
 #include "tests/support/assessed.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"

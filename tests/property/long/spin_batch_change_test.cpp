@@ -17,7 +17,7 @@
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "pipelines/spin/batch/pass_edges.h"
 #include "pipelines/spin/pass/spin_pass.h"
-#include "services/words/assessment_words.h"
+#include "services/base/assessment_words.h"
 #include "tests/support/batch_pass.h"
 #include "tests/support/dirt.h"
 #include "tests/support/product_text.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "pipelines/frames/angle.h"
-#include "services/words/assessment_words.h"
+#include "services/base/assessment_words.h"
 #include "tests/support/wobbling_pass.h"
 
 namespace spindrift::spin_batch_coning_test {

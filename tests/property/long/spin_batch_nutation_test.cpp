@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "pipelines/frames/angle.h"
-#include "services/words/assessment_words.h"
+#include "services/base/assessment_words.h"
 #include "tests/support/assessed.h"
 #include "tests/support/wobbling_pass.h"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "pipelines/spin/batch/rate_changepoint.h"
-#include "services/words/assessment_words.h"
+#include "services/base/assessment_words.h"
 #include "tests/support/wobbling_pass.h"
 
 namespace spindrift::spin_batch_rate_step_test {

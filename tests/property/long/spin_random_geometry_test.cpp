@@ -13,7 +13,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
-#include "services/words/assessment_words.h"
+#include "services/base/assessment_words.h"
 #include "tests/support/normalised_square.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"

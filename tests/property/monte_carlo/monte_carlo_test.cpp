@@ -1,7 +1,7 @@
 // Errors of simulated three-axis passes over what the ordinary pipelines promise, by runs as
 // `simulate --runs` makes them.
 
-#include "services/monte_carlo/monte_carlo.h"
+#include "services/simulation/monte_carlo.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 
 #include "pipelines/statistics/distributions.h"
-#include "services/monte_carlo/statistics.h"
+#include "services/simulation/statistics.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"

@@ -15,7 +15,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/geomagnetism/field_at_spacecraft.h"
 #include "pipelines/three_axis/three_axis_pass.h"
-#include "services/geomagnetism/igrf.h"
+#include "services/mission/igrf.h"
 #include "tests/support/turning_body.h"
 
 namespace spindrift::magnetometer_pass_test {

@@ -21,7 +21,7 @@
 #include "pipelines/spin/batch/batch_estimator.h"
 #include "pipelines/spin/batch/pass_edges.h"
 #include "pipelines/spin/pass/spin_pass.h"
-#include "services/words/assessment_words.h"
+#include "services/base/assessment_words.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 

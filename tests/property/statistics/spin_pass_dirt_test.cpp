@@ -18,7 +18,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
-#include "services/words/assessment_words.h"
+#include "services/base/assessment_words.h"
 #include "tests/support/assessed.h"
 #include "tests/support/dirt.h"
 #include "tests/support/observed_spin.h"

@@ -12,8 +12,8 @@
 
 #include "services/publisher/telemetry_publisher.h"
 #include "services/telemetry/by_kind.h"
-#include "services/telemetry_files/telemetry_files.h"
-#include "services/telemetry_files/telemetry_stream.h"
+#include "services/telemetry/telemetry_files.h"
+#include "services/telemetry/telemetry_stream.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
 #include "tests/support/eventually.h"

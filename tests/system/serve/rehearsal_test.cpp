@@ -8,7 +8,7 @@
 #include <string>
 
 #include "pipelines/time/tai_time.h"
-#include "services/clock/wall_clock.h"
+#include "services/base/wall_clock.h"
 #include "services/ingest/rehearsal_clocks.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"

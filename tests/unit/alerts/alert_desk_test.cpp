@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "services/comparison/ground_model.h"
-#include "services/scenario/pass_files.h"
-#include "services/scenario/simulated_pass.h"
+#include "services/simulation/ground_model.h"
+#include "services/simulation/pass_files.h"
+#include "services/simulation/simulated_pass.h"
 #include "tests/support/scenario_text.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"

@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "services/base/degrees.h"
 #include "services/mission/mission.h"
-#include "services/units/degrees.h"
 #include "tests/support/recorded_files.h"
 #include "tests/support/some_health.h"
 

@@ -5,7 +5,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/time/utc.h"
-#include "services/geomagnetism/igrf.h"
+#include "services/mission/igrf.h"
 
 namespace spindrift::field_at_spacecraft_test {
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "pipelines/time/utc.h"
-#include "services/geomagnetism/igrf.h"
+#include "services/mission/igrf.h"
 
 namespace spindrift::main_field_model_test {
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "pipelines/frames/angle.h"
-#include "services/geomagnetism/igrf.h"
+#include "services/mission/igrf.h"
 
 namespace spindrift::main_field_test {
 

@@ -13,7 +13,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
-#include "services/geomagnetism/igrf.h"
+#include "services/mission/igrf.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::swarm_test {

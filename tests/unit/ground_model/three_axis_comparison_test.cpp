@@ -11,7 +11,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/comparison/model_comparison.h"
-#include "services/geomagnetism/igrf.h"
+#include "services/mission/igrf.h"
 #include "tests/support/departures.h"
 #include "tests/support/low_orbit.h"
 

@@ -10,7 +10,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/geomagnetism/field_at_spacecraft.h"
-#include "services/geomagnetism/igrf.h"
+#include "services/mission/igrf.h"
 #include "tests/support/low_orbit.h"
 
 namespace spindrift::three_axis_telemetry_test {

@@ -14,7 +14,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/pass_edges.h"
-#include "services/words/assessment_words.h"
+#include "services/base/assessment_words.h"
 #include "tests/support/assessed.h"
 #include "tests/support/batch_pass.h"
 #include "tests/support/normalised_square.h"

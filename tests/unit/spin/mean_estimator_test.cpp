@@ -8,7 +8,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
-#include "services/words/assessment_words.h"
+#include "services/base/assessment_words.h"
 #include "tests/support/axis_scene.h"
 #include "tests/support/product_text.h"
 

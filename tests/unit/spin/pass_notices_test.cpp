@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "pipelines/time/utc.h"
-#include "services/words/notice_words.h"
+#include "services/base/notice_words.h"
 #include "tests/support/spinning_body.h"
 
 namespace spindrift::pass_notices_test {

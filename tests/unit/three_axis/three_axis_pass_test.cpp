@@ -11,7 +11,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/geomagnetism/field_at_spacecraft.h"
 #include "pipelines/observation/innovation_gate.h"
-#include "services/geomagnetism/igrf.h"
+#include "services/mission/igrf.h"
 #include "tests/support/assessed.h"
 #include "tests/support/stepped_orbit.h"
 #include "tests/support/turning_body.h"

@@ -1,0 +1,145 @@
+#include "services/base/alert_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "pipelines/core/shown.h"
+#include "pipelines/time/tai_time.h"
+#include "pipelines/time/utc.h"
+#include "services/base/duration.h"
+
+namespace spindrift {
+namespace {
+
+struct Words {
+  AlertCode code;
+  std::string_view what;
+  std::string_view to_do;
+};
+
+using enum AlertCode;
+constexpr std::array<Words, kAlertCodes> kWords{{
+    {LinkSilent, "no telemetry", "look at antenna, receiver and front-end"},
+    {LinkLate, "telemetry behind the clock of this host",
+     "look at the link, and at the clocks of front-end and host"},
+    {LinkAhead, "telemetry ahead of the clock of this host",
+     "look at the clocks of front-end and host"},
+    {LinkGap, "samples missing of the last minute, by gaps in seq",
+     "look at the link, and at the network between front-end and host"},
+    {LinkRejected, "share of unreadable or impossible samples of the last minute",
+     "look at rejected_input and at the front-end"},
+    {LinkRepeated, "a new session brings what came before it", "none: it is stored once"},
+    {LinkRestarted, "sessions that the source began in the last minute",
+     "none, if it was to be started again"},
+    {LinkContradiction, "samples of the last minute that another source gives with other values",
+     "look at the table contradiction; [sources] prefer names the one whose value counts"},
+    {ServiceTwice, "another service publishes results of the spacecraft in this partition",
+     "stop one of the two; `spindrift doctor` says who is on the bus"},
+    {ChannelSilent, "nothing of a channel that should give something",
+     "look at sensor and telemetry link"},
+    {SpinInterference, "edges of two channels spoil each other",
+     "none: they are left out while it lasts"},
+    {SpinPeriod, "share of revolutions with an irrational period",
+     "look at the edges of sun1 and at what was commanded"},
+    {SpinRejection, "share of edges left out", "look at pulse_use.rejected_by"},
+    {SpinAmbiguous, "the answer in force is AMBIGUOUS",
+     "wait for the geometry to turn, or give [spin.prior]"},
+    {SpinDoubtful, "the answer in force is DOUBTFUL",
+     "check mounting angles, noise, horizon and orbit of the mission file"},
+    {SpinSigma, "sigma of the answer in force", "wait, or look which channels give nothing"},
+    {SpinDisagree, "mean and sequential apart, times the larger sigma",
+     "use neither before one of them says why"},
+    {SpinOffTarget, "spin axis away from its target", "check [spin.target] and the manoeuvre"},
+    {SpinNutation, "half-angle of the nutation", "let it decay before the next manoeuvre"},
+    {SpinRate, "spin rate away from its target", "check [spin.target] and the manoeuvre"},
+    {AttitudeLost, "the answer in force is LOST", "do not use it; wait for the next accepted fix"},
+    {AttitudeDiverged, "innovations of the filter outside what its sigma allows, by chi-square",
+     "check noise, mounting and bias of the sensors in the mission file"},
+    {ReconstructionLauncher, "attitude at separation away from the launcher's",
+     "check [reconstruction.launcher] and the mounting of star tracker and sun sensor"},
+    {ModelDeparture, "flight away from the ground model",
+     "look at the channel, at what was commanded, and at the scenario of the model"},
+    {ArchiveBacklog, "samples wait to be committed", "look at disk and load of this host"},
+    {ArchiveWrite, "the archive does not store", "look at the log, and at the disk of the archive"},
+    {ArchiveDisk, "free space at the archive", "make room"},
+    {ClockJump, "the clock of this host was stepped", "look at its time service"},
+    {DataOutdated, "what the service needs ends", "get it anew"},
+}};
+
+/// What may end of that which the service needs.
+struct Ending {
+  std::string_view about;
+  std::string_view what;
+  std::string_view to_do;
+};
+constexpr std::array<Ending, 3> kEndings{{
+    {"orbit", "the orbit", "get the next ephemeris"},
+    {"leap_seconds", "the table of leap seconds", "install a newer tzdata"},
+    {"field_coefficients", "the model of the Earth's field",
+     "install a program with the next generation of it"},
+}};
+
+/// Null: the change is of something else.
+const Ending* ending_of(const ConditionChange& change) {
+  const auto* const found = std::find_if(kEndings.begin(), kEndings.end(), [&](const Ending& one) {
+    return one.about == change.about;
+  });
+  return change.code == DataOutdated && found != kEndings.end() ? found : nullptr;
+}
+
+std::string value_text(const ConditionChange& change) {
+  const Evidence& evidence = change.evidence;
+  if (const Ending* const ending = ending_of(change)) {
+    const bool is_over = evidence.value < 0.0;
+    return fmt::format(": {} {}{}{}", ending->what, is_over ? "ended " : "ends in ",
+                       duration_text(std::abs(evidence.value) * kHour_s), is_over ? " ago" : "");
+  }
+  if (evidence.limit <= 0.0) {
+    return {};  // Of what is raised at once because it is there, the value says nothing.
+  }
+  const std::string sigma =
+      evidence.sigma ? fmt::format(" (sigma {:.3g})", *evidence.sigma) : std::string{};
+  return fmt::format(": {:.3g} {}{}, limit {:.3g}", evidence.value, evidence.unit, sigma,
+                     evidence.limit);
+}
+
+std::string_view what_to_do(const ConditionChange& change) {
+  const Ending* const ending = ending_of(change);
+  return ending != nullptr ? ending->to_do : kWords.at(static_cast<std::size_t>(change.code)).to_do;
+}
+
+}  // namespace
+
+std::string sentence_of(const ConditionChange& change) {
+  const Words& words = kWords.at(static_cast<std::size_t>(change.code));
+  if (change.change == Change::Cleared) {
+    return fmt::format("over at {}", format_utc(change.t));
+  }
+  const std::string who = change.who.empty() ? "" : fmt::format(" ({})", shown(change.who));
+  // The value of a departure is that of its first instant.
+  const TaiTime t = change.code == ModelDeparture ? change.evidence.since : change.t;
+  return fmt::format("{}{}{} at {}: {}", words.what, who, value_text(change), format_utc(t),
+                     what_to_do(change));
+}
+
+std::string evidence_json(const Evidence& evidence, std::string_view config_sha256) {
+  nlohmann::ordered_json json{{"value", evidence.value},
+                              {"limit", evidence.limit},
+                              {"unit", evidence.unit},
+                              {"since_tai_ns", tai_ns(evidence.since)},
+                              {"samples", {tai_ns(evidence.since), tai_ns(evidence.last)}},
+                              {"config_sha256", config_sha256}};
+  if (evidence.sigma) {
+    json["sigma"] = *evidence.sigma;
+  }
+  if (!evidence.sources.empty()) {
+    json["sources"] = evidence.sources;
+  }
+  return json.dump();
+}
+
+}  // namespace spindrift

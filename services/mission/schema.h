@@ -1,0 +1,55 @@
+/// @file
+/// The rules of a configuration file as values, read from a file of schemas/, whose head says what
+/// each of them means.
+
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "services/mission/scalar.h"
+
+namespace spindrift {
+
+enum class ValueType { Text, Boolean, Integer, Number };
+
+enum class ValueForm { SpacecraftId, UnitQuaternion, Inertia, Utc };
+
+/// One end of a range: an integer or a number.
+struct Bound {
+  Scalar value;
+  bool inclusive;
+};
+
+struct KeyRule {
+  ValueType type;
+  std::vector<std::size_t> shape;  ///< Empty: a single value.
+  std::string unit;
+  std::string about;
+  std::optional<Scalar> default_value;
+  bool optional;
+  std::optional<Bound> lower;  ///< Both are there for integers and numbers.
+  std::optional<Bound> upper;
+  std::vector<std::string> not_below_keys;
+  std::vector<std::string> one_of;
+  std::optional<ValueForm> form;
+};
+
+struct TableRule {
+  std::string about;
+  std::string required;  ///< Empty, "always", or a spacecraft.kind.
+  bool many = false;     ///< An array of such tables.
+  std::vector<std::string> exactly_one_of;
+  std::map<std::string, KeyRule, std::less<>> keys;
+  std::map<std::string, TableRule, std::less<>> tables;
+};
+
+/// @return InvalidConfiguration for a property that has no meaning or a rule that is incomplete.
+Expected<TableRule> parse_schema(std::string_view text);
+
+}  // namespace spindrift

@@ -1,0 +1,100 @@
+#include "services/operator/request_socket.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "pipelines/core/shown.h"
+
+namespace spindrift {
+
+Descriptor::Descriptor(Descriptor&& other) noexcept : number_{std::exchange(other.number_, -1)} {}
+
+Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
+  std::swap(number_, other.number_);
+  return *this;
+}
+
+Descriptor::~Descriptor() {
+  if (is_open()) {
+    ::close(number_);
+  }
+}
+
+std::filesystem::path socket_of(const std::filesystem::path& archive) {
+  std::error_code unresolved;
+  auto real = std::filesystem::absolute(archive, unresolved);
+  if (!unresolved) {
+    real = std::filesystem::weakly_canonical(real, unresolved);
+  }
+  return (unresolved ? archive : real).string() + ".sock";
+}
+
+Expected<SocketAddress> address_of(const std::filesystem::path& socket) {
+  SocketAddress address{
+      .folder = Descriptor{::open(socket.parent_path().c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC)},
+      .name = {}};
+  if (!address.folder.is_open()) {
+    return socket_failure("no folder of", socket);
+  }
+  const std::string name =
+      fmt::format("/proc/self/fd/{}/{}", address.folder.number(), socket.filename().string());
+  if (name.size() >= std::size(address.name.sun_path)) {
+    return Unexpected{{ErrorCode::InvalidConfiguration,
+                       fmt::format("{}: the name of a local socket may have some 80 bytes",
+                                   shown(socket.string()))}};
+  }
+  address.name.sun_family = AF_UNIX;
+  std::copy(name.begin(), name.end(), std::begin(address.name.sun_path));
+  return address;
+}
+
+Expected<void> send_all(const Descriptor& to, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t sent = ::send(to.number(), text.data(), text.size(), MSG_NOSIGNAL);
+    if (sent < 0 && errno != EINTR) {
+      return socket_failure("sending over", "local socket");
+    }
+    text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(sent, 0)));
+  }
+  return {};
+}
+
+Expected<std::string> receive_line(const Descriptor& from, std::size_t most) {
+  std::string line;
+  std::array<char, 4096> part{};
+  while (most == 0 || line.size() <= most) {
+    const ssize_t now = ::recv(from.number(), part.data(), part.size(), 0);
+    if (now < 0 && errno == EINTR) {
+      continue;
+    }
+    if (now < 0) {
+      return socket_failure("receiving over", "local socket");
+    }
+    line.append(part.data(), static_cast<std::size_t>(now));
+    if (const auto end = line.find('\n'); end != std::string::npos) {
+      line.resize(end);
+      return line;
+    }
+    if (now == 0) {
+      return Unexpected{{ErrorCode::Unavailable, "local socket: closed before an end of line"}};
+    }
+  }
+  return Unexpected{
+      {ErrorCode::Unavailable, fmt::format("local socket: more than {} bytes", most)}};
+}
+
+Unexpected socket_failure(std::string_view what, const std::filesystem::path& socket) {
+  return Unexpected{{ErrorCode::Unavailable, fmt::format("{} {}: {}", what, shown(socket.string()),
+                                                         std::generic_category().message(errno))}};
+}
+
+}  // namespace spindrift

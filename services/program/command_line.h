@@ -1,0 +1,57 @@
+/// @file
+/// The subcommands, their options, and what a bad command line says.
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <functional>
+#include <string>
+
+#include "pipelines/core/expected.h"
+#include "services/program/act.h"
+#include "services/program/alerts.h"
+#include "services/program/batch.h"
+#include "services/program/compare.h"
+#include "services/program/doctor.h"
+#include "services/program/geomag.h"
+#include "services/program/geometry.h"
+#include "services/program/process.h"
+#include "services/program/reconstruct.h"
+#include "services/program/replay.h"
+#include "services/program/serve.h"
+#include "services/program/simulate.h"
+
+namespace spindrift {
+
+/// @name Exit statuses, beside EXIT_SUCCESS
+/// @{
+inline constexpr int kFailed = 1;
+inline constexpr int kBadInput = 2;
+/// @}
+
+/// What the command line asks for.
+struct Request {
+  BatchOptions batch;
+  ProcessOptions process;
+  ServeOptions serve;
+  ReplayOptions replay;
+  SimulateOptions simulate;
+  DoctorOptions doctor;
+  GeomagFieldOptions geomag_field;
+  GeometryOptions geometry;
+  ReconstructOptions reconstruct;
+  CompareOptions compare;
+  AlertsOptions alerts;
+  ActOptions act;
+  std::function<Expected<void>()> run;
+  int status = EXIT_SUCCESS;  ///< Of a run that came to its end.
+};
+
+/// @param request Outlives `app`. Parsing fills it in.
+void add_commands(CLI::App& app, Request& request);
+
+/// For people. @param error Of parsing `app`.
+std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error);
+
+}  // namespace spindrift

@@ -1,0 +1,43 @@
+#include "services/serving/link_watch.h"
+
+namespace spindrift {
+
+LinkWatch::LinkWatch(const std::vector<std::string>& spacecraft) {
+  for (const std::string& id : spacecraft) {
+    last_.emplace(id, std::nullopt);
+  }
+}
+
+void LinkWatch::note(const std::string& spacecraft, TaiTime t, Instant now) {
+  const std::lock_guard lock{mutex_};
+  if (const auto found = last_.find(spacecraft); found != last_.end()) {
+    found->second = Last{.t = t, .came = now};
+  }
+}
+
+void LinkWatch::go_on(const std::string& spacecraft, TaiTime t) {
+  const std::lock_guard lock{mutex_};
+  if (const auto found = last_.find(spacecraft); found != last_.end()) {
+    found->second = Last{.t = t, .came = std::nullopt};
+  }
+}
+
+std::vector<SpacecraftHealth> LinkWatch::report(Instant now) const {
+  const std::lock_guard lock{mutex_};
+  std::vector<SpacecraftHealth> all;
+  for (const auto& [spacecraft, last] : last_) {
+    all.push_back({.spacecraft = spacecraft, .link = LinkState::Waiting});
+    if (last) {
+      all.back().link = LinkState::Stale;
+      all.back().last_sample = last->t;
+    }
+    if (last && last->came) {
+      const std::chrono::duration<double> age = now - *last->came;
+      all.back().link = age > kStaleAfter ? LinkState::Stale : LinkState::Live;
+      all.back().data_age_s = age.count();
+    }
+  }
+  return all;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,18 @@
+/// @file
+/// The scenario of a satellite that turns to an attitude by its wheels, played.
+
+#pragma once
+
+#include "pipelines/core/expected.h"
+#include "services/simulation/scenario.h"
+#include "services/simulation/simulated_pass.h"
+
+namespace spindrift {
+
+/// As simulated_pass. Its truth: that of a tumbling one, and of the control pointing_s and
+/// settled_s (null: never), last_off_deg, wheel_nms_most and wheel_rpm_most; of its loops
+/// phase_margin_deg, gain_margin_db and crossover_rad_s.
+/// @return NoCoverage where the orbit or the field ends before.
+Expected<SimulatedPass> played_pass(const Scenario& scenario, const OrientationScenario& flight);
+
+}  // namespace spindrift

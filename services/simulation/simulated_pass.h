@@ -1,0 +1,44 @@
+/// @file
+/// A scenario played: what was received, and the truth about it.
+
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipelines/core/expected.h"
+#include "pipelines/ground_model/dynamics/body_motion.h"
+#include "pipelines/ground_model/flights/orientation_motion.h"
+#include "services/simulation/scenario.h"
+#include "services/telemetry/by_kind.h"
+
+namespace spindrift {
+
+struct Counted {
+  std::string_view plural;  ///< "edges"
+  std::int64_t count;
+};
+
+/// On a terminal.
+enum class Progress { Shown, Hidden };
+
+struct SimulatedPass {
+  std::vector<TelemetryKind> kinds;  ///< That the scenario asks for.
+  TelemetryValues telemetry;         ///< Of these; their arrival is their place in order of time.
+  std::string mission_toml;
+  nlohmann::ordered_json truth;
+  std::vector<Counted> made;
+  std::vector<Counted> faults;
+  std::optional<BodyMotion> motion = {};    ///< Of a three-axis spacecraft.
+  std::vector<ControlRecord> control = {};  ///< Of its wheels, where they turn it.
+};
+
+/// @return InvalidConfiguration where the scenario's orbit does not allow it.
+Expected<SimulatedPass> simulated_pass(const Scenario& scenario,
+                                       Progress progress = Progress::Shown);
+
+}  // namespace spindrift

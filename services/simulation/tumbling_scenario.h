@@ -1,0 +1,19 @@
+/// @file
+/// The scenario of a lost satellite that tumbles.
+
+#pragma once
+
+#include "pipelines/ground_model/flights/three_axis_flights.h"
+#include "pipelines/time/tai_time.h"
+#include "services/mission/document.h"
+#include "services/mission/scalar.h"
+
+namespace spindrift {
+
+/// Adds the problems that the schema cannot see.
+void check_tumbling_scenario(TomlDocument& document);
+
+/// @param values In which no problem was found.
+TumblingScenario tumbling_scenario(const TomlValues& values, TaiTime start);
+
+}  // namespace spindrift

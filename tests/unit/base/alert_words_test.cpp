@@ -1,0 +1,83 @@
+#include "services/base/alert_words.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/test_paths.h"
+#include "tests/support/text_of.h"
+
+namespace spindrift::alert_words_test {
+
+const TaiTime kTime = tai_from_ns(1'795'143'637'000'000'000);
+
+ConditionChange change(AlertCode code, Change change, double limit) {
+  return {.code = code,
+          .about = "",
+          .change = change,
+          .t = kTime,
+          .evidence = {.value = 1.25,
+                       .limit = limit,
+                       .unit = "deg",
+                       .since = kTime,
+                       .last = kTime,
+                       .sigma = std::nullopt}};
+}
+
+TEST(AlertWords, GiveValueLimitTimeAndWhatToDo) {
+  EXPECT_EQ(sentence_of(change(AlertCode::SpinSigma, Change::Raised, 1.0)),
+            "sigma of the answer in force: 1.25 deg, limit 1 at 2026-11-20T03:00:00.000Z: wait, or "
+            "look which channels give nothing");
+  EXPECT_EQ(sentence_of(change(AlertCode::AttitudeLost, Change::Raised, 0.0)),
+            "the answer in force is LOST at 2026-11-20T03:00:00.000Z: do not use it; wait for the "
+            "next accepted fix");
+  EXPECT_EQ(sentence_of(change(AlertCode::SpinSigma, Change::Cleared, 1.0)),
+            "over at 2026-11-20T03:00:00.000Z");
+}
+
+TEST(AlertWords, NameTheServiceThatRunsBesideThisOne) {
+  auto twice = change(AlertCode::ServiceTwice, Change::Raised, 0.0);
+  twice.who = "spindrift gs2:4242";
+  EXPECT_EQ(sentence_of(twice),
+            "another service publishes results of the spacecraft in this partition (spindrift "
+            "gs2:4242) at 2026-11-20T03:00:00.000Z: stop one of the two; `spindrift doctor` says "
+            "who is on the bus");
+}
+
+TEST(AlertWords, SayWhatEndsAndWhen) {
+  auto outdated = change(AlertCode::DataOutdated, Change::Raised, 24.0);
+  outdated.about = "orbit";
+  EXPECT_EQ(sentence_of(outdated),
+            "what the service needs ends: the orbit ends in 1 h 15 min at "
+            "2026-11-20T03:00:00.000Z: get the next ephemeris");
+  outdated.about = "leap_seconds";
+  outdated.evidence.value = -3630.0;
+  EXPECT_EQ(sentence_of(outdated),
+            "what the service needs ends: the table of leap seconds ended 151 days 6 h ago at "
+            "2026-11-20T03:00:00.000Z: install a newer tzdata");
+  outdated.about = "field_coefficients";
+  EXPECT_EQ(sentence_of(outdated),
+            "what the service needs ends: the model of the Earth's field ended 151 days 6 h ago at "
+            "2026-11-20T03:00:00.000Z: install a program with the next generation of it");
+}
+
+TEST(AlertWords, GiveEvidenceToPrograms) {
+  const auto evidence = nlohmann::json::parse(
+      evidence_json(change(AlertCode::SpinSigma, Change::Raised, 1.0).evidence, "00ff"));
+  EXPECT_EQ(evidence["value"], 1.25);
+  EXPECT_EQ(evidence["limit"], 1.0);
+  EXPECT_EQ(evidence["since_tai_ns"], 1'795'143'637'000'000'000);
+  EXPECT_EQ(evidence["config_sha256"], "00ff");
+}
+
+TEST(AlertWords, AreDocumentedWithTheirKeys) {
+  const std::string documented = text_of(source_folder() / "schemas/alerts.md");
+  for (int i = 0; i < kAlertCodes; ++i) {
+    EXPECT_THAT(documented,
+                ::testing::HasSubstr("\n| `" + std::string{name_of(static_cast<AlertCode>(i))}));
+  }
+}
+
+}  // namespace spindrift::alert_words_test

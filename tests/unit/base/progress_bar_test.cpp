@@ -1,0 +1,93 @@
+#include "services/base/progress_bar.h"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <functional>
+#include <string>
+
+namespace spindrift::progress_bar_test {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+/// What `work` writes to standard error while that is `descriptor`, read at `reading`.
+std::string standard_error_of(int descriptor, int reading, const std::function<void()>& work) {
+  std::fflush(stderr);
+  const int kept = dup(STDERR_FILENO);
+  dup2(descriptor, STDERR_FILENO);
+  work();
+  std::fflush(stderr);
+  dup2(kept, STDERR_FILENO);
+  close(kept);
+  close(descriptor);
+  fcntl(reading, F_SETFL, O_NONBLOCK);
+  std::string text;
+  std::array<char, 4096> buffer{};
+  for (ssize_t n = 0; (n = read(reading, buffer.data(), buffer.size())) > 0;) {
+    text.append(buffer.data(), static_cast<std::size_t>(n));
+  }
+  close(reading);
+  return text;
+}
+
+TEST(ProgressBar, ShowsHowFarItIsOnATerminalAndLeavesTheLineClean) {
+  int ours = 0;
+  int theirs = 0;
+  ASSERT_EQ(openpty(&ours, &theirs, nullptr, nullptr, nullptr), 0);
+  const std::string text = standard_error_of(theirs, ours, [] {
+    ProgressBar bar{"processing", 200};
+    bar.advance_to(50);
+  });
+  EXPECT_THAT(text, HasSubstr("processing [#######-----------------------]  25 %"));
+  EXPECT_THAT(text, EndsWith("\r\x1b[K"));
+}
+
+TEST(ProgressBar, DrawsSeldom) {
+  int ours = 0;
+  int theirs = 0;
+  ASSERT_EQ(openpty(&ours, &theirs, nullptr, nullptr, nullptr), 0);
+  std::chrono::duration<double> took{};
+  const std::string text = standard_error_of(theirs, ours, [&took] {
+    const auto start = std::chrono::steady_clock::now();
+    ProgressBar bar{"processing", 10000};
+    for (std::uint64_t i = 0; i < 10000; ++i) {
+      bar.advance_to(i);
+    }
+    took = std::chrono::steady_clock::now() - start;
+  });
+  const auto drawn = std::count(text.begin(), text.end(), '%');
+  EXPECT_GE(drawn, 1);
+  EXPECT_LE(static_cast<double>(drawn), 1.0 + 10.0 * took.count());
+}
+
+TEST(ProgressBar, IsSilentInAPipe) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  EXPECT_EQ(standard_error_of(ends[1], ends[0],
+                              [] {
+                                ProgressBar bar{"processing", 200};
+                                bar.advance_to(50);
+                              }),
+            "");
+}
+
+TEST(ProgressBar, IsSilentWhereThereIsNothingToDo) {
+  int ours = 0;
+  int theirs = 0;
+  ASSERT_EQ(openpty(&ours, &theirs, nullptr, nullptr, nullptr), 0);
+  EXPECT_EQ(standard_error_of(theirs, ours,
+                              [] {
+                                ProgressBar bar{"processing", 0};
+                                bar.advance_to(0);
+                              }),
+            "");
+}
+
+}  // namespace spindrift::progress_bar_test

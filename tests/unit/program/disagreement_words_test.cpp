@@ -1,0 +1,17 @@
+/// Two estimators that disagree as a sentence.
+
+#include "services/program/disagreement_words.h"
+
+#include <gtest/gtest.h>
+
+namespace spindrift::disagreement_words_test {
+
+TEST(DisagreementWords, ShowHowFarApartToTheDigitsOfTheSigma) {
+  EXPECT_EQ(sentence_of(Disagreement{"mean", "batch", 0.31, 4.2}),
+            "mean and batch disagree: their axes are 0.310 deg apart, 4.2 times the larger sigma");
+  EXPECT_EQ(
+      sentence_of(Disagreement{"mean", "batch", 0.00042, 4.2}),
+      "mean and batch disagree: their axes are 0.00042 deg apart, 4.2 times the larger sigma");
+}
+
+}  // namespace spindrift::disagreement_words_test

@@ -1,0 +1,96 @@
+#include "services/program/service_terminal.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <sstream>
+#include <utility>
+
+namespace spindrift::service_terminal_test {
+
+/// What a service says that has no terminal.
+class Told : public ::testing::Test {
+ protected:
+  Told() {
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+        "told", std::make_shared<spdlog::sinks::ostream_sink_mt>(log_)));
+    spdlog::set_pattern("%l %v");
+  }
+  ~Told() override { spdlog::set_default_logger(std::move(before_)); }
+
+  /// Since it was asked last.
+  std::string said() { return std::exchange(log_, std::ostringstream{}).str(); }
+  void show_silence_of(double age_s) {
+    Health health{};
+    health.spacecraft = {{.spacecraft = "SPINNER",
+                          .link = LinkState::Stale,
+                          .last_sample = TaiTime{},
+                          .data_age_s = age_s}};
+    terminal_.show(health);
+  }
+
+  std::shared_ptr<spdlog::logger> before_ = spdlog::default_logger();
+  std::ostringstream log_;
+  const std::vector<Mission> missions_;
+  ServiceTerminal terminal_{missions_, TellAs::Lines};
+  Alert silence_{.alert_id = "00ff",
+                 .key = "link.silent",
+                 .severity = AlertSeverity::Warning,
+                 .message = "no telemetry: 5.1 s"};
+};
+
+TEST_F(Told, SaysEachChangeOfAnAlertOnce) {
+  terminal_.tell("SPINNER", "run", silence_);
+  EXPECT_EQ(said(), "warning SPINNER: link.silent: no telemetry: 5.1 s\n");
+  silence_.from = AlertState::Active;
+  silence_.state = AlertState::Acknowledged;
+  silence_.by = "shift";
+  silence_.note = "seen\x1b[2J";
+  terminal_.tell("SPINNER", "run", silence_);
+  EXPECT_EQ(said(), "info SPINNER: link.silent: acknowledged by shift: seen\\x1b[2J\n");
+  silence_.state = AlertState::Cleared;
+  silence_.note = "over at 2026";
+  terminal_.tell("SPINNER", "run", silence_);
+  EXPECT_EQ(said(), "info SPINNER: link.silent: over at 2026\n");
+}
+
+TEST_F(Told, DoesNotSayThatAnEventIsOver) {
+  Alert restart{.key = "link.restarted:front-end", .message = "1 session"};
+  terminal_.tell("SPINNER", "run", restart);
+  EXPECT_EQ(said(), "info SPINNER: link.restarted:front-end: 1 session\n");
+  restart.from = AlertState::Active;
+  restart.state = AlertState::Cleared;
+  terminal_.tell("SPINNER", "run", restart);
+  EXPECT_EQ(said(), "");
+}
+
+TEST_F(Told, SaysASilenceAgainAfterOneMinuteAndFiveUntilItsEnd) {
+  show_silence_of(100.0);
+  EXPECT_EQ(said(), "");  // It is no alert.
+  silence_.severity = AlertSeverity::Critical;
+  terminal_.tell("SPINNER", "run", silence_);
+  said();
+  show_silence_of(59.0);
+  EXPECT_EQ(said(), "");
+  show_silence_of(60.5);
+  show_silence_of(61.5);
+  EXPECT_EQ(said(), "critical SPINNER: link.silent: no telemetry for 1 min\n");
+  show_silence_of(300.5);
+  show_silence_of(9'000.0);
+  EXPECT_EQ(said(), "critical SPINNER: link.silent: no telemetry for 5 min\n");
+  silence_.from = AlertState::Active;
+  silence_.state = AlertState::Cleared;
+  terminal_.tell("SPINNER", "run", silence_);
+  said();
+  silence_.from.reset();
+  silence_.state = AlertState::Active;
+  terminal_.tell("SPINNER", "run", silence_);
+  said();
+  show_silence_of(61.0);
+  EXPECT_EQ(said(), "critical SPINNER: link.silent: no telemetry for 1 min\n");
+}
+
+}  // namespace spindrift::service_terminal_test

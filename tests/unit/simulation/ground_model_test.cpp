@@ -1,0 +1,98 @@
+#include "services/simulation/ground_model.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "services/simulation/simulated_pass.h"
+#include "tests/support/departures.h"
+#include "tests/support/scenario_text.h"
+#include "tests/support/test_paths.h"
+#include "tests/support/text_of.h"
+
+namespace spindrift::ground_model_test {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// A scenario that comes with the program, of that seed.
+Scenario of_seed(const char* name, int seed) {
+  std::string text = text_of(scenarios() / name);
+  const auto at = text.find("seed = ");
+  if (at == std::string::npos) {
+    text = testing::replaced(text, "[pass]", "[pass]\nseed = " + std::to_string(seed));
+  } else {
+    text.replace(at, text.find('\n', at) - at, "seed = " + std::to_string(seed));
+  }
+  return testing::loaded(text).value();
+}
+
+/// The pass of a scenario against the model of another, or the same.
+testing::ByChannel compared(const Scenario& flight, const Scenario& model) {
+  const SimulatedPass pass = simulated_pass(flight, Progress::Hidden).value();
+  ModelComparison comparison{std::make_shared<const GroundModel>(ground_model_of(model).value()),
+                             5.0};
+  in_order_of_arrival(pass.telemetry, [&](const auto& arrived) { comparison.see(arrived.value); });
+  comparison.finish();
+  return testing::by_channel(comparison.channels());
+}
+
+class OwnModel : public ::testing::TestWithParam<const char*> {};
+
+/// Faults and all: lost, spoilt and spurious samples, silences, gaps.
+TEST_P(OwnModel, IsNotLeftByAPassOfTheScenario) {
+  for (int seed = 1; seed <= 20; ++seed) {
+    const Scenario scenario = of_seed(GetParam(), seed);
+    EXPECT_THAT(testing::departures_s(compared(scenario, scenario), scenario.start), IsEmpty())
+        << "seed " << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, OwnModel,
+                         ::testing::Values("gto-nominal.toml", "gto-dirty.toml",
+                                           "gto-nutating.toml", "separation.toml", "tumbling.toml",
+                                           "upper-stage.toml"),
+                         [](const auto& scenario) {
+                           std::string name = scenario.param;
+                           name.resize(name.find('.'));
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+/// A tenth more inertia about an axis than the model has.
+TEST(GroundModel, IsLeftByABodyOfOtherInertia) {
+  const std::string text = text_of(scenarios() / "upper-stage.toml");
+  const Scenario model = testing::loaded(text).value();
+  const Scenario flight =
+      testing::loaded(testing::replaced(text, "[[0.6, 0.0, 0.0]", "[[0.66, 0.0, 0.0]")).value();
+  const auto departed = testing::departures_s(compared(flight, model), model.start);
+  EXPECT_TRUE(departed.contains("star_x") && departed.contains("gyro_x"))
+      << ::testing::PrintToString(departed);
+}
+
+TEST(GroundModel, IsRefusedForAnotherSpacecraft) {
+  const Mission mission = mission_of("mission.toml",
+                                     "[spacecraft]\nid = \"OTHER\"\nkind = \"three_axis\"\n"
+                                     "[three_axis.star_tracker]\nq_body_sensor = [0, 0, 0, 1]\n"
+                                     "noise_arcsec = 20\n")
+                              .value();
+  const auto model = load_ground_model(scenarios() / "tumbling.toml", mission);
+  ASSERT_FALSE(model);
+  EXPECT_EQ(model.error().code, ErrorCode::InvalidConfiguration);
+  EXPECT_THAT(model.error().message,
+              AllOf(HasSubstr("tumbling.toml: spacecraft.id = \"LOSTSAT\": must be \"OTHER\""),
+                    HasSubstr("mission.toml")));
+}
+
+TEST(GroundModel, IsRefusedWithoutNoise) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("scenario.toml", text_of(scenarios() / "gto-nominal.toml") +
+                                                      "\n[truth.noise]\nsun_pulse_s = 0.0\n");
+  const auto model = load_scenario(path).and_then(ground_model_of);
+  ASSERT_FALSE(model);
+  EXPECT_THAT(model.error().message, HasSubstr("noise"));
+}
+
+}  // namespace spindrift::ground_model_test
