@@ -1,7 +1,5 @@
 #include "pipelines/frames/euler312.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "pipelines/frames/angle.h"
@@ -11,7 +9,6 @@ namespace spindrift {
 namespace {
 
 constexpr double kNearSingular_rad = 1.0 * kRadPerDeg;
-constexpr double kSingularCosine = 1e-9;
 
 }  // namespace
 
@@ -41,36 +38,6 @@ Euler312Reading euler312_of(const Eigen::Quaterniond& q_ref_body) {
                      .theta_rad = wrapped_rad(half_sum_rad + half_difference_rad),
                      .psi_rad = wrapped_rad(half_sum_rad - half_difference_rad)},
           .near_singular = std::abs(phi_rad) > kQuarter_rad - kNearSingular_rad};
-}
-
-Eigen::Vector3d body_rate_of(const Euler312& angles, const Euler312Rates& rates) {
-  const double cos_phi = std::cos(angles.phi_rad);
-  const double sin_phi = std::sin(angles.phi_rad);
-  const double cos_theta = std::cos(angles.theta_rad);
-  const double sin_theta = std::sin(angles.theta_rad);
-  return {cos_theta * rates.phi_rad_s - cos_phi * sin_theta * rates.psi_rad_s,
-          rates.theta_rad_s + sin_phi * rates.psi_rad_s,
-          sin_theta * rates.phi_rad_s + cos_phi * cos_theta * rates.psi_rad_s};
-}
-
-Expected<Euler312Rates> euler312_rates(const Euler312& angles,
-                                       const Eigen::Vector3d& rate_body_rad_s) {
-  const double cos_phi = std::cos(angles.phi_rad);
-  if (std::abs(cos_phi) < kSingularCosine) {
-    return Unexpected{
-        {ErrorCode::Unobservable,
-         fmt::format("Euler angles 3-1-2 have no rates at phi = {:.9f} deg: theta and psi turn "
-                     "about one axis at +-90 deg; use the quaternion",
-                     degrees(angles.phi_rad))}};
-  }
-  const double cos_theta = std::cos(angles.theta_rad);
-  const double sin_theta = std::sin(angles.theta_rad);
-  const double psi_rad_s =
-      (cos_theta * rate_body_rad_s.z() - sin_theta * rate_body_rad_s.x()) / cos_phi;
-  return Euler312Rates{
-      .phi_rad_s = cos_theta * rate_body_rad_s.x() + sin_theta * rate_body_rad_s.z(),
-      .theta_rad_s = rate_body_rad_s.y() - std::sin(angles.phi_rad) * psi_rad_s,
-      .psi_rad_s = psi_rad_s};
 }
 
 }  // namespace spindrift

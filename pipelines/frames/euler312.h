@@ -11,8 +11,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "pipelines/core/expected.h"
-
 namespace spindrift {
 
 struct Euler312 {
@@ -35,19 +33,5 @@ struct Euler312Reading {
 
 /// @param q_ref_body Needs no unit length.
 Euler312Reading euler312_of(const Eigen::Quaterniond& q_ref_body);
-
-/// Changes of the angles, rad/s.
-struct Euler312Rates {
-  double phi_rad_s;
-  double theta_rad_s;
-  double psi_rad_s;
-};
-
-/// Of the body against the reference, body axes, rad/s.
-Eigen::Vector3d body_rate_of(const Euler312& angles, const Euler312Rates& rates);
-
-/// @return Unobservable within 1e-9 rad of phi = +-90 deg, where no finite change makes the rate.
-Expected<Euler312Rates> euler312_rates(const Euler312& angles,
-                                       const Eigen::Vector3d& rate_body_rad_s);
 
 }  // namespace spindrift

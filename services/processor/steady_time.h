@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "pipelines/spin/telemetry_order/reorder_window.h"
+#include "pipelines/spin/telemetry_order/pulse_reorder_window.h"
 #include "pipelines/time/tai_time.h"
 #include "pipelines/time/time_span.h"
 #include "services/processor/pass_watch.h"

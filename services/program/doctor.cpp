@@ -104,7 +104,7 @@ Expected<bool> run_doctor(const DoctorOptions& options) {
     append(checks, check_storage(options.db, missions->size()));
   }
   append(checks, doctor::check_host(doctor::host_facts()));
-  checks.push_back(doctor::check_leap_seconds(doctor::leap_facts(pass->to)));
+  checks.push_back(doctor::check_leap_seconds(leap_facts(pass->to)));
   fmt::print("{}",
              options.json ? doctor::to_json(checks) : doctor::to_text(checks, options.verbose));
   return doctor::worst_of(checks) != doctor::Verdict::Failure;

@@ -11,10 +11,10 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/ground_model/control/attitude_control.h"
 #include "pipelines/ground_model/control/closed_loop.h"
-#include "pipelines/ground_model/dynamics/stepped_body.h"
 #include "pipelines/ground_model/link/chance.h"
 #include "pipelines/ground_model/sensors/three_axis_reading.h"
 #include "services/simulation/scenario.h"
+#include "tests/support/stepped_body.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift {

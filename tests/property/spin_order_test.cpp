@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pipelines/spin/pass/spin_pass.h"
-#include "pipelines/spin/telemetry_order/reorder_window.h"
+#include "pipelines/spin/telemetry_order/pulse_reorder_window.h"
 #include "tests/support/product_text.h"
 #include "tests/support/recorded_pass.h"
 

@@ -21,7 +21,7 @@
 #include "pipelines/ground_model/comparison/compared_sample.h"
 #include "pipelines/ground_model/link/pulse_link.h"
 #include "pipelines/ground_model/sensors/spin_edges.h"
-#include "pipelines/spin/telemetry_order/reorder_window.h"
+#include "pipelines/spin/telemetry_order/pulse_reorder_window.h"
 
 namespace spindrift {
 

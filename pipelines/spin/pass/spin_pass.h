@@ -39,7 +39,7 @@
 #include "pipelines/spin/screening/screening.h"
 #include "pipelines/spin/sequential/sequential.h"
 #include "pipelines/spin/telemetry_order/interference.h"
-#include "pipelines/spin/telemetry_order/reorder_window.h"
+#include "pipelines/spin/telemetry_order/pulse_reorder_window.h"
 #include "pipelines/spin/telemetry_order/time_grid.h"
 #include "pipelines/spin/types/coded_frame.h"
 #include "pipelines/spin/types/config.h"

@@ -110,37 +110,6 @@ TEST(Euler312, AtTheSingularityTheAttitudeIsKeptAndTheReadingSaysSo) {
   EXPECT_FALSE(euler312_of(quaternion_of(of_degrees(88.9, 10, 20))).near_singular);
 }
 
-TEST(Euler312, RatesAreThoseOfTheAttitude) {
-  std::mt19937 rng{22};
-  std::uniform_real_distribution<double> uniform{-1.0, 1.0};
-  constexpr double kStep_s = 1e-5;
-  for (int trial = 0; trial < 500; ++trial) {
-    const Euler312 angles{1.4 * uniform(rng), 3.0 * uniform(rng), 3.0 * uniform(rng)};
-    const Euler312Rates rates{uniform(rng), uniform(rng), uniform(rng)};
-    const auto at = [&](double t_s) {
-      return quaternion_of({angles.phi_rad + rates.phi_rad_s * t_s,
-                            angles.theta_rad + rates.theta_rad_s * t_s,
-                            angles.psi_rad + rates.psi_rad_s * t_s});
-    };
-    const Eigen::Vector3d turned_rad = rotation_vector_of(at(-kStep_s).conjugate() * at(kStep_s));
-    const Eigen::Vector3d rate_rad_s = body_rate_of(angles, rates);
-    ASSERT_NEAR((turned_rad / (2.0 * kStep_s) - rate_rad_s).norm(), 0.0, 1e-8);
-
-    const auto back = euler312_rates(angles, rate_rad_s);
-    ASSERT_TRUE(back);
-    ASSERT_NEAR(back->phi_rad_s, rates.phi_rad_s, 1e-13);
-    ASSERT_NEAR(back->theta_rad_s, rates.theta_rad_s, 1e-13);
-    ASSERT_NEAR(back->psi_rad_s, rates.psi_rad_s, 1e-13);
-  }
-}
-
-TEST(Euler312, RatesAreRefusedWhereThereAreNone) {
-  const auto none = euler312_rates(of_degrees(90, 10, 20), {0.0, 0.0, 0.01});
-  ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().code, ErrorCode::Unobservable);
-  EXPECT_NE(none.error().message.find("phi = 90.0"), std::string::npos) << none.error().message;
-}
-
 TEST(Euler312, ConstantRateOfThePaperLeadsBackToSeparation) {
   // Li 2017: T2 back 60 s at the constant rate.
   const Eigen::Quaterniond q_t2 = quaternion_of(of_degrees(38.403, 88.224, 118.045));

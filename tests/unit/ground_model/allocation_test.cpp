@@ -9,7 +9,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/ground_model/control/attitude_control.h"
 #include "pipelines/ground_model/control/closed_loop.h"
-#include "pipelines/ground_model/dynamics/stepped_body.h"
+#include "tests/support/stepped_body.h"
 
 namespace spindrift::allocation_test {
 

@@ -10,7 +10,7 @@
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/control/attitude_control.h"
 #include "pipelines/ground_model/control/gyro_propagation.h"
-#include "pipelines/ground_model/dynamics/stepped_body.h"
+#include "tests/support/stepped_body.h"
 
 namespace spindrift::closed_loop_test {
 

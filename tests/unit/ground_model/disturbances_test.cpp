@@ -6,7 +6,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/frames/wgs84.h"
-#include "pipelines/ground_model/dynamics/stepped_body.h"
+#include "tests/support/stepped_body.h"
 
 namespace spindrift::disturbances_test {
 

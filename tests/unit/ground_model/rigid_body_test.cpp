@@ -8,7 +8,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/dynamics/body_motion.h"
-#include "pipelines/ground_model/dynamics/stepped_body.h"
+#include "tests/support/stepped_body.h"
 
 namespace spindrift::rigid_body_test {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "pipelines/spin/association/association.h"
-#include "pipelines/spin/telemetry_order/reorder_window.h"
+#include "pipelines/spin/telemetry_order/pulse_reorder_window.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"

@@ -1,4 +1,4 @@
-#include "pipelines/spin/telemetry_order/reorder_window.h"
+#include "pipelines/spin/telemetry_order/pulse_reorder_window.h"
 
 #include <algorithm>
 

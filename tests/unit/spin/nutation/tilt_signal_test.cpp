@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pipelines/frames/angle.h"
-#include "tests/unit/spin/edges_off.h"
+#include "tests/unit/spin/nutation/edges_off.h"
 
 namespace spindrift::tilt_signal_test {
 

@@ -1,4 +1,4 @@
-#include "pipelines/spin/telemetry_order/reorder_window.h"
+#include "pipelines/spin/telemetry_order/pulse_reorder_window.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace spindrift::reorder_window_test {
+namespace spindrift::pulse_reorder_window_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -276,4 +276,4 @@ TEST(ReorderWindow, ADuplicateDoesNotSpeakAgainstAJump) {
   EXPECT_THAT(window.release(), ::testing::Contains(pulse_at(100 * kSecond_ns)));
 }
 
-}  // namespace spindrift::reorder_window_test
+}  // namespace spindrift::pulse_reorder_window_test

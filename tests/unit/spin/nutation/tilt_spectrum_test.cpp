@@ -6,7 +6,7 @@
 #include <complex>
 
 #include "pipelines/frames/angle.h"
-#include "tests/unit/spin/edges_off.h"
+#include "tests/unit/spin/nutation/edges_off.h"
 
 namespace spindrift::tilt_spectrum_test {
 
