@@ -23,8 +23,10 @@ constexpr std::int64_t kSamplesAProduct = 8;
 
 std::int64_t signed_size(std::size_t size) { return static_cast<std::int64_t>(size); }
 
-bool has_products(const ArchiveBatch& batch) {
-  return !batch.products.empty() || batch.continuation || batch.finished_utc;
+/// The first batch of a run goes with the samples, whatever else is in it: the rows of all others
+/// refer to the run and the spacecraft that it begins.
+bool waits_as_product(const ArchiveBatch& batch) {
+  return !batch.start && (!batch.products.empty() || batch.continuation || batch.finished_utc);
 }
 
 bool has_details(const ArchiveBatch& batch) {
@@ -41,7 +43,7 @@ bool has_details_only(const ArchiveBatch& batch) {
 
 bool BatchQueue::push(ArchiveBatch&& batch) {
   const bool are_details = has_details_only(batch);
-  const bool are_products = has_products(batch);
+  const bool are_products = waits_as_product(batch);
   std::unique_lock lock{mutex_};
   room_.wait(lock, [&] {
     return closed_ ||

@@ -58,6 +58,16 @@ TEST(BatchQueue, GivesSamplesFirstAndAllWhenThereAreFew) {
   EXPECT_THAT(names_of(queue.take()), ElementsAre("samples", "results", "results"));
 }
 
+TEST(BatchQueue, BeginsARunBeforeItsSamplesWhateverIsToldWithIt) {
+  BatchQueue queue{1000};
+  ArchiveBatch first = batch_of("first");
+  first.start.emplace();
+  first.products.emplace_back(RunNotice{});
+  ASSERT_TRUE(queue.push(std::move(first)));
+  ASSERT_TRUE(queue.push(samples(10)));
+  EXPECT_THAT(names_of(queue.take()), ElementsAre("first", "samples"));
+}
+
 TEST(BatchQueue, LetsProductsWaitInABurstOfSamplesButNotForEver) {
   BatchQueue queue{100'000};
   ASSERT_TRUE(queue.push(results(500)));
